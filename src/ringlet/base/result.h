@@ -1,0 +1,55 @@
+// Result<T>: a value, or the message a person needs to mend what went wrong.
+// For the world's fault (file, device, memory, settings); the caller's own fault is an assert (assert.h).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "ringlet/base/assert.h"
+
+namespace ringlet {
+
+/// What failed, as a sentence for a person: what was tried, what was found, what to do.
+struct Error {
+  std::string message;
+};
+
+/// Either a T or an Error. Test it before use: `if (!result) return result.error();`
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : value_(std::move(value)) {}
+  Result(Error error) : error_(std::move(error)) {}
+
+  explicit operator bool() const { return value_.has_value(); }
+
+  T& operator*() & { RINGLET_ASSERT(value_, "a Result was read without testing it"); return *value_; }
+  const T& operator*() const& { RINGLET_ASSERT(value_, "a Result was read without testing it"); return *value_; }
+  T&& operator*() && { RINGLET_ASSERT(value_, "a Result was read without testing it"); return std::move(*value_); }
+  T* operator->() { return &**this; }
+  const T* operator->() const { return &**this; }
+
+  const Error& error() const { return error_; }
+
+ private:
+  std::optional<T> value_;
+  Error error_;
+};
+
+/// The Result of something that yields nothing: `Status{}` is success.
+template <>
+class [[nodiscard]] Result<void> {
+ public:
+  Result() = default;
+  Result(Error error) : error_(std::move(error)) {}
+
+  explicit operator bool() const { return !error_; }
+  const Error& error() const { return *error_; }
+
+ private:
+  std::optional<Error> error_;
+};
+using Status = Result<void>;
+
+}  // namespace ringlet

@@ -1,0 +1,29 @@
+// The curl a strand was groomed with, measured on its rest curve: how long a turn is, how wide, how steep.
+#pragma once
+
+#include <span>
+
+#include "ringlet/base/vec3.h"
+
+namespace ringlet {
+
+/// A straight strand has turns = 0 and turnLength = radius = pitch = 0.
+struct CurlShape {
+  double turns = 0;       // how often the strand winds about its core, counted positive for either hand
+  double turnLength = 0;  // L: arc length of one turn [unit of the points]
+  double radius = 0;      // r: distance of the strand from its core [unit]
+  double pitch = 0;       // distance along the core per turn [unit]
+  int handedness = 0;     // +1 right-handed, -1 left-handed, 0 straight
+};
+
+/// Fits one helix to the whole strand from its joints: the turn from edge to edge (angle theta) and the signed dihedral
+/// angle phi between successive planes compose to the helix's own rotation per edge, cos(w/2) = cos(theta/2) cos(phi/2),
+/// exact for a uniformly cut helix however coarse. Cost: one pass.
+/// A strand that makes less than one turn, or whose curl is shallower than a tenth (2 pi r < 0.1 pitch), is straight.
+CurlShape measureCurl(std::span<const Vec3d> strand);
+
+/// Arc length of each of the strand's edges [unit]: the chord lengthened to the circular arc through its neighbours,
+/// chord (a/2) / sin(a/2) with a the mean turning angle at its two ends. n - 1 values.
+void measureArcs(std::span<const Vec3d> strand, std::span<double> arcs);
+
+}  // namespace ringlet

@@ -1,0 +1,41 @@
+// Motion: the head's built-in ways to move, as pose over time. Each starts at rest and eases in, except
+// `glide`, whose constant velocity the hair has from the start.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "ringlet/base/vec3.h"
+#include "ringlet/scene/head_pose.h"
+
+namespace ringlet {
+
+enum class MotionKind {
+  still,  // does not move
+  shake,  // to and fro along `axis`
+  nod,    // turns to and fro about `axis`
+  spin,   // turns about `axis` at constant speed, reached after easeSeconds
+  glide,  // moves along `axis` at constant speed, from the first instant
+};
+
+/// Position and orientation of the head as a smooth function of time.
+struct Motion {
+  MotionKind kind = MotionKind::still;
+  Vec3d axis{1, 0, 0};     // unit vector: direction of travel, or axis of turning
+  double amplitude = 0.1;  // shake [m]; nod [rad]; spin [rad/s]; glide [m/s]
+  double frequency = 2;    // shake, nod [Hz]
+  double easeSeconds = 0.25;  // shake, nod, spin: amplitude or speed grows smoothly from 0 over this time
+  Vec3d start;                // position of the head at t = 0 [m]
+
+  /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
+  HeadPose poseAt(double t) const;
+};
+
+/// The motion a name stands for with its default size, for a head whose up axis is `up`; nothing for an unknown name.
+std::optional<Motion> motionByName(std::string_view name, Vec3d up);
+
+/// The names motionByName knows, separated by commas, for messages and --help.
+std::string motionNames();
+
+}  // namespace ringlet
