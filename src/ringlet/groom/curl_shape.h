@@ -16,14 +16,20 @@ struct CurlShape {
   int handedness = 0;     // +1 right-handed, -1 left-handed, 0 straight
 };
 
-/// Fits one helix to the whole strand from its joints: the turn from edge to edge (angle theta) and the signed dihedral
-/// angle phi between successive planes compose to the helix's own rotation per edge, cos(w/2) = cos(theta/2) cos(phi/2),
-/// exact for a uniformly cut helix however coarse. Cost: one pass.
-/// A strand that makes less than one turn, or whose curl is shallower than a tenth (2 pi r < 0.1 pitch), is straight.
+/// Fits one helix to the whole strand from its joints: the turn from edge to edge (angle theta) and the
+/// signed dihedral angle phi between successive planes compose to the helix's own rotation per edge, cos(w/2)
+/// = cos(theta/2) cos(phi/2), exact for a uniformly cut helix however coarse. A joint counts by how much it
+/// bends, so L, r and pitch are those of the curled part of a strand that is straight elsewhere. A flat ring
+/// has pitch 0 and an arbitrary hand. Cost: one pass.
+///
+/// Straight is a strand that makes less than one turn, whose curl is shallower than a tenth
+/// (2 pi r < 0.1 pitch), whose bends follow no one helix (noise, flat waves), or that has fewer than 2.5
+/// particles a turn (a zigzag).
 CurlShape measureCurl(std::span<const Vec3d> strand);
 
-/// Arc length of each of the strand's edges [unit]: the chord lengthened to the circular arc through its neighbours,
-/// chord (a/2) / sin(a/2) with a the mean turning angle at its two ends. n - 1 values.
+/// Arc length of each of the strand's edges [unit]: the chord lengthened to the circular arc through its
+/// neighbours, chord (a/2) / sin(a/2) with a the mean turning angle at its two ends. n - 1 values. An edge
+/// that is not finite has arc 0.
 void measureArcs(std::span<const Vec3d> strand, std::span<double> arcs);
 
 }  // namespace ringlet

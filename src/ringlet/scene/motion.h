@@ -26,7 +26,7 @@ struct Motion {
   double amplitude = 0.1;  // shake [m]; nod [rad]; spin [rad/s]; glide [m/s]
   double frequency = 2;    // shake, nod [Hz]
   double easeSeconds = 0.25;  // shake, nod, spin: amplitude or speed grows smoothly from 0 over this time
-  Vec3d start;                // position of the head at t = 0 [m]
+  Vec3d start{};                // position of the head at t = 0 [m]
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;

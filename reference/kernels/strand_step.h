@@ -1,0 +1,274 @@
+// One outer step of one strand, all three integrators. Mirrors shaders/kernels/strand_step.comp.
+// Positions are relative to the head's origin, along world axes; velocities relative to the head's
+// translation. Iben et al. 2012, section 5; the implicit solve is ours (method.md 7).
+#pragma once
+
+#include <algorithm>
+
+#include "reference/equations/bend_spring.h"
+#include "reference/equations/core_spring.h"
+#include "reference/equations/frame.h"
+#include "reference/equations/smoothing.h"
+#include "reference/equations/stretch_limit.h"
+#include "reference/equations/stretch_spring.h"
+#include "reference/fields.h"
+#include "reference/rest_strand.h"
+#include "reference/strand_solve.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet::reference {
+
+/// What the head does in the step from n to n + 1.
+template <class Real>
+struct HeadStep {
+  Rotation<Real> before, now, next;  // rotations of poses n - 1, n, n + 1
+  Vector3<Real> velocityChange;      // of its translation: V_{n+1} - V_n [m/s]
+  Real seconds = 0;                  // T
+};
+
+/// Every intermediate of a strand's step, N particles or N - 1 edges, for comparison with the shader's taps.
+template <class Real>
+struct StrandTaps {
+  Field<Real> smoothedEdges;           // d_i, with alpha_b [m]
+  Field<Real> coreEdges;               // b_i, with alpha_c [m]
+  std::vector<Rotation<Real>> frames;  // F_i
+  Field<Real> targets;                 // t_i [m]
+  Field<Real> stretchForces;           // elastic [N]
+  Field<Real> bendForces;              // elastic [N]
+  Field<Real> coreForces;              // with the blend's scale; paper: elastic only, not transposed [N]
+  Real coreScale = 1;                  // the blend's scale [1]
+  Field<Real> solvedVelocities;        // after the velocity solve [m/s]
+  Field<Real> positions;               // after the stretch limit [m]
+  Field<Real> velocities;              // after the stretch limit [m/s]
+  std::size_t limitedCount = 0;        // edges the stretch limit shortened
+  std::size_t degenerateCount = 0;     // edges of length 0 at the start of the step
+  Real maxEdgeStretch = 0;             // max |e_i| / l_i after the limit [1]
+};
+
+/// Memory a step needs beyond its taps, shared by strands and kept between steps.
+template <class Real>
+struct StepScratch {
+  Field<Real> edges, directions;                                 // e_i [m], e^_i [1]
+  Field<Real> movedEdges;                                        // e_i after p += T v [m]
+  Field<Real> velocityDifferences, smoothedVelocityDifferences;  // dv_i, nu_i [m/s]
+  Field<Real> edgeForces;  // per edge, before they go to the particles [N]
+  StrandSystem<double> exactSystem;
+  StrandSystem<Real> pointSystem;
+  SolveScratch<Real> solve;
+};
+
+/// dv_i = v_{i+1} - v_i, or edges from positions.
+template <class Real>
+void differences(FieldView<Real> values, Field<Real>& result) {
+  result.resize(values.empty() ? 0 : values.size() - 1);
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = values[i + 1] - values[i];
+}
+
+/// Edges and smoothed edges, frames and targets: the strand's shape (sections 3.2, 3.2.1, 3.3).
+template <class Real>
+void measureShape(const RestStrand<Real>& rest, bool isPaper, const HeadStep<Real>& head,
+                  FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
+                  StrandTaps<Real>& taps) {
+  differences(positions, scratch.edges);
+  differences(velocities, scratch.velocityDifferences);
+  scratch.directions.resize(rest.edgeCount());
+  taps.degenerateCount = 0;
+  for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+    scratch.directions[i] = directionOr(scratch.edges[i], Vector3<Real>::UnitX());
+    if (!(scratch.edges[i].norm() > Real(0))) ++taps.degenerateCount;
+  }
+
+  // The filters start from the rest first edge as the head carries it, and from that edge's velocity; the
+  // paper's from the strand's own first edge.
+  const Vector3<Real> carried = head.now * rest.edges[0];
+  Vector3<Real> edgeStart = carried, velocityStart = (carried - head.before * rest.edges[0]) / head.seconds;
+  if (isPaper) {
+    edgeStart = scratch.edges[0];
+    velocityStart = scratch.velocityDifferences[0];
+  }
+  smooth(scratch.edges, rest.bendSmoothingShare, edgeStart, taps.smoothedEdges);
+  smooth(scratch.edges, rest.coreSmoothingShare, edgeStart, taps.coreEdges);
+  smooth(scratch.velocityDifferences, rest.coreSmoothingShare, velocityStart,
+         scratch.smoothedVelocityDifferences);
+
+  transportFrames(head.now, carried, taps.smoothedEdges, taps.frames);
+  taps.targets.resize(rest.edgeCount());
+  for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+    taps.targets[i] = frameBefore(i, head.now, taps.frames) * rest.restTargets[i];
+  }
+}
+
+/// Elastic forces of stretch and bend, and the core's: all that stays explicit (equations 1, 3, 4).
+template <class Real>
+void computeForces(const RestStrand<Real>& rest, bool isPaper, StepScratch<Real>& scratch,
+                   StrandTaps<Real>& taps) {
+  taps.stretchForces.resize(rest.edgeCount());
+  taps.bendForces.resize(rest.edgeCount());
+  taps.coreForces.resize(rest.edgeCount());
+  scratch.edgeForces.resize(rest.edgeCount());
+  const Real elongation = coreElongation(taps.coreEdges, rest.coreLength);
+  taps.coreScale =
+      coreScale(elongation, rest.coreElongationLow, rest.coreElongationHigh, rest.coreRelaxedShare);
+  for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+    taps.stretchForces[i] = stretchForce(rest.stretchStiffness[i], scratch.edges[i], scratch.directions[i],
+                                         rest.stretchRestLengths[i]);
+    taps.bendForces[i] = bendForce(rest.bendStiffness[i], scratch.edges[i], taps.targets[i]);
+    scratch.edgeForces[i] = coreForce(rest.coreStiffness[i], taps.coreEdges[i], rest.coreRestLengths[i]);
+    // The paper's loops damp by themselves.
+    if (!isPaper) {
+      scratch.edgeForces[i] +=
+          coreDamping(rest.coreDamping[i], scratch.smoothedVelocityDifferences[i], taps.coreEdges[i]);
+    }
+  }
+  if (isPaper) {
+    taps.coreForces = scratch.edgeForces;
+  } else {
+    smoothTransposed(scratch.edgeForces, rest.coreSmoothingShare, taps.coreForces);
+  }
+  for (Vector3<Real>& force : taps.coreForces) force *= taps.coreScale;
+}
+
+/// Sum of the forces on particle i [N]: +f_i of the edge below it, -f_{i-1} of the edge above.
+template <class Real>
+Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i) {
+  Vector3<Real> force = Vector3<Real>::Zero();
+  if (i < taps.stretchForces.size()) force += taps.stretchForces[i] + taps.bendForces[i] + taps.coreForces[i];
+  if (i > 0) force -= taps.stretchForces[i - 1] + taps.bendForces[i - 1] + taps.coreForces[i - 1];
+  return force;
+}
+
+/// (M + T C + T^2 K) v+ = M v + T (f + m g), the strand's own system, in Scalar whatever Real is.
+template <class Scalar, class Real>
+void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, const Field<Real>& directions,
+                    const Vector3<double>& gravity, double T, FieldView<Real> velocities,
+                    StrandSystem<Scalar>& system) {
+  system.rootCount = rest.rootCount;
+  system.masses.resize(rest.particleCount());
+  system.momenta.resize(rest.particleCount());
+  system.across.resize(rest.edgeCount());
+  system.along.resize(rest.edgeCount());
+  system.directions.resize(rest.edgeCount());
+  const Scalar t = static_cast<Scalar>(T);
+  const Vector3<Scalar> fall = gravity.cast<Scalar>();
+  for (std::size_t i = 0; i < rest.particleCount(); ++i) {
+    system.masses[i] = static_cast<Scalar>(rest.masses[i]);
+    system.momenta[i] = system.masses[i] * velocities[i].template cast<Scalar>() +
+                        t * (particleForce(taps, i).template cast<Scalar>() + system.masses[i] * fall);
+  }
+  for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+    const Scalar stretchStiffness = rest.stretchStiffness[i], stretchDamp = rest.stretchDamping[i];
+    const Scalar bendStiffness = rest.bendStiffness[i], bendDamp = rest.bendDamping[i];
+    // Bend stiffness holds in all directions (the target is held), its damping across the edge only.
+    system.across[i] = t * bendDamp + t * t * bendStiffness;
+    system.along[i] = std::max(Scalar(0), t * stretchDamp + t * t * stretchStiffness - t * bendDamp);
+    system.directions[i] = directions[i].template cast<Scalar>();
+  }
+}
+
+/// Integrator::paper, section 5: the springs' forces of the step's start over dampingLoops x forceLoops small
+/// steps. In each, damping from the velocities as they are, then the limit on rates.
+template <class Real>
+void runPaperLoops(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
+                   StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> velocities) {
+  const Vector3<Real> gravity = toEigen<Real>(settings.gravity);
+  const Real maxStretch = static_cast<Real>(settings.maxStretch);
+  const Real forceSeconds = head.seconds / static_cast<Real>(settings.forceLoops);
+  const Real dampingSeconds = forceSeconds / static_cast<Real>(settings.dampingLoops);
+  for (int forceLoop = 0; forceLoop < settings.forceLoops; ++forceLoop) {
+    for (std::size_t i = rest.rootCount; i < rest.particleCount(); ++i) {
+      velocities[i] += forceSeconds * (particleForce(taps, i) / rest.masses[i] + gravity);
+    }
+    for (int dampingLoop = 0; dampingLoop < settings.dampingLoops; ++dampingLoop) {
+      differences(velocities, scratch.velocityDifferences);
+      smooth(scratch.velocityDifferences, rest.coreSmoothingShare, scratch.velocityDifferences[0],
+             scratch.smoothedVelocityDifferences);
+      for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+        const Vector3<Real>&dv = scratch.velocityDifferences[i], &direction = scratch.directions[i];
+        scratch.edgeForces[i] =
+            stretchDamping(rest.stretchDamping[i], dv, direction) +
+            bendDamping(rest.bendDamping[i], dv, direction) +
+            taps.coreScale *
+                coreDamping(rest.coreDamping[i], scratch.smoothedVelocityDifferences[i], taps.coreEdges[i]);
+      }
+      for (std::size_t i = rest.rootCount; i < rest.particleCount(); ++i) {
+        Vector3<Real> force = -scratch.edgeForces[i - 1];
+        if (i < rest.edgeCount()) force += scratch.edgeForces[i];
+        velocities[i] += dampingSeconds / rest.masses[i] * force;
+      }
+      limitRates(rest.rootCount, maxStretch, head.seconds, rest.edgeLengths, scratch.edges,
+                 scratch.directions, velocities);
+    }
+  }
+}
+
+/// The new velocities of the free particles; the pinned ones are already there.
+template <class Real>
+void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
+                     StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> velocities) {
+  if (rest.particleCount() <= rest.rootCount) return;
+  const Vector3<double> gravity = toEigen<double>(settings.gravity);
+  const double T = settings.stepSeconds();
+  switch (settings.integrator) {
+    case Integrator::jacobi:
+      assembleSystem(rest, taps, scratch.directions, gravity, T, velocities, scratch.exactSystem);
+      solveStrand(scratch.exactSystem, scratch.solve, velocities);
+      break;
+    case Integrator::pointJacobi:
+      assembleSystem(rest, taps, scratch.directions, gravity, T, velocities, scratch.pointSystem);
+      iteratePoints(scratch.pointSystem, settings.pointIterations, settings.chebyshev, scratch.solve,
+                    velocities);
+      break;
+    case Integrator::paper:
+      runPaperLoops(rest, settings, head, scratch, taps, velocities);
+      break;
+  }
+}
+
+/// Max |e_i| / l_i over the strand's edges [1].
+template <class Real>
+Real measureStretch(const RestStrand<Real>& rest, FieldView<Real> positions) {
+  Real stretch = 0;
+  for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+    stretch = std::max(stretch, (positions[i + 1] - positions[i]).norm() / rest.edgeLengths[i]);
+  }
+  return stretch;
+}
+
+/// Takes a strand's positions [m] and velocities [m/s] from step n to n + 1.
+template <class Real>
+void stepStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
+                FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
+                StrandTaps<Real>& taps) {
+  const bool isPaper = settings.integrator == Integrator::paper;
+  const std::size_t pinnedCount = std::min(rest.rootCount, rest.particleCount());
+
+  // The head's new translation is the new frame of reference.
+  for (Vector3<Real>& v : velocities) v -= head.velocityChange;
+
+  if (rest.edgeCount() > 0) {
+    measureShape(rest, isPaper, head, positions, velocities, scratch, taps);
+    computeForces(rest, isPaper, scratch, taps);
+  }
+
+  // Pinned particles turn with the head; all others follow from forces.
+  for (std::size_t i = 0; i < pinnedCount; ++i) {
+    velocities[i] = (head.next * rest.points[i] - head.now * rest.points[i]) / head.seconds;
+  }
+  solveVelocities(rest, settings, head, scratch, taps, velocities);
+  taps.solvedVelocities.assign(velocities.begin(), velocities.end());
+
+  for (std::size_t i = 0; i < pinnedCount; ++i) positions[i] = head.next * rest.points[i];
+  for (std::size_t i = pinnedCount; i < positions.size(); ++i) positions[i] += head.seconds * velocities[i];
+
+  scratch.movedEdges = scratch.edges;
+  for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+    scratch.movedEdges[i] += head.seconds * (velocities[i + 1] - velocities[i]);
+  }
+  taps.limitedCount = limitStretch(rest.rootCount, static_cast<Real>(settings.maxStretch), head.seconds,
+                                   rest.edgeLengths, scratch.movedEdges, positions, velocities);
+  taps.maxEdgeStretch = measureStretch(rest, positions);
+  taps.positions.assign(positions.begin(), positions.end());
+  taps.velocities.assign(velocities.begin(), velocities.end());
+}
+
+}  // namespace ringlet::reference

@@ -1,0 +1,130 @@
+// The reference simulation of a whole groom on the CPU, one thread: the same stages in the same order as the
+// GPU's list, in float or double. The oracle of the kernel tests, the baseline of the benchmarks, and
+// `--backend reference`. Mirrors src/ringlet/solver/simulation.h.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "reference/kernels/strand_step.h"
+#include "ringlet/base/assert.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/scene/head_pose.h"
+
+namespace ringlet::reference {
+
+/// What happened to the numbers since the simulation began.
+struct Report {
+  double maxEdgeStretch = 0;          // longest edge over the groom's edge, over every outer step [1]
+  std::uint64_t limitedEdges = 0;     // edges, times steps, the stretch limit touched
+  std::uint64_t edgeSteps = 0;        // all edges, times steps
+  std::uint64_t degenerateEdges = 0;  // edges, times steps, that had no direction
+  std::uint64_t nonfinite = 0;        // particles whose position or velocity is not finite now
+
+  double limitedShare() const {
+    return edgeSteps > 0 ? static_cast<double>(limitedEdges) / static_cast<double>(edgeSteps) : 0;
+  }
+};
+
+template <class Real>
+class Simulation {
+ public:
+  /// The head starts at `start`, coming from `oneStepEarlier` (one outer step before), and the hair moves
+  /// with it.
+  Simulation(const Groom& groom, const Material& material, const Settings& settings, const HeadPose& start,
+             const HeadPose& oneStepEarlier, const PaperMaterial& paper = {})
+      : settings_(settings), previousHead_(oneStepEarlier), head_(start), firstPoint_(groom.firstPoint) {
+    for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+      rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit, material, paper, settings));
+    }
+    taps_.resize(groom.strandCount());
+    placeAtRest();
+  }
+  Simulation(const Groom& groom, const Material& material, const Settings& settings,
+             const HeadPose& start = {})
+      : Simulation(groom, material, settings, start, start) {}
+
+  /// Outer steps; stepPoses[k] is the head's pose at the end of step k. A frame is settings.stepsPerFrame of
+  /// them.
+  void stepFrame(std::span<const HeadPose> stepPoses) {
+    for (const HeadPose& pose : stepPoses) stepOnce(pose);
+  }
+
+  /// Groom order, relative to the head's origin and its translation, along world axes.
+  const Field<Real>& positions() const { return positions_; }    // [m]
+  const Field<Real>& velocities() const { return velocities_; }  // [m/s]
+  void setState(const Field<Real>& positions, const Field<Real>& velocities) {
+    RINGLET_ASSERT(positions.size() == positions_.size(), "setState needs a position for every particle");
+    RINGLET_ASSERT(velocities.size() == velocities_.size(), "setState needs a velocity for every particle");
+    positions_ = positions;
+    velocities_ = velocities;
+  }
+
+  const HeadPose& head() const { return head_; }
+  const Settings& settings() const { return settings_; }
+  const std::vector<RestStrand<Real>>& restStrands() const { return rest_; }
+  /// Intermediates of the last outer step, one entry per strand.
+  const std::vector<StrandTaps<Real>>& taps() const { return taps_; }
+
+  Report report() const {
+    Report report = report_;
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      if (!positions_[i].allFinite() || !velocities_[i].allFinite()) ++report.nonfinite;
+    }
+    return report;
+  }
+
+ private:
+  void placeAtRest() {
+    const Rotation<Real> now = toEigen<Real>(head_.rotation), before = toEigen<Real>(previousHead_.rotation);
+    const Real T = static_cast<Real>(settings_.stepSeconds());
+    for (const RestStrand<Real>& rest : rest_) {
+      for (const Vector3<Real>& point : rest.points) {
+        positions_.push_back(now * point);
+        velocities_.push_back((now * point - before * point) / T);
+      }
+    }
+  }
+
+  void stepOnce(const HeadPose& next) {
+    const HeadStep<Real> head = headStep(next);
+    for (std::size_t s = 0; s < rest_.size(); ++s) {
+      stepStrand(rest_[s], settings_, head, strandOf(positions_, s), strandOf(velocities_, s), scratch_,
+                 taps_[s]);
+      record(rest_[s], taps_[s]);
+    }
+    previousHead_ = head_;
+    head_ = next;
+  }
+
+  // In double: the head's velocity is a small difference of positions that may be large.
+  HeadStep<Real> headStep(const HeadPose& next) const {
+    const double T = settings_.stepSeconds();
+    const Vec3d velocityNow = (head_.position - previousHead_.position) / T;
+    const Vec3d velocityNext = (next.position - head_.position) / T;
+    return {toEigen<Real>(previousHead_.rotation), toEigen<Real>(head_.rotation),
+            toEigen<Real>(next.rotation), toEigen<Real>(velocityNext - velocityNow), static_cast<Real>(T)};
+  }
+
+  std::span<Vector3<Real>> strandOf(Field<Real>& field, std::size_t s) const {
+    return std::span(field).subspan(firstPoint_[s], firstPoint_[s + 1] - firstPoint_[s]);
+  }
+
+  void record(const RestStrand<Real>& rest, const StrandTaps<Real>& taps) {
+    report_.maxEdgeStretch = std::max(report_.maxEdgeStretch, static_cast<double>(taps.maxEdgeStretch));
+    report_.limitedEdges += taps.limitedCount;
+    report_.degenerateEdges += taps.degenerateCount;
+    report_.edgeSteps += rest.edgeCount();
+  }
+
+  Settings settings_;
+  HeadPose previousHead_, head_;           // poses n - 1 and n
+  std::vector<std::uint32_t> firstPoint_;  // as in Groom
+  std::vector<RestStrand<Real>> rest_;
+  Field<Real> positions_, velocities_;
+  std::vector<StrandTaps<Real>> taps_;
+  StepScratch<Real> scratch_;
+  Report report_;
+};
+
+}  // namespace ringlet::reference

@@ -1,0 +1,27 @@
+// What an edge adds to the implicit velocity solve (M + T C + T² K) v⁺ = M v + T f (our choice; the paper, section 5,
+// loops explicitly): the matrix across I + along ê êᵀ between its two particles. Mirrored by
+// reference/equations/implicit_edge.h.
+#ifndef RINGLET_IMPLICIT_EDGE
+#define RINGLET_IMPLICIT_EDGE
+
+struct ImplicitEdge {
+  vec3 direction;  // ê, a unit vector even where the edge is void
+  float along;     // stretch beyond bending [mass unit]
+  float across;    // bending [mass unit]; positive for a real edge, 0 for a void one
+};
+
+/// T: the step; stiffness and damping per edge. The bend damping acts across the edge only (eq. 3), hence the difference.
+ImplicitEdge implicitEdge(vec3 direction, float T, float stretchStiffness, float stretchDamping, float bendStiffness,
+                          float bendDamping) {
+  float along = max(0.0, T * (stretchDamping + T * stretchStiffness - bendDamping));
+  // The elimination needs a positive part across; 1e-6 of the mass changes nothing that can be seen.
+  return ImplicitEdge(direction, along, max(T * (bendDamping + T * bendStiffness), 1e-6));
+}
+
+ImplicitEdge voidEdge() { return ImplicitEdge(vec3(1, 0, 0), 0.0, 0.0); }
+
+vec3 multiply(ImplicitEdge edge, vec3 x) {
+  return edge.across * x + edge.along * dot(edge.direction, x) * edge.direction;
+}
+
+#endif

@@ -1,0 +1,77 @@
+// `jacobi`, the strand as block: every strand's implicit system is block tridiagonal and solved exactly, by elimination
+// from the tip within a lane and a star join across lanes. Included by kernels/strand_step.comp.
+#include "equations/eliminate_edge.glsl"
+#include "scan/star_join.glsl"
+
+ImplicitEdge implicitEdgeOf(int k) {
+  float s = restEdge[k].w;
+  return implicitEdge(eHat[k], stepSeconds(), strand.stretchStiffness * s, strand.stretchDamping * s,
+                      strand.bendStiffness * s, strand.bendDamping * s);
+}
+
+// M v + T (springs + gravity) of particle k.
+vec3 rightHandSide(int k, vec3 forceBefore) {
+  float m = restEdge[k].x;
+  return m * v[k] + stepSeconds() * (force[k] - forceBefore + m * parameters.gravity.xyz);
+}
+
+// The same without the springs of the boundary edges: their pull belongs to f, the force across the boundary. Left in,
+// it would make both sides' free ends race apart and be cancelled again by the join, which costs float32 its digits.
+vec3 rightHandSideOfRun(int k) {
+  vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
+  float m = restEdge[k].x;
+  return isParticle(k) ? m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz) : vec3(0);
+}
+
+// H of the boundary edge: A⁻¹. A void one gets any positive value; it is never used.
+Symmetric edgeCompliance(ImplicitEdge edge) {
+  float across = edge.across > 0.0 ? edge.across : 1.0;
+  float a = 1.0 / across;
+  return addOuter(symmetricDiagonal(a), -a * edge.along / (edge.along + across), edge.direction);
+}
+
+void solveStrandBlock(vec3 pinned[3]) {
+  mat3 transfer[RUN];   // of edge k: v_{k+1} = transfer v_k + offset + pull f
+  vec3 offset[RUN];
+  mat3 pull[RUN];
+
+  LaneSystem system;
+  system.joined = isEdge(RUN - 1);
+  system.P = symmetricDiagonal(restEdge[RUN - 1].x);
+  system.y = rightHandSideOfRun(RUN - 1);
+  system.transfer = mat3(1);
+  if (kLanes > 1) {
+    system.compliance = edgeCompliance(implicitEdgeOf(RUN - 1));
+    system.offset = multiply(system.compliance, -stepSeconds() * force[RUN - 1]);
+  }
+
+  for (int k = RUN - 2; k >= 0; --k) {
+    ImplicitEdge edge = implicitEdgeOf(k);
+    if (!isEdge(k)) edge = voidEdge();
+    Elimination step = eliminateEdge(edge, system.P, system.y);
+    system.P = addDiagonal(system.P, restEdge[k].x);
+    system.y += rightHandSideOfRun(k);
+    if (isPinned(k + 1)) {  // its velocity is given, whatever pulls
+      step.transfer = mat3(0);
+      step.offset = pinned[min(k + 1, 2)];
+      step.response = symmetricDiagonal(0.0);
+    }
+    transfer[k] = step.transfer;
+    offset[k] = step.offset;
+    if (kLanes > 1) {
+      pull[k] = multiply(step.response, transpose(system.transfer));
+      system.compliance = add(system.compliance, transposeMultiply(transpose(system.transfer), pull[k]));
+      system.offset += system.transfer * step.offset;
+      system.transfer = system.transfer * step.transfer;
+    }
+  }
+
+  Boundary boundary = joinLanes(system);
+  vec3 start = lane == 0 ? pinned[0] : vec3(0);
+  vec3 f = solveBoundaries(system, boundary, start);
+  v[0] = start;
+  for (int k = 0; k < RUN - 1; ++k) {
+    v[k + 1] = transfer[k] * v[k] + offset[k];
+    if (kLanes > 1) v[k + 1] += pull[k] * f;
+  }
+}

@@ -1,0 +1,48 @@
+// `point_jacobi`, the particle as block: a fixed number of Jacobi iterations on the same implicit system, plain or
+// Chebyshev-accelerated. The baseline, and a check of the strand block. Included by kernels/strand_step.comp.
+
+#include "equations/chebyshev_weight.glsl"
+
+void iteratePointJacobi(vec3 pinned[3]) {
+  ImplicitEdge edge[RUN];
+  vec3 rhs[RUN];
+  Symmetric inverseDiagonal[RUN];
+  vec3 previous[RUN];
+
+  vec3 forceBefore = forceFromRootward();
+  for (int k = 0; k < RUN; ++k) {
+    edge[k] = implicitEdgeOf(k);
+    if (!isEdge(k)) edge[k] = voidEdge();
+    rhs[k] = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
+  }
+  ImplicitEdge edgeBefore = ImplicitEdge(fromRootward(edge[RUN - 1].direction, 1), fromRootward(edge[RUN - 1].along, 1),
+                                         fromRootward(edge[RUN - 1].across, 1));
+  if (lane == 0) edgeBefore = voidEdge();
+  for (int k = 0; k < RUN; ++k) {
+    ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
+    Symmetric D = symmetricDiagonal(restEdge[k].x + edge[k].across + before.across);
+    D = addOuter(addOuter(D, edge[k].along, edge[k].direction), before.along, before.direction);
+    inverseDiagonal[k] = inverse(D);
+    if (isPinned(k)) v[k] = pinned[min(k, 2)];
+    previous[k] = v[k];
+  }
+
+  float omega = 1.0;
+  for (uint iteration = 0; iteration < parameters.pointIterations; ++iteration) {
+    if (parameters.chebyshev != 0 && iteration > 0) {
+      omega = chebyshevWeight(iteration, omega, strand.jacobiGap);
+    }
+    vec3 vBefore = fromRootward(v[RUN - 1], 1);
+    vec3 vNext = fromTipward(v[0], 1);
+    vec3 rootwardNow = vBefore;
+    for (int k = 0; k < RUN; ++k) {
+      vec3 tipwardNow = k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext;
+      ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
+      vec3 jacobi = multiply(inverseDiagonal[k], rhs[k] + multiply(edge[k], tipwardNow) + multiply(before, rootwardNow));
+      vec3 now = v[k];
+      if (isFree(k)) v[k] = parameters.chebyshev != 0 ? omega * (jacobi - previous[k]) + previous[k] : jacobi;
+      previous[k] = now;
+      rootwardNow = now;
+    }
+  }
+}

@@ -1,0 +1,259 @@
+// The strand kernel, lanes x run: all outer steps of a dispatch for one strand, in registers; global memory is touched at
+// its start and end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose stages
+// these are, in the same order. Mirrored by reference/kernels/strand_step.h; one thread per strand: strand_step_serial.comp.
+// Compiled with RUN = particles per lane; specialized with the lanes per strand and the integrator.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "shared/strand_buffers.glsl"
+#include "equations/bend_spring.glsl"
+#include "equations/core_spring.glsl"
+#include "equations/frame.glsl"
+#include "equations/stretch_limit.glsl"
+#include "equations/stretch_spring.glsl"
+#include "scan/filter_scan.glsl"
+#include "scan/frame_scan.glsl"
+#include "scan/lanes.glsl"
+#include "scan/prefix_sum.glsl"
+
+// This lane's run: particle k and its edge to k + 1. Arrays of RUN, indexed only by unrolled loops.
+vec3 p[RUN];
+vec3 v[RUN];
+vec4 restTarget[RUN];  // xyz rest vector in its frame, w stretch rest length
+vec4 restEdge[RUN];    // mass, edge length, core edge length, edge scale (ParticleRest)
+uint first;            // place along the strand of this lane's particle 0
+
+// Of the step at hand:
+vec3 e[RUN];        // edge
+vec3 dv[RUN];       // velocity difference along it
+vec3 eHat[RUN];     // its direction
+float eLength[RUN];
+vec3 h[RUN];        // core spring on the smoothed curve, then back on the real edges
+vec3 force[RUN];    // all elastic forces of the edge
+vec4 turn[RUN];     // from the frame before the edge to the frame after it, less the identity
+float coreScale;    // blend of the core's constants
+
+// What the report will say:
+float maxStretch = 0.0;
+uint limitedEdges = 0;
+uint degenerateEdges = 0;
+
+bool isParticle(int k) { return first + k < strand.particleCount; }
+bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
+bool isPinned(int k) { return first + k < parameters.rootCount; }
+bool isFree(int k) { return isParticle(k) && !isPinned(k); }
+vec3 pin(int k) { return strand.pins[min(k, int(kMaxRootCount) - 1)].xyz; }  // pins lie in lane 0: RUN >= kMaxRootCount
+
+void loadStrand() {
+  for (int k = 0; k < RUN; ++k) {
+    bool real = isParticle(k);
+    uint i = strand.firstParticle + (real ? first + k : 0);
+    p[k] = real ? positions[i].xyz : vec3(0);
+    v[k] = real ? velocities[i].xyz : vec3(0);
+    ParticleRest rest = particles[i];
+    restTarget[k] = rest.target;
+    restEdge[k] = vec4(real ? rest.mass : 1.0, rest.edgeLength, rest.coreEdgeLength, isEdge(k) ? rest.edgeScale : 0.0);
+  }
+}
+
+// Edges, velocity differences, lengths and directions; a void edge is zero and points along x.
+void measureEdges() {
+  vec3 pNext = fromTipward(p[0], 1);
+  vec3 vNext = fromTipward(v[0], 1);
+  for (int k = 0; k < RUN; ++k) {
+    bool real = isEdge(k);
+    e[k] = real ? (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k] : vec3(0);
+    dv[k] = real ? (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k] : vec3(0);
+    float squared = dot(e[k], e[k]);
+    bool directed = squared > 1e-30;
+    float inverseLength = directed ? inversesqrt(squared) : 0.0;
+    eLength[k] = squared * inverseLength;
+    eHat[k] = directed ? e[k] * inverseLength : vec3(1, 0, 0);
+    if (real && !directed) ++degenerateEdges;
+    if (real) maxStretch = max(maxStretch, eLength[k] / restEdge[k].y);
+  }
+}
+
+// The smoothed curves: turns of the frames from one, forces of the core spring from the other. Two passes: the first
+// finds each lane's end state, the scan carries it, the second begins where the lane before ended.
+void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection) {
+  FilterState bend, core, velocity;
+  FilterState zero = startFilter(vec3(0));
+  bend = lane == 0 ? startFilter(edgeStart) : zero;
+  core = bend;
+  velocity = lane == 0 ? startFilter(velocityStart) : zero;
+  if (kLanes > 1) {
+    for (int k = 0; k < RUN; ++k) {
+      smoothNext(bend, e[k], strand.bendBeta);
+      smoothNext(core, e[k], strand.coreBeta);
+      smoothNext(velocity, dv[k], strand.coreBeta);
+    }
+  }
+  bend = filterBeforeRun(bend, startFilter(edgeStart), strand.bendBeta);
+  core = filterBeforeRun(core, startFilter(edgeStart), strand.coreBeta);
+  velocity = filterBeforeRun(velocity, startFilter(velocityStart), strand.coreBeta);
+
+  vec3 direction = lane == 0 ? rootDirection : directionOr(bend.d, rootDirection);
+  float coreLength = 0.0;
+  for (int k = 0; k < RUN; ++k) {
+    smoothNext(bend, e[k], strand.bendBeta);
+    smoothNext(core, e[k], strand.coreBeta);
+    smoothNext(velocity, dv[k], strand.coreBeta);
+    vec3 next = directionOr(bend.d, direction);
+    turn[k] = smallestTurn(direction, next);
+    direction = next;
+    float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping;  // the paper damps in its own loop
+    h[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, core.d, restEdge[k].z, velocity.d);
+    if (isEdge(k)) coreLength += length(core.d);
+    if (isEdge(k)) RINGLET_TAP(kTapSmoothedEdge, first + k, vec4(bend.d, 0));
+    if (isEdge(k)) RINGLET_TAP(kTapCoreEdge, first + k, vec4(core.d, 0));
+  }
+  coreScale = coreBlend(sumOverStrand(coreLength) / strand.restCoreLength, parameters.coreRelaxedShare,
+                        parameters.coreElongationLow, parameters.coreElongationHigh);
+}
+
+// Frames carried along the smoothed curve, each edge's target in the frame before it, stretch and bend springs.
+void shapeForces(vec4 rootFrame) {
+  vec4 product = kIdentity;
+  if (kLanes > 1) {
+    for (int k = 0; k < RUN; ++k) product = turned(turn[k], product);
+  }
+  vec4 frame = frameBeforeRun(renormalized(product), rootFrame);
+  for (int k = 0; k < RUN; ++k) {
+    vec3 target = rotate(frame, restTarget[k].xyz);
+    vec3 stretch = stretchForce(strand.stretchStiffness * restEdge[k].w, eLength[k], restTarget[k].w, eHat[k]);
+    vec3 bend = bendForce(strand.bendStiffness * restEdge[k].w, e[k], target);
+    force[k] = stretch + bend;
+    frame = turned(turn[k], frame);
+    if (isEdge(k)) {
+      RINGLET_TAP(kTapFrame, first + k, frame);
+      RINGLET_TAP(kTapTarget, first + k, vec4(target, 0));
+      RINGLET_TAP(kTapStretchForce, first + k, vec4(stretch, 0));
+      RINGLET_TAP(kTapBendForce, first + k, vec4(bend, 0));
+    }
+  }
+}
+
+// The core's forces back on the real edges: the transpose of the smoothing, from the tip, so that they stay a gradient
+// ("transposed core"). The paper puts them on the edges as they are.
+void coreForces() {
+  if (kIntegrator != kIntegratorPaper) {
+    FilterState state = startFilter(vec3(0));
+    if (kLanes > 1) {
+      for (int k = RUN - 1; k >= 0; --k) smoothNext(state, h[k], strand.coreBeta);
+    }
+    state = filterBeyondRun(state, strand.coreBeta);
+    for (int k = RUN - 1; k >= 0; --k) {
+      smoothNext(state, h[k], strand.coreBeta);
+      h[k] = state.d;
+    }
+  }
+  for (int k = 0; k < RUN; ++k) {
+    h[k] *= coreScale;
+    if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(h[k], 0));
+    if (isEdge(k)) force[k] += h[k];
+  }
+}
+
+// Elastic force on particle k: its edge pulls it on, the edge before pulls it back.
+vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
+
+#include "integrators/jacobi.glsl"
+#include "integrators/paper.glsl"
+#include "integrators/point_jacobi.glsl"
+
+void solveVelocities(uint step) {
+  vec3 pinned[3];
+  for (int k = 0; k < 3; ++k) {
+    pinned[k] = (rotate(rotationAtEnd(step), pin(k)) - rotate(rotationAtStart(step), pin(k))) / stepSeconds();
+  }
+  if (kIntegrator == kIntegratorJacobi) solveStrandBlock(pinned);
+  if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
+  if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
+  for (int k = 0; k < RUN; ++k) {
+    if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
+  }
+}
+
+// p += T v, then the stretch limit as a prefix sum along the strand.
+void moveAndLimit(uint step) {
+  float T = stepSeconds();
+  for (int k = 0; k < RUN; ++k) {
+    p[k] = isPinned(k) ? rotate(rotationAtEnd(step), pin(k)) : isParticle(k) ? p[k] + T * v[k] : vec3(0);
+  }
+  // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
+  vec3 vNext = fromTipward(v[0], 1);
+  vec3 shift = vec3(0);
+  for (int k = 0; k < RUN; ++k) {
+    vec3 edge = e[k] + T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
+    bool limitable = isEdge(k) && first + k + 1 >= parameters.rootCount;
+    vec3 change = limitable ? limitedEdgeChange(edge, parameters.maxStretch * restEdge[k].y) : vec3(0);
+    if (change != vec3(0)) ++limitedEdges;
+    e[k] = shift;  // of particle k; the edge itself is no longer needed
+    shift += change;
+  }
+  vec3 before = sumBeforeRun(shift);
+  for (int k = 0; k < RUN; ++k) {
+    vec3 s = isFree(k) ? before + e[k] : vec3(0);
+    p[k] += s;
+    v[k] += s / T;
+  }
+}
+
+void storeStrand(uint strandIndex) {
+  uint nonfinite = 0;
+  uint firstNonfinite = ~0u;
+  for (int k = RUN - 1; k >= 0; --k) {
+    if (!isParticle(k)) continue;
+    uint i = strand.firstParticle + first + k;
+    positions[i] = vec4(p[k], 0);
+    velocities[i] = vec4(v[k], 0);
+    if (!isFiniteVec3(p[k]) || !isFiniteVec3(v[k])) {
+      ++nonfinite;
+      firstNonfinite = first + k;
+    }
+  }
+  maxStretch = maxOverStrand(maxStretch);
+  limitedEdges = sumOverStrand(limitedEdges);
+  degenerateEdges = sumOverStrand(degenerateEdges);
+  nonfinite = sumOverStrand(nonfinite);
+  firstNonfinite = minOverStrand(firstNonfinite);
+  if (lane == 0) {
+    StrandReport report = reports[strandIndex];
+    report.maxStretch = max(report.maxStretch, maxStretch);
+    report.limitedEdges += limitedEdges;
+    report.degenerateEdges += degenerateEdges;
+    report.nonfiniteParticles = nonfinite;
+    report.firstNonfinite = firstNonfinite;
+    reports[strandIndex] = report;
+  }
+}
+
+void main() {
+  findLane();
+  uint invocation = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
+  uint strandIndex = parameters.strandBegin + invocation / kLanes;
+  // No early return: the lanes of an idle strand repeat the last one and store nothing, so that every shuffle is whole.
+  bool idle = strandIndex >= parameters.strandEnd;
+  strand = strands[min(strandIndex, parameters.strandEnd - 1)];
+  if (idle) strand.particleCount = 0;
+  first = lane * RUN;
+  loadStrand();
+
+  for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
+    for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
+    measureEdges();
+    vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge.xyz);
+    vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
+    vec3 velocityStart = kIntegrator == kIntegratorPaper
+                             ? dv[0]
+                             : (firstEdge - rotate(rotationBefore(step), strand.firstEdge.xyz)) / stepSeconds();
+    smoothCurves(edgeStart, velocityStart, normalize(firstEdge));
+    shapeForces(rotationAtStart(step));
+    coreForces();
+    solveVelocities(step);
+    moveAndLimit(step);
+  }
+  measureEdges();  // the last step's stretch, for the report
+  if (!idle) storeStrand(strandIndex);
+}

@@ -1,0 +1,332 @@
+// The strand kernel, one thread per strand: the same steps as strand_step.comp on the same equations, sweep by sweep over
+// buffers. For strands longer than the lanes form holds, for devices without subgroup shuffles, and as its independent
+// check. Mirrored by reference/kernels/strand_step.h.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "shared/strand_buffers.glsl"
+#include "equations/bend_spring.glsl"
+#include "equations/core_spring.glsl"
+#include "equations/eliminate_edge.glsl"
+#include "equations/frame.glsl"
+#include "equations/chebyshev_weight.glsl"
+#include "equations/implicit_edge.glsl"
+#include "equations/smoothing.glsl"
+#include "equations/stretch_limit.glsl"
+#include "equations/stretch_spring.glsl"
+
+// Scratch of particle i and its edge, vec4s; M, z and the others share room, as each integrator needs only its own.
+const uint kEdge = 0;         // xyz direction, w length
+const uint kForce = 1;        // xyz all elastic forces of the edge
+const uint kCore = 2;         // xyz core spring on the smoothed curve, then back on the real edges
+const uint kTransfer = 3;     // 3 columns of M: v_{i+1} = M v_i + z                              (jacobi)
+const uint kOffset = 6;       // xyz z                                                            (jacobi)
+const uint kInverse = 3;      // D⁻¹, two vec4s: diagonal, off-diagonal                           (point_jacobi)
+const uint kRightHandSide = 5;  // xyz                                                            (point_jacobi)
+const uint kPrevious = 6;     // xyz velocity one iteration before                                (point_jacobi)
+const uint kCoreDirection = 3;  // xyz                                                            (paper)
+
+uint count;  // particles of the strand
+float maxStretch = 0.0;
+uint limitedEdges = 0;
+uint degenerateEdges = 0;
+
+// With taps the scratch follows them in the same buffer.
+#ifdef RINGLET_TAPS
+uint slot(uint i, uint field) {
+  return kTapCount * parameters.particleCount + (strand.firstParticle + i) * kScratchPerParticle + field;
+}
+#else
+uint slot(uint i, uint field) { return (strand.firstParticle + i) * kScratchPerParticle + field; }
+#endif
+vec3 scratchOf(uint i, uint field) { return scratch[slot(i, field)].xyz; }
+void setScratch(uint i, uint field, vec3 value) { scratch[slot(i, field)] = vec4(value, 0); }
+
+vec3 position(uint i) { return positions[strand.firstParticle + i].xyz; }
+vec3 velocity(uint i) { return velocities[strand.firstParticle + i].xyz; }
+void setPosition(uint i, vec3 p) { positions[strand.firstParticle + i] = vec4(p, 0); }
+void setVelocity(uint i, vec3 v) { velocities[strand.firstParticle + i] = vec4(v, 0); }
+ParticleRest restOf(uint i) { return particles[strand.firstParticle + i]; }
+float edgeScale(uint i) { return particles[strand.firstParticle + i].edgeScale; }
+float mass(uint i) { return particles[strand.firstParticle + i].mass; }
+float longestEdge(uint i) { return parameters.maxStretch * particles[strand.firstParticle + i].edgeLength; }
+
+// What one dispatch of a step hands to the next: the paper's core blend, or Chebyshev's weight. The tip has no edge, so
+// its place is free.
+void carry(float x) { scratch[slot(count - 1, kEdge)] = vec4(x, 0, 0, 0); }
+float loadCarried() { return scratch[slot(count - 1, kEdge)].x; }
+
+bool isPinned(uint i) { return i < parameters.rootCount; }
+vec3 pinnedVelocity(uint i, uint step) {
+  vec3 pin = strand.pins[i].xyz;
+  return (rotate(rotationAtEnd(step), pin) - rotate(rotationAtStart(step), pin)) / stepSeconds();
+}
+
+vec4 measuredEdge(uint i) {
+  vec3 e = position(i + 1) - position(i);
+  float squared = dot(e, e);
+  bool directed = squared > 1e-30;
+  float inverseLength = directed ? inversesqrt(squared) : 0.0;
+  float edgeLength = squared * inverseLength;
+  if (!directed) ++degenerateEdges;
+  maxStretch = max(maxStretch, edgeLength / restOf(i).edgeLength);
+  return vec4(directed ? e * inverseLength : vec3(1, 0, 0), edgeLength);
+}
+
+// Root to tip: edges, smoothed curves, frames, targets, stretch and bend springs, the core spring on the smoothed curve.
+// Returns the blend of the core's constants.
+float springSweep(uint step) {
+  vec4 frame = rotationAtStart(step);
+  vec3 firstEdge = rotate(frame, strand.firstEdge.xyz);
+  vec3 edgeStart = firstEdge;
+  vec3 velocityStart = (firstEdge - rotate(rotationBefore(step), strand.firstEdge.xyz)) / stepSeconds();
+  if (kIntegrator == kIntegratorPaper) {
+    edgeStart = position(1) - position(0);
+    velocityStart = velocity(1) - velocity(0);
+  }
+  FilterState bendCurve = startFilter(edgeStart);
+  FilterState core = startFilter(edgeStart);
+  FilterState coreVelocity = startFilter(velocityStart);
+  vec3 direction = normalize(firstEdge);
+  float coreLength = 0.0;
+  for (uint i = 0; i + 1 < count; ++i) {
+    ParticleRest rest = restOf(i);
+    vec4 edge = measuredEdge(i);
+    vec3 e = position(i + 1) - position(i);
+    scratch[slot(i, kEdge)] = edge;
+    smoothNext(bendCurve, e, strand.bendBeta);
+    smoothNext(core, e, strand.coreBeta);
+    smoothNext(coreVelocity, velocity(i + 1) - velocity(i), strand.coreBeta);
+
+    vec3 target = rotate(frame, rest.target.xyz);
+    vec3 next = directionOr(bendCurve.d, direction);
+    frame = turned(smallestTurn(direction, next), frame);
+    if (i % 16 == 15) frame = renormalized(frame);
+    direction = next;
+    vec3 stretch = stretchForce(strand.stretchStiffness * rest.edgeScale, edge.w, rest.target.w, edge.xyz);
+    vec3 bend = bendForce(strand.bendStiffness * rest.edgeScale, e, target);
+    setScratch(i, kForce, stretch + bend);
+
+    float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping;
+    setScratch(i, kCore, coreForce(strand.coreStiffness * rest.edgeScale, damping * rest.edgeScale, core.d,
+                                   rest.coreEdgeLength, coreVelocity.d));
+    if (kIntegrator == kIntegratorPaper) setScratch(i, kCoreDirection, directionOr(core.d, vec3(0)));
+    coreLength += length(core.d);
+    RINGLET_TAP(kTapSmoothedEdge, i, vec4(bendCurve.d, 0));
+    RINGLET_TAP(kTapCoreEdge, i, vec4(core.d, 0));
+    RINGLET_TAP(kTapFrame, i, frame);
+    RINGLET_TAP(kTapTarget, i, vec4(target, 0));
+    RINGLET_TAP(kTapStretchForce, i, vec4(stretch, 0));
+    RINGLET_TAP(kTapBendForce, i, vec4(bend, 0));
+  }
+  return coreBlend(coreLength / strand.restCoreLength, parameters.coreRelaxedShare, parameters.coreElongationLow,
+                   parameters.coreElongationHigh);
+}
+
+// Tip to root: the core's forces back on the real edges by the transposed smoothing.
+void coreSweep(float coreScale) {
+  FilterState state = startFilter(vec3(0));
+  for (uint i = count - 1; i-- > 0;) {
+    vec3 g = scratchOf(i, kCore);
+    if (kIntegrator != kIntegratorPaper) {
+      smoothNext(state, g, strand.coreBeta);
+      g = state.d;
+    }
+    g *= coreScale;
+    RINGLET_TAP(kTapCoreForce, i, vec4(g, 0));
+    setScratch(i, kForce, scratchOf(i, kForce) + g);
+  }
+}
+
+vec3 forceOn(uint i) {
+  vec3 force = i + 1 < count ? scratchOf(i, kForce) : vec3(0);
+  return i > 0 ? force - scratchOf(i - 1, kForce) : force;
+}
+vec3 rightHandSide(uint i) {
+  float m = mass(i);
+  return m * velocity(i) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
+}
+ImplicitEdge implicitEdgeOf(uint i) {
+  float s = edgeScale(i);
+  return implicitEdge(scratchOf(i, kEdge), stepSeconds(), strand.stretchStiffness * s, strand.stretchDamping * s,
+                      strand.bendStiffness * s, strand.bendDamping * s);
+}
+
+void solveStrandBlock(uint step) {
+  uint tip = count - 1;
+  Symmetric P = symmetricDiagonal(mass(tip));
+  vec3 y = rightHandSide(tip);
+  for (uint i = tip; i-- > 0;) {
+    Elimination eliminated = eliminateEdge(implicitEdgeOf(i), P, y);
+    for (uint c = 0; c < 3; ++c) setScratch(i, kTransfer + c, eliminated.transfer[c]);
+    setScratch(i, kOffset, eliminated.offset);
+    P = addDiagonal(P, mass(i));
+    y += rightHandSide(i);
+  }
+  vec3 v = vec3(0);
+  for (uint i = 0; i < count; ++i) {
+    if (isPinned(i)) {
+      v = pinnedVelocity(i, step);
+    } else {
+      mat3 M = mat3(scratchOf(i - 1, kTransfer), scratchOf(i - 1, kTransfer + 1), scratchOf(i - 1, kTransfer + 2));
+      v = M * v + scratchOf(i - 1, kOffset);
+    }
+    setVelocity(i, v);
+  }
+}
+
+void beginPointJacobi(uint step) {
+  for (uint i = 0; i < count; ++i) {
+    Symmetric D = symmetricDiagonal(mass(i));
+    for (uint side = 0; side < 2; ++side) {  // its edge, then the edge before
+      if (side == 0 ? i + 1 >= count : i == 0) continue;
+      ImplicitEdge edge = implicitEdgeOf(i - side);
+      D = addOuter(addDiagonal(D, edge.across), edge.along, edge.direction);
+    }
+    D = inverse(D);
+    setScratch(i, kInverse, D.d);
+    setScratch(i, kInverse + 1, D.o);
+    setScratch(i, kRightHandSide, rightHandSide(i));
+  }
+  for (uint i = 0; i < count; ++i) {
+    if (isPinned(i)) setVelocity(i, pinnedVelocity(i, step));
+    setScratch(i, kPrevious, velocity(i));
+  }
+}
+
+void iteratePointJacobi() {
+  float omega = loadCarried();
+  for (uint iteration = parameters.loopBegin; iteration < parameters.loopEnd; ++iteration) {
+    if (parameters.chebyshev != 0 && iteration > 0) {
+      omega = chebyshevWeight(iteration, omega, strand.jacobiGap);
+    }
+    vec3 rootwardNow = vec3(0);
+    for (uint i = 0; i < count; ++i) {
+      vec3 now = velocity(i);
+      vec3 rhs = scratchOf(i, kRightHandSide);
+      if (i + 1 < count) rhs += multiply(implicitEdgeOf(i), velocity(i + 1));
+      if (i > 0) rhs += multiply(implicitEdgeOf(i - 1), rootwardNow);
+      vec3 jacobi = multiply(Symmetric(scratchOf(i, kInverse), scratchOf(i, kInverse + 1)), rhs);
+      vec3 previous = scratchOf(i, kPrevious);
+      if (!isPinned(i)) setVelocity(i, parameters.chebyshev != 0 ? omega * (jacobi - previous) + previous : jacobi);
+      setScratch(i, kPrevious, now);
+      rootwardNow = now;
+    }
+  }
+  carry(omega);
+}
+
+void loopAsThePaper() {
+  float coreScale = loadCarried();
+  float dtForce = stepSeconds() / float(parameters.forceLoops);
+  float dtDamping = dtForce / float(parameters.dampingLoops);
+  for (uint loop = parameters.loopBegin; loop < parameters.loopEnd; ++loop) {
+    for (uint i = parameters.rootCount; i < count; ++i) {
+      setVelocity(i, velocity(i) + dtForce * (forceOn(i) / mass(i) + parameters.gravity.xyz));
+    }
+    for (uint inner = 0; inner < parameters.dampingLoops; ++inner) {
+      vec3 start = velocity(1) - velocity(0);
+      FilterState nu = startFilter(start);
+      vec3 before = vec3(0);
+      vec3 here = velocity(0);
+      for (uint i = 0; i < count; ++i) {
+        vec3 damping = vec3(0);
+        vec3 next = here;
+        if (i + 1 < count) {
+          next = velocity(i + 1);
+          vec3 dv = next - here;
+          smoothNext(nu, dv, strand.coreBeta);
+          vec3 direction = scratchOf(i, kEdge);
+          vec3 core = scratchOf(i, kCoreDirection);
+          vec3 stretching = dot(dv, direction) * direction;
+          damping = edgeScale(i) * (strand.stretchDamping * stretching + strand.bendDamping * (dv - stretching) +
+                                    coreScale * strand.coreDamping * dot(nu.d, core) * core);
+        }
+        if (!isPinned(i)) setVelocity(i, here + dtDamping / mass(i) * (damping - before));
+        before = damping;
+        here = next;
+      }
+      vec3 shift = vec3(0);
+      for (uint i = parameters.rootCount; i < count; ++i) {  // edge i - 1, rates before limiting
+        vec4 edge = scratch[slot(i - 1, kEdge)];
+        vec3 rootwardNow = velocity(i - 1) - shift;
+        float fastest = max(0.0, (longestEdge(i - 1) - edge.w) / stepSeconds());
+        shift += limitedRateChange(velocity(i) - rootwardNow, edge.xyz, fastest);
+        setVelocity(i, velocity(i) + shift);
+      }
+    }
+  }
+}
+
+// Root to tip: p += T v, then the stretch limit with the edges as they are before limiting. The moved edges come from
+// edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
+void moveAndLimit(uint step) {
+  float T = stepSeconds();
+  vec3 shift = vec3(0);
+  vec3 velocityBefore = vec3(0);
+  for (uint i = 0; i < count; ++i) {
+    vec3 v = velocity(i);
+    if (isPinned(i)) {
+      setPosition(i, rotate(rotationAtEnd(step), strand.pins[i].xyz));
+    } else {
+      vec4 edge = scratch[slot(i - 1, kEdge)];
+      vec3 change = limitedEdgeChange(edge.w * edge.xyz + T * (v - velocityBefore), longestEdge(i - 1));
+      if (change != vec3(0)) ++limitedEdges;
+      shift += change;
+      setPosition(i, position(i) + T * v + shift);
+      setVelocity(i, v + shift / T);
+    }
+    velocityBefore = v;
+  }
+}
+
+void storeReport(uint strandIndex) {
+  StrandReport report = reports[strandIndex];
+  report.nonfiniteParticles = 0;
+  report.firstNonfinite = ~0u;
+  for (uint i = 0; i < count; ++i) {
+    if (isFiniteVec3(position(i)) && isFiniteVec3(velocity(i))) continue;
+    if (report.nonfiniteParticles == 0) report.firstNonfinite = i;
+    ++report.nonfiniteParticles;
+  }
+  for (uint i = 0; i + 1 < count; ++i) measuredEdge(i);  // the last step's stretch
+  report.maxStretch = max(report.maxStretch, maxStretch);
+  report.limitedEdges += limitedEdges;
+  report.degenerateEdges += degenerateEdges;
+  reports[strandIndex] = report;
+}
+
+void springs(uint step) {
+  for (uint i = 0; i < count; ++i) setVelocity(i, velocity(i) - headVelocityChange(step));
+  float coreScale = springSweep(step);
+  coreSweep(coreScale);
+  if (kIntegrator == kIntegratorPointJacobi) {
+    beginPointJacobi(step);
+    carry(1.0);
+  }
+  if (kIntegrator == kIntegratorPaper) {
+    for (uint i = 0; i < min(count, parameters.rootCount); ++i) setVelocity(i, pinnedVelocity(i, step));
+    carry(coreScale);
+  }
+}
+
+void main() {
+  uint strandIndex = parameters.strandBegin + gl_GlobalInvocationID.x;
+  if (strandIndex >= parameters.strandEnd) return;
+  strand = strands[strandIndex];
+  count = strand.particleCount;
+  for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
+    if ((parameters.phases & kPhaseSprings) != 0) springs(step);
+    if ((parameters.phases & kPhaseSolve) != 0) {
+      if (kIntegrator == kIntegratorJacobi) solveStrandBlock(step);
+      if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi();
+      if (kIntegrator == kIntegratorPaper) loopAsThePaper();
+    }
+    if ((parameters.phases & kPhaseMove) == 0) continue;
+#ifdef RINGLET_TAPS
+    for (uint i = 0; i < count; ++i) RINGLET_TAP(kTapVelocity, i, vec4(velocity(i), 0));
+#endif
+    moveAndLimit(step);
+  }
+  storeReport(strandIndex);
+}

@@ -1,0 +1,122 @@
+// Everything GLSL and C++ must agree on: structs, binding numbers, push constants, limits. One text, read by both.
+// "Device order" is the order strands and particles have in the buffers; RestState decides it once.
+#ifndef RINGLET_SHADERS_SHARED_LAYOUT_H
+#define RINGLET_SHADERS_SHARED_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace ringlet::layout {
+using uint = std::uint32_t;
+struct alignas(16) vec4 {
+  float x = 0, y = 0, z = 0, w = 0;
+};
+#define RINGLET_CONSTANT inline constexpr
+#else
+#define RINGLET_CONSTANT const
+#endif
+
+// Bindings of the strand_step kernels, all in set 0.
+RINGLET_CONSTANT uint kBindPositions = 0;   // vec4[particles]: position relative to the head [m], 0
+RINGLET_CONSTANT uint kBindVelocities = 1;  // vec4[particles]: velocity relative to the head's translation [m/s], 0
+RINGLET_CONSTANT uint kBindParticles = 2;   // ParticleRest[particles]
+RINGLET_CONSTANT uint kBindStrands = 3;     // StrandRest[strands]
+RINGLET_CONSTANT uint kBindReports = 4;     // StrandReport[strands]
+RINGLET_CONSTANT uint kBindScratch = 5;     // serial form: vec4[particles][kScratchPerParticle]; taps: vec4[field][particles]
+RINGLET_CONSTANT uint kBindPoses = 6;       // uniform: StepPose[kMaxStepPoses]
+
+// Integrators (specialization constant 2).
+RINGLET_CONSTANT uint kIntegratorJacobi = 0;
+RINGLET_CONSTANT uint kIntegratorPointJacobi = 1;
+RINGLET_CONSTANT uint kIntegratorPaper = 2;
+
+// 16 KiB, the smallest uniform buffer Vulkan guarantees: 510 outer steps in a frame and the two poses before them.
+RINGLET_CONSTANT uint kMaxStepPoses = 512;
+RINGLET_CONSTANT uint kMaxRootCount = 3;
+RINGLET_CONSTANT uint kScratchPerParticle = 8;
+
+// Parts of an outer step. A dispatch of the serial form may do only some: where one step of a long strand would exceed
+// what an invocation may loop on this device, its solve is spread over several dispatches.
+RINGLET_CONSTANT uint kPhaseSprings = 1;
+RINGLET_CONSTANT uint kPhaseSolve = 2;
+RINGLET_CONSTANT uint kPhaseMove = 4;
+RINGLET_CONSTANT uint kPhaseAll = 7;
+
+// Fields the kernels write when compiled with RINGLET_TAPS, each vec4[particles]; an edge's fields stand at its particle i.
+RINGLET_CONSTANT uint kTapSmoothedEdge = 0;  // d_i, smoothed with alpha_b [m]
+RINGLET_CONSTANT uint kTapCoreEdge = 1;      // b_i, smoothed with alpha_c [m]
+RINGLET_CONSTANT uint kTapFrame = 2;         // F_i, quaternion (x, y, z, w)
+RINGLET_CONSTANT uint kTapTarget = 3;        // t_i [m]
+RINGLET_CONSTANT uint kTapStretchForce = 4;  // f_s,i, elastic part [mass unit m/s^2]
+RINGLET_CONSTANT uint kTapBendForce = 5;     // f_b,i, elastic part [mass unit m/s^2]
+RINGLET_CONSTANT uint kTapCoreForce = 6;     // g_i [mass unit m/s^2]
+RINGLET_CONSTANT uint kTapVelocity = 7;      // v_i after the solve, before the stretch limit [m/s]
+RINGLET_CONSTANT uint kTapCount = 8;
+
+// Constant per particle i and its edge i (to i + 1). Forces are per mass unit: the strand's line density times its mean
+// edge length, so that masses are about 1 and float32 keeps its digits.
+struct ParticleRest {
+  vec4 target;     // xyz: rest vector of the edge in frame F_{i-1} [m]; w: rest length of the stretch spring [m]
+  float mass;      // [mass unit]
+  float edgeLength;      // the groom's edge [m]: the stretch limit refers to it
+  float coreEdgeLength;  // |b_i| at rest [m]
+  float edgeScale;       // the strand's constants times this are the edge's: 1 / edge length, or 1 for `paper`
+};
+
+// Constant per strand. Stiffnesses K [N / mass unit], dampings C [N s/m m / mass unit]: times edgeScale, per edge.
+struct StrandRest {
+  uint firstParticle;
+  uint particleCount;
+  float bendBeta;  // smoothing weight 1 - exp(-l / alpha_b)
+  float coreBeta;  // and with alpha_c
+  float stretchStiffness;
+  float stretchDamping;
+  float bendStiffness;
+  float bendDamping;  // compensated for the step's own damping where the integrator is implicit
+  float coreStiffness;
+  float coreDamping;
+  float restCoreLength;  // sum of |b_i| at rest [m]
+  float jacobiGap;       // 1 - mu^2, mu a bound on the spectral radius of the point Jacobi iteration: the gap keeps its digits
+  vec4 firstEdge;        // xyz: e_0 at rest [m]; w: mass unit [kg]
+  vec4 pins[kMaxRootCount];  // xyz: rest positions of the first particles, which the head carries [m]
+};
+
+// What the numbers did, per strand; the first three since the simulation began.
+struct StrandReport {
+  float maxStretch;         // longest edge over the groom's edge
+  uint limitedEdges;        // edges x steps the stretch limit touched
+  uint degenerateEdges;     // edges x steps that had no direction
+  uint nonfiniteParticles;  // now
+  uint firstNonfinite;      // the first of them, counted along the strand
+};
+
+// The head, per outer step. poses[0] is one step before the frame, poses[1] its start, poses[2 + k] the end of step k.
+struct StepPose {
+  vec4 rotation;        // quaternion (x, y, z, w)
+  vec4 velocityChange;  // xyz: how much faster the head travels in this step than in the one before [m/s]
+};
+
+struct StepParameters {
+  vec4 gravity;  // xyz [m/s^2]; w: the outer step T [s]
+  float maxStretch;
+  float coreRelaxedShare;
+  float coreElongationLow;
+  float coreElongationHigh;
+  uint strandBegin;  // this dispatch's strands, device order
+  uint strandEnd;
+  uint stepBegin;  // this dispatch's steps within the frame
+  uint stepEnd;
+  uint rootCount;
+  uint pointIterations;
+  uint chebyshev;
+  uint forceLoops;
+  uint dampingLoops;
+  uint particleCount;  // of the whole groom: stride of the taps
+  uint phases;         // serial form: which parts of the step to do
+  uint loopBegin;      // serial form: which of the solve's iterations (point_jacobi) or force loops (paper) to do
+  uint loopEnd;
+};
+
+#ifdef __cplusplus
+}  // namespace ringlet::layout
+#endif
+#endif

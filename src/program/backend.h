@@ -1,0 +1,54 @@
+// Backend: what `ringlet simulate` steps hair with, the GPU's solver or the CPU reference. Thin: both are
+// complete simulations already, and this only gives them one face.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/rest/material.h"
+#include "ringlet/scene/head_pose.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/solver/simulation.h"
+
+namespace ringlet::program {
+
+/// What a simulation starts from.
+struct BackendInput {
+  const Groom& groom;
+  const Material& material;
+  const Settings& settings;
+  HeadPose start, oneStepEarlier;
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+
+  /// One frame, finished when this returns; stepPoses[k] is the head's pose at the end of step k.
+  virtual Status stepFrame(std::span<const HeadPose> stepPoses) = 0;
+  /// Groom order, relative to the head's origin, along world axes [m].
+  virtual Result<std::vector<Vec3f>> positions() = 0;
+  virtual Result<SimulationReport> report() = 0;
+  /// By stage, summed over all frames [ms].
+  virtual std::map<std::string, double> stageMilliseconds() const = 0;
+  virtual std::vector<std::string> warnings() const = 0;
+
+  virtual std::string device() const = 0;
+  virtual std::string driver() const = 0;
+  virtual std::string kernel() const = 0;
+};
+
+/// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open).
+Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
+                                                const KernelChoice& kernel);
+
+/// The reference in double precision, on one thread. Trusts that the groom came from readGroom and is sound.
+std::unique_ptr<Backend> makeReferenceBackend(const BackendInput& input);
+
+}  // namespace ringlet::program

@@ -1,0 +1,141 @@
+// Implements command_line.h.
+#include "program/command_line.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <numeric>
+#include <system_error>
+
+namespace ringlet::program {
+namespace {
+
+// Levenshtein's distance, a row at a time.
+std::size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+// The subcommand the user meant, innermost: `make curl`, not `make`.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app : innermost(*chosen.front());
+}
+
+std::string fullName(const CLI::App& app) {
+  return app.get_parent() ? fullName(*app.get_parent()) + " " + app.get_name() : app.get_name();
+}
+
+}  // namespace
+
+std::string closestName(std::string_view word, const std::vector<std::string>& names) {
+  std::string closest;
+  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& name : names) {
+    const std::size_t distance = editDistance(word, name);
+    if (distance < least && distance < name.size()) {
+      least = distance;
+      closest = name;
+    }
+  }
+  return closest;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
+  const std::string closest = closestName(word, names);
+  return closest.empty() ? "" : fmt::format("; did you mean {}?", closest);
+}
+
+CLI::Validator oneOf(std::vector<std::string> names) {
+  return CLI::Validator(
+      [names](std::string& word) {
+        if (std::find(names.begin(), names.end(), word) != names.end()) return std::string();
+        return fmt::format("there is no '{}' (only {}){}", word, fmt::join(names, ", "),
+                           suggestion(word, names));
+      },
+      "");
+}
+
+CLI::Validator between(double low, double high) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        const bool isNumber = end != text.c_str() && *end == '\0';
+        if (isNumber && value >= low && value <= high) return std::string();  // NaN is neither
+        return fmt::format("must be a number from {} to {}, not '{}'", low, high, text);
+      },
+      "");
+}
+
+CLI::Validator wholeBetween(int low, int high) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        int value = 0;
+        const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool isWhole = code == std::errc() && end == text.data() + text.size();
+        if (isWhole && value >= low && value <= high) return std::string();
+        return fmt::format("must be a whole number from {} to {}, not '{}'", low, high, text);
+      },
+      "");
+}
+
+CLI::Validator endsIn(std::vector<std::string> extensions) {
+  return CLI::Validator(
+      [extensions](std::string& path) {
+        std::string extension = std::filesystem::path(path).extension().string();
+        for (char& c : extension) {
+          if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+        }
+        if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+          return std::string();
+        return fmt::format("'{}' must end in {}", path, fmt::join(extensions, " or "));
+      },
+      "");
+}
+
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& command = innermost(app);
+  std::string what = error.what();
+
+  // The first word nobody knows: an option, or a subcommand where one was due.
+  const std::vector<std::string> unknown = app.remaining(true);
+  std::vector<std::string> commands;
+  const auto subcommands = command.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* subcommand : subcommands) commands.push_back(subcommand->get_name());
+  if (unknown.empty() && !commands.empty() && command.get_subcommands().empty()) {
+    what = fmt::format("say what to do: {}", fmt::join(commands, ", "));
+  }
+  if (!unknown.empty()) {
+    const std::string& word = unknown.front();
+    if (word.starts_with("-")) {
+      std::vector<std::string> names;
+      for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+      }
+      what = fmt::format("there is no option {}{}", word, suggestion(word, names));
+    } else if (!commands.empty()) {
+      what = fmt::format("there is no command '{}' (only {}){}", word, fmt::join(commands, ", "),
+                         suggestion(word, commands));
+    } else {
+      what = fmt::format("one word too many: '{}'", word);
+    }
+  }
+  return fmt::format("{}: {}\nSee {} --help.", fullName(command), what, fullName(command));
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,31 @@
+// What the subcommands' options share: checks whose messages tell a person what would be right.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ringlet::program {
+
+/// The name nearest to `word` (by insertions, deletions and replacements), or empty if none is near.
+std::string closestName(std::string_view word, const std::vector<std::string>& names);
+
+/// "; did you mean NAME?", or nothing if none is near.
+std::string suggestion(std::string_view word, const std::vector<std::string>& names);
+
+/// Accepts one of these names only, and suggests the closest to any other.
+CLI::Validator oneOf(std::vector<std::string> names);
+
+/// Accepts finite numbers from low to high.
+CLI::Validator between(double low, double high);
+/// The same for whole numbers.
+CLI::Validator wholeBetween(int low, int high);
+
+/// Accepts a path that ends in one of these extensions, in either case.
+CLI::Validator endsIn(std::vector<std::string> extensions);
+
+/// What to print for a command line that CLI11 refused: which subcommand, what is wrong, the closest name.
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& error);
+
+}  // namespace ringlet::program

@@ -1,0 +1,69 @@
+// Implements devices_command.h.
+#include "program/devices_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "program/exit_codes.h"
+#include "ringlet/solver/compute_device.h"
+
+namespace ringlet::program {
+namespace {
+
+nlohmann::ordered_json asJson(const std::vector<DeviceSummary>& devices) {
+  nlohmann::ordered_json json;
+  json["devices"] = nlohmann::json::array();
+  for (const DeviceSummary& device : devices) {
+    json["devices"].push_back({{"index", device.index},
+                               {"name", device.name},
+                               {"type", device.type},
+                               {"driver", device.driver},
+                               {"usable", device.usable},
+                               {"why", device.why}});
+  }
+  return json;
+}
+
+std::string asText(const std::vector<DeviceSummary>& devices) {
+  // Columns as wide as their widest entry.
+  std::size_t nameWidth = 4;
+  for (const DeviceSummary& device : devices) nameWidth = std::max(nameWidth, device.name.size());
+  std::string text;
+  for (const DeviceSummary& device : devices) {
+    text += fmt::format("{:>2}  {:<{}}  {:<10}  {}{}\n", device.index, device.name, nameWidth, device.type,
+                        device.driver, device.usable ? "" : "  (unusable: " + device.why + ")");
+  }
+  return text;
+}
+
+int run(bool json) {
+  const auto devices = ComputeDevice::list();
+  if (json) {
+    fmt::print("{}\n", asJson(devices).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  } else {
+    fmt::print("{}", asText(devices));
+  }
+  if (std::any_of(devices.begin(), devices.end(), [](const DeviceSummary& d) { return d.usable; }))
+    return kExitFine;
+  fmt::print(
+      stderr,
+      "ringlet devices: {}; install a Vulkan driver (Debian: mesa-vulkan-drivers has one for the CPU)\n",
+      devices.empty() ? "there is no Vulkan device" : "no device can be used");
+  return kExitFailed;
+}
+
+}  // namespace
+
+void addDevicesCommand(CLI::App& app, int& exitCode) {
+  auto json = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("devices", "Lists the Vulkan devices");
+  command->add_flag("--json", *json, "Print one JSON object");
+  command->footer("Example:\n  ringlet devices\n  ringlet simulate groom.obj --device 0 -o out");
+  command->callback([json, &exitCode] { exitCode = run(*json); });
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,46 @@
+// `--backend gpu`: ringlet::Simulation behind backend.h.
+#include <utility>
+
+#include "program/backend.h"
+
+namespace ringlet::program {
+namespace {
+
+class GpuBackend : public Backend {
+ public:
+  GpuBackend(ComputeDevice device, Simulation simulation)
+      : device_(std::move(device)), simulation_(std::move(simulation)) {}
+
+  Status stepFrame(std::span<const HeadPose> stepPoses) override { return simulation_.stepFrame(stepPoses); }
+  Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
+  Result<SimulationReport> report() override { return simulation_.report(); }
+  std::map<std::string, double> stageMilliseconds() const override { return simulation_.stageMilliseconds(); }
+  /// The solver's own, and the validation layer's where it is on.
+  std::vector<std::string> warnings() const override {
+    std::vector<std::string> all = simulation_.warnings();
+    for (const std::string& message : device_.validationMessages())
+      all.push_back("Vulkan validation: " + message);
+    return all;
+  }
+  std::string device() const override { return device_.name(); }
+  std::string driver() const override { return device_.driver(); }
+  std::string kernel() const override { return simulation_.kernelDescription(); }
+
+ private:
+  ComputeDevice device_;
+  Simulation simulation_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
+                                                const KernelChoice& kernel) {
+  auto device = ComputeDevice::open(deviceChoice);
+  if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
+  auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
+                                       input.oneStepEarlier, kernel);
+  if (!simulation) return simulation.error();
+  return std::unique_ptr<Backend>(std::make_unique<GpuBackend>(std::move(*device), std::move(*simulation)));
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,27 @@
+// Implements interruption.h.
+#include "program/interruption.h"
+
+#include <csignal>
+
+namespace ringlet::program {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void noteInterruption(int) { interrupted = 1; }
+
+}  // namespace
+
+void catchInterruption() {
+  struct sigaction action {};
+  action.sa_handler = noteInterruption;
+  // RESETHAND: the second one finds the system's own handler. RESTART: no file operation fails because of the
+  // first.
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool wasInterrupted() { return interrupted != 0; }
+
+}  // namespace ringlet::program

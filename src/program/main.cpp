@@ -1,0 +1,51 @@
+// The `ringlet` command. Each subcommand has a file; this one only joins them and turns a wrong command line
+// into advice.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "program/command_line.h"
+#include "program/devices_command.h"
+#include "program/exit_codes.h"
+#include "program/make_command.h"
+#include "program/simulate_command.h"
+
+int main(int argumentCount, char** arguments) {
+  using namespace ringlet::program;
+  int exitCode = kExitFine;
+
+  CLI::App app("Ringlet simulates stylised curly hair on the GPU.", "ringlet");
+  app.set_version_flag("--version", "ringlet " RINGLET_VERSION);
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(28);
+  app.footer(
+      "Example:\n  ringlet make head -o head.obj\n  ringlet simulate head.obj -o out\n\nEach command has its "
+      "own --help.");
+  addMakeCommand(app, exitCode);
+  addSimulateCommand(app, exitCode);
+  addDevicesCommand(app, exitCode);
+
+  try {
+    app.parse(argumentCount, arguments);
+  } catch (const CLI::Success& asked) {
+    return app.exit(asked);  // --help, --version
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "{}\n", usageMessage(app, error));
+    return kExitUsage;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "ringlet: not enough memory for this groom\n");
+    return kExitFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ringlet: {}\n", error.what());
+    return kExitFailed;
+  }
+  // A full disk or a closed pipe behind standard output is a failure too: someone waits for that text.
+  if (std::fflush(stdout) != 0 && exitCode == kExitFine) {
+    fmt::print(stderr, "ringlet: cannot write to standard output\n");
+    return kExitFailed;
+  }
+  return exitCode;
+}

@@ -1,0 +1,57 @@
+// `--backend reference`: reference::Simulation<double> behind backend.h.
+#include <chrono>
+
+#include "program/backend.h"
+#include "reference/step.h"
+
+namespace ringlet::program {
+namespace {
+
+class ReferenceBackend : public Backend {
+ public:
+  explicit ReferenceBackend(const BackendInput& input)
+      : simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier) {}
+
+  Status stepFrame(std::span<const HeadPose> stepPoses) override {
+    const auto start = std::chrono::steady_clock::now();
+    simulation_.stepFrame(stepPoses);
+    milliseconds_ +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return {};
+  }
+
+  Result<std::vector<Vec3f>> positions() override {
+    std::vector<Vec3f> points;
+    points.reserve(simulation_.positions().size());
+    for (const auto& p : simulation_.positions()) points.push_back(Vec3f(Vec3d{p.x(), p.y(), p.z()}));
+    return points;
+  }
+
+  Result<SimulationReport> report() override {
+    const auto from = simulation_.report();
+    return SimulationReport{.maxEdgeStretch = from.maxEdgeStretch,
+                            .limitedShare = from.limitedShare(),
+                            .nonfinite = from.nonfinite,
+                            .degenerateEdges = from.degenerateEdges};
+  }
+
+  std::map<std::string, double> stageMilliseconds() const override {
+    return {{"strand_step", milliseconds_}};
+  }
+  std::vector<std::string> warnings() const override { return {}; }
+  std::string device() const override { return "CPU, one thread"; }
+  std::string driver() const override { return "none"; }
+  std::string kernel() const override { return "reference, double precision"; }
+
+ private:
+  reference::Simulation<double> simulation_;
+  double milliseconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> makeReferenceBackend(const BackendInput& input) {
+  return std::make_unique<ReferenceBackend>(input);
+}
+
+}  // namespace ringlet::program

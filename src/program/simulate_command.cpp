@@ -1,0 +1,301 @@
+// Implements simulate_command.h: options to SimulateOptions, SimulateOutcome to text or JSON. The run is
+// simulate_run.cpp.
+#include "program/simulate_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "program/command_line.h"
+#include "program/exit_codes.h"
+#include "program/simulate_run.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr int kMostFrames = 1'000'000;  // eleven hours at 24 a second; more is a slip of the finger
+constexpr int kStepsPerFrame = 8, kPaperStepsPerFrame = 30;
+constexpr const char* kExample =
+    "Example:\n"
+    "  ringlet make head -o head.obj && ringlet simulate head.obj --motion shake --frames 48 -o out\n"
+    "\n"
+    "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "
+    "frame, in the\n"
+    "groom's order and unit), sheet.png (six frames side by side). Ctrl-C stops after the current frame and "
+    "keeps what\n"
+    "is finished; until a run ends its animation is hair.usda.partial, which is valid at all times.\n"
+    "\n"
+    "--json keys: frames strands particles ms_per_frame (wall time of stepping alone, without reading back "
+    "and writing)\n"
+    "stages_ms (per frame, by stage) max_edge_stretch limited_share nonfinite device driver kernel backend\n"
+    "positions_hash integrator steps_per_frame fps interrupted warnings outputs.\n"
+    "\n"
+    "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
+    "Ctrl-C.";
+
+// The command line as typed; names become values in resolve().
+struct Typed {
+  SimulateOptions options;
+  std::string integrator = "jacobi", motion = "shake", up = "Y", backend = "gpu", kernel = "auto";
+  std::optional<int> stepsPerFrame;
+  std::optional<double> preload;
+  double gravity = 9.81;
+  bool noChebyshev = false, json = false, quiet = false;
+  bool iterationsGiven = false;
+};
+
+// What one option means for another. Throws CLI11's error for what makes no sense together.
+void resolve(Typed& typed) {
+  SimulateOptions& options = typed.options;
+  Settings& settings = options.settings;
+  options.up = typed.up == "Z" ? UpAxis::z : UpAxis::y;
+  const Vec3d up = options.up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
+  settings.gravity = up * -typed.gravity;
+  options.motion = motionByName(typed.motion, up).value();
+
+  // The paper's own scheme is explicit: it needs short steps, and knows no preload.
+  const bool isPaper = typed.integrator == "paper", isPoint = typed.integrator == "point_jacobi";
+  settings.integrator = isPaper ? Integrator::paper : isPoint ? Integrator::pointJacobi : Integrator::jacobi;
+  settings.stepsPerFrame = typed.stepsPerFrame.value_or(isPaper ? kPaperStepsPerFrame : kStepsPerFrame);
+  settings.gravityPreload = typed.preload.value_or(isPaper ? 0 : 1);
+  settings.chebyshev = !typed.noChebyshev;
+  if (!isPoint && (typed.iterationsGiven || typed.noChebyshev)) {
+    throw CLI::ValidationError(typed.noChebyshev ? "--no-chebyshev" : "--iterations",
+                               "only --integrator point_jacobi has iterations");
+  }
+
+  options.onReference = typed.backend == "reference";
+  if (options.onReference && (!options.device.empty() || typed.kernel != "auto")) {
+    throw CLI::ValidationError(typed.kernel != "auto" ? "--kernel" : "--device",
+                               "only --backend gpu has a device and kernels");
+  }
+  using Form = KernelChoice::Form;
+  options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
+                        : typed.kernel == "serial" ? Form::serial
+                                                   : Form::automatic;
+  options.showProgress = !typed.quiet;
+}
+
+std::vector<std::string> motionNameList() {
+  std::vector<std::string> names;
+  std::string all = motionNames();
+  for (std::size_t at = 0, comma; at < all.size(); at = comma + 2) {
+    comma = std::min(all.find(", ", at), all.size());
+    names.push_back(all.substr(at, comma - at));
+  }
+  return names;
+}
+
+nlohmann::ordered_json asJson(const Typed& typed, const SimulateOutcome& outcome) {
+  const Settings& settings = typed.options.settings;
+  nlohmann::ordered_json json;
+  json["frames"] = outcome.frameCount;
+  json["strands"] = outcome.strandCount;
+  json["particles"] = outcome.particleCount;
+  json["ms_per_frame"] = outcome.millisecondsPerFrame;
+  json["stages_ms"] = outcome.stages;
+  json["max_edge_stretch"] = outcome.report.maxEdgeStretch;
+  json["limited_share"] = outcome.report.limitedShare;
+  json["nonfinite"] = outcome.report.nonfinite;
+  json["device"] = outcome.device;
+  json["driver"] = outcome.driver;
+  json["kernel"] = outcome.kernel;
+  json["backend"] = typed.backend;
+  json["positions_hash"] = outcome.positionsHash;
+  json["integrator"] = typed.integrator;
+  json["steps_per_frame"] = settings.stepsPerFrame;
+  json["fps"] = settings.framesPerSecond;
+  json["interrupted"] = outcome.interrupted;
+  json["warnings"] = outcome.warnings;
+  json["outputs"] = nlohmann::json::array();
+  for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
+  return json;
+}
+
+std::string asText(const Typed& typed, const SimulateOutcome& outcome) {
+  const Settings& settings = typed.options.settings;
+  std::string text = fmt::format("{} frame{} of {} strand{}, {} particles{}\n", outcome.frameCount,
+                                 outcome.frameCount == 1 ? "" : "s", outcome.strandCount,
+                                 outcome.strandCount == 1 ? "" : "s", outcome.particleCount,
+                                 outcome.interrupted ? " (interrupted)" : "");
+  text += fmt::format("  stepped by    {}, {} steps a frame, on {} ({})\n", typed.integrator,
+                      settings.stepsPerFrame, outcome.device, outcome.kernel);
+  text +=
+      fmt::format("  a frame took  {:.2f} ms to step, {:.2f} ms to read back, {:.2f} ms to write\n",
+                  outcome.millisecondsPerFrame, outcome.stages.at("readback"), outcome.stages.at("write"));
+  text +=
+      fmt::format("  longest edge  {:.4f} x its length in the groom; the limit touched {:.3g} % of edges\n",
+                  outcome.report.maxEdgeStretch, 100 * outcome.report.limitedShare);
+  for (const auto& path : outcome.outputs) {
+    text += fmt::format("  {}  {}\n", path == outcome.outputs.front() ? "written     " : "            ",
+                        path.string());
+  }
+  return text;
+}
+
+void warn(const std::string& sentence) { fmt::print(stderr, "ringlet simulate: warning: {}\n", sentence); }
+
+int run(Typed& typed) {
+  auto outcome = runSimulation(typed.options);
+  if (!outcome) {
+    fmt::print(stderr, "ringlet simulate: {}\n", outcome.error().message);
+    return kExitFailed;
+  }
+  for (const std::string& warning : outcome->warnings) warn(warning);
+
+  // Particles without a position: say which was the first, so that it can be looked at.
+  const SimulationReport& report = outcome->report;
+  if (report.nonfinite > 0) {
+    std::string first;
+    if (report.firstNonfiniteStrand >= 0) {
+      first = fmt::format(", first strand {} particle {}", report.firstNonfiniteStrand,
+                          report.firstNonfiniteParticle);
+    }
+    fmt::print(stderr,
+               "ringlet simulate: {} particles have no finite position{}; in the files their strands end "
+               "before them. Try more --steps-per-frame.\n",
+               report.nonfinite, first);
+  }
+  if (outcome->interrupted) {
+    fmt::print(stderr, "ringlet simulate: interrupted after {} of {} frames{}\n", outcome->frameCount,
+               typed.options.frameCount,
+               outcome->frameCount == 0 ? "; nothing was written" : "; they are kept");
+  }
+
+  if (typed.json) {
+    // Not UTF-8, say in a path, is replaced rather than fatal.
+    const auto replace = nlohmann::json::error_handler_t::replace;
+    fmt::print("{}\n", asJson(typed, *outcome).dump(2, ' ', false, replace));
+  } else if (!typed.quiet) {
+    fmt::print("{}", asText(typed, *outcome));
+  }
+  if (outcome->interrupted) return kExitInterrupted;
+  return report.nonfinite > 0 ? kExitNonfinite : kExitFine;
+}
+
+}  // namespace
+
+void addSimulateCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  SimulateOptions& options = typed->options;
+  Settings& settings = options.settings;
+  CLI::App* command = app.add_subcommand("simulate", "Moves the hair of a groom and writes the animation");
+  command->footer(kExample);
+
+  command->add_option("GROOM", options.groom, "Strands to simulate: a .hair or .obj file")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-o,--output", options.folder, "Folder for the results, made if it is not there")
+      ->required()
+      ->type_name("DIR");
+
+  // What moves.
+  const char* scene = "Scene";
+  command->add_option("--frames", options.frameCount, "Frames to simulate (default 48)")
+      ->check(wholeBetween(1, kMostFrames))
+      ->type_name("N")
+      ->group(scene);
+  command->add_option("--fps", settings.framesPerSecond, "Frames per second (default 24)")
+      ->check(between(0.001, 1e6))
+      ->type_name("F")
+      ->group(scene);
+  command->add_option("--motion", typed->motion, "How the head moves: " + motionNames() + " (default shake)")
+      ->check(oneOf(motionNameList()))
+      ->type_name("NAME")
+      ->group(scene);
+  command
+      ->add_option("--unit", options.metresPerUnit,
+                   "Metres per unit of the groom's file (default 0.01: centimetres)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES")
+      ->group(scene);
+  command->add_option("--up", typed->up, "The file's up axis, Y or Z (default Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS")
+      ->group(scene);
+  command->add_option("--gravity", typed->gravity, "Gravity, downwards, m/s^2 (default 9.81)")
+      ->check(between(-1000, 1000))
+      ->type_name("G")
+      ->group(scene);
+  command
+      ->add_option("--preload", typed->preload,
+                   "Share of gravity balanced in the rest pose, 0 to 1 (default 1; 0 for paper)")
+      ->check(between(0, 1))
+      ->type_name("P")
+      ->group(scene);
+
+  // How it is stepped.
+  const char* solver = "Solver";
+  command->add_option("--integrator", typed->integrator, "jacobi, point_jacobi or paper (default jacobi)")
+      ->check(oneOf({"jacobi", "point_jacobi", "paper"}))
+      ->type_name("NAME")
+      ->group(solver);
+  command
+      ->add_option("--steps-per-frame", typed->stepsPerFrame, "Outer steps a frame (default 8; 30 for paper)")
+      ->check(wholeBetween(1, 10'000))
+      ->type_name("N")
+      ->group(solver);
+  command
+      ->add_option("--iterations", settings.pointIterations, "point_jacobi: iterations a step (default 100)")
+      ->check(wholeBetween(1, 100'000))
+      ->type_name("N")
+      ->group(solver)
+      ->each([typed](const std::string&) { typed->iterationsGiven = true; });
+  command->add_flag("--no-chebyshev", typed->noChebyshev, "point_jacobi: plain iterations, not accelerated")
+      ->group(solver);
+  command
+      ->add_option("--max-stretch", settings.maxStretch,
+                   "Longest an edge may become, as a multiple of the groom's edge (default 1.1)")
+      ->check(between(1, 1000))
+      ->type_name("S")
+      ->group(solver);
+  command
+      ->add_option("--roots", settings.rootCount,
+                   "Particles at the root that follow the head, 1 to 3 (default 1)")
+      ->check(wholeBetween(1, 3))
+      ->type_name("N")
+      ->group(solver);
+
+  // Where it runs.
+  const char* machine = "Machine";
+  command
+      ->add_option("--backend", typed->backend,
+                   "gpu (Vulkan) or reference (CPU, double precision) (default gpu)")
+      ->check(oneOf({"gpu", "reference"}))
+      ->type_name("NAME")
+      ->group(machine);
+  command
+      ->add_option(
+          "--device", options.device,
+          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, else "
+          "the best)")
+      ->type_name("D")
+      ->group(machine);
+  command
+      ->add_option("--kernel", typed->kernel,
+                   "Form of the strand kernel: auto, lanes or serial (default auto)")
+      ->check(oneOf({"auto", "lanes", "serial"}))
+      ->type_name("FORM")
+      ->group(machine);
+
+  // What is said and written.
+  const char* output = "Output";
+  command->add_option("--width", options.width, "Diameter of strands in hair.usda, metres (default 0.0005)")
+      ->check(between(1e-9, 1))
+      ->type_name("METRES")
+      ->group(output);
+  command->add_flag("--json", typed->json, "Print one JSON object instead of the summary")->group(output);
+  command->add_flag("--quiet", typed->quiet, "No progress bar and no summary")->group(output);
+
+  command->callback([typed, &exitCode] {
+    resolve(*typed);
+    exitCode = run(*typed);
+  });
+}
+
+}  // namespace ringlet::program

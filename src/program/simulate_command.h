@@ -1,0 +1,11 @@
+// `ringlet simulate`: hair from a file, moved by a head, written as an animation.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ringlet::program {
+
+/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+void addSimulateCommand(CLI::App& app, int& exitCode);
+
+}  // namespace ringlet::program

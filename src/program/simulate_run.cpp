@@ -1,0 +1,183 @@
+// Implements simulate_run.h.
+#include "program/simulate_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <system_error>
+#include <utility>
+
+#include "program/backend.h"
+#include "program/interruption.h"
+#include "program/progress_bar.h"
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/groom/obj_file.h"
+#include "ringlet/output/finite_points.h"
+#include "ringlet/output/positions_hash.h"
+#include "ringlet/output/sheet.h"
+#include "ringlet/output/usd_writer.h"
+
+namespace ringlet::program {
+namespace {
+
+// Adds the wall time until it goes out of scope to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& milliseconds) : milliseconds_(milliseconds) {}
+  ~Stopwatch() {
+    milliseconds_ +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+  Stopwatch(const Stopwatch&) = delete;
+
+ private:
+  double& milliseconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// The head's pose at the end of every step of a frame (0 is the first); times are exact quotients, so they do
+// not drift.
+std::vector<HeadPose> posesOfFrame(const Motion& motion, const Settings& settings, int frame) {
+  std::vector<HeadPose> poses;
+  for (int step = 1; step <= settings.stepsPerFrame; ++step) {
+    const double steps = static_cast<double>(frame) * settings.stepsPerFrame + step;
+    poses.push_back(motion.poseAt(steps / (settings.framesPerSecond * settings.stepsPerFrame)));
+  }
+  return poses;
+}
+
+// From the solver's frame (metres, seen from the head's origin) to the file's.
+std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head, double metresPerUnit) {
+  std::vector<Vec3f> points;
+  points.reserve(positions.size());
+  for (Vec3f p : positions) points.push_back(Vec3f((head.position + Vec3d(p)) / metresPerUnit));
+  return points;
+}
+
+Result<std::unique_ptr<Backend>> makeBackend(const SimulateOptions& options, const Groom& groom) {
+  const BackendInput input{groom, options.material, options.settings, options.motion.poseAt(0),
+                           options.motion.poseAt(-options.settings.stepSeconds())};
+  if (options.onReference) return makeReferenceBackend(input);
+  return makeGpuBackend(input, options.device, options.kernel);
+}
+
+// A failure in the middle of a run, with what it leaves.
+Error afterFrames(int frameCount, const Error& cause, const std::filesystem::path& folder) {
+  if (frameCount == 0) return cause;
+  return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
+                           (folder / "hair.usda.partial").string())};
+}
+
+// The writers of a run, so that the loop below reads as what happens to a frame.
+struct Writers {
+  UsdWriter usd;
+  Sheet sheet;
+  std::vector<Vec3f> lastPoints;  // [file unit]
+
+  Status addFrame(int frame, std::vector<Vec3f> points) {
+    sheet.offer(frame, points);
+    lastPoints = std::move(points);
+    return usd.addFrame(lastPoints);
+  }
+
+  Result<std::vector<std::filesystem::path>> finish(const std::filesystem::path& folder, const Groom& groom) {
+    if (Status done = usd.finish(); !done) return done.error();
+    if (Status done = writeObj(folder / "last.obj", groom, lastPoints); !done) return done.error();
+    if (Status done = sheet.write(folder / "sheet.png"); !done) return done.error();
+    return std::vector{folder / "hair.usda", folder / "last.obj", folder / "sheet.png"};
+  }
+};
+
+Result<Writers> openWriters(const SimulateOptions& options, const Groom& groom) {
+  std::error_code code;
+  std::filesystem::create_directories(options.folder, code);
+  if (code)
+    return Error{fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message())};
+  auto usd = UsdWriter::create(options.folder / "hair.usda", groom,
+                               {.framesPerSecond = options.settings.framesPerSecond,
+                                .metresPerUnit = options.metresPerUnit,
+                                .up = options.up,
+                                .diameter = static_cast<float>(options.width / options.metresPerUnit),
+                                .frameCount = options.frameCount});
+  if (!usd) return usd.error();
+  return Writers{std::move(*usd), Sheet(groom, options.frameCount, options.up), {}};
+}
+
+}  // namespace
+
+Result<SimulateOutcome> runSimulation(const SimulateOptions& options) {
+  SimulateOutcome outcome;
+  catchInterruption();
+
+  // Everything that can fail before the first step: the groom, the folder, the device.
+  auto loaded = readGroom(options.groom);
+  if (!loaded) return loaded.error();
+  Groom& groom = loaded->groom;
+  groom.metresPerUnit = options.metresPerUnit;
+  outcome.strandCount = groom.strandCount();
+  outcome.particleCount = groom.points.size();
+  outcome.warnings = loaded->warnings;
+  auto writers = openWriters(options, groom);
+  if (!writers) return writers.error();
+  auto backend = makeBackend(options, groom);
+  if (!backend) return backend.error();
+
+  // Frames, until all are done or Ctrl-C comes.
+  double stepping = 0, readback = 0, writing = 0;  // [ms]
+  std::size_t mostReplaced = 0;
+  std::vector<Vec3f> positions;
+  {
+    ProgressBar progress(options.frameCount, options.showProgress);
+    for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
+      progress.show(frame);
+      const std::vector<HeadPose> poses = posesOfFrame(options.motion, options.settings, frame);
+      {
+        Stopwatch watch(stepping);
+        if (Status stepped = (*backend)->stepFrame(poses); !stepped)
+          return afterFrames(frame, stepped.error(), options.folder);
+      }
+      {
+        Stopwatch watch(readback);
+        auto read = (*backend)->positions();
+        if (!read) return afterFrames(frame, read.error(), options.folder);
+        positions = std::move(*read);
+      }
+      Stopwatch watch(writing);
+      std::vector<Vec3f> points = toFile(positions, poses.back(), options.metresPerUnit);
+      mostReplaced = std::max(mostReplaced, replaceNonfinite(groom, points));
+      if (Status added = writers->addFrame(frame + 1, std::move(points)); !added) return added.error();
+      outcome.frameCount = frame + 1;
+    }
+    progress.show(outcome.frameCount);
+  }
+  outcome.interrupted = wasInterrupted() && outcome.frameCount < options.frameCount;
+
+  // What there is becomes files.
+  if (outcome.frameCount > 0) {
+    Stopwatch watch(writing);
+    auto outputs = writers->finish(options.folder, groom);
+    if (!outputs) return outputs.error();
+    outcome.outputs = std::move(*outputs);
+  }
+
+  // And numbers.
+  auto report = (*backend)->report();
+  if (!report) return report.error();
+  outcome.report = *report;
+  outcome.report.nonfinite = std::max<std::uint64_t>(report->nonfinite, mostReplaced);
+  outcome.positionsHash = positionsHash(positions);
+  outcome.device = (*backend)->device();
+  outcome.driver = (*backend)->driver();
+  outcome.kernel = (*backend)->kernel();
+  outcome.stages = (*backend)->stageMilliseconds();
+  outcome.stages["readback"] = readback;
+  outcome.stages["write"] = writing;
+  const double frames = std::max(outcome.frameCount, 1);
+  for (auto& [stage, milliseconds] : outcome.stages) milliseconds /= frames;
+  outcome.millisecondsPerFrame = stepping / frames;
+  for (const std::string& warning : (*backend)->warnings()) outcome.warnings.push_back(warning);
+  return outcome;
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,188 @@
+// Implements gpu/buffer.h.
+#include "ringlet/gpu/buffer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/gpu/check.h"
+#include "ringlet/gpu/recorder.h"
+
+namespace ringlet::gpu {
+namespace {
+
+constexpr std::uint64_t kRecordBytes = 16;  // a vec4, the largest unit kernels read
+constexpr std::uint64_t kStagingBytes = 32ull
+                                        << 20;  // larger copies go in pieces, to bound the host's memory
+
+constexpr VkMemoryPropertyFlags kCoherent =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags kCoherentCached = kCoherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+
+// Kinds of memory that need features or are not for buffers.
+constexpr VkMemoryPropertyFlags kUnwanted = VK_MEMORY_PROPERTY_PROTECTED_BIT |
+                                            VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
+                                            VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD;
+
+std::optional<std::uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory,
+                                            std::uint32_t allowed, VkMemoryPropertyFlags wanted) {
+  for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+    const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
+    if ((allowed >> i & 1) != 0 && (flags & wanted) == wanted && (flags & kUnwanted) == 0) return i;
+  }
+  return std::nullopt;
+}
+
+// Storage is mapped only where the host caches it (integrated and CPU devices): through the window a graphics
+// card opens to its memory, reading is slower than a copy, and the window may be small.
+std::optional<std::uint32_t> chooseMemoryType(const Device& device, std::uint32_t allowed, BufferKind kind) {
+  const auto find = [&](VkMemoryPropertyFlags wanted) {
+    return findMemoryType(device.memory(), allowed, wanted);
+  };
+  if (kind == BufferKind::stream) {
+    const auto cached = find(kCoherentCached);
+    return cached ? cached : find(kCoherent);
+  }
+  if (!device.options().alwaysStage) {
+    if (const auto shared = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kCoherentCached)) return shared;
+  }
+  const auto local = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  return local ? local : find(0);
+}
+
+}  // namespace
+
+Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name) {
+  const DeviceProperties& limits = device.properties();
+  const auto attempt = [&] {
+    return fmt::format("make the buffer '{}' of {} bytes on {}", name, bytes, limits.name);
+  };
+  // The comparison comes before rounding up, which could overflow.
+  const std::uint64_t largest = std::min(limits.maxStorageBufferRange, limits.maxAllocationBytes);
+  const std::uint64_t largestRecords = largest / kRecordBytes * kRecordBytes;
+  if (bytes > largestRecords) {
+    const bool isRange = limits.maxStorageBufferRange <= limits.maxAllocationBytes;
+    return Error{fmt::format(
+        "could not {}: this device allows at most {} bytes ({}). Use less data, or another device", attempt(),
+        largest, isRange ? "maxStorageBufferRange" : "maxMemoryAllocationSize")};
+  }
+
+  Buffer self;
+  self.device_ = &device;
+  self.bytes_ = bytes;
+  self.capacity_ = std::max(kRecordBytes, (bytes + kRecordBytes - 1) / kRecordBytes * kRecordBytes);
+  self.kind_ = kind;
+  self.name_ = name;
+
+  auto info = zeroed<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
+  info.size = self.capacity_;
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  if (kind == BufferKind::stream) info.usage |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+  info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &buffer), attempt());
+  self.buffer_ = OwnedBuffer(device.shared_from_this(), buffer);
+  device.nameObject(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
+
+  VkMemoryRequirements requirements;
+  device.vk().vkGetBufferMemoryRequirements(device.handle(), buffer, &requirements);
+  const auto type = chooseMemoryType(device, requirements.memoryTypeBits, kind);
+  if (!type) {
+    return Error{fmt::format("could not {}: the driver offers no {} memory for it", attempt(),
+                             kind == BufferKind::stream ? "host-coherent" : "device")};
+  }
+  const VkMemoryType& chosen = device.memory().memoryTypes[*type];
+  const std::uint64_t heapBytes = device.memory().memoryHeaps[chosen.heapIndex].size;
+  if (requirements.size > heapBytes) {
+    return Error{
+        fmt::format("could not {}: the whole memory for it has {} bytes. Use less data, or another device",
+                    attempt(), heapBytes)};
+  }
+
+  auto allocation = zeroed<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+  allocation.allocationSize = requirements.size;
+  allocation.memoryTypeIndex = *type;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkAllocateMemory(device.handle(), &allocation, nullptr, &memory),
+                   fmt::format("{} (in a memory of {} bytes)", attempt(), heapBytes));
+  self.memory_ = OwnedMemory(device.shared_from_this(), memory);
+  RINGLET_VK_CHECK(device.vk().vkBindBufferMemory(device.handle(), buffer, memory, 0), attempt());
+
+  // Stays mapped: coherent memory needs no flush, and unmapping comes with freeing.
+  const bool isMapped =
+      kind == BufferKind::stream ||
+      (!device.options().alwaysStage && (chosen.propertyFlags & kCoherentCached) == kCoherentCached);
+  if (isMapped) {
+    void* address = nullptr;
+    RINGLET_VK_CHECK(device.vk().vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &address),
+                     attempt());
+    self.mapped_ = static_cast<std::byte*>(address);
+  }
+  return self;
+}
+
+Status Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
+  RINGLET_ASSERT(offset <= bytes_ && data.size() <= bytes_ - offset, "an upload runs past the buffer's end");
+  if (data.empty()) return {};
+  if (mapped_) {
+    std::memcpy(mapped_ + offset, data.data(), data.size());
+    return {};
+  }
+
+  auto staging = create(*device_, std::min<std::uint64_t>(data.size(), kStagingBytes), BufferKind::stream,
+                        "staging for " + name_);
+  if (!staging) return staging.error();
+  auto recorder = Recorder::create(*device_, "upload of " + name_);
+  if (!recorder) return recorder.error();
+  for (std::size_t done = 0; done < data.size();) {
+    const std::size_t piece = std::min(data.size() - done, staging->mapped().size());
+    std::memcpy(staging->mapped().data(), data.data() + done, piece);
+    if (Status status = recorder->begin(); !status) return status;
+    recorder->copyBuffer(*staging, *this, piece, 0, offset + done);
+    if (Status status = recorder->submitAndWait(); !status) return status;
+    done += piece;
+  }
+  return {};
+}
+
+Status Buffer::download(std::span<std::byte> data, std::uint64_t offset) const {
+  RINGLET_ASSERT(offset <= bytes_ && data.size() <= bytes_ - offset, "a download runs past the buffer's end");
+  if (data.empty()) return {};
+  if (mapped_) {
+    std::memcpy(data.data(), mapped_ + offset, data.size());
+    return {};
+  }
+
+  auto staging = create(*device_, std::min<std::uint64_t>(data.size(), kStagingBytes), BufferKind::stream,
+                        "staging for " + name_);
+  if (!staging) return staging.error();
+  auto recorder = Recorder::create(*device_, "download of " + name_);
+  if (!recorder) return recorder.error();
+  for (std::size_t done = 0; done < data.size();) {
+    const std::size_t piece = std::min(data.size() - done, staging->mapped().size());
+    if (Status status = recorder->begin(); !status) return status;
+    recorder->copyBuffer(*this, *staging, piece, offset + done);
+    if (Status status = recorder->submitAndWait(); !status) return status;
+    std::memcpy(data.data() + done, staging->mapped().data(), piece);
+    done += piece;
+  }
+  return {};
+}
+
+Status Buffer::fillZero() {
+  if (mapped_) {
+    std::memset(mapped_, 0, capacity_);
+    return {};
+  }
+  auto recorder = Recorder::create(*device_, "zeros for " + name_);
+  if (!recorder) return recorder.error();
+  if (Status status = recorder->begin(); !status) return status;
+  recorder->fillZero(*this);
+  return recorder->submitAndWait();
+}
+
+}  // namespace ringlet::gpu

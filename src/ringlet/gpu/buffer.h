@@ -1,0 +1,59 @@
+// Buffer: bytes the device can read and write, and the ways in and out of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/owned.h"
+
+namespace ringlet::gpu {
+
+enum class BufferKind {
+  storage,  // close to the device; for what kernels read and write
+  stream,   // close to the host, always mapped, coherent; for uniforms and small things that cross often
+};
+
+class Buffer {
+ public:
+  /// The content is undefined until written. No bytes are fine, and can be bound. `name` is for messages.
+  static Result<Buffer> create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name);
+  Buffer(Buffer&&) = default;
+  Buffer& operator=(Buffer&&) = default;
+
+  std::uint64_t bytes() const { return bytes_; }
+  BufferKind kind() const { return kind_; }
+  const std::string& name() const { return name_; }
+
+  /// The content in the host's memory, in place; empty unless it is there (a stream's always is). Write while
+  /// no submission uses the buffer; what a submission wrote is there after its wait.
+  std::span<std::byte> mapped() const { return {mapped_, mapped_ ? static_cast<std::size_t>(bytes_) : 0}; }
+
+  /// Copies in, out, or zeros; done when they return. No submission may be using the buffer meanwhile.
+  /// `offset` [bytes] plus the span's size must lie within the buffer.
+  Status upload(std::span<const std::byte> data, std::uint64_t offset = 0);
+  Status download(std::span<std::byte> data, std::uint64_t offset = 0) const;
+  Status fillZero();
+
+  // For the other files of gpu/.
+  VkBuffer handle() const { return buffer_.get(); }
+  /// bytes(), rounded up to whole 16-byte records and to at least one: what is bound and filled.
+  std::uint64_t capacity() const { return capacity_; }
+
+ private:
+  Buffer() = default;
+
+  Device* device_ = nullptr;  // held open by what follows
+  OwnedMemory memory_;
+  OwnedBuffer buffer_;
+  std::byte* mapped_ = nullptr;
+  std::uint64_t bytes_ = 0;
+  std::uint64_t capacity_ = 0;
+  BufferKind kind_ = BufferKind::storage;
+  std::string name_;
+};
+
+}  // namespace ringlet::gpu

@@ -1,0 +1,375 @@
+// Implements gpu/device.h.
+#include "ringlet/gpu/device.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "ringlet/gpu/check.h"
+
+namespace ringlet::gpu {
+namespace {
+
+// Everything opening needs to know of a device, found without opening it.
+struct Candidate {
+  VkPhysicalDevice handle = VK_NULL_HANDLE;
+  DeviceListing listing;
+  std::uint32_t queueFamily = 0;
+  std::vector<const char*> extensions;  // to switch on
+};
+
+std::string_view typeName(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "cpu";
+    default:
+      return "other";
+  }
+}
+
+// Smaller is better.
+int rank(const DeviceProperties& properties) {
+  constexpr std::array<std::string_view, 4> kBestFirst{"discrete", "integrated", "virtual", "cpu"};
+  return static_cast<int>(std::find(kBestFirst.begin(), kBestFirst.end(), properties.type) -
+                          kBestFirst.begin());
+}
+
+std::string versionText(std::uint32_t version) {
+  return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                     VK_API_VERSION_PATCH(version));
+}
+
+Result<std::vector<VkExtensionProperties>> deviceExtensions(VkPhysicalDevice device) {
+  std::vector<VkExtensionProperties> extensions;
+  VkResult result = VK_INCOMPLETE;
+  while (result == VK_INCOMPLETE) {
+    std::uint32_t count = 0;
+    RINGLET_VK_CHECK(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr),
+                     "list a device's extensions");
+    extensions.resize(count);
+    result = vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
+    extensions.resize(count);
+  }
+  if (result != VK_SUCCESS) {
+    return vulkanError("vkEnumerateDeviceExtensionProperties", result, "list a device's extensions");
+  }
+  return extensions;
+}
+
+// The first family that computes and has timestamps, else the first that computes.
+std::optional<std::uint32_t> findComputeFamily(VkPhysicalDevice device, std::uint32_t& timestampBits) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+
+  std::optional<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const bool canCompute = (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
+    if (canCompute && (!found || (timestampBits == 0 && families[i].timestampValidBits != 0))) {
+      found = i;
+      timestampBits = families[i].timestampValidBits;
+    }
+  }
+  return found;
+}
+
+// What the device lacks of what the solver needs, or nothing.
+std::string findLack(const DeviceProperties& p) {
+  std::string lack;
+  const auto need = [&](const char* limit, std::uint32_t needed, std::uint32_t found) {
+    if (found < needed)
+      lack += fmt::format("{}{} is {}, needed are {}", lack.empty() ? "" : "; ", limit, found, needed);
+  };
+  need("maxPerStageDescriptorStorageBuffers", kNeededStorageBuffers, p.maxStorageBuffers);
+  need("maxComputeWorkGroupInvocations", kNeededGroupInvocations, p.maxGroupInvocations);
+  need("maxPushConstantsSize", kNeededPushConstantBytes, p.maxPushConstantBytes);
+  return lack;
+}
+
+Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
+                  const DeviceOptions& options) {
+  Candidate candidate;
+  candidate.handle = handle;
+  DeviceProperties& p = candidate.listing.properties;
+
+  VkPhysicalDeviceProperties basic;
+  vkGetPhysicalDeviceProperties(handle, &basic);
+  p.index = index;
+  p.name = basic.deviceName;
+  p.type = typeName(basic.deviceType);
+  p.driver = "driver version " + versionText(basic.driverVersion);
+  p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
+  p.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
+  p.maxUniformBufferRange = basic.limits.maxUniformBufferRange;
+  p.maxStorageBuffers = basic.limits.maxPerStageDescriptorStorageBuffers;
+  p.maxGroupCount = basic.limits.maxComputeWorkGroupCount[0];
+  p.maxGroupInvocations =
+      std::min(basic.limits.maxComputeWorkGroupInvocations, basic.limits.maxComputeWorkGroupSize[0]);
+  p.maxPushConstantBytes = basic.limits.maxPushConstantsSize;
+  p.maxSharedMemoryBytes = basic.limits.maxComputeSharedMemorySize;
+  p.timestampPeriod = basic.limits.timestampPeriod;
+  if (basic.apiVersion < kNeededApiVersion) {
+    candidate.listing.why =
+        fmt::format("its driver knows Vulkan {}, needed is 1.1", versionText(basic.apiVersion));
+    return candidate;
+  }
+
+  auto extensions = deviceExtensions(handle);
+  if (!extensions) {
+    candidate.listing.why = extensions.error().message;
+    return candidate;
+  }
+  const auto has = [&](const char* name) {
+    return std::any_of(extensions->begin(), extensions->end(), [&](const VkExtensionProperties& e) {
+      return std::strcmp(e.extensionName, name) == 0;
+    });
+  };
+  const bool isPortability = has("VK_KHR_portability_subset");
+  if (isPortability)
+    candidate.extensions.push_back("VK_KHR_portability_subset");  // must be switched on where it is
+
+  // What came after 1.1 is asked for only where it is known.
+  const bool hasDriverProperties =
+      p.apiVersion >= VK_API_VERSION_1_2 || has(VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+  const bool hasSizeControlInCore = p.apiVersion >= VK_API_VERSION_1_3;
+  const bool hasSizeControl = hasSizeControlInCore || has(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+
+  auto properties = zeroed<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
+  auto subgroup =
+      zeroed<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
+  auto memory = zeroed<VkPhysicalDeviceMaintenance3Properties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
+  auto driver = zeroed<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
+  auto size = zeroed<VkPhysicalDeviceSubgroupSizeControlProperties>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES);
+  auto features = zeroed<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  auto sizeFeatures = zeroed<VkPhysicalDeviceSubgroupSizeControlFeatures>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES);
+  properties.pNext = &subgroup;
+  subgroup.pNext = &memory;
+  if (hasDriverProperties) driver.pNext = std::exchange(memory.pNext, &driver);
+  if (hasSizeControl) {
+    size.pNext = std::exchange(memory.pNext, &size);
+    features.pNext = &sizeFeatures;
+  }
+  vkGetPhysicalDeviceProperties2(handle, &properties);
+  vkGetPhysicalDeviceFeatures2(handle, &features);
+
+  if (hasDriverProperties) p.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+  p.maxAllocationBytes = memory.maxMemoryAllocationSize;
+  p.subgroupSize = subgroup.subgroupSize;
+  constexpr VkSubgroupFeatureFlags kShuffle = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+  p.hasSubgroupShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                         (subgroup.supportedOperations & kShuffle) == kShuffle;
+  p.hasFullSubgroups = !options.withoutFullSubgroups && hasSizeControl && sizeFeatures.subgroupSizeControl &&
+                       sizeFeatures.computeFullSubgroups &&
+                       (size.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                       size.minSubgroupSize <= p.subgroupSize && p.subgroupSize <= size.maxSubgroupSize;
+  p.maxFullSubgroups = p.hasFullSubgroups ? size.maxComputeWorkgroupSubgroups : 0;
+  if (p.hasFullSubgroups && !hasSizeControlInCore) {
+    candidate.extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+  }
+
+  const auto family = findComputeFamily(handle, p.timestampBits);
+  p.hasTimestamps = !options.withoutTimestamps && p.timestampBits > 0 && p.timestampPeriod > 0;
+  candidate.queueFamily = family.value_or(0);
+  candidate.listing.why = family ? findLack(p) : "it has no compute queue";
+  candidate.listing.usable = candidate.listing.why.empty();
+  return candidate;
+}
+
+Result<std::vector<Candidate>> inspectAll(const Instance& instance, const DeviceOptions& options) {
+  auto handles = instance.physicalDevices();
+  if (!handles) return handles.error();
+  std::vector<Candidate> candidates;
+  for (VkPhysicalDevice handle : *handles) {
+    candidates.push_back(inspect(instance, handle, static_cast<int>(candidates.size()), options));
+  }
+  return candidates;
+}
+
+std::string describe(const std::vector<Candidate>& candidates) {
+  std::string text;
+  for (const Candidate& candidate : candidates) {
+    const DeviceProperties& p = candidate.listing.properties;
+    text += fmt::format("\n  {}: {} ({}, {})", p.index, p.name, p.type, p.driver);
+    if (!candidate.listing.usable) text += " - not usable: " + candidate.listing.why;
+  }
+  return text;
+}
+
+char toLower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// Whether `part` stands in `whole`, in any case.
+bool hasPart(std::string_view whole, std::string_view part) {
+  return std::search(whole.begin(), whole.end(), part.begin(), part.end(),
+                     [](char a, char b) { return toLower(a) == toLower(b); }) != whole.end();
+}
+
+const Candidate* best(const std::vector<const Candidate*>& candidates) {
+  const auto found =
+      std::min_element(candidates.begin(), candidates.end(), [](const Candidate* a, const Candidate* b) {
+        const auto key = [](const Candidate* c) {
+          return std::pair(!c->listing.usable, rank(c->listing.properties));
+        };
+        return key(a) < key(b);
+      });
+  return found == candidates.end() ? nullptr : *found;
+}
+
+Result<const Candidate*> pick(const std::vector<Candidate>& candidates, const std::string& choice) {
+  const char* fromEnvironment = std::getenv("RINGLET_DEVICE");
+  const bool isFromEnvironment = choice.empty() && fromEnvironment && *fromEnvironment;
+  const std::string wanted = isFromEnvironment ? fromEnvironment : choice;
+  const std::string wantedText =
+      fmt::format("'{}'{}", wanted, isFromEnvironment ? " (from $RINGLET_DEVICE)" : "");
+
+  if (candidates.empty()) {
+    return Error{
+        "no Vulkan device on this machine: the Vulkan loader works, but lists none. Install the driver of "
+        "your graphics card, or on Debian mesa-vulkan-drivers, which also runs on the CPU"};
+  }
+
+  std::vector<const Candidate*> matches;
+  if (wanted.empty()) {
+    for (const Candidate& candidate : candidates) matches.push_back(&candidate);
+    const Candidate* found = best(matches);
+    if (!found->listing.usable)
+      return Error{"no Vulkan device of this machine can run Ringlet. Found:" + describe(candidates)};
+    return found;
+  }
+
+  // A number is an index if there is such a device, and else may be part of a name.
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+  const bool isNumber = error == std::errc() && end == wanted.data() + wanted.size();
+  if (isNumber && index < candidates.size()) {
+    matches.push_back(&candidates[index]);
+  } else {
+    for (const Candidate& candidate : candidates) {
+      if (hasPart(candidate.listing.properties.name, wanted)) matches.push_back(&candidate);
+    }
+  }
+  const Candidate* found = best(matches);
+  if (!found) {
+    return Error{fmt::format(
+        "no Vulkan device matches {}: it is neither an index (0 to {}) nor part of a device's name."
+        " Found:{}\nChoose one of these, or leave the choice out to take the best",
+        wantedText, candidates.size() - 1, describe(candidates))};
+  }
+  if (!found->listing.usable) {
+    return Error{fmt::format("the Vulkan device {}, chosen by {}, cannot run Ringlet: {}. Found:{}",
+                             found->listing.properties.name, wantedText, found->listing.why,
+                             describe(candidates))};
+  }
+  return found;
+}
+
+bool isValidationWanted() {
+  const char* value = std::getenv("RINGLET_VALIDATION");
+  return value && std::string_view(value) == "1";
+}
+
+}  // namespace
+
+std::vector<DeviceListing> Device::list() {
+  std::vector<DeviceListing> listings;
+  auto instance = Instance::create(false);
+  if (!instance) return listings;
+  auto candidates = inspectAll(**instance, {});
+  if (!candidates) return listings;
+  for (const Candidate& candidate : *candidates) listings.push_back(candidate.listing);
+  return listings;
+}
+
+Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const DeviceOptions& options) {
+  auto instance = Instance::create(isValidationWanted());
+  if (!instance) return instance.error();
+  auto candidates = inspectAll(**instance, options);
+  if (!candidates) return candidates.error();
+  auto picked = pick(*candidates, choice);
+  if (!picked) return picked.error();
+  const Candidate& candidate = **picked;
+
+  std::shared_ptr<Device> self(new Device);
+  self->instance_ = std::move(*instance);
+  self->properties_ = candidate.listing.properties;
+  self->options_ = options;
+  self->queueFamily_ = candidate.queueFamily;
+  vkGetPhysicalDeviceMemoryProperties(candidate.handle, &self->memory_);
+
+  const float priority = 1;
+  auto queue = zeroed<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+  queue.queueFamilyIndex = candidate.queueFamily;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+
+  auto sizeControl = zeroed<VkPhysicalDeviceSubgroupSizeControlFeatures>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES);
+  sizeControl.subgroupSizeControl = VK_TRUE;
+  sizeControl.computeFullSubgroups = VK_TRUE;
+
+  auto info = zeroed<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
+  info.pNext = self->properties_.hasFullSubgroups ? &sizeControl : nullptr;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(candidate.extensions.size());
+  info.ppEnabledExtensionNames = candidate.extensions.data();
+  RINGLET_VK_CHECK(vkCreateDevice(candidate.handle, &info, nullptr, &self->device_),
+                   fmt::format("open the Vulkan device {}", self->properties_.name));
+
+  volkLoadDeviceTable(&self->table_, self->device_);
+  self->table_.vkGetDeviceQueue(self->device_, candidate.queueFamily, 0, &self->queue_);
+  if (self->validationLog()) {
+    self->setObjectName_ = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+        vkGetInstanceProcAddr(self->instance_->handle(), "vkSetDebugUtilsObjectNameEXT"));
+  }
+
+  auto cache = zeroed<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
+  RINGLET_VK_CHECK(self->vk().vkCreatePipelineCache(self->device_, &cache, nullptr, &self->pipelineCache_),
+                   "make a cache for compiled kernels");
+  return self;
+}
+
+Device::~Device() {
+  if (!device_) return;
+  table_.vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
+  table_.vkDestroyDevice(device_, nullptr);
+}
+
+std::vector<std::string> Device::validationMessages() const {
+  return validationLog() ? validationLog()->messages() : std::vector<std::string>{};
+}
+
+VkResult Device::submit(VkCommandBuffer commands, VkFence fence) {
+  auto info = zeroed<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+  info.commandBufferCount = 1;
+  info.pCommandBuffers = &commands;
+  const std::lock_guard lock(queueMutex_);
+  return table_.vkQueueSubmit(queue_, 1, &info, fence);
+}
+
+void Device::nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const {
+  if (!setObjectName_) return;
+  auto info = zeroed<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
+  info.objectType = type;
+  info.objectHandle = handle;
+  info.pObjectName = name.c_str();
+  setObjectName_(device_, &info);  // a name that fails to stick is no loss
+}
+
+}  // namespace ringlet::gpu

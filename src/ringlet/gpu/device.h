@@ -1,0 +1,110 @@
+// Device: an open Vulkan device with one queue for compute, and what it can do. Buffers, kernels and
+// recorders hold their device open, so it closes with the last of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/instance.h"
+#include "ringlet/gpu/vulkan.h"
+
+namespace ringlet::gpu {
+
+// What the solver needs, checked when a device is opened. Vulkan promises 4 storage buffers a stage; nearly
+// every driver has 8 and more.
+inline constexpr std::uint32_t kNeededApiVersion = VK_API_VERSION_1_1;
+inline constexpr std::uint32_t kNeededStorageBuffers = 6;     // bound to one kernel
+inline constexpr std::uint32_t kNeededGroupInvocations = 64;  // invocations of a workgroup
+inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
+
+struct DeviceProperties {
+  int index = 0;                       // in the order of the Vulkan loader
+  std::string name;                    // as the driver states it
+  std::string driver;                  // name and version, in words where the driver gives them
+  std::string type;                    // discrete, integrated, virtual, cpu, other
+  std::uint32_t apiVersion = 0;        // the highest usable here, as VK_MAKE_API_VERSION packs it
+  std::uint32_t subgroupSize = 1;      // invocations
+  bool hasSubgroupShuffle = false;     // basic and shuffle operations in compute kernels
+  bool hasFullSubgroups = false;       // a kernel can insist on full subgroups of subgroupSize invocations
+  std::uint32_t maxFullSubgroups = 0;  // of a workgroup that insists on them
+  std::uint64_t maxStorageBufferRange = 0;  // [bytes] largest buffer a kernel can see
+  std::uint64_t maxUniformBufferRange = 0;  // [bytes]
+  std::uint64_t maxAllocationBytes = 0;     // [bytes] largest single piece of memory
+  std::uint32_t maxStorageBuffers = 0;      // bound to one kernel
+  std::uint32_t maxGroupCount = 0;          // workgroups of one dispatch, along x
+  std::uint32_t maxGroupInvocations = 0;    // invocations of a workgroup
+  std::uint32_t maxPushConstantBytes = 0;
+  std::uint32_t maxSharedMemoryBytes = 0;  // of a workgroup
+  bool hasTimestamps = false;
+  double timestampPeriod = 0;       // [ns] of one tick
+  std::uint32_t timestampBits = 0;  // valid bits of a timestamp
+};
+
+/// A device of this machine, usable or not.
+struct DeviceListing {
+  DeviceProperties properties;
+  bool usable = false;
+  std::string why;  // if not usable: what is missing, with numbers
+};
+
+/// Turns off what a device has, so that tests reach the paths for devices without it.
+struct DeviceOptions {
+  bool alwaysStage = false;           // never map storage buffers, copy through a staging buffer
+  bool withoutTimestamps = false;     // time by the host's clock
+  bool withoutFullSubgroups = false;  // leave subgroup sizes to the driver
+};
+
+class Device : public std::enable_shared_from_this<Device> {
+ public:
+  /// Opens the device `choice` names, by index or by part of its name in any case; an empty choice takes
+  /// $RINGLET_DEVICE, else the best usable one (discrete, integrated, virtual, cpu). Where several have the
+  /// name, the best of them. RINGLET_VALIDATION=1 turns the validation layer on.
+  static Result<std::shared_ptr<Device>> open(const std::string& choice = "",
+                                              const DeviceOptions& options = {});
+  /// All devices, by index. Empty where there is no Vulkan.
+  static std::vector<DeviceListing> list();
+
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const DeviceProperties& properties() const { return properties_; }
+  const DeviceOptions& options() const { return options_; }
+
+  /// Warnings and errors of the validation layer so far; empty where it is off.
+  std::vector<std::string> validationMessages() const;
+  /// The log behind it, which may be kept past the device; null where the layer is off.
+  const std::shared_ptr<ValidationLog>& validationLog() const { return instance_->validationLog(); }
+
+  // For the other files of gpu/.
+  const VolkDeviceTable& vk() const { return table_; }
+  VkDevice handle() const { return device_; }
+  std::uint32_t queueFamily() const { return queueFamily_; }
+  VkPipelineCache pipelineCache() const { return pipelineCache_; }
+  const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+  /// Hands the commands to the queue; any thread may.
+  VkResult submit(VkCommandBuffer commands, VkFence fence);
+  /// Names an object in validation messages; does nothing where the layer is off.
+  void nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const;
+
+ private:
+  Device() = default;
+
+  std::unique_ptr<Instance> instance_;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VolkDeviceTable table_{};
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::mutex queueMutex_;
+  std::uint32_t queueFamily_ = 0;
+  VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
+  VkPhysicalDeviceMemoryProperties memory_{};
+  PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
+  DeviceProperties properties_;
+  DeviceOptions options_;
+};
+
+}  // namespace ringlet::gpu

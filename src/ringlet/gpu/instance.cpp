@@ -1,0 +1,223 @@
+// Implements gpu/instance.h.
+#include "ringlet/gpu/instance.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "ringlet/gpu/check.h"
+
+namespace ringlet::gpu {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+// Volk's global functions, filled once: they lead to every instance alike.
+std::mutex loaderMutex;
+bool isLoaderOpen = false;
+bool areInstanceFunctionsLoaded = false;
+
+Status openLoader() {
+  const std::lock_guard lock(loaderMutex);
+  if (isLoaderOpen) return {};
+  if (volkInitialize() != VK_SUCCESS) {
+    return Error{
+        "no Vulkan on this machine: the Vulkan loader (libvulkan.so.1) was not found. Install it and a "
+        "driver, on Debian the packages libvulkan1 and mesa-vulkan-drivers"};
+  }
+  isLoaderOpen = true;
+  return {};
+}
+
+void loadInstanceFunctions(VkInstance instance) {
+  const std::lock_guard lock(loaderMutex);
+  if (areInstanceFunctionsLoaded) return;
+  volkLoadInstanceOnly(instance);
+  areInstanceFunctionsLoaded = true;
+}
+
+template <class Extension>
+bool contains(const std::vector<Extension>& extensions, const char* name) {
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [&](const Extension& e) { return std::strcmp(e.extensionName, name) == 0; });
+}
+
+Result<std::vector<VkExtensionProperties>> instanceExtensions(const char* layer) {
+  std::vector<VkExtensionProperties> extensions;
+  VkResult result = VK_INCOMPLETE;
+  while (result == VK_INCOMPLETE) {
+    std::uint32_t count = 0;
+    RINGLET_VK_CHECK(vkEnumerateInstanceExtensionProperties(layer, &count, nullptr),
+                     "list Vulkan's extensions");
+    extensions.resize(count);
+    result = vkEnumerateInstanceExtensionProperties(layer, &count, extensions.data());
+    extensions.resize(count);
+  }
+  if (result != VK_SUCCESS) {
+    return vulkanError("vkEnumerateInstanceExtensionProperties", result, "list Vulkan's extensions");
+  }
+  return extensions;
+}
+
+Result<bool> hasValidationLayer() {
+  std::vector<VkLayerProperties> layers;
+  VkResult result = VK_INCOMPLETE;
+  while (result == VK_INCOMPLETE) {
+    std::uint32_t count = 0;
+    RINGLET_VK_CHECK(vkEnumerateInstanceLayerProperties(&count, nullptr), "list Vulkan's layers");
+    layers.resize(count);
+    result = vkEnumerateInstanceLayerProperties(&count, layers.data());
+    layers.resize(count);
+  }
+  if (result != VK_SUCCESS)
+    return vulkanError("vkEnumerateInstanceLayerProperties", result, "list Vulkan's layers");
+  return std::any_of(layers.begin(), layers.end(), [](const VkLayerProperties& l) {
+    return std::strcmp(l.layerName, kValidationLayer) == 0;
+  });
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL keepMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                           VkDebugUtilsMessageTypeFlagsEXT,
+                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
+  static_cast<ValidationLog*>(log)->add(data->pMessage ? data->pMessage : "(a message without text)");
+  return VK_FALSE;  // go on with the call
+}
+
+// Warnings and errors about our use of Vulkan. Left out: plain information, and the type `general`, by which
+// the loader speaks of other drivers' broken installations.
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ValidationLog* log) {
+  auto info =
+      zeroed<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
+  info.messageSeverity =
+      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType =
+      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.pfnUserCallback = keepMessage;
+  info.pUserData = log;
+  return info;
+}
+
+}  // namespace
+
+void ValidationLog::add(std::string message) {
+  const std::lock_guard lock(mutex_);
+  messages_.push_back(std::move(message));
+}
+
+std::vector<std::string> ValidationLog::messages() const {
+  const std::lock_guard lock(mutex_);
+  return messages_;
+}
+
+Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
+  if (Status status = openLoader(); !status) return status.error();
+
+  // A loader of Vulkan 1.0 refuses applications that ask for more.
+  const std::uint32_t loaderVersion = volkGetInstanceVersion();
+  if (loaderVersion < VK_API_VERSION_1_1) {
+    return Error{
+        fmt::format("the Vulkan loader of this machine is of version {}.{}; 1.1 or newer is needed: update it"
+                    " (on Debian the package libvulkan1)",
+                    VK_API_VERSION_MAJOR(loaderVersion), VK_API_VERSION_MINOR(loaderVersion))};
+  }
+
+  auto extensions = instanceExtensions(nullptr);
+  if (!extensions) return extensions.error();
+  std::vector<const char*> extensionNames;
+  std::vector<const char*> layerNames;
+  std::unique_ptr<Instance> self(new Instance);
+  self->apiVersion_ = std::min<std::uint32_t>(loaderVersion, VK_API_VERSION_1_3);
+
+  // Drivers that put Vulkan on top of another interface (MoltenVK) are shown only to those who ask.
+  VkInstanceCreateFlags flags = 0;
+  if (contains(*extensions, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+    extensionNames.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    flags = VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+  }
+
+  if (validation) {
+    auto hasLayer = hasValidationLayer();
+    if (!hasLayer) return hasLayer.error();
+    if (!*hasLayer) {
+      return Error{
+          fmt::format("RINGLET_VALIDATION=1 asks for the Vulkan layer {}, which is not installed: on Debian"
+                      " install the package vulkan-validationlayers, or unset RINGLET_VALIDATION",
+                      kValidationLayer)};
+    }
+    layerNames.push_back(kValidationLayer);
+    extensionNames.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    extensionNames.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    self->validationLog_ = std::make_shared<ValidationLog>();
+  }
+
+  // The messenger stands in the chain too, so that the instance's own creation and end are watched.
+  const std::array enabled{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(self->validationLog_.get());
+  auto features = zeroed<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
+  features.pNext = &messenger;
+  features.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size());
+  features.pEnabledValidationFeatures = enabled.data();
+
+  auto application = zeroed<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
+  application.pApplicationName = "ringlet";
+  application.pEngineName = "ringlet";
+  application.apiVersion = self->apiVersion_;
+
+  auto info = zeroed<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
+  info.pNext = validation ? &features : nullptr;
+  info.flags = flags;
+  info.pApplicationInfo = &application;
+  info.enabledLayerCount = static_cast<std::uint32_t>(layerNames.size());
+  info.ppEnabledLayerNames = layerNames.data();
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensionNames.size());
+  info.ppEnabledExtensionNames = extensionNames.data();
+  const VkResult created = vkCreateInstance(&info, nullptr, &self->instance_);
+  if (created == VK_ERROR_INCOMPATIBLE_DRIVER) {
+    return Error{
+        "no Vulkan device on this machine: the Vulkan loader found no working driver. Install the driver of "
+        "your graphics card, or on Debian mesa-vulkan-drivers, which also runs on the CPU; `vulkaninfo "
+        "--summary` (package vulkan-tools) shows what the loader finds"};
+  }
+  if (created != VK_SUCCESS) return vulkanError("vkCreateInstance", created, "start Vulkan");
+  loadInstanceFunctions(self->instance_);
+
+  if (validation) {
+    // Asked for by name: volk's global may have been loaded from an instance without this extension.
+    const auto createMessenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(self->instance_, "vkCreateDebugUtilsMessengerEXT"));
+    if (!createMessenger)
+      return Error{"the Vulkan loader does not know vkCreateDebugUtilsMessengerEXT: update it"};
+    RINGLET_VK_CHECK(createMessenger(self->instance_, &messenger, nullptr, &self->messenger_),
+                     "listen to the validation layer");
+  }
+  return self;
+}
+
+Instance::~Instance() {
+  if (!instance_) return;
+  if (messenger_) {
+    const auto destroyMessenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+    destroyMessenger(instance_, messenger_, nullptr);
+  }
+  vkDestroyInstance(instance_, nullptr);
+}
+
+Result<std::vector<VkPhysicalDevice>> Instance::physicalDevices() const {
+  std::vector<VkPhysicalDevice> devices;
+  VkResult result = VK_INCOMPLETE;
+  while (result == VK_INCOMPLETE) {
+    std::uint32_t count = 0;
+    RINGLET_VK_CHECK(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "list the Vulkan devices");
+    devices.resize(count);
+    result = vkEnumeratePhysicalDevices(instance_, &count, devices.data());
+    devices.resize(count);
+  }
+  if (result != VK_SUCCESS)
+    return vulkanError("vkEnumeratePhysicalDevices", result, "list the Vulkan devices");
+  return devices;
+}
+
+}  // namespace ringlet::gpu

@@ -1,0 +1,53 @@
+// Instance: the way to the drivers, and to the validation layer where it was asked for.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/vulkan.h"
+
+namespace ringlet::gpu {
+
+/// What the validation layer said: its warnings and errors. Drivers may call from any thread.
+class ValidationLog {
+ public:
+  void add(std::string message);
+  std::vector<std::string> messages() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
+class Instance {
+ public:
+  /// With validation: VK_LAYER_KHRONOS_validation and its synchronisation validation; an Error where it is
+  /// missing.
+  static Result<std::unique_ptr<Instance>> create(bool validation);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  /// In the order of the loader; possibly none.
+  Result<std::vector<VkPhysicalDevice>> physicalDevices() const;
+
+  VkInstance handle() const { return instance_; }
+  /// The highest version this instance lets a device be used with.
+  std::uint32_t apiVersion() const { return apiVersion_; }
+  /// Empty unless validation is on. Outlives the instance, so that what is said of leaks can be read.
+  const std::shared_ptr<ValidationLog>& validationLog() const { return validationLog_; }
+
+ private:
+  Instance() = default;
+
+  VkInstance instance_ = VK_NULL_HANDLE;
+  std::uint32_t apiVersion_ = 0;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  std::shared_ptr<ValidationLog> validationLog_;
+};
+
+}  // namespace ringlet::gpu

@@ -1,0 +1,199 @@
+// Implements gpu/kernel.h.
+#include "ringlet/gpu/kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/gpu/check.h"
+
+namespace ringlet::gpu {
+namespace {
+
+VkDescriptorType descriptorType(BindingKind kind) {
+  return kind == BindingKind::uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+std::uint32_t countOf(const std::vector<BindingKind>& bindings, BindingKind kind) {
+  return static_cast<std::uint32_t>(std::count(bindings.begin(), bindings.end(), kind));
+}
+
+}  // namespace
+
+Result<Kernel> Kernel::create(Device& device, const KernelDescription& description) {
+  RINGLET_ASSERT(!description.spirv.empty(), "a kernel without code");
+  RINGLET_ASSERT(description.pushConstantBytes % 4 == 0, "push constants come in units of 4 bytes");
+  const DeviceProperties& limits = device.properties();
+  const auto attempt = [&] {
+    return fmt::format("make the kernel '{}' on {}", description.name, limits.name);
+  };
+
+  // The limits it could break, before the driver is asked.
+  const auto tooMuch = [&](std::uint32_t needed, const char* what, std::uint32_t limit) {
+    return Error{
+        fmt::format("could not {}: it needs {} {}, the device has {}", attempt(), needed, what, limit)};
+  };
+  const std::uint32_t storageCount = countOf(description.bindings, BindingKind::storage);
+  if (storageCount > limits.maxStorageBuffers) {
+    return tooMuch(storageCount, "storage buffers (maxPerStageDescriptorStorageBuffers)",
+                   limits.maxStorageBuffers);
+  }
+  if (description.groupSize > limits.maxGroupInvocations) {
+    return tooMuch(description.groupSize, "invocations in a workgroup (maxComputeWorkGroupInvocations)",
+                   limits.maxGroupInvocations);
+  }
+  if (description.pushConstantBytes > limits.maxPushConstantBytes) {
+    return tooMuch(description.pushConstantBytes, "bytes of push constants (maxPushConstantsSize)",
+                   limits.maxPushConstantBytes);
+  }
+
+  Kernel self;
+  self.device_ = &device;
+  self.name_ = description.name;
+  self.bindings_ = description.bindings;
+  self.pushConstantBytes_ = description.pushConstantBytes;
+  self.groupSize_ = description.groupSize;
+  self.hasFullSubgroups_ = description.wantsFullSubgroups && limits.hasFullSubgroups &&
+                           description.groupSize % limits.subgroupSize == 0 &&
+                           description.groupSize / limits.subgroupSize <= limits.maxFullSubgroups;
+
+  std::vector<VkDescriptorSetLayoutBinding> bindings;
+  for (BindingKind kind : description.bindings) {
+    VkDescriptorSetLayoutBinding binding{};
+    binding.binding = static_cast<std::uint32_t>(bindings.size());
+    binding.descriptorType = descriptorType(kind);
+    binding.descriptorCount = 1;
+    binding.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+    bindings.push_back(binding);
+  }
+  auto setInfo = zeroed<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+  setInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  setInfo.pBindings = bindings.data();
+  VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout),
+                   attempt());
+  self.setLayout_ = OwnedSetLayout(device.shared_from_this(), setLayout);
+
+  VkPushConstantRange range{};
+  range.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+  range.size = description.pushConstantBytes;
+  auto layoutInfo = zeroed<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
+  layoutInfo.setLayoutCount = 1;
+  layoutInfo.pSetLayouts = &setLayout;
+  layoutInfo.pushConstantRangeCount = range.size > 0 ? 1 : 0;
+  layoutInfo.pPushConstantRanges = &range;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout),
+                   attempt());
+  self.layout_ = OwnedPipelineLayout(device.shared_from_this(), layout);
+
+  auto moduleInfo = zeroed<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+  moduleInfo.codeSize = description.spirv.size_bytes();
+  moduleInfo.pCode = description.spirv.data();
+  VkShaderModule module = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
+                   attempt());
+  const OwnedShaderModule ownedModule(device.shared_from_this(), module);
+
+  std::vector<VkSpecializationMapEntry> entries;
+  for (std::size_t i = 0; i < description.constants.size(); ++i) {
+    VkSpecializationMapEntry entry{};
+    entry.constantID = description.constants[i].id;
+    entry.offset = static_cast<std::uint32_t>(i * sizeof(SpecializationConstant) +
+                                              offsetof(SpecializationConstant, value));
+    entry.size = sizeof(SpecializationConstant::value);
+    entries.push_back(entry);
+  }
+  VkSpecializationInfo specialization{};
+  specialization.mapEntryCount = static_cast<std::uint32_t>(entries.size());
+  specialization.pMapEntries = entries.data();
+  specialization.dataSize = description.constants.size() * sizeof(SpecializationConstant);
+  specialization.pData = description.constants.data();
+
+  auto subgroupSize = zeroed<VkPipelineShaderStageRequiredSubgroupSizeCreateInfo>(
+      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO);
+  subgroupSize.requiredSubgroupSize = limits.subgroupSize;
+
+  auto info = zeroed<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+  info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+  info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+  info.stage.module = module;
+  info.stage.pName = "main";
+  info.stage.pSpecializationInfo = &specialization;
+  if (self.hasFullSubgroups_) {
+    info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+    info.stage.pNext = &subgroupSize;
+  }
+  info.layout = layout;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
+                                                        nullptr, &pipeline),
+                   attempt());
+  self.pipeline_ = OwnedPipeline(device.shared_from_this(), pipeline);
+  device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.name);
+  return self;
+}
+
+Result<Bindings> Bindings::create(const Kernel& kernel,
+                                  const std::vector<std::reference_wrapper<const Buffer>>& buffers) {
+  RINGLET_ASSERT(buffers.size() == kernel.bindings().size(), "a kernel needs one buffer a binding");
+  Device& device = kernel.device();
+  const auto attempt = [&] { return fmt::format("bind the buffers of the kernel '{}'", kernel.name()); };
+
+  Bindings self;
+  self.kinds_ = kernel.bindings();
+
+  // A pool for this one set; Vulkan wants no empty entries.
+  std::vector<VkDescriptorPoolSize> sizes;
+  for (BindingKind kind : {BindingKind::storage, BindingKind::uniform}) {
+    if (const std::uint32_t count = countOf(self.kinds_, kind))
+      sizes.push_back({descriptorType(kind), count});
+  }
+  auto poolInfo = zeroed<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+  poolInfo.maxSets = 1;
+  poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+  poolInfo.pPoolSizes = sizes.data();
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreateDescriptorPool(device.handle(), &poolInfo, nullptr, &pool), attempt());
+  self.pool_ = OwnedDescriptorPool(device.shared_from_this(), pool);
+
+  const VkDescriptorSetLayout setLayout = kernel.setLayout();
+  auto setInfo = zeroed<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+  setInfo.descriptorPool = pool;
+  setInfo.descriptorSetCount = 1;
+  setInfo.pSetLayouts = &setLayout;
+  RINGLET_VK_CHECK(device.vk().vkAllocateDescriptorSets(device.handle(), &setInfo, &self.set_), attempt());
+
+  std::vector<VkDescriptorBufferInfo> infos(buffers.size());
+  std::vector<VkWriteDescriptorSet> writes;
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    const Buffer& buffer = buffers[i];
+    if (self.kinds_[i] == BindingKind::uniform) {
+      RINGLET_ASSERT(buffer.kind() == BufferKind::stream, "a uniform binding takes a stream buffer");
+      const std::uint64_t limit = device.properties().maxUniformBufferRange;
+      if (buffer.capacity() > limit) {
+        return Error{
+            fmt::format("could not {}: the buffer '{}' of {} bytes is too large for a uniform, of which this"
+                        " device allows {} (maxUniformBufferRange)",
+                        attempt(), buffer.name(), buffer.bytes(), limit)};
+      }
+    }
+    infos[i].buffer = buffer.handle();
+    infos[i].range = buffer.capacity();
+    auto write = zeroed<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = self.set_;
+    write.dstBinding = static_cast<std::uint32_t>(i);
+    write.descriptorCount = 1;
+    write.descriptorType = descriptorType(self.kinds_[i]);
+    write.pBufferInfo = &infos[i];
+    writes.push_back(write);
+  }
+  device.vk().vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()),
+                                     writes.data(), 0, nullptr);
+  return self;
+}
+
+}  // namespace ringlet::gpu

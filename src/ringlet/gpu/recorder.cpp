@@ -1,0 +1,279 @@
+// Implements gpu/recorder.h.
+#include "ringlet/gpu/recorder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/gpu/check.h"
+
+namespace ringlet::gpu {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint32_t kStagesPerPool = 64;                   // two timestamps each
+constexpr std::uint32_t kQueriesPerPool = 2 * kStagesPerPool;  // pools are added as stages come
+
+constexpr VkPipelineStageFlags kWork = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+constexpr VkAccessFlags kWrites = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+constexpr VkAccessFlags kReads =
+    VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
+
+}  // namespace
+
+struct Recorder::State {
+  enum class Phase { empty, recording, recorded, submitted };
+
+  std::shared_ptr<Device> device;
+  std::string name;
+  OwnedCommandPool pool;
+  VkCommandBuffer commands = VK_NULL_HANDLE;  // goes with the pool
+  OwnedFence fence;
+  std::vector<OwnedQueryPool> timestamps;
+  Phase phase = Phase::empty;
+  std::optional<Error> failure;  // of a call that returns nothing; reported by submit
+  std::vector<std::string> stages;
+  bool isStageOpen = false;
+  Clock::time_point submitted;
+  double submissionMilliseconds = 0;
+  std::vector<std::pair<std::string, double>> stageMilliseconds;
+
+  ~State() {
+    // Nothing may be destroyed under the device's hands; a lost device answers at once.
+    if (phase == Phase::submitted) (void)waitForFence();
+  }
+
+  const VolkDeviceTable& vk() const { return device->vk(); }
+  std::string attempt(const char* what) const {
+    return fmt::format("{} '{}' on {}", what, name, device->properties().name);
+  }
+
+  void memoryBarrier(VkAccessFlags readers, VkPipelineStageFlags readingStages) {
+    auto barrier = zeroed<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+    barrier.srcAccessMask = kWrites;
+    barrier.dstAccessMask = readers;
+    vk().vkCmdPipelineBarrier(commands, kWork, readingStages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
+  }
+
+  // The pool of stage `index`, made and reset when its first stage is recorded.
+  Status preparePool(std::size_t index) {
+    if (index % kStagesPerPool != 0) return {};
+    if (index / kStagesPerPool == timestamps.size()) {
+      auto info = zeroed<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
+      info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+      info.queryCount = kQueriesPerPool;
+      VkQueryPool queries = VK_NULL_HANDLE;
+      RINGLET_VK_CHECK(vk().vkCreateQueryPool(device->handle(), &info, nullptr, &queries),
+                       attempt("time the stages of"));
+      timestamps.emplace_back(device, queries);
+    }
+    vk().vkCmdResetQueryPool(commands, timestamps[index / kStagesPerPool].get(), 0, kQueriesPerPool);
+    return {};
+  }
+
+  // At the bottom of the pipe both for begin and end: written once everything before is done, so stages that
+  // follow each other do not overlap and add up to the whole.
+  void writeTimestamp(std::size_t stage, std::uint32_t which) {
+    vk().vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT,
+                             timestamps[stage / kStagesPerPool].get(),
+                             static_cast<std::uint32_t>(stage % kStagesPerPool) * 2 + which);
+  }
+
+  Status waitForFence() {
+    const VkFence handle = fence.get();
+    VkResult result = VK_TIMEOUT;
+    while (result == VK_TIMEOUT) {
+      result = vk().vkWaitForFences(device->handle(), 1, &handle, VK_TRUE,
+                                    std::numeric_limits<std::uint64_t>::max());
+    }
+    if (result != VK_SUCCESS) return vulkanError("vkWaitForFences", result, attempt("finish"));
+    return {};
+  }
+
+  Status readStages() {
+    stageMilliseconds.clear();
+    const DeviceProperties& properties = device->properties();
+    if (!properties.hasTimestamps) {
+      for (const std::string& stage : stages) {
+        stageMilliseconds.emplace_back(stage, submissionMilliseconds / static_cast<double>(stages.size()));
+      }
+      return {};
+    }
+    // A timestamp wraps around at its valid bits.
+    const std::uint64_t mask =
+        properties.timestampBits >= 64 ? ~0ull : (1ull << properties.timestampBits) - 1;
+    std::vector<std::uint64_t> ticks(kQueriesPerPool);
+    for (std::size_t first = 0; first < stages.size(); first += kStagesPerPool) {
+      const auto count =
+          static_cast<std::uint32_t>(std::min<std::size_t>(kStagesPerPool, stages.size() - first));
+      RINGLET_VK_CHECK(
+          vk().vkGetQueryPoolResults(device->handle(), timestamps[first / kStagesPerPool].get(), 0, 2 * count,
+                                     2 * count * sizeof(std::uint64_t), ticks.data(), sizeof(std::uint64_t),
+                                     VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          attempt("time the stages of"));
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint64_t elapsed = (ticks[2 * i + 1] - ticks[2 * i]) & mask;
+        stageMilliseconds.emplace_back(stages[first + i],
+                                       static_cast<double>(elapsed) * properties.timestampPeriod * 1e-6);
+      }
+    }
+    return {};
+  }
+};
+
+Recorder::Recorder(std::unique_ptr<State> state) : self_(std::move(state)) {}
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder& Recorder::operator=(Recorder&&) noexcept = default;
+Recorder::~Recorder() = default;
+
+Result<Recorder> Recorder::create(Device& device, const std::string& name) {
+  auto self = std::make_unique<State>();
+  self->device = device.shared_from_this();
+  self->name = name;
+
+  auto poolInfo = zeroed<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
+  poolInfo.queueFamilyIndex = device.queueFamily();
+  VkCommandPool pool = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool),
+                   self->attempt("record"));
+  self->pool = OwnedCommandPool(self->device, pool);
+
+  auto info = zeroed<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+  info.commandPool = pool;
+  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  info.commandBufferCount = 1;
+  RINGLET_VK_CHECK(device.vk().vkAllocateCommandBuffers(device.handle(), &info, &self->commands),
+                   self->attempt("record"));
+  device.nameObject(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(self->commands), name);
+
+  auto fenceInfo = zeroed<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+  VkFence fence = VK_NULL_HANDLE;
+  RINGLET_VK_CHECK(device.vk().vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence),
+                   self->attempt("record"));
+  self->fence = OwnedFence(self->device, fence);
+  return Recorder(std::move(self));
+}
+
+Status Recorder::begin() {
+  RINGLET_ASSERT(self_->phase != State::Phase::submitted, "begin before wait");
+  self_->phase = State::Phase::empty;
+  self_->failure.reset();
+  self_->stages.clear();
+  self_->isStageOpen = false;
+  RINGLET_VK_CHECK(self_->vk().vkResetCommandPool(self_->device->handle(), self_->pool.get(), 0),
+                   self_->attempt("record"));
+  auto info = zeroed<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+  RINGLET_VK_CHECK(self_->vk().vkBeginCommandBuffer(self_->commands, &info), self_->attempt("record"));
+  self_->phase = State::Phase::recording;
+  barrier();  // against earlier submissions
+  return {};
+}
+
+void Recorder::dispatch(const Kernel& kernel, const Bindings& bindings,
+                        std::span<const std::byte> pushConstants, std::uint32_t groupCount) {
+  RINGLET_ASSERT(self_->phase == State::Phase::recording, "dispatch outside begin and submit");
+  RINGLET_ASSERT(pushConstants.size() == kernel.pushConstantBytes(),
+                 "push constants of a size the kernel does not have");
+  RINGLET_ASSERT(bindings.kinds() == kernel.bindings(), "bindings made for another list of binding kinds");
+  RINGLET_ASSERT(groupCount <= self_->device->properties().maxGroupCount,
+                 "more workgroups than one dispatch may have");
+  if (groupCount == 0) return;
+  const VkDescriptorSet set = bindings.set();
+  self_->vk().vkCmdBindPipeline(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+  self_->vk().vkCmdBindDescriptorSets(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
+                                      &set, 0, nullptr);
+  if (!pushConstants.empty()) {
+    self_->vk().vkCmdPushConstants(self_->commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                   static_cast<std::uint32_t>(pushConstants.size()), pushConstants.data());
+  }
+  self_->vk().vkCmdDispatch(self_->commands, groupCount, 1, 1);
+}
+
+// One kind of barrier for everything: on compute work a narrower one gains nothing.
+void Recorder::barrier() {
+  RINGLET_ASSERT(self_->phase == State::Phase::recording, "barrier outside begin and submit");
+  self_->memoryBarrier(kReads | kWrites, kWork);
+}
+
+void Recorder::copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t fromOffset,
+                          std::uint64_t toOffset) {
+  RINGLET_ASSERT(self_->phase == State::Phase::recording, "copyBuffer outside begin and submit");
+  RINGLET_ASSERT(fromOffset <= from.bytes() && bytes <= from.bytes() - fromOffset,
+                 "a copy runs past its source's end");
+  RINGLET_ASSERT(toOffset <= to.bytes() && bytes <= to.bytes() - toOffset,
+                 "a copy runs past its target's end");
+  if (bytes == 0) return;
+  const VkBufferCopy region{.srcOffset = fromOffset, .dstOffset = toOffset, .size = bytes};
+  self_->vk().vkCmdCopyBuffer(self_->commands, from.handle(), to.handle(), 1, &region);
+}
+
+void Recorder::fillZero(const Buffer& buffer) {
+  RINGLET_ASSERT(self_->phase == State::Phase::recording, "fillZero outside begin and submit");
+  self_->vk().vkCmdFillBuffer(self_->commands, buffer.handle(), 0, buffer.capacity(), 0);
+}
+
+void Recorder::beginStage(const std::string& name) {
+  RINGLET_ASSERT(self_->phase == State::Phase::recording, "beginStage outside begin and submit");
+  RINGLET_ASSERT(!self_->isStageOpen, "stages do not nest");
+  const std::size_t index = self_->stages.size();
+  self_->stages.push_back(name);
+  self_->isStageOpen = true;
+  if (!self_->device->properties().hasTimestamps || self_->failure) return;
+  if (Status status = self_->preparePool(index); !status) {
+    self_->failure = status.error();
+    return;
+  }
+  self_->writeTimestamp(index, 0);
+}
+
+void Recorder::endStage() {
+  RINGLET_ASSERT(self_->isStageOpen, "endStage without beginStage");
+  self_->isStageOpen = false;
+  if (!self_->device->properties().hasTimestamps || self_->failure) return;
+  self_->writeTimestamp(self_->stages.size() - 1, 1);
+}
+
+Status Recorder::submit() {
+  RINGLET_ASSERT(self_->phase == State::Phase::recording || self_->phase == State::Phase::recorded,
+                 "submit without a recording, or before wait");
+  if (self_->failure) return *self_->failure;
+  if (self_->phase == State::Phase::recording) {
+    RINGLET_ASSERT(!self_->isStageOpen, "submit before endStage");
+    self_->memoryBarrier(VK_ACCESS_HOST_READ_BIT, VK_PIPELINE_STAGE_HOST_BIT);  // for what is mapped
+    RINGLET_VK_CHECK(self_->vk().vkEndCommandBuffer(self_->commands), self_->attempt("record"));
+    self_->phase = State::Phase::recorded;
+  }
+  const VkFence fence = self_->fence.get();
+  RINGLET_VK_CHECK(self_->vk().vkResetFences(self_->device->handle(), 1, &fence), self_->attempt("submit"));
+  self_->submitted = Clock::now();
+  const VkResult submitted = self_->device->submit(self_->commands, fence);
+  if (submitted != VK_SUCCESS) return vulkanError("vkQueueSubmit", submitted, self_->attempt("submit"));
+  self_->phase = State::Phase::submitted;
+  return {};
+}
+
+Status Recorder::wait() {
+  RINGLET_ASSERT(self_->phase == State::Phase::submitted, "wait without submit");
+  self_->phase = State::Phase::recorded;
+  if (Status status = self_->waitForFence(); !status) return status;
+  self_->submissionMilliseconds =
+      std::chrono::duration<double, std::milli>(Clock::now() - self_->submitted).count();
+  return self_->readStages();
+}
+
+Status Recorder::submitAndWait() {
+  if (Status status = submit(); !status) return status;
+  return wait();
+}
+
+const std::vector<std::pair<std::string, double>>& Recorder::stageMilliseconds() const {
+  return self_->stageMilliseconds;
+}
+double Recorder::submissionMilliseconds() const { return self_->submissionMilliseconds; }
+
+}  // namespace ringlet::gpu

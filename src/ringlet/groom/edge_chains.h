@@ -1,0 +1,34 @@
+// Joins single edges into chains, for files that hold one line per edge.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+
+namespace ringlet {
+
+/// An edge between two points, as a line of a file names it.
+struct ListedEdge {
+  std::uint32_t from, to;  // indices of points, from 0
+  std::size_t line;        // where it stands, for messages
+};
+
+/// The points along one chain, in the direction of most of its edges (of the first listed, if as many run
+/// either way).
+struct EdgeChain {
+  std::vector<std::uint32_t> points;
+  std::size_t firstLine = 0;    // of its edges, the first listed
+  bool isOneDirection = false;  // all its edges run the same way
+};
+
+/// Joins edges that share a point, in order of their first lines; all indices must be below pointCount.
+/// Errors, naming `fileName` and the line: a point with more than two edges, a closed loop. Cost: linear in
+/// edges and points.
+Result<std::vector<EdgeChain>> joinEdges(std::span<const ListedEdge> edges, std::size_t pointCount,
+                                         const std::string& fileName);
+
+}  // namespace ringlet

@@ -1,0 +1,28 @@
+// OBJ polylines (.obj): `v x y z` lines, then one `l i j k ...` per strand, root first.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "ringlet/base/result.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/groom/loaded_groom.h"
+
+namespace ringlet {
+
+/// Reads the text of an .obj file; `path` is for messages, which name the line, what was found and what was
+/// expected. An `l` of three or more indices is a strand, root first. Lines of two indices are edges and are
+/// joined where they share a point, in whatever order they come; a strand then runs the way most of its edges
+/// do. Other keywords are ignored. Errors: a bad number or index, edges that branch or close a loop, no
+/// strand at all. Throws nothing but std::bad_alloc. Cost: one pass over the text, one over the edges.
+Result<LoadedGroom> readObj(std::span<const std::byte> text, const std::filesystem::path& path);
+
+/// Writes a groom as .obj with nine significant digits; reading it gives the same bits. Errors: see
+/// writeGroom.
+Status writeObj(const std::filesystem::path& path, const Groom& groom);
+
+/// The same with other positions, as many as the groom's, in its order and unit: a frame of an animation.
+Status writeObj(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points);
+
+}  // namespace ringlet

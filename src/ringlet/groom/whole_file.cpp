@@ -1,0 +1,100 @@
+// Implements groom/whole_file.h.
+#include "ringlet/groom/whole_file.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <system_error>
+
+namespace ringlet {
+namespace {
+
+// Beyond any groom (2^32 points take 48 GiB), and refused before memory is asked for: some systems promise
+// memory they do not have and end the program that uses it.
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 36;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+std::string reasonOf(int code) { return std::generic_category().message(code); }
+
+// A name beside `path` that no other writer uses: the time, and a count for two writers in one process.
+std::filesystem::path temporaryBeside(const std::filesystem::path& path) {
+  static std::atomic<unsigned> count{0};
+  const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+  std::filesystem::path temporary = path;
+  temporary += fmt::format(".{:x}-{:x}.partial", static_cast<std::uint64_t>(now), count.fetch_add(1));
+  return temporary;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> readWholeFile(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::error_code code;
+  const std::filesystem::file_status status = std::filesystem::status(path, code);
+  if (!std::filesystem::exists(status)) {
+    return Error{fmt::format("{}: cannot read it: {}", name, code ? code.message() : "no such file")};
+  }
+  if (std::filesystem::is_directory(status))
+    return Error{fmt::format("{}: is a folder; expected a file", name)};
+  if (!std::filesystem::is_regular_file(status)) return Error{fmt::format("{}: is not a regular file", name)};
+  const std::uintmax_t size = std::filesystem::file_size(path, code);
+  if (code) return Error{fmt::format("{}: cannot tell its size: {}", name, code.message())};
+
+  if (size > kLargestFile) {
+    return Error{fmt::format("{}: has {} bytes; at most {} can be read", name, size, kLargestFile)};
+  }
+
+  const File file(std::fopen(name.c_str(), "rb"));
+  if (!file) return Error{fmt::format("{}: cannot open it: {}", name, reasonOf(errno))};
+  std::vector<std::byte> bytes;
+  bytes.resize(static_cast<std::size_t>(size));
+  const std::size_t found = bytes.empty() ? 0 : std::fread(bytes.data(), 1, bytes.size(), file.get());
+  if (found != bytes.size()) {
+    return Error{
+        fmt::format("{}: read {} of {} bytes: {}", name, found, size,
+                    std::ferror(file.get()) ? reasonOf(errno) : "the file became shorter meanwhile")};
+  }
+  return bytes;
+}
+
+Status writeWholeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  const std::string name = path.string();
+  const std::filesystem::path temporary = temporaryBeside(path);
+  File file(std::fopen(temporary.string().c_str(), "wbx"));
+  if (!file) return Error{fmt::format("{}: cannot write into its folder: {}", name, reasonOf(errno))};
+
+  // A full disk shows at any of the three: the write, the flush or the close.
+  errno = 0;
+  bool isWritten = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  isWritten = isWritten && std::fflush(file.get()) == 0;
+  int reason = errno;
+  if (std::fclose(file.release()) != 0 && isWritten) {
+    isWritten = false;
+    reason = errno;
+  }
+
+  std::error_code ignored;
+  if (!isWritten) {
+    std::filesystem::remove(temporary, ignored);
+    return Error{fmt::format("{}: cannot write its {} bytes: {}", name, bytes.size(), reasonOf(reason))};
+  }
+  std::error_code code;
+  std::filesystem::rename(temporary, path, code);
+  if (code) {
+    std::filesystem::remove(temporary, ignored);
+    return Error{fmt::format("{}: cannot put the finished file in place: {}", name, code.message())};
+  }
+  return {};
+}
+
+}  // namespace ringlet

@@ -1,0 +1,338 @@
+// Implements output/sheet.h.
+//
+// Each panel is drawn kSuper times too large with a depth buffer and then averaged, which gives smooth lines
+// whatever the order of strands. A strand is a tube: bright along its middle, dark at its edges, so that
+// crossing strands part.
+#include "ringlet/output/sheet.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace ringlet {
+namespace {
+
+constexpr int kSuper = 3;                 // samples per pixel, each way: nine shades of coverage
+constexpr double kMargin = 0.07;          // share of a panel left free on each side
+constexpr double kYaw = 35, kPitch = 12;  // where the camera stands: degrees to the side, degrees up
+constexpr double kDistance = 5;  // of the camera, in sizes of what it sees: a long lens, little distortion
+constexpr double kFollowBelow =
+    0.3;  // the camera goes along if hair would else be drawn below this share of its size
+constexpr double kFarLight = 0.38;  // brightness of the farthest strand, the nearest being 1
+constexpr double kFullDepth = 0.6;  // depth, in sizes of the hair, over which it falls that far
+constexpr float kExposure = 1.55f;  // so that the brightest strands are just below white
+constexpr Colour kBackground{33, 36, 42}, kDivider{62, 66, 74}, kLabel{150, 156, 166};
+
+// The camera's axes: where right, up and towards the viewer are in the groom's axes.
+struct Axes {
+  Vec3d right, up, back;
+  Vec3d toCamera(Vec3f p) const {
+    Vec3d v(p);
+    return {dot(right, v), dot(up, v), dot(back, v)};
+  }
+};
+
+Axes cameraAxes(UpAxis upAxis) {
+  // Y up is seen from +Z, Z up from -Y; X points right in both.
+  const Vec3d side{1, 0, 0};
+  const Vec3d up = upAxis == UpAxis::y ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
+  const Vec3d front = cross(side, up);
+  const double yaw = kYaw * std::numbers::pi / 180, pitch = kPitch * std::numbers::pi / 180;
+  const Vec3d level = front * std::cos(yaw) + side * std::sin(yaw);
+  const Vec3d back = level * std::cos(pitch) + up * std::sin(pitch);
+  const Vec3d right = cross(up, level);
+  return {right, cross(back, right), back};
+}
+
+struct Box {
+  Vec3d low = Vec3d{1, 1, 1} * std::numeric_limits<double>::infinity(), high = -low;
+  void add(Vec3d p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  Vec3d centre() const { return (low + high) / 2.0; }
+  double size() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-12}); }
+};
+
+// A box of camera coordinates drawn into a panel: pixel = middle + scale (p - centre) / (1 - depth /
+// distance).
+struct View {
+  Vec3d centre;
+  double distance = 1, scale = 1;
+
+  Vec3d project(Vec3d camera) const {
+    Vec3d p = camera - centre;
+    double nearness = 1 / std::max(0.1, 1 - p.z / distance);
+    return {0.5 * kPanelWidth * kSuper + scale * p.x * nearness,
+            0.5 * kPanelHeight * kSuper - scale * p.y * nearness, p.z};
+  }
+};
+
+// The view in which all of the points, given in camera coordinates, fill the panel.
+View fit(std::span<const std::vector<Vec3d>> frames) {
+  Box box;
+  for (const auto& points : frames) {
+    for (Vec3d p : points) box.add(p);
+  }
+  View view{box.centre(), kDistance * box.size(), std::numeric_limits<double>::infinity()};
+  const double halfWidth = (0.5 - kMargin) * kPanelWidth * kSuper,
+               halfHeight = (0.5 - kMargin) * kPanelHeight * kSuper;
+  for (const auto& points : frames) {
+    for (Vec3d q : points) {
+      Vec3d p = q - view.centre;
+      double nearness = 1 / std::max(0.1, 1 - p.z / view.distance);
+      view.scale = std::min({view.scale, halfWidth / std::max(1e-12, std::abs(p.x) * nearness),
+                             halfHeight / std::max(1e-12, std::abs(p.y) * nearness)});
+    }
+  }
+  return view;
+}
+
+struct Shade {
+  float red = 0, green = 0, blue = 0;  // 0..1
+  Shade operator*(float s) const { return {red * s, green * s, blue * s}; }
+  Shade operator+(Shade o) const { return {red + o.red, green + o.green, blue + o.blue}; }
+};
+
+// A strand's own colour, from copper to straw, so that neighbours can be told apart.
+Shade strandColour(std::size_t strand) {
+  // A hash (the finaliser of splitmix64), because strands often come in an order that any regular sequence
+  // would show.
+  std::uint64_t mixed = (static_cast<std::uint64_t>(strand) + 1) * 0x9e3779b97f4a7c15;
+  mixed = (mixed ^ (mixed >> 30)) * 0xbf58476d1ce4e5b9;
+  mixed = (mixed ^ (mixed >> 27)) * 0x94d049bb133111eb;
+  const float hue = static_cast<float>(mixed >> 40) / 0x1p24f;
+  const float value = static_cast<float>((mixed >> 16) & 0xffffff) / 0x1p24f;
+  const Shade copper{0.90f, 0.44f, 0.21f}, straw{0.97f, 0.76f, 0.45f};
+  return (copper * (1 - hue) + straw * hue) * (0.72f + 0.28f * value);
+}
+
+// Light on a thin fibre (Kajiya and Kay 1989): it depends on the tangent only. Light comes from above left,
+// behind the viewer.
+Shade fibreLight(Shade colour, Vec3d tangent) {
+  const Vec3d light = normalizedOr(Vec3d{-0.45, 0.75, 0.5}, {});
+  const Vec3d halfway = normalizedOr(light + Vec3d{0, 0, 1}, {});
+  const double alongLight = dot(tangent, light), alongHalf = dot(tangent, halfway);
+  const double diffuse = std::sqrt(std::max(0.0, 1 - alongLight * alongLight));
+  const double gloss = std::pow(std::max(0.0, 1 - alongHalf * alongHalf), 24);
+  return colour * static_cast<float>(0.30 + 0.62 * diffuse) +
+         Shade{1, 0.93f, 0.82f} * static_cast<float>(0.22 * gloss);
+}
+
+// One panel at kSuper times its size.
+class Canvas {
+ public:
+  Canvas() : depth_(kWidth * kHeight), shade_(kWidth * kHeight) {}
+
+  void clear() { std::fill(depth_.begin(), depth_.end(), -std::numeric_limits<float>::infinity()); }
+
+  struct End {
+    Vec3d at;  // x, y [sample], z depth, larger is nearer
+    Shade shade;
+  };
+
+  // A tube of the given radius [sample] from a to b, walked along its longer side.
+  void drawEdge(End a, End b, double radius) {
+    const bool steep = std::abs(b.at.y - a.at.y) > std::abs(b.at.x - a.at.x);
+    auto major = [steep](Vec3d p) { return steep ? p.y : p.x; };
+    auto minor = [steep](Vec3d p) { return steep ? p.x : p.y; };
+    if (major(a.at) > major(b.at)) std::swap(a, b);
+    const double runMajor = major(b.at) - major(a.at), runMinor = minor(b.at) - minor(a.at);
+    const double squaredLength = runMajor * runMajor + runMinor * runMinor;
+    const double slope = runMajor > 0 ? runMinor / runMajor : 0;
+    const double reach = radius * std::sqrt(1 + slope * slope);
+    const int majorEnd = steep ? kHeight : kWidth, minorEnd = steep ? kWidth : kHeight;
+    const std::size_t majorStride = steep ? kWidth : 1, minorStride = steep ? 1 : kWidth;
+    const auto fMajor = static_cast<float>(runMajor), fMinor = static_cast<float>(runMinor);
+    const auto perMajor = static_cast<float>(squaredLength > 0 ? runMajor / squaredLength : 0);
+    const auto perMinor = static_cast<float>(squaredLength > 0 ? runMinor / squaredLength : 0);
+    const auto perSquaredRadius = static_cast<float>(1 / (radius * radius)),
+               minorStart = static_cast<float>(0.5 - minor(a.at));
+    const auto aDepth = static_cast<float>(a.at.z), runDepth = static_cast<float>(b.at.z - a.at.z);
+
+    const int first = clampedCeil(major(a.at) - radius - 0.5, majorEnd),
+              last = clampedFloor(major(b.at) + radius - 0.5, majorEnd);
+    for (int i = first; i <= last; ++i) {
+      const double middle =
+          minor(a.at) + slope * (std::clamp(i + 0.5, major(a.at), major(b.at)) - major(a.at));
+      const int low = clampedCeil(middle - reach - 0.5, minorEnd),
+                high = clampedFloor(middle + reach - 0.5, minorEnd);
+      // The nearest place t on the edge to each sample of this row or column, and how far it is; in float,
+      // this is the hot loop.
+      const auto pMajor = static_cast<float>(i + 0.5 - major(a.at));
+      for (int j = low; j <= high; ++j) {
+        const float pMinor = static_cast<float>(j) + minorStart;
+        const float t = std::clamp(pMajor * perMajor + pMinor * perMinor, 0.0f, 1.0f);
+        const float depth = aDepth + t * runDepth;
+        float& held = depth_[i * majorStride + j * minorStride];
+        if (depth <= held) continue;
+        const float dMajor = pMajor - t * fMajor, dMinor = pMinor - t * fMinor;
+        const float off = (dMajor * dMajor + dMinor * dMinor) * perSquaredRadius;
+        if (off > 1) continue;
+        held = depth;
+        shade_[i * majorStride + j * minorStride] = (a.shade * (1 - t) + b.shade * t) * (1 - 0.55f * off);
+      }
+    }
+  }
+
+  // Averages the samples of every pixel into the picture, `left` pixels from its left side.
+  void copyTo(Picture& picture, int left) const {
+    for (int y = 0; y < kPanelHeight; ++y) {
+      for (int x = 0; x < kPanelWidth; ++x) {
+        Shade sum;
+        int covered = 0;
+        for (int dy = 0; dy < kSuper; ++dy) {
+          for (int dx = 0; dx < kSuper; ++dx) {
+            const std::size_t sample = static_cast<std::size_t>(y * kSuper + dy) * kWidth + (x * kSuper + dx);
+            if (depth_[sample] == -std::numeric_limits<float>::infinity()) continue;
+            sum = sum + shade_[sample];
+            ++covered;
+          }
+        }
+        if (covered == 0) continue;
+        const float open = static_cast<float>(kSuper * kSuper - covered);
+        auto mix = [open](float lit, std::uint8_t behind) {
+          float value = (255 * lit + open * static_cast<float>(behind)) / (kSuper * kSuper);
+          return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
+        };
+        Colour& pixel = picture.at(left + x, y);
+        pixel = {mix(sum.red, pixel.red), mix(sum.green, pixel.green), mix(sum.blue, pixel.blue)};
+      }
+    }
+  }
+
+ private:
+  static constexpr int kWidth = kPanelWidth * kSuper, kHeight = kPanelHeight * kSuper;
+  // Rounded to a sample and kept within [0, end), so that points far outside cost nothing and overflow
+  // nothing.
+  static int clampedCeil(double value, int end) {
+    return static_cast<int>(std::ceil(std::clamp(value, 0.0, end + 1.0)));
+  }
+  static int clampedFloor(double value, int end) {
+    return static_cast<int>(std::floor(std::clamp(value, -1.0, end - 1.0)));
+  }
+
+  std::vector<float> depth_;
+  std::vector<Shade> shade_;
+};
+
+}  // namespace
+
+std::vector<int> sheetFrames(int frameCount) {
+  std::vector<int> frames;
+  for (int i = 0; i < kSheetPanels; ++i) {
+    // Rounded in 64 bits: 1 + i (n - 1) / 5.
+    const auto frame =
+        static_cast<int>(1 + (2LL * i * (frameCount - 1) + kSheetPanels - 1) / (2 * (kSheetPanels - 1)));
+    if (frames.empty() || frame > frames.back()) frames.push_back(frame);
+  }
+  return frames;
+}
+
+Sheet::Sheet(const Groom& topology, int frameCount, UpAxis up)
+    : firstPoint_(topology.firstPoint), wanted_(sheetFrames(frameCount)), up_(up) {
+  RINGLET_ASSERT(frameCount >= 1, "a run has at least one frame");
+}
+
+void Sheet::offer(int frame, std::span<const Vec3f> points) {
+  RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
+  // The latest frame makes way for the next unless it is one of those chosen.
+  auto wanted = [this](int number) {
+    return std::find(wanted_.begin(), wanted_.end(), number) != wanted_.end();
+  };
+  if (frames_.empty() || wanted(frames_.back().number)) frames_.emplace_back();
+  frames_.back().number = frame;
+  frames_.back().points.assign(points.begin(), points.end());
+}
+
+Picture Sheet::draw() const {
+  RINGLET_ASSERT(!frames_.empty(), "a sheet shows at least one frame");
+  Picture picture(kSheetPanels * kPanelWidth, kPanelHeight, kBackground);
+
+  // All frames as the camera sees them, and how large they can be drawn: all with one view, or each with its
+  // own.
+  const Axes axes = cameraAxes(up_);
+  std::vector<std::vector<Vec3d>> frames;
+  for (const Frame& frame : frames_) {
+    auto& points = frames.emplace_back();
+    points.reserve(frame.points.size());
+    for (Vec3f p : frame.points) points.push_back(axes.toCamera(p));
+  }
+  const View fixed = fit(frames);
+  std::vector<View> following;
+  double followScale = std::numeric_limits<double>::infinity(), followDistance = 0;
+  for (const auto& points : frames) {
+    following.push_back(fit(std::span(&points, 1)));
+    followScale = std::min(followScale, following.back().scale);
+    followDistance = std::max(followDistance, following.back().distance);
+  }
+  const bool follow = fixed.scale < kFollowBelow * followScale;
+
+  // Few strands are drawn thicker than many; the exponent was chosen by eye over 1 to 10,000 strands.
+  const auto strandCount = static_cast<double>(firstPoint_.size() - 1);
+  const double radius = 0.5 * kSuper * std::clamp(3.4 * std::pow(strandCount, -0.14), 0.9, 3.0);
+
+  auto drawPanel = [&](std::size_t panel, Canvas& canvas) {
+    const View view = follow ? View{following[panel].centre, followDistance, followScale} : fixed;
+    const auto& points = frames[panel];
+    Box box;
+    for (Vec3d p : points) box.add(p - view.centre);
+    const double depth = std::max(box.high.z - box.low.z, kFullDepth * box.size());
+
+    canvas.clear();
+    for (std::size_t strand = 0; strand + 1 < firstPoint_.size(); ++strand) {
+      const Shade colour = strandColour(strand);
+      const std::size_t root = firstPoint_[strand], end = firstPoint_[strand + 1];
+      std::optional<Canvas::End> before;
+      for (std::size_t i = root; i < end; ++i) {
+        // Dark at the root, light at the tip; darker when farther away.
+        const Vec3d tangent =
+            normalizedOr(points[std::min(i + 1, end - 1)] - points[i > root ? i - 1 : i], {0, 1, 0});
+        const double alongStrand =
+            static_cast<double>(i - root) / static_cast<double>(std::max<std::size_t>(end - root - 1, 1));
+        const Vec3d at = view.project(points[i]);
+        const double depthLight = 1 - (1 - kFarLight) * (box.high.z - at.z) / depth;
+        const auto light = static_cast<float>((0.6 + 0.4 * alongStrand) * depthLight);
+        const Canvas::End now{at, fibreLight(colour, tangent) * (kExposure * light)};
+        if (before) canvas.drawEdge(*before, now, radius);
+        before = now;
+      }
+    }
+    const int left = static_cast<int>(panel) * kPanelWidth;
+    canvas.copyTo(picture, left);
+    picture.drawNumber(frames_[panel].number, left + 14, kPanelHeight - 14 - 21, 3, kLabel);
+  };
+
+  // Panels are columns of the picture of their own, so each processor can draw one at a time.
+  std::atomic<std::size_t> nextPanel = 0;
+  auto drawPanels = [&] {
+    Canvas canvas;
+    for (std::size_t panel; (panel = nextPanel++) < frames.size();) drawPanel(panel, canvas);
+  };
+  {
+    std::vector<std::jthread> helpers;
+    const std::size_t processors =
+        std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, frames.size());
+    try {
+      for (std::size_t i = 1; i < processors; ++i) helpers.emplace_back(drawPanels);
+    } catch (const std::system_error&) {
+      // No more threads to be had: those there are draw everything.
+    }
+    drawPanels();
+  }
+
+  // A thin line between panels.
+  for (int panel = 1; panel < kSheetPanels; ++panel) {
+    for (int y = 0; y < kPanelHeight; ++y) picture.at(panel * kPanelWidth, y) = kDivider;
+  }
+  return picture;
+}
+
+}  // namespace ringlet

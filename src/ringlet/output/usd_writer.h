@@ -1,0 +1,67 @@
+// UsdWriter: an animation of strands as USD text (.usda), one BasisCurves prim with time-sampled points,
+// frame by frame. Houdini, usdview, Blender 4 and Maya play the file as it is.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/output/byte_file.h"
+#include "ringlet/output/up_axis.h"
+
+namespace ringlet {
+
+struct UsdOptions {
+  double framesPerSecond = 24;  // time codes per second
+  double metresPerUnit = 0.01;  // unit of points and diameter
+  UpAxis up = UpAxis::y;
+  float diameter = 0.05f;  // of every strand [file unit]
+  int frameCount = 1;      // most frames that will come; fewer may
+};
+
+/// Frame k (1 for the first) becomes the sample at time code k. While frames come, the file is
+/// `PATH.partial`, and it is a whole, valid USD file after every frame: a killed program leaves all finished
+/// frames in it. finish() renames it to PATH, so a PATH that is there is finished. A frame that fails (full
+/// disk) leaves the frames before it.
+class UsdWriter {
+ public:
+  /// Creates the file and writes everything but the samples. Only the groom's strand lengths are used.
+  static Result<UsdWriter> create(const std::filesystem::path& path, const Groom& topology,
+                                  const UsdOptions& options);
+
+  UsdWriter(UsdWriter&&) = default;
+  UsdWriter& operator=(UsdWriter&&) = delete;
+  /// Without finish(): leaves the partial file if it holds a frame, else removes it.
+  ~UsdWriter();
+
+  /// Adds a frame; points in the file's unit, in groom order, finite (see finite_points.h).
+  Status addFrame(std::span<const Vec3f> points);
+  /// Closes the file with the frames so far (at least one) and gives it its name.
+  Status finish();
+
+  int frameCount() const { return frameCount_; }
+  std::uint64_t byteCount() const { return end_; }
+
+ private:
+  explicit UsdWriter(ByteFile file) : file_(std::move(file)) {}
+  Status writeFrame(std::span<const Vec3f> points);
+  Status flush(std::uint64_t& offset);
+  Error keepFinishedFrames(const Error& cause);
+
+  ByteFile file_;                          // PATH.partial
+  std::filesystem::path path_;             // PATH
+  std::vector<std::uint32_t> firstPoint_;  // as in Groom
+  UsdOptions options_;
+  std::string buffer_;               // text on its way to the file
+  std::uint64_t endTimeCodeAt_ = 0;  // where the header's reserved last time code stands [byte]
+  std::uint64_t extentsAt_ = 0;      // where the reserved lines for the extents begin [byte]
+  std::uint64_t end_ = 0;            // where the next sample goes: over the closing braces [byte]
+  int frameCount_ = 0;
+};
+
+}  // namespace ringlet

@@ -1,0 +1,72 @@
+// Implements rest/strand_constants.h.
+#include "ringlet/rest/strand_constants.h"
+
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+namespace ringlet {
+namespace {
+
+double smoothingWeight(double l, double alpha) { return alpha > 0 ? -std::expm1(-l / alpha) : 1; }
+
+void setPaperConstants(StrandConstants& c) {
+  const PaperMaterial paper;
+  c.stretchStiffness = paper.stretchStiffness;
+  c.stretchDamping = paper.stretchDamping;
+  c.bendStiffness = paper.bendStiffness;
+  c.bendDamping = paper.bendDamping;
+  c.coreStiffness = c.coreStiffnessAsked = paper.coreStiffness;
+  c.coreDamping = paper.coreDamping;
+}
+
+}  // namespace
+
+double smoothingLengthOf(const CurlShape& shape, double arcLength) {
+  constexpr double kTiltLeft = 0.3;  // tilt of the smoothed curve at which every trial was calm
+  if (shape.turns == 0) return 0.1 * arcLength;
+  const double longest = 0.5 * arcLength;  // a flat ring has no core to follow; the rule would ask for infinity
+  if (shape.pitch <= 0) return longest;
+  double tilt = 2 * std::numbers::pi * shape.radius / shape.pitch;
+  double needed = std::sqrt(std::max(0.0, tilt / kTiltLeft - 1)) / (2 * std::numbers::pi);
+  return std::min(longest, shape.turnLength * std::max(0.5, needed));
+}
+
+StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs, const Material& material,
+                                const Settings& settings) {
+  StrandConstants c;
+  c.arcLength = std::accumulate(arcs.begin(), arcs.end(), 0.0);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) c.meanEdgeLength += length(points[i + 1] - points[i]);
+  c.meanEdgeLength /= static_cast<double>(std::max<std::size_t>(1, arcs.size()));
+  const double S = c.arcLength, l = c.meanEdgeLength, T = settings.stepSeconds();
+
+  const double fromShape = smoothingLengthOf(measureCurl(points), S);
+  c.bendSmoothingLength = material.bendSmoothingLength.value_or(fromShape);
+  c.coreSmoothingLength = material.coreSmoothingLength.value_or(fromShape);
+  c.bendBeta = smoothingWeight(l, c.bendSmoothingLength);
+  c.coreBeta = smoothingWeight(l, c.coreSmoothingLength);
+  if (settings.integrator == Integrator::paper) {
+    setPaperConstants(c);
+    return c;
+  }
+
+  const double lambda = material.lineDensity;
+  const double weight = lambda * kStandardGravity * S;
+  c.stretchStiffness = material.stretchStiffness * weight;
+  c.stretchDamping = material.stretchDampingTime * c.stretchStiffness;
+
+  // B tanh(l / 2 alpha) / l^2 with B = 2 alpha K_b: the angle between an edge and its target grows as coth, because the
+  // target lags through the smoothing; without the tanh a curl cut finer would be stiffer.
+  const double bend = material.bendStiffness * weight, alpha = c.bendSmoothingLength;
+  c.bendStiffness = alpha > 0 ? 2 * alpha * bend * std::tanh(l / (2 * alpha)) / l : 2 * fromShape * bend / l;
+  c.bendDamping = material.bendDampingRatio * S * std::sqrt(bend * lambda);
+
+  // The core is explicit: stable up to T = 3 alpha sqrt(lambda / K_c), capped beyond.
+  const double coreLength = c.coreSmoothingLength > 0 ? c.coreSmoothingLength : l;
+  c.coreStiffnessAsked = material.coreStiffness * weight;
+  c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (3 * coreLength / T) * (3 * coreLength / T));
+  c.coreDamping = 4 * material.coreDampingRatio * coreLength * std::sqrt(c.coreStiffness * lambda);
+  return c;
+}
+
+}  // namespace ringlet

@@ -1,0 +1,33 @@
+// The laws that turn a material in continuum units into one strand's constants (method.md, sections 4, 5 and 8), so that
+// a material means the same however finely a strand is cut. Mirrored, independently, by reference/rest_strand.h.
+#pragma once
+
+#include <span>
+
+#include "ringlet/base/vec3.h"
+#include "ringlet/groom/curl_shape.h"
+#include "ringlet/rest/material.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet {
+
+/// One strand's constants in SI units. An edge's own are these times its scale: 1 / edge length, or 1 for `paper`.
+struct StrandConstants {
+  double arcLength = 0;       // S [m]
+  double meanEdgeLength = 0;  // l, of the chords [m]
+  double bendSmoothingLength = 0, coreSmoothingLength = 0;  // alpha_b, alpha_c [m]
+  double bendBeta = 1, coreBeta = 1;                        // 1 - exp(-l / alpha)
+  double stretchStiffness = 0, stretchDamping = 0;          // K [N], C [N s]; for `paper` k [N/m], c [N s/m]
+  double bendStiffness = 0, bendDamping = 0;
+  double coreStiffness = 0, coreDamping = 0;
+  double coreStiffnessAsked = 0;  // before it was capped for the step
+};
+
+/// The smoothing length below which bending may feed on itself (method.md, section 4) [unit of the shape].
+double smoothingLengthOf(const CurlShape& shape, double arcLength);
+
+/// `points`: the strand at rest [m]; `arcs`: arc length of each edge [m].
+StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs, const Material& material,
+                                const Settings& settings);
+
+}  // namespace ringlet

@@ -1,0 +1,29 @@
+// Implements solver/compute_device.h over gpu/device.h.
+#include "ringlet/solver/compute_device.h"
+
+#include "ringlet/gpu/device.h"
+
+namespace ringlet {
+
+Result<ComputeDevice> ComputeDevice::open(const std::string& choice) {
+  auto opened = gpu::Device::open(choice);
+  if (!opened) return opened.error();
+  ComputeDevice self;
+  self.device_ = std::move(*opened);
+  return self;
+}
+
+std::vector<DeviceSummary> ComputeDevice::list() {
+  std::vector<DeviceSummary> summaries;
+  for (const gpu::DeviceListing& listing : gpu::Device::list()) {
+    const gpu::DeviceProperties& p = listing.properties;
+    summaries.push_back({p.index, p.name, p.type, p.driver, listing.usable, listing.why});
+  }
+  return summaries;
+}
+
+std::string ComputeDevice::name() const { return device_->properties().name; }
+std::string ComputeDevice::driver() const { return device_->properties().driver; }
+std::vector<std::string> ComputeDevice::validationMessages() const { return device_->validationMessages(); }
+
+}  // namespace ringlet

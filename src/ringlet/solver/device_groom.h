@@ -1,0 +1,61 @@
+// DeviceGroom: the buffers of one groom on one device, and the ways in and out of them. Constant and changing data never
+// share a buffer; all upload at creation and in setState, all download here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/rest/rest_state.h"
+#include "shared/layout.h"
+
+namespace ringlet {
+
+struct DeviceGroom {
+  gpu::Buffer positions, velocities, particles, strands, reports, scratch, poses;
+
+  /// `scratchRecords`: vec4s of scratch (serial form) and taps.
+  static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest, std::uint64_t scratchRecords);
+
+  /// The buffers in binding order (layout.h).
+  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
+    return {positions, velocities, particles, strands, reports, scratch, poses};
+  }
+  std::span<layout::StepPose> mappedPoses() const;
+};
+
+/// From device order to groom order and back, a value per particle.
+template <class To, class From, class Convert>
+std::vector<To> inGroomOrder(const RestState& rest, std::span<const From> deviceValues, Convert convert) {
+  std::vector<To> values(deviceValues.size());
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    const std::size_t from = rest.strands[s].firstParticle, to = rest.firstInGroom[s];
+    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i) values[to + i] = convert(deviceValues[from + i]);
+  }
+  return values;
+}
+template <class To, class From, class Convert>
+std::vector<To> inDeviceOrder(const RestState& rest, std::span<const From> groomValues, Convert convert) {
+  std::vector<To> values(groomValues.size());
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    const std::size_t to = rest.strands[s].firstParticle, from = rest.firstInGroom[s];
+    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i) values[to + i] = convert(groomValues[from + i]);
+  }
+  return values;
+}
+
+/// All of a buffer as records of T.
+template <class T>
+Result<std::vector<T>> downloadAll(const gpu::Buffer& buffer, std::size_t count, std::uint64_t offset = 0) {
+  std::vector<T> values(count);
+  if (Status status = buffer.download(std::as_writable_bytes(std::span(values)), offset * sizeof(T)); !status) {
+    return status.error();
+  }
+  return values;
+}
+
+}  // namespace ringlet

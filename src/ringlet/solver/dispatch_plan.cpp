@@ -1,0 +1,138 @@
+// Implements solver/dispatch_plan.h.
+#include "ringlet/solver/dispatch_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "shared/layout.h"
+
+namespace ringlet {
+namespace {
+
+constexpr std::uint32_t kRuns[] = {4, 8, 16};  // compiled run lengths
+
+// lavapipe ends every loop of an invocation once they have made 65,535 turns together, without a word. Others have no
+// such limit; theirs is a dispatch short enough not to be taken for a hang.
+std::uint64_t loopBudget(const DeviceLimits& limits) { return limits.isCpu ? 65000 : 4'000'000; }
+
+// Turns of loops, at most: what one step costs besides its solve's outer loops, and what one of those costs.
+struct LoopCost {
+  std::uint64_t step = 0;
+  std::uint64_t perSolveLoop = 0;
+  std::uint64_t solveLoops = 0;
+};
+
+LoopCost loopCost(const StrandRange& range, const Settings& settings) {
+  // Lanes: loops over the run count in full, though drivers unroll them. Serial: sweeps over the strand.
+  const std::uint64_t run = range.shape.serial() ? range.longest : range.shape.particlesPerLane + 8;
+  LoopCost cost;
+  cost.step = 20 * run;
+  if (settings.integrator == Integrator::pointJacobi) {
+    cost.solveLoops = settings.pointIterations;
+    cost.perSolveLoop = run + 1;
+  }
+  if (settings.integrator == Integrator::paper) {
+    cost.solveLoops = settings.forceLoops;
+    cost.perSolveLoop = run + 1 + settings.dampingLoops * ((range.shape.serial() ? 2 : 8) * run + 1);
+  }
+  return cost;
+}
+
+// Cuts a frame's steps for one range into pieces within the budget: several steps a dispatch where they fit, else one,
+// else (serial form only) one step in several.
+Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits, const Settings& settings) {
+  const std::uint64_t budget = loopBudget(limits);
+  const LoopCost cost = loopCost(range, settings);
+  const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
+  const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
+  const std::uint32_t loops = static_cast<std::uint32_t>(cost.solveLoops);
+  std::vector<PlannedDispatch> pieces;
+  if (whole <= budget) {
+    const std::uint32_t stepsAtOnce = static_cast<std::uint32_t>(budget / whole);
+    for (std::uint32_t s = 0; s < steps; s += stepsAtOnce) {
+      pieces.push_back({.stepBegin = s, .stepEnd = std::min(steps, s + stepsAtOnce), .phases = layout::kPhaseAll, .loopEnd = loops});
+    }
+    return pieces;
+  }
+  if (!range.shape.serial() || cost.step > budget || cost.perSolveLoop > budget) {
+    return Error{fmt::format("a strand of {} particles needs {} loop turns for one step of this integrator; this device allows "
+                             "{} in a dispatch. Use the jacobi integrator, fewer iterations or the reference backend",
+                             range.longest, whole, budget)};
+  }
+  const std::uint32_t loopsAtOnce = static_cast<std::uint32_t>(budget / std::max<std::uint64_t>(1, cost.perSolveLoop));
+  for (std::uint32_t s = 0; s < steps; ++s) {
+    pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseSprings});
+    for (std::uint32_t l = 0; l < loops; l += loopsAtOnce) {
+      pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseSolve, .loopBegin = l,
+                        .loopEnd = std::min(loops, l + loopsAtOnce)});
+    }
+    pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseMove});
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::string StrandShape::describe() const {
+  return serial() ? "serial" : fmt::format("{} x {}", lanes, particlesPerLane);
+}
+
+StrandShape chooseShape(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice) {
+  if (choice.form == KernelChoice::Form::serial || !limits.hasSubgroupShuffle) return {};
+  // lavapipe is fastest with long runs, where little is done twice; a GPU wants many short ones, for its registers.
+  const std::uint32_t preferred = choice.particlesPerLane > 0 ? static_cast<std::uint32_t>(choice.particlesPerLane)
+                                  : limits.isCpu              ? 16
+                                                              : 4;
+  for (std::uint32_t run : kRuns) {
+    if (run < preferred || (choice.particlesPerLane > 0 && run != preferred)) continue;
+    const std::uint32_t lanes = std::bit_ceil((particleCount + run - 1) / run);
+    if (lanes <= limits.subgroupSize) return {lanes, run};
+  }
+  return {};
+}
+
+Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts, const DeviceLimits& limits,
+                                            const KernelChoice& choice) {
+  if (choice.particlesPerLane != 0 && std::find(std::begin(kRuns), std::end(kRuns), choice.particlesPerLane) == std::end(kRuns)) {
+    return Error{fmt::format("{} particles per lane was asked for; 4, 8 and 16 exist, 0 chooses", choice.particlesPerLane)};
+  }
+  std::vector<StrandRange> ranges;
+  for (std::uint32_t s = 0; s < particleCounts.size(); ++s) {
+    const StrandShape shape = chooseShape(particleCounts[s], limits, choice);
+    if (choice.form == KernelChoice::Form::lanes && shape.serial()) {
+      return Error{fmt::format("the lanes form was asked for, but a strand of {} particles does not fit: this device has "
+                               "subgroups of {}{}. Leave the choice to ringlet or ask for the serial form",
+                               particleCounts[s], limits.subgroupSize, limits.hasSubgroupShuffle ? "" : " without shuffles")};
+    }
+    if (ranges.empty() || ranges.back().shape != shape) ranges.push_back({shape, s, s, 0});
+    ranges.back().end = s + 1;
+    ranges.back().longest = std::max(ranges.back().longest, particleCounts[s]);
+  }
+  return ranges;
+}
+
+Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges, const DeviceLimits& limits,
+                                               const Settings& settings, std::uint32_t groupSize) {
+  std::vector<PlannedDispatch> plan;
+  for (std::uint32_t r = 0; r < ranges.size(); ++r) {
+    const StrandRange& range = ranges[r];
+    auto steps = planSteps(range, limits, settings);
+    if (!steps) return steps.error();
+    const std::uint32_t strandsPerGroup = groupSize / std::max(1u, range.shape.lanes);
+    const std::uint64_t strandsAtOnce = std::uint64_t{strandsPerGroup} * limits.maxGroupCount;
+    for (std::uint64_t begin = range.begin; begin < range.end; begin += strandsAtOnce) {
+      for (PlannedDispatch piece : *steps) {
+        piece.range = r;
+        piece.strandBegin = static_cast<std::uint32_t>(begin);
+        piece.strandEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
+        piece.groupCount = (piece.strandEnd - piece.strandBegin + strandsPerGroup - 1) / strandsPerGroup;
+        plan.push_back(piece);
+      }
+    }
+  }
+  return plan;
+}
+
+}  // namespace ringlet

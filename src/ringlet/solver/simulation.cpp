@@ -1,0 +1,267 @@
+// Implements solver/simulation.h: the frame is one recorded list of dispatches, replayed with new poses.
+#include "ringlet/solver/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/strand_kernels.h"
+
+namespace ringlet {
+namespace {
+
+layout::vec4 packed(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+layout::vec4 packed(Vec3f v) { return {v.x, v.y, v.z, 0}; }
+layout::vec4 packed(Quatd q) {
+  return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
+}
+Vec3f unpacked(layout::vec4 v) { return {v.x, v.y, v.z}; }
+
+DeviceLimits limitsOf(const gpu::Device& device) {
+  const gpu::DeviceProperties& p = device.properties();
+  return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
+}
+
+// One outer step before the frame, the frame's start, and one more for each step.
+struct HeadHistory {
+  HeadPose oneStepEarlier, now;
+
+  Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
+};
+
+std::string describe(std::span<const StrandRange> ranges, std::uint32_t subgroupSize) {
+  std::string text;
+  for (const StrandRange& range : ranges) {
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", range.shape.describe());
+  }
+  return fmt::format("lanes x run: {} (subgroup {})", text, subgroupSize);
+}
+
+}  // namespace
+
+struct Simulation::Implementation {
+  ComputeDevice device;
+  RestState rest;
+  Settings settings;
+  Material material;
+  KernelChoice choice;
+  HeadHistory head;
+
+  DeviceGroom buffers;
+  std::vector<StrandRange> ranges;
+  std::vector<PlannedDispatch> plan;
+  std::vector<gpu::Kernel> kernels;  // one a range
+  std::vector<gpu::Bindings> bindings;
+  std::optional<gpu::Recorder> frame;
+
+  std::uint64_t stepsDone = 0;
+  std::map<std::string, double> stageMilliseconds;
+
+  layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
+  Status recordFrame();
+  void writePoses(std::span<const HeadPose> stepPoses);
+  Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
+  Status placeAtRest();
+};
+
+Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom, const Material& material,
+                                      const Settings& settings, const HeadPose& start, const HeadPose& oneStepEarlier,
+                                      const KernelChoice& choice) {
+  auto rest = buildRestState(groom, material, settings);
+  if (!rest) return rest.error();
+
+  const DeviceLimits limits = limitsOf(device.gpu());
+  std::vector<std::uint32_t> counts;
+  for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
+  auto ranges = planRanges(counts, limits, choice);
+  if (!ranges) return ranges.error();
+  auto plan = planFrame(*ranges, limits, settings, kStrandGroupSize);
+  if (!plan) return plan.error();
+
+  const bool anySerial = std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
+  const std::uint64_t scratchPerParticle =
+      (anySerial ? layout::kScratchPerParticle : 0) + (choice.taps ? layout::kTapCount : 0);
+  auto buffers = DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle);
+  if (!buffers) return buffers.error();
+
+  std::unique_ptr<Implementation> self(new Implementation{
+      device, std::move(*rest), settings, material, choice, {oneStepEarlier, start}, std::move(*buffers),
+      std::move(*ranges), std::move(*plan), {}, {}, {}, 0, {}});
+  for (const StrandRange& range : self->ranges) {
+    auto kernel = createStrandKernel(device.gpu(), range.shape, settings.integrator, choice.taps);
+    if (!kernel) return kernel.error();
+    auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
+    if (!bindings) return bindings.error();
+    self->kernels.push_back(std::move(*kernel));
+    self->bindings.push_back(std::move(*bindings));
+  }
+  if (Status status = self->placeAtRest(); !status) return status.error();
+  if (Status status = self->recordFrame(); !status) return status.error();
+  return Simulation(std::move(self));
+}
+
+layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDispatch& dispatch) const {
+  layout::StepParameters p{};
+  p.gravity = packed(settings.gravity);
+  p.gravity.w = static_cast<float>(settings.stepSeconds());
+  p.maxStretch = static_cast<float>(settings.maxStretch);
+  p.coreRelaxedShare = static_cast<float>(material.coreRelaxedShare);
+  p.coreElongationLow = static_cast<float>(material.coreElongationLow);
+  p.coreElongationHigh = static_cast<float>(material.coreElongationHigh);
+  p.strandBegin = dispatch.strandBegin;
+  p.strandEnd = dispatch.strandEnd;
+  p.stepBegin = dispatch.stepBegin;
+  p.stepEnd = dispatch.stepEnd;
+  p.rootCount = static_cast<std::uint32_t>(settings.rootCount);
+  p.pointIterations = static_cast<std::uint32_t>(settings.pointIterations);
+  p.chebyshev = settings.chebyshev ? 1 : 0;
+  p.forceLoops = static_cast<std::uint32_t>(settings.forceLoops);
+  p.dampingLoops = static_cast<std::uint32_t>(settings.dampingLoops);
+  p.particleCount = static_cast<std::uint32_t>(rest.points.size());
+  p.phases = dispatch.phases;
+  p.loopBegin = dispatch.loopBegin;
+  p.loopEnd = dispatch.loopEnd;
+  return p;
+}
+
+// The whole frame, once: what changes from frame to frame is in the poses buffer.
+Status Simulation::Implementation::recordFrame() {
+  auto recorder = gpu::Recorder::create(device.gpu(), "frame");
+  if (!recorder) return recorder.error();
+  if (Status status = recorder->begin(); !status) return status;
+  recorder->beginStage("strand_step");
+  for (std::size_t d = 0; d < plan.size(); ++d) {
+    // Only dispatches on the same strands depend on each other.
+    if (d > 0 && plan[d].range == plan[d - 1].range && plan[d].strandBegin == plan[d - 1].strandBegin) recorder->barrier();
+    recorder->dispatch(kernels[plan[d].range], bindings[plan[d].range], parametersOf(plan[d]), plan[d].groupCount);
+  }
+  recorder->endStage();
+  frame = std::move(*recorder);
+  return {};
+}
+
+void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses) {
+  const double T = settings.stepSeconds();
+  const auto poses = buffers.mappedPoses();
+  poses[0].rotation = packed(head.oneStepEarlier.rotation);
+  poses[1].rotation = packed(head.now.rotation);
+  for (std::size_t k = 0; k < stepPoses.size(); ++k) {
+    const Vec3d before = head.velocity(T);
+    head = {head.now, stepPoses[k]};
+    head.now.rotation = normalized(head.now.rotation);
+    poses[2 + k] = {packed(head.now.rotation), packed(head.velocity(T) - before)};
+  }
+}
+
+Status Simulation::Implementation::uploadState(std::span<const layout::vec4> positions,
+                                               std::span<const layout::vec4> velocities) {
+  if (Status status = buffers.positions.upload(std::as_bytes(positions)); !status) return status;
+  return buffers.velocities.upload(std::as_bytes(velocities));
+}
+
+// The rest pose carried by the head, turning with it.
+Status Simulation::Implementation::placeAtRest() {
+  std::vector<layout::vec4> positions, velocities;
+  for (Vec3f point : rest.points) {
+    const Vec3d p = static_cast<Vec3d>(point);
+    const Vec3d here = rotate(head.now.rotation, p), before = rotate(head.oneStepEarlier.rotation, p);
+    positions.push_back(packed(here));
+    velocities.push_back(packed((here - before) / settings.stepSeconds()));
+  }
+  return uploadState(positions, velocities);
+}
+
+Simulation::Simulation(std::unique_ptr<Implementation> self) : self_(std::move(self)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+Status Simulation::stepFrame(std::span<const HeadPose> stepPoses) {
+  RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame), "stepFrame takes one pose per outer step");
+  self_->writePoses(stepPoses);
+  if (Status status = self_->frame->submitAndWait(); !status) return status;
+  for (const auto& [stage, milliseconds] : self_->frame->stageMilliseconds()) self_->stageMilliseconds[stage] += milliseconds;
+  self_->stepsDone += stepPoses.size();
+  return {};
+}
+
+Status Simulation::stepFrame(const HeadPose& end) {
+  const HeadPose start = self_->head.now;
+  std::vector<HeadPose> poses;
+  for (int k = 1; k <= self_->settings.stepsPerFrame; ++k) {
+    poses.push_back(interpolate(start, end, double(k) / self_->settings.stepsPerFrame));
+  }
+  return stepFrame(poses);
+}
+
+Result<std::vector<Vec3f>> Simulation::positions() const {
+  auto values = downloadAll<layout::vec4>(self_->buffers.positions, self_->rest.points.size());
+  if (!values) return values.error();
+  return inGroomOrder<Vec3f, layout::vec4>(self_->rest, *values, unpacked);
+}
+
+Result<HairState> Simulation::state() const {
+  auto p = positions();
+  if (!p) return p.error();
+  auto values = downloadAll<layout::vec4>(self_->buffers.velocities, self_->rest.points.size());
+  if (!values) return values.error();
+  return HairState{std::move(*p), inGroomOrder<Vec3f, layout::vec4>(self_->rest, *values, unpacked)};
+}
+
+Status Simulation::setState(const HairState& state) {
+  const std::size_t count = self_->rest.points.size();
+  RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count, "a state has one position and velocity a particle");
+  const auto pack = [](Vec3f v) { return packed(v); };
+  return self_->uploadState(inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.positions, pack),
+                            inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.velocities, pack));
+}
+
+const HeadPose& Simulation::head() const { return self_->head.now; }
+
+Result<SimulationReport> Simulation::report() const {
+  auto reports = downloadAll<layout::StrandReport>(self_->buffers.reports, self_->rest.strands.size());
+  if (!reports) return reports.error();
+  SimulationReport total;
+  std::uint64_t edges = 0, limited = 0;
+  for (std::size_t s = 0; s < reports->size(); ++s) {
+    const layout::StrandReport& r = (*reports)[s];
+    edges += self_->rest.strands[s].particleCount - 1;
+    limited += r.limitedEdges;
+    total.maxEdgeStretch = std::max<double>(total.maxEdgeStretch, r.maxStretch);
+    total.degenerateEdges += r.degenerateEdges;
+    total.nonfinite += r.nonfiniteParticles;
+    const std::int64_t strand = self_->rest.strandInGroom[s];
+    if (r.nonfiniteParticles > 0 && (total.firstNonfiniteStrand < 0 || strand < total.firstNonfiniteStrand)) {
+      total.firstNonfiniteStrand = strand;
+      total.firstNonfiniteParticle = r.firstNonfinite;
+    }
+  }
+  const double edgeSteps = static_cast<double>(edges) * static_cast<double>(self_->stepsDone);
+  total.limitedShare = edgeSteps > 0 ? static_cast<double>(limited) / edgeSteps : 0;
+  return total;
+}
+
+const std::vector<std::string>& Simulation::warnings() const { return self_->rest.warnings; }
+std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }
+
+Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) const {
+  RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount, "taps are written only with KernelChoice::taps");
+  const std::size_t count = self_->rest.points.size();
+  auto values = downloadAll<layout::vec4>(self_->buffers.scratch, count, field * count);
+  if (!values) return values.error();
+  return inGroomOrder<std::array<float, 4>, layout::vec4>(
+      self_->rest, *values, [](layout::vec4 v) { return std::array<float, 4>{v.x, v.y, v.z, v.w}; });
+}
+
+std::string Simulation::kernelDescription() const {
+  return describe(self_->ranges, self_->device.gpu().properties().subgroupSize);
+}
+
+}  // namespace ringlet

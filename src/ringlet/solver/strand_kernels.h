@@ -1,0 +1,19 @@
+// The compiled variants of the strand kernel, by form, run length and taps.
+#pragma once
+
+#include <cstdint>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/solver/dispatch_plan.h"
+
+namespace ringlet {
+
+/// Invocations of a workgroup.
+inline constexpr std::uint32_t kStrandGroupSize = 64;
+
+Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape, Integrator integrator, bool taps);
+
+}  // namespace ringlet

@@ -1,0 +1,115 @@
+// Thousands of spoilt files: a reader returns a usable groom or an error, and never crashes, hangs or takes
+// memory it cannot account for. Run it with sanitizers too.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+#include <string>
+
+#include "ringlet/groom/hair_file.h"
+#include "ringlet/groom/obj_file.h"
+#include "tests/groom/groom_samples.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+using Reader = std::function<Result<LoadedGroom>(const std::string&)>;
+
+// Some bytes changed, a piece cut out, doubled or moved: what disks, editors and networks do.
+std::string spoilt(std::string bytes, std::mt19937& random, const std::string& alphabet) {
+  auto below = [&](std::size_t count) { return count == 0 ? 0 : random() % count; };
+  for (std::size_t change = 1 + below(4); change > 0; --change) {
+    const std::size_t at = below(bytes.size()), count = below(std::min<std::size_t>(bytes.size() - at, 12));
+    switch (below(6)) {
+      case 0:
+        if (!bytes.empty()) bytes[at] = static_cast<char>(random());
+        break;
+      case 1:
+        if (!bytes.empty()) bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(8)));
+        break;
+      case 2:
+        if (!bytes.empty()) bytes[at] = alphabet[below(alphabet.size())];
+        break;
+      case 3:
+        bytes.erase(at, count);
+        break;
+      case 4:
+        bytes.insert(at, bytes.substr(below(bytes.size()), count));
+        break;
+      case 5:
+        bytes.resize(below(8) == 0 ? at : bytes.size());
+        break;
+    }
+  }
+  return bytes;
+}
+
+void spoilAndRead(const std::string& valid, const std::string& alphabet, int count, const Reader& read) {
+  const Result<LoadedGroom> whole = read(valid);
+  ASSERT_TRUE(whole) << whole.error().message;
+  std::mt19937 random(20240601);
+  int accepted = 0;
+  for (int i = 0; i < count; ++i) {
+    const Result<LoadedGroom> loaded = read(spoilt(valid, random, alphabet));
+    if (!loaded) {
+      ASSERT_GT(loaded.error().message.size(), 10u) << "file " << i;
+      continue;
+    }
+    ++accepted;
+    ASSERT_TRUE(test::isUsable(loaded->groom)) << "file " << i;
+  }
+  // Both ways must really be taken.
+  EXPECT_GT(accepted, count / 100);
+  EXPECT_LT(accepted, count * 99 / 100);
+}
+
+TEST(BrokenFiles, Hair) {
+  const auto folder = test::scratchFolder("broken_hair");
+  ASSERT_TRUE(writeHair(folder / "a.hair", test::awkwardGroom()));
+  const Reader read = [](const std::string& bytes) { return readHair(test::bytesOf(bytes), "a.hair"); };
+  spoilAndRead(test::readText(folder / "a.hair"), std::string("\0\1\2\xff\x7f\x80", 6), 20000, read);
+}
+
+// Mutations of the header alone: there are the counts that could make a reader take memory or run past the
+// end.
+TEST(BrokenFiles, HairHeader) {
+  const auto folder = test::scratchFolder("broken_hair_header");
+  ASSERT_TRUE(writeHair(folder / "a.hair", test::awkwardGroom()));
+  const std::string valid = test::readText(folder / "a.hair");
+  std::mt19937 random(7);
+  for (int i = 0; i < 20000; ++i) {
+    std::string bytes = valid;
+    for (std::size_t change = 1 + random() % 3; change > 0; --change) {
+      bytes[4 + random() % 16] = std::string("\0\1\2\3\4\x7f\x80\xff", 8)[random() % 8];
+    }
+    const Result<LoadedGroom> loaded = readHair(test::bytesOf(bytes), "a.hair");
+    if (loaded) {
+      ASSERT_TRUE(test::isUsable(loaded->groom)) << "file " << i;
+    }
+  }
+}
+
+TEST(BrokenFiles, Obj) {
+  const std::string valid =
+      "# hair\nv 1 2 3\nv 1.5 -2e-3 3\nv 2 2 2 1.0\nv 3 3 3\r\nv 4 4 4\nvt 0 0\nl 1/1 2/1 3/1\nl -2 -1\nl 4 "
+      "\\\n3 2\nl 5 1\n";
+  const Reader read = [](const std::string& bytes) { return readObj(test::bytesOf(bytes), "a.obj"); };
+  spoilAndRead(valid, "0123456789-+./\\ \n\r\tvlf#eE", 40000, read);
+}
+
+TEST(BrokenFiles, Noise) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 5000; ++i) {
+    std::string bytes(random() % 300, '\0');
+    for (char& c : bytes) c = static_cast<char>(random());
+    EXPECT_FALSE(readHair(test::bytesOf(bytes), "a.hair")) << "file " << i;
+    const Result<LoadedGroom> obj = readObj(test::bytesOf(bytes), "a.obj");
+    if (obj) {
+      ASSERT_TRUE(test::isUsable(obj->groom)) << "file " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ringlet

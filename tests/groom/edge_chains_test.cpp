@@ -1,0 +1,95 @@
+// groom/edge_chains.h: single edges in any order become strands, and what is no strand is refused.
+#include "ringlet/groom/edge_chains.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+#include "tests/groom/groom_samples.h"
+
+namespace ringlet {
+namespace {
+
+using Points = std::vector<std::uint32_t>;
+
+std::vector<ListedEdge> listed(std::initializer_list<std::pair<int, int>> pairs) {
+  std::vector<ListedEdge> edges;
+  for (auto [from, to] : pairs) {
+    edges.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to), edges.size() + 1});
+  }
+  return edges;
+}
+
+TEST(EdgeChains, JoinsConsecutiveEdges) {
+  const auto chains = joinEdges(listed({{0, 1}, {1, 2}, {2, 3}, {5, 4}, {4, 6}}), 7, "file");
+  ASSERT_TRUE(chains);
+  ASSERT_EQ(chains->size(), 2u);
+  EXPECT_EQ((*chains)[0].points, (Points{0, 1, 2, 3}));
+  EXPECT_EQ((*chains)[1].points, (Points{5, 4, 6}));
+  EXPECT_EQ((*chains)[1].firstLine, 4u);
+  EXPECT_TRUE((*chains)[1].isOneDirection);
+}
+
+TEST(EdgeChains, JoinsShuffledEdgesOfManyStrands) {
+  // Strand s is the points s, s + 50, s + 100, ...: known beforehand, whatever the order of its edges.
+  std::vector<ListedEdge> edges;
+  for (std::uint32_t s = 0; s < 50; ++s) {
+    for (std::uint32_t i = 0; i < 9; ++i) edges.push_back({s + 50 * i, s + 50 * (i + 1), 0});
+  }
+  std::mt19937 random(3);
+  for (std::size_t i = edges.size() - 1; i > 0; --i) std::swap(edges[i], edges[random() % (i + 1)]);
+  for (std::size_t i = 0; i < edges.size(); ++i) edges[i].line = i + 1;
+
+  const auto chains = joinEdges(edges, 500, "file");
+  ASSERT_TRUE(chains);
+  ASSERT_EQ(chains->size(), 50u);
+  std::size_t lastLine = 0;
+  for (const EdgeChain& chain : *chains) {
+    ASSERT_EQ(chain.points.size(), 10u);
+    EXPECT_LT(chain.points.front(), 50u);
+    for (std::uint32_t i = 0; i < 10; ++i) EXPECT_EQ(chain.points[i], chain.points[0] + 50 * i);
+    EXPECT_GT(chain.firstLine, lastLine);  // in the order of first mention
+    lastLine = chain.firstLine;
+  }
+}
+
+TEST(EdgeChains, MostEdgesDecideTheDirection) {
+  const auto chains = joinEdges(listed({{1, 0}, {1, 2}, {2, 3}, {4, 5}, {6, 5}}), 7, "file");
+  ASSERT_TRUE(chains);
+  EXPECT_EQ((*chains)[0].points, (Points{0, 1, 2, 3}));
+  EXPECT_FALSE((*chains)[0].isOneDirection);
+  EXPECT_EQ((*chains)[1].points, (Points{4, 5, 6}));  // a tie: as the first listed edge runs
+}
+
+TEST(EdgeChains, RefusesBranchesAndLoops) {
+  const auto branch = joinEdges(listed({{0, 1}, {1, 2}, {1, 3}}), 4, "file");
+  ASSERT_FALSE(branch);
+  EXPECT_TRUE(test::contains(branch.error().message, "file: line 3: found a third edge at point 2"))
+      << branch.error().message;
+
+  const auto loop = joinEdges(listed({{4, 5}, {0, 1}, {1, 2}, {2, 0}}), 6, "file");
+  ASSERT_FALSE(loop);
+  EXPECT_TRUE(test::contains(loop.error().message, "line 2: found an edge of a closed loop"))
+      << loop.error().message;
+
+  const auto twice = joinEdges(listed({{0, 1}, {1, 0}}), 2, "file");
+  ASSERT_FALSE(twice);
+  EXPECT_TRUE(test::contains(twice.error().message, "line 1: found an edge of a closed loop"))
+      << twice.error().message;
+
+  const auto point = joinEdges(listed({{0, 1}, {2, 2}}), 3, "file");
+  ASSERT_FALSE(point);
+  EXPECT_TRUE(test::contains(point.error().message, "line 2: found an edge from point 3 to itself"))
+      << point.error().message;
+}
+
+TEST(EdgeChains, NothingGivesNothing) {
+  const auto chains = joinEdges({}, 0, "file");
+  ASSERT_TRUE(chains);
+  EXPECT_TRUE(chains->empty());
+}
+
+}  // namespace
+}  // namespace ringlet

@@ -1,0 +1,105 @@
+// The solver's rest state against the reference's own: two derivations of the same laws, so that a fault in one shows.
+#include "ringlet/rest/rest_state.h"
+
+#include <gtest/gtest.h>
+
+#include "reference/step.h"
+#include "tests/support/parity.h"
+#include "tests/support/test_support.h"
+#include "tests/support/tolerances.h"
+#include "ringlet/groom/groom_file.h"
+
+namespace ringlet::test {
+namespace {
+
+void expectNear(double found, double expected, const std::string& what) {
+  EXPECT_NEAR(found, expected, kRestState * std::max(std::abs(expected), 1e-9)) << what;
+}
+
+void expectSameRest(const Groom& groom, const Settings& settings) {
+  const Material material;
+  const auto rest = buildRestState(groom, material, settings);
+  ASSERT_TRUE(rest) << rest.error().message;
+  const reference::Simulation<double> reference(groom, material, settings);
+  ASSERT_EQ(rest->strands.size(), groom.strandCount());
+  for (std::size_t d = 0; d < rest->strands.size(); ++d) {
+    const layout::StrandRest& strand = rest->strands[d];
+    const std::size_t s = rest->strandInGroom[d];
+    const auto& expected = reference.restStrands()[s];
+    const std::string label = "strand " + std::to_string(s);
+    const double unit = strand.firstEdge.w;  // kg per mass unit
+    ASSERT_EQ(strand.particleCount, expected.particleCount());
+    EXPECT_EQ(rest->firstInGroom[d], groom.firstPoint[s]);
+    expectNear(strand.bendBeta, expected.bendSmoothingShare, label + " bendBeta");
+    expectNear(strand.coreBeta, expected.coreSmoothingShare, label + " coreBeta");
+    expectNear(strand.restCoreLength, expected.coreLength, label + " restCoreLength");
+    for (std::size_t i = 0; i < expected.particleCount(); ++i) {
+      const layout::ParticleRest& particle = rest->particles[strand.firstParticle + i];
+      const std::string at = label + " particle " + std::to_string(i);
+      expectNear(particle.mass * unit, expected.masses[i], at + " mass");
+      if (i + 1 == expected.particleCount()) continue;
+      const double scale = particle.edgeScale * unit, l = expected.edgeLengths[i];
+      expectNear(particle.edgeLength, l, at + " edgeLength");
+      expectNear(particle.coreEdgeLength, expected.coreRestLengths[i], at + " coreEdgeLength");
+      expectNear(strand.stretchStiffness * scale, expected.stretchStiffness[i], at + " stretchStiffness");
+      expectNear(strand.stretchDamping * scale, expected.stretchDamping[i], at + " stretchDamping");
+      expectNear(strand.bendStiffness * scale, expected.bendStiffness[i], at + " bendStiffness");
+      expectNear(strand.bendDamping * scale, expected.bendDamping[i], at + " bendDamping");
+      expectNear(strand.coreStiffness * scale, expected.coreStiffness[i], at + " coreStiffness");
+      expectNear(strand.coreDamping * scale, expected.coreDamping[i], at + " coreDamping");
+      expectNear(particle.target.w, expected.stretchRestLengths[i], at + " stretch rest length");
+      const Eigen::Vector3d target(particle.target.x, particle.target.y, particle.target.z);
+      EXPECT_LE((target - expected.restTargets[i]).norm(), kRestState * l) << at << " target";
+    }
+  }
+}
+
+Settings settingsWith(Integrator integrator, double preload, int steps) {
+  Settings settings;
+  settings.integrator = integrator;
+  settings.gravityPreload = preload;
+  settings.stepsPerFrame = steps;
+  return settings;
+}
+
+TEST(RestState, AgreesWithTheReferenceOnGeneratedGrooms) {
+  const Groom groom = randomGroom({2, 3, 31, 100, 128, 64, 17, 300}, 5);
+  for (double preload : {0.0, 0.6, 1.0}) {
+    for (int steps : {4, 32}) {  // 4 caps the core spring of some
+      expectSameRest(groom, settingsWith(Integrator::jacobi, preload, steps));
+      expectSameRest(groom, settingsWith(Integrator::paper, preload, steps));
+    }
+  }
+}
+
+TEST(RestState, AgreesWithTheReferenceOnARealGroom) {
+  RINGLET_NEEDS_DATA(path, "curlycue/frame_000.obj");
+  const auto loaded = readGroom(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  expectSameRest(loaded->groom, settingsWith(Integrator::jacobi, 1, 8));
+}
+
+TEST(RestState, RefusesWhatItCannotHold) {
+  const auto errorOf = [](const Groom& groom, const Settings& settings) {
+    const auto rest = buildRestState(groom, {}, settings);
+    return rest ? std::string() : rest.error().message;
+  };
+  const Groom good = randomGroom({8}, 1);
+  EXPECT_EQ(errorOf(good, {}), "");
+  EXPECT_NE(errorOf(Groom{}, {}).find("no strands"), std::string::npos);
+  Groom broken = good;
+  broken.points[3].y = NAN;
+  EXPECT_NE(errorOf(broken, {}).find("strand 0 particle 3 is not finite"), std::string::npos);
+  Groom point = good;
+  for (Vec3f& p : point.points) p = {1, 2, 3};
+  EXPECT_NE(errorOf(point, {}).find("length"), std::string::npos);
+  Settings settings;
+  settings.stepsPerFrame = 100000;
+  EXPECT_NE(errorOf(good, settings).find("stepsPerFrame is 100000; it must be from 1 to 510"), std::string::npos);
+  settings = {};
+  settings.maxStretch = NAN;
+  EXPECT_NE(errorOf(good, settings).find("maxStretch"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ringlet::test

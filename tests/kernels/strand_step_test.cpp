@@ -1,0 +1,121 @@
+// The strand kernels, both forms and all integrators, against the float reference: every field of one step at awkward
+// sizes, and positions after a frame against double. Mirrors shaders/kernels/strand_step.comp and strand_step_serial.comp.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/support/gpu_test.h"
+#include "tests/support/parity.h"
+#include "tests/support/tolerances.h"
+
+namespace ringlet::test {
+namespace {
+
+struct Variant {
+  const char* name;
+  KernelChoice kernel;
+};
+const Variant kVariants[] = {
+    {"automatic", {}},
+    {"lanes of 4", {KernelChoice::Form::automatic, 4}},
+    {"lanes of 8", {KernelChoice::Form::automatic, 8}},
+    {"lanes of 16", {KernelChoice::Form::lanes, 16}},
+    {"serial", {KernelChoice::Form::serial}},
+};
+
+// Counts that divide no group, and lengths around every run boundary; mixed in one groom.
+std::vector<int> awkwardLengths(int strands) {
+  const int lengths[] = {2, 3, 31, 100, 128, 16, 17, 64, 65, 5, 33, 127};
+  std::vector<int> result;
+  for (int s = 0; s < strands; ++s) result.push_back(lengths[s % std::size(lengths)]);
+  return result;
+}
+
+Settings settingsFor(Integrator integrator) {
+  Settings settings;
+  settings.integrator = integrator;
+  settings.stepsPerFrame = integrator == Integrator::paper ? 30 : 8;
+  settings.gravityPreload = integrator == Integrator::paper ? 0 : 0.7;
+  return settings;
+}
+
+class StrandStep : public GpuTest {
+ protected:
+  void expectOneStep(const ParityCase& c, const std::string& label) {
+    const auto errors = oneStepErrors(device(), c);
+    fmt::print("{:<44} {}\n", label, toText(errors));
+    for (const FieldError& e : errors) EXPECT_LE(e.error, kOneStep) << label << ": " << e.field << "\n" << e.where;
+  }
+};
+
+TEST_F(StrandStep, JacobiFieldsAgreeAtAwkwardSizes) {
+  for (const Variant& variant : kVariants) {
+    for (int strands : {1, 2, 31, 33, 127}) {
+      expectOneStep({randomGroom(awkwardLengths(strands), 7), {}, settingsFor(Integrator::jacobi), variant.kernel},
+                    fmt::format("jacobi, {}, {} strands", variant.name, strands));
+    }
+  }
+}
+
+TEST_F(StrandStep, UniformLengthsAgree) {
+  for (int particles : {2, 3, 31, 100, 128}) {
+    for (const Variant& variant : kVariants) {
+      expectOneStep({randomGroom(std::vector<int>(33, particles), 11), {}, settingsFor(Integrator::jacobi), variant.kernel},
+                    fmt::format("jacobi, {}, 33 x {}", variant.name, particles));
+    }
+  }
+}
+
+TEST_F(StrandStep, PointJacobiFieldsAgree) {
+  for (bool chebyshev : {false, true}) {
+    for (const Variant& variant : kVariants) {
+      Settings settings = settingsFor(Integrator::pointJacobi);
+      settings.chebyshev = chebyshev;
+      settings.pointIterations = 40;
+      expectOneStep({randomGroom(awkwardLengths(33), 13), {}, settings, variant.kernel},
+                    fmt::format("point_jacobi {}, {}", chebyshev ? "chebyshev" : "plain", variant.name));
+    }
+  }
+}
+
+TEST_F(StrandStep, PaperFieldsAgree) {
+  for (const Variant& variant : kVariants) {
+    expectOneStep({randomGroom(awkwardLengths(33), 17), {}, settingsFor(Integrator::paper), variant.kernel},
+                  fmt::format("paper, {}", variant.name));
+  }
+}
+
+TEST_F(StrandStep, MoreRootsAgree) {
+  for (int roots : {2, 3}) {
+    for (const Variant& variant : kVariants) {
+      Settings settings = settingsFor(Integrator::jacobi);
+      settings.rootCount = roots;
+      expectOneStep({randomGroom(awkwardLengths(13), 19), {}, settings, variant.kernel},
+                    fmt::format("jacobi, {} roots, {}", roots, variant.name));
+    }
+  }
+}
+
+TEST_F(StrandStep, LongStrandsAgreeInEveryIntegrator) {
+  for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
+    Settings settings = settingsFor(integrator);
+    settings.pointIterations = 150;  // more than lavapipe can loop in one dispatch: spread over several
+    expectOneStep({randomGroom({1000, 129, 400, 40}, 23), {}, settings, {}},
+                  fmt::format("integrator {}, up to 1000 particles", int(integrator)));
+  }
+}
+
+TEST_F(StrandStep, AFrameAgreesWithDouble) {
+  for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
+    for (const Variant& variant : kVariants) {
+      const ParityCase c{randomGroom(awkwardLengths(25), 29), {}, settingsFor(integrator), variant.kernel};
+      const FieldError e = oneFrameError(device(), c);
+      fmt::print("one frame, integrator {}, {:<12} {:.1e} of the arc length\n", int(integrator), variant.name, e.error);
+      EXPECT_LE(e.error, kOneFrame) << variant.name << ": " << e.where;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ringlet::test

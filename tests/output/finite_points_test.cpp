@@ -1,0 +1,25 @@
+// Particles without a position end their strand where it last had one.
+#include "ringlet/output/finite_points.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+namespace ringlet {
+namespace {
+
+TEST(FinitePoints, StrandEndsWhereItWasLastFinite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
+  Groom groom;
+  groom.addStrand(std::vector<Vec3f>(4));
+  groom.addStrand(std::vector<Vec3f>(2));
+  std::vector<Vec3f> points{{1, 1, 1}, {2, nan, 2}, {-infinity, 0, 0}, {3, 3, 3}, {nan, nan, nan}, {4, 4, 4}};
+  EXPECT_EQ(replaceNonfinite(groom, points), 3u);
+  EXPECT_EQ(points, (std::vector<Vec3f>{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {3, 3, 3}, {0, 0, 0}, {4, 4, 4}}));
+  EXPECT_EQ(replaceNonfinite(groom, points), 0u);
+}
+
+}  // namespace
+}  // namespace ringlet

@@ -1,0 +1,198 @@
+// sheet.png: which frames, where strands are drawn, what hides what.
+#include "ringlet/output/sheet.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+Groom strands(std::initializer_list<std::vector<Vec3f>> all) {
+  Groom groom;
+  for (const auto& strand : all) groom.addStrand(strand);
+  return groom;
+}
+
+// Where a panel is drawn on, its label and the dividing lines left out.
+struct Drawn {
+  int left = kPanelWidth, right = -1, top = kPanelHeight, bottom = -1;
+  int width() const { return right - left + 1; }
+  int height() const { return bottom - top + 1; }
+};
+std::optional<Drawn> drawnIn(Picture& picture, int panel) {
+  const Colour background = picture.at(panel * kPanelWidth + kPanelWidth / 2, 2);
+  Drawn drawn;
+  for (int y = 0; y < kPanelHeight - 40; ++y) {
+    for (int x = 1; x < kPanelWidth; ++x) {
+      if (picture.at(panel * kPanelWidth + x, y) == background) continue;
+      drawn.left = std::min(drawn.left, x);
+      drawn.right = std::max(drawn.right, x);
+      drawn.top = std::min(drawn.top, y);
+      drawn.bottom = std::max(drawn.bottom, y);
+    }
+  }
+  if (drawn.right < 0) return std::nullopt;
+  return drawn;
+}
+
+TEST(SheetFrames, AreEvenWithFirstAndLast) {
+  EXPECT_EQ(sheetFrames(48), (std::vector<int>{1, 10, 20, 29, 39, 48}));
+  EXPECT_EQ(sheetFrames(6), (std::vector<int>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(sheetFrames(3), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(sheetFrames(1), (std::vector<int>{1}));
+  EXPECT_EQ(sheetFrames(2'000'000'000).back(), 2'000'000'000);
+}
+
+TEST(Sheet, DrawsSixPanelsFilledAndCentred) {
+  const Groom groom = strands({{{0, 0, 0}, {0, -1, 0}, {0, -2, 0}}});
+  Sheet sheet(groom, 48, UpAxis::y);
+  for (int frame = 1; frame <= 48; ++frame) sheet.offer(frame, groom.points);
+  Picture picture = sheet.draw();
+  EXPECT_EQ(picture.width, 6 * 480);
+  EXPECT_EQ(picture.height, 640);
+  for (int panel = 0; panel < 6; ++panel) {
+    const auto drawn = drawnIn(picture, panel);
+    ASSERT_TRUE(drawn) << "panel " << panel;
+    EXPECT_GT(drawn->height(), 500);
+    EXPECT_LT(drawn->width(), 10) << "a vertical strand is upright";
+    EXPECT_NEAR((drawn->left + drawn->right) / 2.0, kPanelWidth / 2.0, 2);
+  }
+}
+
+TEST(Sheet, UpIsUp) {
+  // The root is above the tip, whichever axis is up: it is darker than the tip.
+  const Groom groom = strands({{{0, 0, 0}, {0, 0, -1}, {0, 0, -2}}});
+  Sheet sheet(groom, 1, UpAxis::z);
+  sheet.offer(1, groom.points);
+  Picture picture = sheet.draw();
+  const auto drawn = drawnIn(picture, 0);
+  ASSERT_TRUE(drawn);
+  EXPECT_GT(drawn->height(), 500);
+  const int middle = (drawn->left + drawn->right) / 2;
+  EXPECT_LT(picture.at(middle, drawn->top + 20).green, picture.at(middle, drawn->bottom - 20).green);
+}
+
+TEST(Sheet, OneCameraShowsTheMotion) {
+  const Groom groom = strands({{{0, 0, 0}, {0, -2, 0}}});
+  Sheet sheet(groom, 6, UpAxis::y);
+  for (int frame = 1; frame <= 6; ++frame) {
+    auto points = groom.points;
+    for (Vec3f& p : points) p.x += 0.2f * static_cast<float>(frame);
+    sheet.offer(frame, points);
+  }
+  Picture picture = sheet.draw();
+  int before = -1;
+  for (int panel = 0; panel < 6; ++panel) {
+    const auto drawn = drawnIn(picture, panel);
+    ASSERT_TRUE(drawn);
+    EXPECT_GT(drawn->left, before) << "+X moves to the right, panel " << panel;
+    before = drawn->left;
+  }
+}
+
+TEST(Sheet, CameraGoesAlongWithAFarTravel) {
+  const Groom groom = strands({{{0, 0, 0}, {0, -2, 0}}});
+  Sheet sheet(groom, 6, UpAxis::y);
+  for (int frame = 1; frame <= 6; ++frame) {
+    auto points = groom.points;
+    for (Vec3f& p : points) p.x += 100.0f * static_cast<float>(frame);
+    sheet.offer(frame, points);
+  }
+  Picture picture = sheet.draw();
+  for (int panel = 0; panel < 6; ++panel) {
+    const auto drawn = drawnIn(picture, panel);
+    ASSERT_TRUE(drawn);
+    EXPECT_GT(drawn->height(), 400) << "panel " << panel;
+  }
+}
+
+TEST(Sheet, AnEarlyEndShowsTheLatestFrame) {
+  const Groom groom = strands({{{0, 0, 0}, {0, -2, 0}}});
+  Sheet sheet(groom, 48, UpAxis::y);
+  for (int frame = 1; frame <= 15; ++frame) sheet.offer(frame, groom.points);
+  Picture picture = sheet.draw();
+  for (int panel = 0; panel < 6; ++panel) EXPECT_EQ(drawnIn(picture, panel).has_value(), panel < 3) << panel;
+}
+
+TEST(Sheet, NearStrandsHideFarOnesInAnyOrder) {
+  // A lying strand in front of a standing one; specks at the corners of a cube keep the camera the same
+  // without it.
+  const std::vector<Vec3f> front{{-1, -0.5f, 1}, {1, -0.5f, 1}}, behind{{0, -1, -1}, {0, 1, -1}},
+      speck{{1, 1, 1}, {1, 1, 1}};
+  auto drawn = [&](std::initializer_list<std::vector<Vec3f>> crossing) {
+    Groom groom = strands(crossing);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3f at{corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f};
+      groom.addStrand(std::vector<Vec3f>{at, at});
+    }
+    Sheet sheet(groom, 1, UpAxis::y);
+    sheet.offer(1, groom.points);
+    return sheet.draw();
+  };
+  for (bool frontFirst : {true, false}) {
+    Picture without = frontFirst ? drawn({front, speck}) : drawn({speck, front});
+    Picture with = frontFirst ? drawn({front, behind}) : drawn({behind, front});
+    EXPECT_NE(without.pixels, with.pixels) << "the strand behind is drawn";
+
+    // Down each column between the specks, the brightest pixel is the middle of the strand in front.
+    int compared = 0, hidden = 0;
+    for (int x = kPanelWidth / 4; x < kPanelWidth * 3 / 4; ++x) {
+      int brightest = kPanelHeight / 2;
+      for (int y = kPanelHeight / 2; y < kPanelHeight * 3 / 4; ++y) {
+        if (without.at(x, y).red > without.at(x, brightest).red) brightest = y;
+      }
+      if (without.at(x, brightest).red < 100) continue;
+      ++compared;
+      if (without.at(x, brightest) != with.at(x, brightest)) ++hidden;
+    }
+    EXPECT_GT(compared, 100);
+    EXPECT_EQ(hidden, 0) << "columns in which the strand in front is hidden";
+  }
+}
+
+TEST(Sheet, SurvivesWhatACrashLooksLike) {
+  // One point for all particles, and coordinates at the end of what a float holds.
+  for (float size : {0.0f, 1e30f}) {
+    const Groom groom = strands({{{size, 0, 0}, {0, -size, size}}, {{0, 0, 0}, {0, 0, 0}}});
+    Sheet sheet(groom, 1, UpAxis::y);
+    sheet.offer(1, groom.points);
+    Picture picture = sheet.draw();
+    EXPECT_TRUE(drawnIn(picture, 0)) << size;
+  }
+}
+
+TEST(Picture, PngHoldsThePixels) {
+  const auto path = test::scratchFolder("png") / "picture.png";
+  Picture picture(30, 20, {1, 2, 3});
+  picture.at(29, 19) = {250, 251, 252};
+  picture.drawNumber(17, 1, 1, 1, {9, 9, 9});
+  auto written = picture.writePng(path);
+  ASSERT_TRUE(written) << written.error().message;
+
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_file(&image, path.c_str())) << image.message;
+  image.format = PNG_FORMAT_RGB;
+  ASSERT_EQ(image.width, 30u);
+  ASSERT_EQ(image.height, 20u);
+  std::vector<Colour> pixels(30 * 20);
+  ASSERT_TRUE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr)) << image.message;
+  EXPECT_EQ(pixels, picture.pixels);
+  EXPECT_EQ(std::count(pixels.begin(), pixels.end(), Colour{9, 9, 9}), 10 + 11) << "dots of a 1 and a 7";
+}
+
+TEST(Picture, SaysWhyItCannotBeWritten) {
+  const auto path = test::scratchFolder("png_missing") / "no" / "picture.png";
+  auto written = Picture(2, 2, {}).writePng(path);
+  ASSERT_FALSE(written);
+  EXPECT_NE(written.error().message.find(path.string()), std::string::npos) << written.error().message;
+}
+
+}  // namespace
+}  // namespace ringlet

@@ -1,0 +1,56 @@
+// `ringlet make`: what it promises is in the file.
+#include <gtest/gtest.h>
+
+#include "ringlet/groom/groom_file.h"
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+using test::runProgram;
+using test::scratchFolder;
+
+TEST(Make, WritesEveryKindInBothFormats) {
+  const auto folder = scratchFolder("make");
+  struct Case {
+    std::vector<std::string> arguments;
+    std::size_t strands, particles;
+  };
+  for (const std::string file : {"groom.obj", "groom.hair"}) {
+    for (const Case& c :
+         {Case{{"make", "curl", "--particles", "20"}, 1, 20},
+          Case{{"make", "swatch", "--columns", "3", "--rows", "2", "--particles", "9"}, 6, 54},
+          Case{{"make", "head", "--strands", "25", "--particles", "16"}, 25, 400}}) {
+      auto arguments = c.arguments;
+      arguments.insert(arguments.end(), {"-o", file});
+      const auto result = runProgram(folder, arguments);
+      EXPECT_EQ(result.exitCode, 0) << result.err;
+      EXPECT_EQ(result.err, "");
+      auto loaded = readGroom(folder / file);
+      ASSERT_TRUE(loaded) << loaded.error().message;
+      EXPECT_EQ(loaded->groom.strandCount(), c.strands);
+      EXPECT_EQ(loaded->groom.points.size(), c.particles);
+    }
+  }
+}
+
+TEST(Make, UnitScalesTheFile) {
+  const auto folder = scratchFolder("make_unit");
+  ASSERT_EQ(runProgram(folder, {"make", "curl", "--unit", "0.001", "-o", "mm.obj"}).exitCode, 0);
+  ASSERT_EQ(runProgram(folder, {"make", "curl", "--unit", "1", "-o", "m.obj"}).exitCode, 0);
+  auto millimetres = readGroom(folder / "mm.obj"), metres = readGroom(folder / "m.obj");
+  ASSERT_TRUE(millimetres && metres);
+  EXPECT_NEAR(millimetres->groom.points.back().y, -250, 1e-3) << "a curl is 0.25 m long by default";
+  EXPECT_NEAR(metres->groom.points.back().y, -0.25, 1e-6);
+}
+
+TEST(Make, SaysWhereItCannotWrite) {
+  const auto folder = scratchFolder("make_nowhere");
+  const auto result = runProgram(folder, {"make", "curl", "-o", "no/such/curl.obj"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.err.find("ringlet make curl: no/such/curl.obj"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace ringlet

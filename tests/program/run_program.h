@@ -1,0 +1,88 @@
+// Runs the built `ringlet` command as a user would, for tests.
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace ringlet::test {
+
+struct ProgramResult {
+  int exitCode = -1;  // -1: it was killed by a signal
+  std::string out, err;
+};
+
+inline std::string readText(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A program started in a folder, its outputs caught in files there.
+class RunningProgram {
+ public:
+  RunningProgram(std::filesystem::path folder, const std::vector<std::string>& arguments)
+      : folder_(std::move(folder)) {
+    std::vector<std::string> all{RINGLET_BUILD_DIR "/ringlet"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& argument : all) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    const std::string out = (folder_ / "stdout.txt").string(), err = (folder_ / "stderr.txt").string();
+    process_ = fork();
+    if (process_ != 0) return;
+    if (chdir(folder_.c_str()) != 0) _exit(120);
+    dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), STDOUT_FILENO);
+    dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), STDERR_FILENO);
+    execv(pointers[0], pointers.data());
+    _exit(121);
+  }
+
+  void send(int signal) { kill(process_, signal); }
+
+  /// Waits until the condition holds; false if that took longer than the patience of a test.
+  static bool waitUntil(const std::function<bool()>& condition) {
+    for (int i = 0; i < 3000; ++i) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+
+  ProgramResult wait() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readText(folder_ / "stdout.txt"),
+            readText(folder_ / "stderr.txt")};
+  }
+
+ private:
+  std::filesystem::path folder_;
+  pid_t process_ = -1;
+};
+
+inline ProgramResult runProgram(const std::filesystem::path& folder,
+                                const std::vector<std::string>& arguments) {
+  return RunningProgram(folder, arguments).wait();
+}
+
+}  // namespace ringlet::test
+
+// Skips loudly where no Vulkan device can run the solver; under RINGLET_REQUIRE_GPU=1 that is a failure.
+#define RINGLET_NEEDS_DEVICE(folder)                                                                    \
+  if (::ringlet::test::runProgram(folder, {"devices"}).exitCode != 0) {                                 \
+    const char* required = std::getenv("RINGLET_REQUIRE_GPU");                                          \
+    if (required && std::string(required) == "1") FAIL() << "no Vulkan device, though one is required"; \
+    GTEST_SKIP() << "SKIPPED: no Vulkan device";                                                        \
+  }

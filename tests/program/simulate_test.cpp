@@ -1,0 +1,272 @@
+// `ringlet simulate`, from a file to files: what it writes, what it prints, how it fails and how it stops.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "ringlet/groom/groom_file.h"
+#include "tests/output/usd_reader.h"
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+using nlohmann::json;
+using test::readText;
+using test::readUsd;
+using test::RunningProgram;
+using test::runProgram;
+using test::scratchFolder;
+
+// A groom of two strands of different lengths: 5 and 3 particles, a few centimetres long.
+void writeSmallGroom(const std::filesystem::path& path) {
+  std::ofstream(path) << "v 0 0 0\nv 0 -1 0.2\nv 0.1 -2 0\nv 0 -3 0.1\nv 0 -4 0\n"
+                         "v 2 0 0\nv 2 -1 0\nv 2.1 -2 0\nl 1 2 3 4 5\nl 6 7 8\n";
+}
+
+// Runs with --json; standard output is one JSON object and nothing else.
+json simulate(const std::filesystem::path& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "simulate");
+  arguments.insert(arguments.end(), {"-o", "out", "--json"});
+  const auto result = runProgram(folder, arguments);
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+class Backends : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    folder_ = scratchFolder(std::string("simulate_") + GetParam());
+    if (GetParam() == std::string("gpu")) RINGLET_NEEDS_DEVICE(folder_);
+    writeSmallGroom(folder_ / "groom.obj");
+  }
+  std::filesystem::path folder_;
+};
+INSTANTIATE_TEST_SUITE_P(Both, Backends, testing::Values("reference", "gpu"),
+                         [](const testing::TestParamInfo<const char*>& backend) { return backend.param; });
+
+TEST_P(Backends, WritesAllFilesAndAllNumbers) {
+  const json out = simulate(folder_, {"groom.obj", "--frames", "7", "--fps", "30", "--backend", GetParam()});
+  ASSERT_TRUE(out.is_object());
+  EXPECT_EQ(out["frames"], 7);
+  EXPECT_EQ(out["strands"], 2);
+  EXPECT_EQ(out["particles"], 8);
+  EXPECT_EQ(out["nonfinite"], 0);
+  EXPECT_EQ(out["backend"], GetParam());
+  EXPECT_EQ(out["integrator"], "jacobi");
+  EXPECT_EQ(out["steps_per_frame"], 8);
+  EXPECT_EQ(out["fps"], 30);
+  EXPECT_EQ(out["interrupted"], false);
+  EXPECT_GT(out["ms_per_frame"].get<double>(), 0);
+  EXPECT_GE(out["max_edge_stretch"].get<double>(), 1 - 1e-4);
+  EXPECT_LE(out["max_edge_stretch"].get<double>(), 1.1 + 1e-4);
+  EXPECT_TRUE(out["limited_share"].is_number());
+  EXPECT_TRUE(out["warnings"].is_array());
+  for (const char* stage : {"strand_step", "readback", "write"})
+    EXPECT_TRUE(out["stages_ms"][stage].is_number()) << stage;
+  for (const char* key : {"device", "driver", "kernel"})
+    EXPECT_FALSE(out[key].get<std::string>().empty()) << key;
+  EXPECT_EQ(out["positions_hash"].get<std::string>().size(), 16u);
+  EXPECT_EQ(out["outputs"], (json{"out/hair.usda", "out/last.obj", "out/sheet.png"}));
+
+  const auto usd = readUsd(folder_ / "out/hair.usda");
+  EXPECT_EQ(usd.points.size(), 7u);
+  EXPECT_EQ(usd.counts, (std::vector<int>{5, 3}));
+  EXPECT_EQ(usd.metadata.at("timeCodesPerSecond"), "30");
+  EXPECT_EQ(usd.metadata.at("endTimeCode"), "7");
+  auto last = readGroom(folder_ / "out/last.obj");
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->groom.points, usd.points.at(7)) << "last.obj is the last sample";
+  EXPECT_EQ(readText(folder_ / "out/sheet.png").substr(1, 3), "PNG");
+}
+
+TEST_P(Backends, HairAtRestStaysInItsOrderAndUnit) {
+  simulate(folder_,
+           {"groom.obj", "--frames", "2", "--motion", "still", "--gravity", "0", "--backend", GetParam()});
+  auto before = readGroom(folder_ / "groom.obj"), after = readGroom(folder_ / "out/last.obj");
+  ASSERT_TRUE(before && after);
+  EXPECT_EQ(after->groom.firstPoint, before->groom.firstPoint);
+  for (std::size_t i = 0; i < before->groom.points.size(); ++i) {
+    EXPECT_LT(length(after->groom.points[i] - before->groom.points[i]), 4e-5f)
+        << "particle " << i << " of a strand 4 long";
+  }
+}
+
+TEST_P(Backends, TheSameRunGivesTheSameBits) {
+  const std::vector<std::string> arguments{"groom.obj", "--frames",  "3",       "--motion",
+                                           "nod",       "--backend", GetParam()};
+  const json one = simulate(folder_, arguments), other = simulate(folder_, arguments);
+  EXPECT_EQ(one["positions_hash"], other["positions_hash"]);
+}
+
+TEST_P(Backends, EveryIntegratorRuns) {
+  for (const char* integrator : {"jacobi", "point_jacobi", "paper"}) {
+    const json out = simulate(
+        folder_, {"groom.obj", "--frames", "2", "--integrator", integrator, "--backend", GetParam()});
+    EXPECT_EQ(out["integrator"], integrator);
+    EXPECT_EQ(out["steps_per_frame"], integrator == std::string("paper") ? 30 : 8);
+    EXPECT_EQ(out["nonfinite"], 0) << integrator;
+  }
+}
+
+TEST(Simulate, TheHeadCarriesTheRoots) {
+  // Gliding at 1 m/s, 24 frames a second: after a frame every particle is 1/24 m further along X, in
+  // centimetres.
+  const auto folder = scratchFolder("simulate_glide");
+  writeSmallGroom(folder / "groom.obj");
+  simulate(folder,
+           {"groom.obj", "--frames", "24", "--motion", "glide", "--gravity", "0", "--backend", "reference"});
+  auto groom = readGroom(folder / "groom.obj");
+  ASSERT_TRUE(groom);
+  const auto usd = readUsd(folder / "out/hair.usda");
+  for (int frame : {1, 24}) {
+    for (std::size_t i = 0; i < groom->groom.points.size(); ++i) {
+      const Vec3f expected = groom->groom.points[i] + Vec3f{100.0f * static_cast<float>(frame) / 24, 0, 0};
+      EXPECT_LT(length(usd.points.at(frame)[i] - expected), 1e-3f) << "frame " << frame << " particle " << i;
+    }
+  }
+}
+
+TEST(Simulate, ZUpFallsAlongZ) {
+  const auto folder = scratchFolder("simulate_z");
+  std::ofstream(folder / "groom.obj") << "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nl 1 2 3 4\n";
+  simulate(folder, {"groom.obj", "--frames", "4", "--motion", "still", "--preload", "0", "--up", "Z",
+                    "--backend", "reference"});
+  const auto usd = readUsd(folder / "out/hair.usda");
+  EXPECT_EQ(usd.metadata.at("upAxis"), "\"Z\"");
+  EXPECT_LT(usd.points.at(4)[3].z, -0.01f);
+  EXPECT_NEAR(usd.points.at(4)[3].y, 0, 1e-4);
+}
+
+TEST(Simulate, SummaryNamesTheFilesAndQuietSaysNothing) {
+  const auto folder = scratchFolder("simulate_text");
+  writeSmallGroom(folder / "groom.obj");
+  const std::vector<std::string> arguments{"simulate",  "groom.obj", "--frames", "1",
+                                           "--backend", "reference", "-o",       "a/b/out"};
+  auto result = runProgram(folder, arguments);
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_EQ(result.err, "") << "no progress bar where standard error is no terminal";
+  for (const char* part : {"1 frame of 2 strands, 8 particles", "a/b/out/hair.usda", "a/b/out/last.obj",
+                           "a/b/out/sheet.png", " ms "}) {
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << " is missing in:\n" << result.out;
+  }
+  auto quiet = arguments;
+  quiet.push_back("--quiet");
+  result = runProgram(folder, quiet);
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST(Simulate, FailuresAreOneSentenceAndExit1) {
+  const auto folder = scratchFolder("simulate_failures");
+  writeSmallGroom(folder / "groom.obj");
+  std::ofstream(folder / "broken.obj") << "v 0 0 0\nl 1 7\n";
+  std::ofstream(folder / "groom.fbx") << "x";
+  std::ofstream(folder / "file") << "x";
+  struct Case {
+    std::string groom, output, message;
+  };
+  for (const Case& c : {Case{"none.obj", "out", "none.obj"}, Case{"broken.obj", "out", "broken.obj"},
+                        Case{"groom.fbx", "out", ".hair"}, Case{"groom.obj", "file", "file"},
+                        Case{"groom.obj", "/proc/out", "/proc/out"}}) {
+    const auto result = runProgram(
+        folder, {"simulate", c.groom, "--backend", "reference", "--frames", "1000000", "-o", c.output});
+    EXPECT_EQ(result.exitCode, 1) << c.message;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err.substr(0, 18), "ringlet simulate: ");
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+TEST(Simulate, AReadOnlyFolderIsFoundOutFirst) {
+  if (geteuid() == 0) GTEST_SKIP() << "SKIPPED: root may write everywhere";
+  const auto folder = scratchFolder("simulate_readonly");
+  writeSmallGroom(folder / "groom.obj");
+  std::filesystem::create_directory(folder / "out");
+  std::filesystem::permissions(folder / "out",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  const auto result = runProgram(
+      folder, {"simulate", "groom.obj", "--backend", "reference", "--frames", "1000000", "-o", "out"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.err.find("choose a folder you may write to"), std::string::npos) << result.err;
+}
+
+TEST(Simulate, ARunThatBlowsUpSaysSoAndItsFilesCanStillBeRead) {
+  // The paper's explicit scheme at a step far beyond its limit.
+  const auto folder = scratchFolder("simulate_nonfinite");
+  ASSERT_EQ(runProgram(folder, {"make", "swatch", "-o", "groom.hair"}).exitCode, 0);
+  const auto result =
+      runProgram(folder, {"simulate", "groom.hair", "--integrator", "paper", "--steps-per-frame", "1",
+                          "--frames", "6", "--backend", "reference", "--json", "-o", "out"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.err.find("have no finite position"), std::string::npos) << result.err;
+  const json out = json::parse(result.out, nullptr, false);
+  ASSERT_TRUE(out.is_object());
+  EXPECT_GT(out["nonfinite"], 0);
+  EXPECT_EQ(readUsd(folder / "out/hair.usda").points.size(), 6u);
+  EXPECT_TRUE(readGroom(folder / "out/last.obj"));
+}
+
+TEST(Simulate, UnknownDeviceIsNamed) {
+  const auto folder = scratchFolder("simulate_device");
+  writeSmallGroom(folder / "groom.obj");
+  const auto result = runProgram(folder, {"simulate", "groom.obj", "--device", "Voodoo 2", "-o", "out"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.err.find("--backend reference"), std::string::npos) << result.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "out")) << "nothing half-written remains";
+}
+
+// A run that would take long, and the moment its first frame is in the file.
+class Interruption : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(runProgram(folder_, {"make", "swatch", "-o", "groom.hair"}).exitCode, 0);
+  }
+  std::vector<std::string> arguments_{"simulate",  "groom.hair", "--frames", "100000", "--backend",
+                                      "reference", "--json",     "-o",       "out"};
+  std::filesystem::path folder_ = scratchFolder("interruption");
+
+  bool waitForFrames() const {
+    return RunningProgram::waitUntil([this] {
+      const std::string key = "endTimeCode = ",
+                        text = readText(folder_ / "out/hair.usda.partial").substr(0, 200);
+      const std::size_t at = text.find(key);
+      return at != std::string::npos && text.compare(at + key.size(), 1, "0") != 0;
+    });
+  }
+};
+
+TEST_F(Interruption, CtrlCKeepsFinishedFrames) {
+  RunningProgram program(folder_, arguments_);
+  EXPECT_TRUE(waitForFrames());
+  program.send(SIGINT);
+  const auto result = program.wait();
+  EXPECT_EQ(result.exitCode, 130);
+  EXPECT_NE(result.err.find("interrupted after"), std::string::npos) << result.err;
+  const json out = json::parse(result.out, nullptr, false);
+  ASSERT_TRUE(out.is_object());
+  EXPECT_EQ(out["interrupted"], true);
+  const auto frames = out["frames"].get<std::size_t>();
+  EXPECT_GE(frames, 1u);
+  const auto usd = readUsd(folder_ / "out/hair.usda");
+  EXPECT_EQ(usd.points.size(), frames);
+  EXPECT_EQ(usd.metadata.at("endTimeCode"), std::to_string(frames));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/last.obj"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/sheet.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/hair.usda.partial"));
+}
+
+TEST_F(Interruption, AKilledRunLeavesItsFrames) {
+  RunningProgram program(folder_, arguments_);
+  EXPECT_TRUE(waitForFrames());
+  program.send(SIGKILL);
+  EXPECT_EQ(program.wait().exitCode, -1);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/hair.usda"));
+  EXPECT_GE(readUsd(folder_ / "out/hair.usda.partial").points.size(), 1u);
+}
+
+}  // namespace
+}  // namespace ringlet

@@ -1,0 +1,215 @@
+// Implements support/parity.h.
+#include "tests/support/parity.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "reference/step.h"
+#include "shared/layout.h"
+
+namespace ringlet::test {
+namespace {
+
+using ReferenceF = reference::Simulation<float>;
+using ReferenceD = reference::Simulation<double>;
+
+// Uniform in [-1, 1], the same on every platform.
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : engine_(seed) {}
+  double operator()() { return 2.0 * engine_() / 4294967295.0 - 1.0; }
+  Vec3d vector() {
+    const double x = (*this)(), y = (*this)(), z = (*this)();
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+double meanEdge(std::span<const Vec3f> strand) {
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < strand.size(); ++i) sum += length(static_cast<Vec3d>(strand[i + 1] - strand[i]));
+  return sum / static_cast<double>(strand.size() - 1);
+}
+
+template <class Real>
+reference::Field<Real> toField(const std::vector<Vec3f>& values) {
+  reference::Field<Real> field;
+  for (Vec3f v : values) field.push_back(reference::toEigen<Real>(v));
+  return field;
+}
+
+// Collects the largest error of one field.
+class Comparison {
+ public:
+  Comparison(std::string field) { error_.field = std::move(field); }
+
+  void add(std::size_t strand, std::size_t particle, double scale, const Eigen::VectorXd& expected, const Eigen::VectorXd& found) {
+    double error = (expected - found).norm() / scale;
+    if (!(error <= error_.error) || error_.where.empty()) {
+      error_.error = std::isfinite(error) ? error : INFINITY;
+      std::string values;
+      for (Eigen::Index k = 0; k < expected.size(); ++k) values += fmt::format(" {:.9g}|{:.9g}", expected[k], found[k]);
+      error_.where = fmt::format("strand {} particle {} scale {:.4g}: expected|found{}", strand, particle, scale, values);
+    }
+  }
+  FieldError result() const { return error_; }
+
+ private:
+  FieldError error_;
+};
+
+Eigen::VectorXd three(const std::array<float, 4>& v, double factor = 1) {
+  return Eigen::Vector3d(v[0], v[1], v[2]) * factor;
+}
+
+}  // namespace
+
+std::vector<Vec3f> helix(int particles, double radius, double length, double turns, double noise, std::uint32_t seed) {
+  Random random(seed);
+  std::vector<Vec3f> points;
+  for (int i = 0; i < particles; ++i) {
+    const double s = double(i) / (particles - 1), angle = 2 * std::numbers::pi * turns * s;
+    const Vec3d p{radius * std::cos(angle), -length * s, radius * std::sin(angle)};
+    points.push_back(static_cast<Vec3f>(p + random.vector() * noise));
+  }
+  return points;
+}
+
+Groom randomGroom(const std::vector<int>& particleCounts, std::uint32_t seed) {
+  Random random(seed);
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (std::size_t s = 0; s < particleCounts.size(); ++s) {
+    const int n = particleCounts[s];
+    const double length = 0.25 + 0.05 * random(), turns = s % 3 == 2 ? 0 : std::min(8.0, n / 6.0) * (s % 2 ? 1 : -1);
+    const double radius = s % 3 == 2 ? 0 : 0.01 + 0.004 * random();
+    auto strand = helix(n, radius, length, turns, 0.05 * length / n, seed + static_cast<std::uint32_t>(s));
+    const Vec3f root = static_cast<Vec3f>(random.vector() * 0.1);
+    for (Vec3f& p : strand) p += root;
+    groom.addStrand(strand);
+  }
+  return groom;
+}
+
+HairState randomState(const Groom& groom, const Settings& settings, std::uint32_t seed) {
+  Random random(seed + 1000);
+  HairState state;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const auto strand = groom.strand(s);
+    const double edge = meanEdge(strand);
+    for (std::size_t i = 0; i < strand.size(); ++i) {
+      const bool pinned = i < static_cast<std::size_t>(settings.rootCount);
+      const Vec3d shift = random.vector() * (pinned ? 0 : 0.04 * edge), velocity = random.vector();
+      state.positions.push_back(static_cast<Vec3f>(static_cast<Vec3d>(strand[i]) + shift));
+      state.velocities.push_back(pinned ? Vec3f{} : static_cast<Vec3f>(velocity));
+    }
+  }
+  return state;
+}
+
+HeadStep movingHead() {
+  const auto pose = [](double t) {
+    return HeadPose{Vec3d{3 + 0.8 * t, 1 - 0.3 * t * t, 2 * t}, fromRotationVector(Vec3d{0.1, 1, 0.3} * (3 * t * t + t))};
+  };
+  const double T = 1.0 / 192;
+  return {pose(-T), pose(0), pose(T)};
+}
+
+std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c) {
+  c.settings.framesPerSecond *= c.settings.stepsPerFrame;
+  c.settings.stepsPerFrame = 1;
+  c.kernel.taps = true;
+  const HeadStep head = movingHead();
+  const HairState start = randomState(c.groom, c.settings, c.seed);
+
+  auto simulation = Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel);
+  if (!simulation) return {{"create", INFINITY, simulation.error().message}};
+  EXPECT_TRUE(simulation->setState(start));
+  EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1)));
+  const auto found = simulation->state();
+  if (!found) return {{"state", INFINITY, found.error().message}};
+
+  ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before);
+  expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
+  expected.stepFrame(std::span(&head.next, 1));
+
+  double largestSpeed = 0;
+  for (const auto& v : expected.velocities()) largestSpeed = std::max<double>(largestSpeed, v.norm());
+
+  const auto tap = [&](std::uint32_t field) { return *simulation->tap(field); };
+  const auto smoothed = tap(layout::kTapSmoothedEdge), core = tap(layout::kTapCoreEdge), frames = tap(layout::kTapFrame),
+             targets = tap(layout::kTapTarget), stretch = tap(layout::kTapStretchForce), bend = tap(layout::kTapBendForce),
+             coreForce = tap(layout::kTapCoreForce), solved = tap(layout::kTapVelocity);
+  Comparison cSmoothed("smoothed edges"), cCore("core edges"), cFrames("frames"), cTargets("targets"),
+      cStretch("stretch forces"), cBend("bend forces"), cCoreForce("core forces"), cSolved("solved velocities"),
+      cPositions("positions"), cVelocities("velocities");
+  for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
+    const auto& rest = expected.restStrands()[s];
+    const auto& taps = expected.taps()[s];
+    const double edge = rest.meanEdgeLength;
+    const double unit = c.settings.integrator == Integrator::paper ? 1 : c.material.lineDensity * edge;
+    for (std::size_t i = 0; i < rest.particleCount(); ++i) {
+      const std::size_t g = c.groom.firstPoint[s] + i;
+      const auto v = [](const auto& x) { return Eigen::VectorXd(x.template cast<double>()); };
+      cSolved.add(s, i, largestSpeed, v(taps.solvedVelocities[i]), three(solved[g]));
+      cPositions.add(s, i, rest.arcLength, v(expected.positions()[g]), v(reference::toEigen<float>(found->positions[g])));
+      cVelocities.add(s, i, largestSpeed, v(expected.velocities()[g]), v(reference::toEigen<float>(found->velocities[g])));
+      if (i >= rest.edgeCount()) continue;
+      cSmoothed.add(s, i, edge, v(taps.smoothedEdges[i]), three(smoothed[g]));
+      cCore.add(s, i, edge, v(taps.coreEdges[i]), three(core[g]));
+      cTargets.add(s, i, edge, v(taps.targets[i]), three(targets[g]));
+      const Eigen::Vector4d q = taps.frames[i].coeffs().template cast<double>();
+      const Eigen::Vector4d r(frames[g][0], frames[g][1], frames[g][2], frames[g][3]);
+      cFrames.add(s, i, 1, q * (q.dot(r) < 0 ? -1 : 1), r);  // q and -q are one rotation
+      const double l = rest.edgeLengths[i];
+      cStretch.add(s, i, rest.stretchStiffness[i] * l, v(taps.stretchForces[i]), three(stretch[g], unit));
+      cBend.add(s, i, rest.bendStiffness[i] * l, v(taps.bendForces[i]), three(bend[g], unit));
+      cCoreForce.add(s, i, rest.coreStiffness[i] * l, v(taps.coreForces[i]), three(coreForce[g], unit));
+    }
+  }
+  return {cSmoothed.result(), cCore.result(),  cFrames.result(),    cTargets.result(),   cStretch.result(),
+          cBend.result(),     cCoreForce.result(), cSolved.result(), cPositions.result(), cVelocities.result()};
+}
+
+FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
+  const HairState start = randomState(c.groom, c.settings, c.seed);
+  std::vector<HeadPose> poses;
+  const auto pose = [&](int k) {
+    const double t = k * c.settings.stepSeconds();
+    return HeadPose{Vec3d{0.5 * t * t, 0, 0.2 * t}, fromRotationVector(Vec3d{0, 2, 0.5} * (t * t))};
+  };
+  for (int k = 1; k <= c.settings.stepsPerFrame; ++k) poses.push_back(pose(k));
+
+  auto simulation = Simulation::create(device, c.groom, c.material, c.settings, pose(0), pose(-1), c.kernel);
+  if (!simulation) return {"create", INFINITY, simulation.error().message};
+  EXPECT_TRUE(simulation->setState(start));
+  EXPECT_TRUE(simulation->stepFrame(poses));
+  const auto found = simulation->positions();
+  if (!found) return {"positions", INFINITY, found.error().message};
+
+  ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1));
+  expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
+  expected.stepFrame(poses);
+  Comparison comparison("positions after a frame");
+  for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
+    for (std::size_t i = 0; i < c.groom.strand(s).size(); ++i) {
+      const std::size_t g = c.groom.firstPoint[s] + i;
+      comparison.add(s, i, expected.restStrands()[s].arcLength, expected.positions()[g], reference::toEigen<double>((*found)[g]));
+    }
+  }
+  return comparison.result();
+}
+
+std::string toText(const std::vector<FieldError>& errors) {
+  std::string text;
+  for (const FieldError& e : errors) text += fmt::format("{}{} {:.1e}", text.empty() ? "" : ", ", e.field, e.error);
+  return text;
+}
+
+}  // namespace ringlet::test
