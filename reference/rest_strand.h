@@ -149,7 +149,7 @@ inline void setRestShape(const Settings& settings, RestStrand<double>& strand) {
   for (std::size_t i = edgeCount; i-- > 0;) {
     weight += strand.masses[i + 1] * gravity;
     const Vector3<double>& edge = strand.edges[i];
-    const Vector3<double> direction = directionOr(edge, Vector3<double>::UnitX());
+    const Vector3<double> direction = directionOr(edge, Vector3<double>::Zero());
     const double along = weight.dot(direction);
     const Vector3<double> across = weight - along * direction;
     const double stretch = strand.stretchStiffness[i], bend = strand.bendStiffness[i];
@@ -196,8 +196,9 @@ inline RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double
   strand.masses.assign(edgeCount + 1, 0.0);
   for (std::size_t i = 0; i < edgeCount; ++i) {
     strand.edgeLengths.push_back(std::max(strand.edges[i].norm(), 0.01 * strand.meanEdgeLength));
-    strand.masses[i] += material.lineDensity * arcs[i] / 2;
-    strand.masses[i + 1] += material.lineDensity * arcs[i] / 2;
+    const double half = material.lineDensity * std::max(arcs[i], strand.edgeLengths[i]) / 2;
+    strand.masses[i] += half;
+    strand.masses[i + 1] += half;
   }
   if (settings.integrator == Integrator::paper) strand.masses.assign(edgeCount + 1, 1.0);
 

@@ -102,8 +102,8 @@ class Simulation {
     const double T = settings_.stepSeconds();
     const Vec3d velocityNow = (head_.position - previousHead_.position) / T;
     const Vec3d velocityNext = (next.position - head_.position) / T;
-    return {toEigen<Real>(previousHead_.rotation), toEigen<Real>(head_.rotation),
-            toEigen<Real>(next.rotation), toEigen<Real>(velocityNext - velocityNow), static_cast<Real>(T)};
+    return {toEigen<double>(previousHead_.rotation), toEigen<double>(head_.rotation),
+            toEigen<double>(next.rotation), toEigen<Real>(velocityNext - velocityNow), static_cast<Real>(T)};
   }
 
   std::span<Vector3<Real>> strandOf(Field<Real>& field, std::size_t s) const {

@@ -11,11 +11,13 @@
 
 namespace ringlet::reference {
 
-/// Elastic part [N]: stiffness k_s [N/m], edge e and rest length s [m], direction e^.
+/// Elastic part [N]: stiffness k_s [N/m], edge e and rest length s [m], direction e^. The lengths are compared in double
+/// whatever Real is: they are nearly equal, and their rounding in float would be the reference's own noise.
 template <class Real>
 Vector3<Real> stretchForce(Real stiffness, const Vector3<Real>& edge, const Vector3<Real>& direction,
                            Real restLength) {
-  return stiffness * (edge.norm() - restLength) * direction;
+  const double stretch = edge.template cast<double>().norm() - static_cast<double>(restLength);
+  return stiffness * static_cast<Real>(stretch) * direction;
 }
 
 /// Damping part [N]: damping c_s [N s/m], velocity difference dv [m/s], direction e^.

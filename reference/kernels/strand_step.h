@@ -21,9 +21,19 @@ namespace ringlet::reference {
 /// What the head does in the step from n to n + 1.
 template <class Real>
 struct HeadStep {
-  Rotation<Real> before, now, next;  // rotations of poses n - 1, n, n + 1
-  Vector3<Real> velocityChange;      // of its translation: V_{n+1} - V_n [m/s]
-  Real seconds = 0;                  // T
+  Rotation<double> before, now, next;  // rotations of poses n - 1, n, n + 1: their differences over T need the digits
+  Vector3<Real> velocityChange;        // of its translation: V_{n+1} - V_n [m/s]
+  Real seconds = 0;                    // T
+
+  Rotation<Real> rotation() const { return now.template cast<Real>(); }
+  /// Velocity of a point x of the groom that the head carries, in the step from n - 1 to n, and from n to n + 1 [m/s].
+  Vector3<Real> carriedVelocityBefore(const Vector3<Real>& x) const { return carriedVelocity(before, now, x); }
+  Vector3<Real> carriedVelocity(const Vector3<Real>& x) const { return carriedVelocity(now, next, x); }
+
+  Vector3<Real> carriedVelocity(const Rotation<double>& from, const Rotation<double>& to, const Vector3<Real>& x) const {
+    const Vector3<double> place = x.template cast<double>();
+    return ((to * place - from * place) / static_cast<double>(seconds)).template cast<Real>();
+  }
 };
 
 /// Every intermediate of a strand's step, N particles or N - 1 edges, for comparison with the shader's taps.
@@ -52,9 +62,9 @@ struct StepScratch {
   Field<Real> movedEdges;                                        // e_i after p += T v [m]
   Field<Real> velocityDifferences, smoothedVelocityDifferences;  // dv_i, nu_i [m/s]
   Field<Real> edgeForces;  // per edge, before they go to the particles [N]
-  StrandSystem<double> exactSystem;
-  StrandSystem<Real> pointSystem;
-  SolveScratch<Real> solve;
+  StrandSystem system;
+  SolveScratch solve;
+  Field<double> solved;  // velocities in the solve's double [m/s]
 };
 
 /// dv_i = v_{i+1} - v_i, or edges from positions.
@@ -74,14 +84,14 @@ void measureShape(const RestStrand<Real>& rest, bool isPaper, const HeadStep<Rea
   scratch.directions.resize(rest.edgeCount());
   taps.degenerateCount = 0;
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
-    scratch.directions[i] = directionOr(scratch.edges[i], Vector3<Real>::UnitX());
+    scratch.directions[i] = directionOr(scratch.edges[i], Vector3<Real>::Zero());
     if (!(scratch.edges[i].norm() > Real(0))) ++taps.degenerateCount;
   }
 
   // The filters start from the rest first edge as the head carries it, and from that edge's velocity; the
   // paper's from the strand's own first edge.
-  const Vector3<Real> carried = head.now * rest.edges[0];
-  Vector3<Real> edgeStart = carried, velocityStart = (carried - head.before * rest.edges[0]) / head.seconds;
+  const Vector3<Real> carried = head.rotation() * rest.edges[0];
+  Vector3<Real> edgeStart = carried, velocityStart = head.carriedVelocityBefore(rest.edges[0]);
   if (isPaper) {
     edgeStart = scratch.edges[0];
     velocityStart = scratch.velocityDifferences[0];
@@ -91,10 +101,11 @@ void measureShape(const RestStrand<Real>& rest, bool isPaper, const HeadStep<Rea
   smooth(scratch.velocityDifferences, rest.coreSmoothingShare, velocityStart,
          scratch.smoothedVelocityDifferences);
 
-  transportFrames(head.now, carried, taps.smoothedEdges, taps.frames);
+  transportFrames(head.rotation(), carried, taps.smoothedEdges, taps.frames);
+  const Rotation<Real> rootFrame = head.rotation();
   taps.targets.resize(rest.edgeCount());
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
-    taps.targets[i] = frameBefore(i, head.now, taps.frames) * rest.restTargets[i];
+    taps.targets[i] = frameBefore(i, rootFrame, taps.frames) * rest.restTargets[i];
   }
 }
 
@@ -137,31 +148,28 @@ Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i) {
   return force;
 }
 
-/// (M + T C + T^2 K) v+ = M v + T (f + m g), the strand's own system, in Scalar whatever Real is.
-template <class Scalar, class Real>
+/// (M + T C + T^2 K) v+ = M v + T (f + m g), the strand's own system.
+template <class Real>
 void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, const Field<Real>& directions,
-                    const Vector3<double>& gravity, double T, FieldView<Real> velocities,
-                    StrandSystem<Scalar>& system) {
+                    const Vector3<double>& gravity, double T, FieldView<Real> velocities, StrandSystem& system) {
   system.rootCount = rest.rootCount;
-  system.masses.resize(rest.particleCount());
+  system.masses.assign(rest.masses.begin(), rest.masses.end());
   system.momenta.resize(rest.particleCount());
   system.across.resize(rest.edgeCount());
   system.along.resize(rest.edgeCount());
   system.directions.resize(rest.edgeCount());
-  const Scalar t = static_cast<Scalar>(T);
-  const Vector3<Scalar> fall = gravity.cast<Scalar>();
   for (std::size_t i = 0; i < rest.particleCount(); ++i) {
-    system.masses[i] = static_cast<Scalar>(rest.masses[i]);
-    system.momenta[i] = system.masses[i] * velocities[i].template cast<Scalar>() +
-                        t * (particleForce(taps, i).template cast<Scalar>() + system.masses[i] * fall);
+    const double m = system.masses[i];
+    system.momenta[i] = m * velocities[i].template cast<double>() +
+                        T * (particleForce(taps, i).template cast<double>() + m * gravity);
   }
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
-    const Scalar stretchStiffness = rest.stretchStiffness[i], stretchDamp = rest.stretchDamping[i];
-    const Scalar bendStiffness = rest.bendStiffness[i], bendDamp = rest.bendDamping[i];
+    const double stretchStiffness = rest.stretchStiffness[i], stretchDamp = rest.stretchDamping[i];
+    const double bendStiffness = rest.bendStiffness[i], bendDamp = rest.bendDamping[i];
     // Bend stiffness holds in all directions (the target is held), its damping across the edge only.
-    system.across[i] = t * bendDamp + t * t * bendStiffness;
-    system.along[i] = std::max(Scalar(0), t * stretchDamp + t * t * stretchStiffness - t * bendDamp);
-    system.directions[i] = directions[i].template cast<Scalar>();
+    system.across[i] = T * bendDamp + T * T * bendStiffness;
+    system.along[i] = std::max(0.0, T * stretchDamp + T * T * stretchStiffness - T * bendDamp);
+    system.directions[i] = directions[i].template cast<double>();
   }
 }
 
@@ -206,22 +214,19 @@ template <class Real>
 void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
                      StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> velocities) {
   if (rest.particleCount() <= rest.rootCount) return;
-  const Vector3<double> gravity = toEigen<double>(settings.gravity);
-  const double T = settings.stepSeconds();
-  switch (settings.integrator) {
-    case Integrator::jacobi:
-      assembleSystem(rest, taps, scratch.directions, gravity, T, velocities, scratch.exactSystem);
-      solveStrand(scratch.exactSystem, scratch.solve, velocities);
-      break;
-    case Integrator::pointJacobi:
-      assembleSystem(rest, taps, scratch.directions, gravity, T, velocities, scratch.pointSystem);
-      iteratePoints(scratch.pointSystem, settings.pointIterations, settings.chebyshev, scratch.solve,
-                    velocities);
-      break;
-    case Integrator::paper:
-      runPaperLoops(rest, settings, head, scratch, taps, velocities);
-      break;
+  if (settings.integrator == Integrator::paper) {
+    runPaperLoops(rest, settings, head, scratch, taps, velocities);
+    return;
   }
+  assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(), velocities,
+                 scratch.system);
+  scratch.solved.resize(velocities.size());
+  for (std::size_t i = 0; i < velocities.size(); ++i) scratch.solved[i] = velocities[i].template cast<double>();
+  if (settings.integrator == Integrator::jacobi) solveStrand(scratch.system, scratch.solve, scratch.solved);
+  if (settings.integrator == Integrator::pointJacobi) {
+    iteratePoints(scratch.system, settings.pointIterations, settings.chebyshev, scratch.solve, scratch.solved);
+  }
+  for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = scratch.solved[i].template cast<Real>();
 }
 
 /// Max |e_i| / l_i over the strand's edges [1].
@@ -252,12 +257,12 @@ void stepStrand(const RestStrand<Real>& rest, const Settings& settings, const He
 
   // Pinned particles turn with the head; all others follow from forces.
   for (std::size_t i = 0; i < pinnedCount; ++i) {
-    velocities[i] = (head.next * rest.points[i] - head.now * rest.points[i]) / head.seconds;
+    velocities[i] = head.carriedVelocity(rest.points[i]);
   }
   solveVelocities(rest, settings, head, scratch, taps, velocities);
   taps.solvedVelocities.assign(velocities.begin(), velocities.end());
 
-  for (std::size_t i = 0; i < pinnedCount; ++i) positions[i] = head.next * rest.points[i];
+  for (std::size_t i = 0; i < pinnedCount; ++i) positions[i] = head.next.template cast<Real>() * rest.points[i];
   for (std::size_t i = pinnedCount; i < positions.size(); ++i) positions[i] += head.seconds * velocities[i];
 
   scratch.movedEdges = scratch.edges;

@@ -3,13 +3,9 @@
 #ifndef RINGLET_CORE_SPRING
 #define RINGLET_CORE_SPRING
 
-/// Elastic and damping part for one edge, before the blend.
-vec3 coreForce(float stiffness, float damping, vec3 b, float restLength, vec3 nu) {
-  float squared = dot(b, b);
-  if (squared < 1e-30) return vec3(0);
-  float inverseLength = inversesqrt(squared);
-  vec3 direction = b * inverseLength;
-  return (stiffness * (squared * inverseLength - restLength) + damping * dot(nu, direction)) * direction;
+/// Elastic and damping part for one edge of given direction and length, before the blend.
+vec3 coreForce(float stiffness, float damping, vec3 direction, float edgeLength, float restLength, vec3 nu) {
+  return (stiffness * (edgeLength - restLength) + damping * dot(nu, direction)) * direction;
 }
 
 /// The share of the full constants at core elongation rho (the paper's nonlinear core; its limits are ours).

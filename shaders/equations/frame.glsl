@@ -5,22 +5,16 @@
 
 #include "maths/quaternion.glsl"
 
-/// x / |x|, or `fallback` where x has no direction.
-vec3 directionOr(vec3 x, vec3 fallback) {
-  float squared = dot(x, x);
-  return squared > 1e-30 ? x * inversesqrt(squared) : fallback;
-}
+/// x / |x|; the zero vector for one without direction, to and from which no frame turns.
+vec3 directionOf(vec3 x) { return x * inversesqrt(max(dot(x, x), 1e-30)); }
 
 /// The smallest rotation that takes the unit vector a to the unit vector b, less the identity: (x, y, z, w - 1). A chain
-/// of a thousand of them then rounds by each turn's own smallness. Opposite vectors: a half turn about a perpendicular.
+/// of a thousand of them then rounds by each turn's own smallness. Between opposite vectors, where
+/// none is the smallest: about the axis that rounding leaves, or none.
 vec4 smallestTurn(vec3 a, vec3 b) {
   vec3 axis = cross(a, b);
-  float c = max(0.0, 1.0 + dot(a, b));
-  float squared = dot(axis, axis) + c * c;
-  bool opposite = squared < 1e-10;
-  axis = opposite ? (abs(a.x) < 0.7 ? vec3(0, a.z, -a.y) : vec3(-a.z, 0, a.x)) : axis;
-  squared = opposite ? dot(axis, axis) : squared;
-  float s = inversesqrt(squared);
+  float c = 1.0 + dot(a, b);
+  float s = inversesqrt(max(dot(axis, axis) + c * c, 1e-20));
   axis *= s;
   return vec4(axis, -dot(axis, axis) / (1.0 + c * s));
 }

@@ -15,7 +15,7 @@ ImplicitEdge implicitEdge(vec3 direction, float T, float stretchStiffness, float
                           float bendDamping) {
   float along = max(0.0, T * (stretchDamping + T * stretchStiffness - bendDamping));
   // The elimination needs a positive part across; 1e-6 of the mass changes nothing that can be seen.
-  return ImplicitEdge(direction, along, max(T * (bendDamping + T * bendStiffness), 1e-6));
+  return ImplicitEdge(direction, along, T * (bendDamping + T * bendStiffness));
 }
 
 ImplicitEdge voidEdge() { return ImplicitEdge(vec3(1, 0, 0), 0.0, 0.0); }

@@ -4,9 +4,9 @@
 #ifndef RINGLET_STRETCH_LIMIT
 #define RINGLET_STRETCH_LIMIT
 
-vec3 limitedEdgeChange(vec3 edge, float longest) {
-  float squared = dot(edge, edge);
-  return squared > longest * longest ? (longest * inversesqrt(squared) - 1.0) * edge : vec3(0);
+/// As a factor of the edge: 0 where it is short enough, else negative.
+float limitedEdgeShare(vec3 edge, float longest) {
+  return min(0.0, longest * inversesqrt(max(dot(edge, edge), 1e-30)) - 1.0);
 }
 
 /// `paper` only: the change of velocity difference that keeps the edge's rate at or below `fastest`.

@@ -20,7 +20,7 @@ vec3 rightHandSide(int k, vec3 forceBefore) {
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
-  return isParticle(k) ? m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz) : vec3(0);
+  return m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz);
 }
 
 // H of the boundary edge: A⁻¹. A void one gets any positive value; it is never used.
@@ -45,9 +45,8 @@ void solveStrandBlock(vec3 pinned[3]) {
     system.offset = multiply(system.compliance, -stepSeconds() * force[RUN - 1]);
   }
 
-  for (int k = RUN - 2; k >= 0; --k) {
+  [[unroll]] for (int k = RUN - 2; k >= 0; --k) {
     ImplicitEdge edge = implicitEdgeOf(k);
-    if (!isEdge(k)) edge = voidEdge();
     Elimination step = eliminateEdge(edge, system.P, system.y);
     system.P = addDiagonal(system.P, restEdge[k].x);
     system.y += rightHandSideOfRun(k);
@@ -70,7 +69,7 @@ void solveStrandBlock(vec3 pinned[3]) {
   vec3 start = lane == 0 ? pinned[0] : vec3(0);
   vec3 f = solveBoundaries(system, boundary, start);
   v[0] = start;
-  for (int k = 0; k < RUN - 1; ++k) {
+  [[unroll]] for (int k = 0; k < RUN - 1; ++k) {
     v[k + 1] = transfer[k] * v[k] + offset[k];
     if (kLanes > 1) v[k + 1] += pull[k] * f;
   }

@@ -6,10 +6,10 @@
 void smoothedEdges(vec3 x[RUN], vec3 start, out vec3 smoothed[RUN]) {
   FilterState state = lane == 0 ? startFilter(start) : startFilter(vec3(0));
   if (kLanes > 1) {
-    for (int k = 0; k < RUN; ++k) smoothNext(state, x[k], strand.coreBeta);
+    [[unroll]] for (int k = 0; k < RUN; ++k) smoothNext(state, x[k], strand.coreBeta);
   }
   state = filterBeforeRun(state, startFilter(start), strand.coreBeta);
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     smoothNext(state, x[k], strand.coreBeta);
     smoothed[k] = state.d;
   }
@@ -17,8 +17,8 @@ void smoothedEdges(vec3 x[RUN], vec3 start, out vec3 smoothed[RUN]) {
 
 void differencesOfVelocity() {
   vec3 vNext = fromTipward(v[0], 1);
-  for (int k = 0; k < RUN; ++k) {
-    dv[k] = isEdge(k) ? (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k] : vec3(0);
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    dv[k] = (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k];
   }
 }
 
@@ -27,14 +27,14 @@ void dampOnce(float dt, vec3 coreDirection[RUN]) {
   vec3 nu[RUN];
   smoothedEdges(dv, dv[0], nu);
   vec3 damping[RUN];
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     vec3 stretching = dot(dv[k], eHat[k]) * eHat[k];
     damping[k] = restEdge[k].w * (strand.stretchDamping * stretching + strand.bendDamping * (dv[k] - stretching) +
                                   coreScale * strand.coreDamping * dot(nu[k], coreDirection[k]) * coreDirection[k]);
   }
   vec3 before = fromRootward(damping[RUN - 1], 1);
   if (lane == 0) before = vec3(0);
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isFree(k)) v[k] += dt / restEdge[k].x * (damping[k] - (k > 0 ? damping[max(k - 1, 0)] : before));
   }
 }
@@ -42,15 +42,14 @@ void dampOnce(float dt, vec3 coreDirection[RUN]) {
 void limitRates() {
   differencesOfVelocity();
   vec3 shift = vec3(0);
-  for (int k = 0; k < RUN; ++k) {
-    float fastest = max(0.0, (parameters.maxStretch * restEdge[k].y - eLength[k]) / stepSeconds());
-    bool limitable = isEdge(k) && first + k + 1 >= parameters.rootCount;
-    vec3 change = limitable ? limitedRateChange(dv[k], eHat[k], fastest) : vec3(0);
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    float fastest = max(0.0, (restEdge[k].y - eLength[k]) / stepSeconds());
+    vec3 change = isPinned(k + 1) ? vec3(0) : limitedRateChange(dv[k], eHat[k], fastest);
     dv[k] = shift;  // of particle k
     shift += change;
   }
   vec3 before = sumBeforeRun(shift);
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isFree(k)) v[k] += before + dv[k];
   }
 }
@@ -58,15 +57,15 @@ void limitRates() {
 void loopAsThePaper(vec3 pinned[3]) {
   vec3 coreDirection[RUN];
   smoothedEdges(e, e[0], coreDirection);
-  for (int k = 0; k < RUN; ++k) {
-    coreDirection[k] = directionOr(coreDirection[k], vec3(0));
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    coreDirection[k] = directionOf(coreDirection[k]);
     if (isPinned(k)) v[k] = pinned[min(k, 2)];
   }
   vec3 forceBefore = forceFromRootward();
   float dtForce = stepSeconds() / float(parameters.forceLoops);
   float dtDamping = dtForce / float(parameters.dampingLoops);
   for (uint loop = 0; loop < parameters.forceLoops; ++loop) {
-    for (int k = 0; k < RUN; ++k) {
+    [[unroll]] for (int k = 0; k < RUN; ++k) {
       vec3 pull = force[k] - (k > 0 ? force[max(k - 1, 0)] : forceBefore);
       if (isFree(k)) v[k] += dtForce * (pull / restEdge[k].x + parameters.gravity.xyz);
     }

@@ -1,5 +1,6 @@
 // `point_jacobi`, the particle as block: a fixed number of Jacobi iterations on the same implicit system, plain or
-// Chebyshev-accelerated. The baseline, and a check of the strand block. Included by kernels/strand_step.comp.
+// Chebyshev-accelerated. By residuals: the error of an inverse in float32 then slows the iteration instead of moving its
+// end. The baseline, and a check of the strand block. Included by kernels/strand_step.comp.
 
 #include "equations/chebyshev_weight.glsl"
 
@@ -10,15 +11,14 @@ void iteratePointJacobi(vec3 pinned[3]) {
   vec3 previous[RUN];
 
   vec3 forceBefore = forceFromRootward();
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     edge[k] = implicitEdgeOf(k);
-    if (!isEdge(k)) edge[k] = voidEdge();
     rhs[k] = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
   }
   ImplicitEdge edgeBefore = ImplicitEdge(fromRootward(edge[RUN - 1].direction, 1), fromRootward(edge[RUN - 1].along, 1),
                                          fromRootward(edge[RUN - 1].across, 1));
   if (lane == 0) edgeBefore = voidEdge();
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
     Symmetric D = symmetricDiagonal(restEdge[k].x + edge[k].across + before.across);
     D = addOuter(addOuter(D, edge[k].along, edge[k].direction), before.along, before.direction);
@@ -35,11 +35,12 @@ void iteratePointJacobi(vec3 pinned[3]) {
     vec3 vBefore = fromRootward(v[RUN - 1], 1);
     vec3 vNext = fromTipward(v[0], 1);
     vec3 rootwardNow = vBefore;
-    for (int k = 0; k < RUN; ++k) {
+    [[unroll]] for (int k = 0; k < RUN; ++k) {
       vec3 tipwardNow = k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext;
       ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
-      vec3 jacobi = multiply(inverseDiagonal[k], rhs[k] + multiply(edge[k], tipwardNow) + multiply(before, rootwardNow));
       vec3 now = v[k];
+      vec3 residual = rhs[k] - restEdge[k].x * now + multiply(edge[k], tipwardNow - now) + multiply(before, rootwardNow - now);
+      vec3 jacobi = now + multiply(inverseDiagonal[k], residual);
       if (isFree(k)) v[k] = parameters.chebyshev != 0 ? omega * (jacobi - previous[k]) + previous[k] : jacobi;
       previous[k] = now;
       rootwardNow = now;

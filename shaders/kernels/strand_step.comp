@@ -4,6 +4,7 @@
 // Compiled with RUN = particles per lane; specialized with the lanes per strand and the integrator.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "shared/strand_buffers.glsl"
 #include "equations/bend_spring.glsl"
@@ -16,11 +17,14 @@
 #include "scan/lanes.glsl"
 #include "scan/prefix_sum.glsl"
 
-// This lane's run: particle k and its edge to k + 1. Arrays of RUN, indexed only by unrolled loops.
+// This lane's run: particle k and its edge to k + 1. Every loop over a run says [[unroll]]: left to themselves, drivers
+// unroll some, and an array that is indexed by a variable anywhere lives in memory, lane by lane (lavapipe: 3 x slower and
+// 4 x longer to compile).
 vec3 p[RUN];
 vec3 v[RUN];
 vec4 restTarget[RUN];  // xyz rest vector in its frame, w stretch rest length
-vec4 restEdge[RUN];    // mass, edge length, core edge length, edge scale (ParticleRest)
+vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
+float inverseLength[RUN];  // 1 / the groom's edge length
 uint first;            // place along the strand of this lane's particle 0
 
 // Of the step at hand:
@@ -40,37 +44,39 @@ uint degenerateEdges = 0;
 
 bool isParticle(int k) { return first + k < strand.particleCount; }
 bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
-bool isPinned(int k) { return first + k < parameters.rootCount; }
+bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 vec3 pin(int k) { return strand.pins[min(k, int(kMaxRootCount) - 1)].xyz; }  // pins lie in lane 0: RUN >= kMaxRootCount
 
+// What lies beyond the tip is void: its springs are zero (edge scale), its edges of any length, so nothing reaches back
+// from it and no stage needs to ask.
 void loadStrand() {
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     bool real = isParticle(k);
     uint i = strand.firstParticle + (real ? first + k : 0);
     p[k] = real ? positions[i].xyz : vec3(0);
     v[k] = real ? velocities[i].xyz : vec3(0);
     ParticleRest rest = particles[i];
     restTarget[k] = rest.target;
-    restEdge[k] = vec4(real ? rest.mass : 1.0, rest.edgeLength, rest.coreEdgeLength, isEdge(k) ? rest.edgeScale : 0.0);
+    bool edge = isEdge(k);
+    restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? parameters.maxStretch * rest.edgeLength : 1e30,
+                       rest.coreEdgeLength, edge ? edgeScaleOf(rest.edgeLength) : 0.0);
+    inverseLength[k] = edge ? 1.0 / rest.edgeLength : 0.0;
   }
 }
 
-// Edges, velocity differences, lengths and directions; a void edge is zero and points along x.
+// Edges, velocity differences, lengths and directions; an edge of no length has direction zero.
 void measureEdges() {
   vec3 pNext = fromTipward(p[0], 1);
   vec3 vNext = fromTipward(v[0], 1);
-  for (int k = 0; k < RUN; ++k) {
-    bool real = isEdge(k);
-    e[k] = real ? (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k] : vec3(0);
-    dv[k] = real ? (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k] : vec3(0);
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
+    dv[k] = (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k];
     float squared = dot(e[k], e[k]);
-    bool directed = squared > 1e-30;
-    float inverseLength = directed ? inversesqrt(squared) : 0.0;
-    eLength[k] = squared * inverseLength;
-    eHat[k] = directed ? e[k] * inverseLength : vec3(1, 0, 0);
-    if (real && !directed) ++degenerateEdges;
-    if (real) maxStretch = max(maxStretch, eLength[k] / restEdge[k].y);
+    eLength[k] = sqrt(squared);
+    eHat[k] = e[k] / max(eLength[k], 1e-15);
+    degenerateEdges += squared <= 1e-30 && isEdge(k) ? 1 : 0;
+    maxStretch = max(maxStretch, eLength[k] * inverseLength[k]);
   }
 }
 
@@ -83,28 +89,34 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection) {
   core = bend;
   velocity = lane == 0 ? startFilter(velocityStart) : zero;
   if (kLanes > 1) {
-    for (int k = 0; k < RUN; ++k) {
+    [[unroll]] for (int k = 0; k < RUN; ++k) {
       smoothNext(bend, e[k], strand.bendBeta);
-      smoothNext(core, e[k], strand.coreBeta);
+      if (!kOneSmoothing) smoothNext(core, e[k], strand.coreBeta);
       smoothNext(velocity, dv[k], strand.coreBeta);
     }
   }
   bend = filterBeforeRun(bend, startFilter(edgeStart), strand.bendBeta);
-  core = filterBeforeRun(core, startFilter(edgeStart), strand.coreBeta);
+  if (!kOneSmoothing) core = filterBeforeRun(core, startFilter(edgeStart), strand.coreBeta);
   velocity = filterBeforeRun(velocity, startFilter(velocityStart), strand.coreBeta);
 
-  vec3 direction = lane == 0 ? rootDirection : directionOr(bend.d, rootDirection);
+  vec3 direction = lane == 0 ? rootDirection : directionOf(bend.d);
   float coreLength = 0.0;
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     smoothNext(bend, e[k], strand.bendBeta);
-    smoothNext(core, e[k], strand.coreBeta);
+    if (kOneSmoothing) {
+      core = bend;
+    } else {
+      smoothNext(core, e[k], strand.coreBeta);
+    }
     smoothNext(velocity, dv[k], strand.coreBeta);
-    vec3 next = directionOr(bend.d, direction);
+    vec3 next = directionOf(bend.d);
     turn[k] = smallestTurn(direction, next);
     direction = next;
     float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping;  // the paper damps in its own loop
-    h[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, core.d, restEdge[k].z, velocity.d);
-    if (isEdge(k)) coreLength += length(core.d);
+    float bLength = length(core.d);
+    h[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, core.d / max(bLength, 1e-15), bLength,
+                     restEdge[k].z, velocity.d);
+    coreLength += isEdge(k) ? bLength : 0.0;
     if (isEdge(k)) RINGLET_TAP(kTapSmoothedEdge, first + k, vec4(bend.d, 0));
     if (isEdge(k)) RINGLET_TAP(kTapCoreEdge, first + k, vec4(core.d, 0));
   }
@@ -116,10 +128,10 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection) {
 void shapeForces(vec4 rootFrame) {
   vec4 product = kIdentity;
   if (kLanes > 1) {
-    for (int k = 0; k < RUN; ++k) product = turned(turn[k], product);
+    [[unroll]] for (int k = 0; k < RUN; ++k) product = turned(turn[k], product);
   }
   vec4 frame = frameBeforeRun(renormalized(product), rootFrame);
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     vec3 target = rotate(frame, restTarget[k].xyz);
     vec3 stretch = stretchForce(strand.stretchStiffness * restEdge[k].w, eLength[k], restTarget[k].w, eHat[k]);
     vec3 bend = bendForce(strand.bendStiffness * restEdge[k].w, e[k], target);
@@ -140,18 +152,18 @@ void coreForces() {
   if (kIntegrator != kIntegratorPaper) {
     FilterState state = startFilter(vec3(0));
     if (kLanes > 1) {
-      for (int k = RUN - 1; k >= 0; --k) smoothNext(state, h[k], strand.coreBeta);
+      [[unroll]] for (int k = RUN - 1; k >= 0; --k) smoothNext(state, h[k], strand.coreBeta);
     }
     state = filterBeyondRun(state, strand.coreBeta);
-    for (int k = RUN - 1; k >= 0; --k) {
+    [[unroll]] for (int k = RUN - 1; k >= 0; --k) {
       smoothNext(state, h[k], strand.coreBeta);
       h[k] = state.d;
     }
   }
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     h[k] *= coreScale;
     if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(h[k], 0));
-    if (isEdge(k)) force[k] += h[k];
+    force[k] += h[k];
   }
 }
 
@@ -164,13 +176,13 @@ vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN -
 
 void solveVelocities(uint step) {
   vec3 pinned[3];
-  for (int k = 0; k < 3; ++k) {
-    pinned[k] = (rotate(rotationAtEnd(step), pin(k)) - rotate(rotationAtStart(step), pin(k))) / stepSeconds();
+  [[unroll]] for (int k = 0; k < 3; ++k) {
+    pinned[k] = turningVelocity(step, rotate(rotationAtStart(step), pin(k)));
   }
   if (kIntegrator == kIntegratorJacobi) solveStrandBlock(pinned);
   if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
   }
 }
@@ -178,23 +190,22 @@ void solveVelocities(uint step) {
 // p += T v, then the stretch limit as a prefix sum along the strand.
 void moveAndLimit(uint step) {
   float T = stepSeconds();
-  for (int k = 0; k < RUN; ++k) {
-    p[k] = isPinned(k) ? rotate(rotationAtEnd(step), pin(k)) : isParticle(k) ? p[k] + T * v[k] : vec3(0);
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    p[k] = isPinned(k) ? rotate(rotationAtEnd(step), pin(k)) : p[k] + T * v[k];
   }
   // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
   vec3 vNext = fromTipward(v[0], 1);
   vec3 shift = vec3(0);
-  for (int k = 0; k < RUN; ++k) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
     vec3 edge = e[k] + T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
-    bool limitable = isEdge(k) && first + k + 1 >= parameters.rootCount;
-    vec3 change = limitable ? limitedEdgeChange(edge, parameters.maxStretch * restEdge[k].y) : vec3(0);
-    if (change != vec3(0)) ++limitedEdges;
+    float share = limitedEdgeShare(edge, restEdge[k].y);
+    limitedEdges += share < 0.0 ? 1 : 0;
     e[k] = shift;  // of particle k; the edge itself is no longer needed
-    shift += change;
+    shift += share * edge;
   }
   vec3 before = sumBeforeRun(shift);
-  for (int k = 0; k < RUN; ++k) {
-    vec3 s = isFree(k) ? before + e[k] : vec3(0);
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    vec3 s = isPinned(k) ? vec3(0) : before + e[k];
     p[k] += s;
     v[k] += s / T;
   }
@@ -203,11 +214,11 @@ void moveAndLimit(uint step) {
 void storeStrand(uint strandIndex) {
   uint nonfinite = 0;
   uint firstNonfinite = ~0u;
-  for (int k = RUN - 1; k >= 0; --k) {
+  [[unroll]] for (int k = RUN - 1; k >= 0; --k) {
     if (!isParticle(k)) continue;
     uint i = strand.firstParticle + first + k;
-    positions[i] = vec4(p[k], 0);
-    velocities[i] = vec4(v[k], 0);
+    positions[i].xyz = p[k];
+    velocities[i].xyz = v[k];
     if (!isFiniteVec3(p[k]) || !isFiniteVec3(v[k])) {
       ++nonfinite;
       firstNonfinite = first + k;
@@ -241,14 +252,12 @@ void main() {
   loadStrand();
 
   for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
-    for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
+    [[unroll]] for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
     measureEdges();
     vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge.xyz);
     vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
-    vec3 velocityStart = kIntegrator == kIntegratorPaper
-                             ? dv[0]
-                             : (firstEdge - rotate(rotationBefore(step), strand.firstEdge.xyz)) / stepSeconds();
-    smoothCurves(edgeStart, velocityStart, normalize(firstEdge));
+    vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
+    smoothCurves(edgeStart, velocityStart, directionOf(firstEdge));
     shapeForces(rotationAtStart(step));
     coreForces();
     solveVelocities(step);

@@ -47,7 +47,7 @@ vec3 velocity(uint i) { return velocities[strand.firstParticle + i].xyz; }
 void setPosition(uint i, vec3 p) { positions[strand.firstParticle + i] = vec4(p, 0); }
 void setVelocity(uint i, vec3 v) { velocities[strand.firstParticle + i] = vec4(v, 0); }
 ParticleRest restOf(uint i) { return particles[strand.firstParticle + i]; }
-float edgeScale(uint i) { return particles[strand.firstParticle + i].edgeScale; }
+float edgeScale(uint i) { return edgeScaleOf(particles[strand.firstParticle + i].edgeLength); }
 float mass(uint i) { return particles[strand.firstParticle + i].mass; }
 float longestEdge(uint i) { return parameters.maxStretch * particles[strand.firstParticle + i].edgeLength; }
 
@@ -58,19 +58,15 @@ float loadCarried() { return scratch[slot(count - 1, kEdge)].x; }
 
 bool isPinned(uint i) { return i < parameters.rootCount; }
 vec3 pinnedVelocity(uint i, uint step) {
-  vec3 pin = strand.pins[i].xyz;
-  return (rotate(rotationAtEnd(step), pin) - rotate(rotationAtStart(step), pin)) / stepSeconds();
+  return turningVelocity(step, rotate(rotationAtStart(step), strand.pins[i].xyz));
 }
 
 vec4 measuredEdge(uint i) {
   vec3 e = position(i + 1) - position(i);
-  float squared = dot(e, e);
-  bool directed = squared > 1e-30;
-  float inverseLength = directed ? inversesqrt(squared) : 0.0;
-  float edgeLength = squared * inverseLength;
-  if (!directed) ++degenerateEdges;
+  float edgeLength = length(e);
+  if (edgeLength <= 1e-15) ++degenerateEdges;
   maxStretch = max(maxStretch, edgeLength / restOf(i).edgeLength);
-  return vec4(directed ? e * inverseLength : vec3(1, 0, 0), edgeLength);
+  return vec4(e / max(edgeLength, 1e-15), edgeLength);
 }
 
 // Root to tip: edges, smoothed curves, frames, targets, stretch and bend springs, the core spring on the smoothed curve.
@@ -79,7 +75,7 @@ float springSweep(uint step) {
   vec4 frame = rotationAtStart(step);
   vec3 firstEdge = rotate(frame, strand.firstEdge.xyz);
   vec3 edgeStart = firstEdge;
-  vec3 velocityStart = (firstEdge - rotate(rotationBefore(step), strand.firstEdge.xyz)) / stepSeconds();
+  vec3 velocityStart = turningVelocityBefore(step, firstEdge);
   if (kIntegrator == kIntegratorPaper) {
     edgeStart = position(1) - position(0);
     velocityStart = velocity(1) - velocity(0);
@@ -87,11 +83,12 @@ float springSweep(uint step) {
   FilterState bendCurve = startFilter(edgeStart);
   FilterState core = startFilter(edgeStart);
   FilterState coreVelocity = startFilter(velocityStart);
-  vec3 direction = normalize(firstEdge);
+  vec3 direction = directionOf(firstEdge);
   float coreLength = 0.0;
   for (uint i = 0; i + 1 < count; ++i) {
     ParticleRest rest = restOf(i);
     vec4 edge = measuredEdge(i);
+    float scale = edgeScaleOf(rest.edgeLength);
     vec3 e = position(i + 1) - position(i);
     scratch[slot(i, kEdge)] = edge;
     smoothNext(bendCurve, e, strand.bendBeta);
@@ -99,19 +96,21 @@ float springSweep(uint step) {
     smoothNext(coreVelocity, velocity(i + 1) - velocity(i), strand.coreBeta);
 
     vec3 target = rotate(frame, rest.target.xyz);
-    vec3 next = directionOr(bendCurve.d, direction);
+    vec3 next = directionOf(bendCurve.d);
     frame = turned(smallestTurn(direction, next), frame);
     if (i % 16 == 15) frame = renormalized(frame);
     direction = next;
-    vec3 stretch = stretchForce(strand.stretchStiffness * rest.edgeScale, edge.w, rest.target.w, edge.xyz);
-    vec3 bend = bendForce(strand.bendStiffness * rest.edgeScale, e, target);
+    vec3 stretch = stretchForce(strand.stretchStiffness * scale, edge.w, rest.target.w, edge.xyz);
+    vec3 bend = bendForce(strand.bendStiffness * scale, e, target);
     setScratch(i, kForce, stretch + bend);
 
     float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping;
-    setScratch(i, kCore, coreForce(strand.coreStiffness * rest.edgeScale, damping * rest.edgeScale, core.d,
+    float bLength = length(core.d);
+    vec3 bDirection = core.d / max(bLength, 1e-15);
+    setScratch(i, kCore, coreForce(strand.coreStiffness * scale, damping * scale, bDirection, bLength,
                                    rest.coreEdgeLength, coreVelocity.d));
-    if (kIntegrator == kIntegratorPaper) setScratch(i, kCoreDirection, directionOr(core.d, vec3(0)));
-    coreLength += length(core.d);
+    if (kIntegrator == kIntegratorPaper) setScratch(i, kCoreDirection, bDirection);
+    coreLength += bLength;
     RINGLET_TAP(kTapSmoothedEdge, i, vec4(bendCurve.d, 0));
     RINGLET_TAP(kTapCoreEdge, i, vec4(core.d, 0));
     RINGLET_TAP(kTapFrame, i, frame);
@@ -203,10 +202,10 @@ void iteratePointJacobi() {
     vec3 rootwardNow = vec3(0);
     for (uint i = 0; i < count; ++i) {
       vec3 now = velocity(i);
-      vec3 rhs = scratchOf(i, kRightHandSide);
-      if (i + 1 < count) rhs += multiply(implicitEdgeOf(i), velocity(i + 1));
-      if (i > 0) rhs += multiply(implicitEdgeOf(i - 1), rootwardNow);
-      vec3 jacobi = multiply(Symmetric(scratchOf(i, kInverse), scratchOf(i, kInverse + 1)), rhs);
+      vec3 residual = scratchOf(i, kRightHandSide) - mass(i) * now;
+      if (i + 1 < count) residual += multiply(implicitEdgeOf(i), velocity(i + 1) - now);
+      if (i > 0) residual += multiply(implicitEdgeOf(i - 1), rootwardNow - now);
+      vec3 jacobi = now + multiply(Symmetric(scratchOf(i, kInverse), scratchOf(i, kInverse + 1)), residual);
       vec3 previous = scratchOf(i, kPrevious);
       if (!isPinned(i)) setVelocity(i, parameters.chebyshev != 0 ? omega * (jacobi - previous) + previous : jacobi);
       setScratch(i, kPrevious, now);
@@ -270,9 +269,10 @@ void moveAndLimit(uint step) {
       setPosition(i, rotate(rotationAtEnd(step), strand.pins[i].xyz));
     } else {
       vec4 edge = scratch[slot(i - 1, kEdge)];
-      vec3 change = limitedEdgeChange(edge.w * edge.xyz + T * (v - velocityBefore), longestEdge(i - 1));
-      if (change != vec3(0)) ++limitedEdges;
-      shift += change;
+      vec3 moved = edge.w * edge.xyz + T * (v - velocityBefore);
+      float share = limitedEdgeShare(moved, longestEdge(i - 1));
+      if (share < 0.0) ++limitedEdges;
+      shift += share * moved;
       setPosition(i, position(i) + T * v + shift);
       setVelocity(i, v + shift / T);
     }

@@ -8,10 +8,14 @@ vec4 multiply(vec4 a, vec4 b) {
   return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
 }
 
-vec3 rotate(vec4 q, vec3 x) {
+vec4 conjugate(vec4 q) { return vec4(-q.xyz, q.w); }
+
+/// How far q moves x.
+vec3 displacement(vec4 q, vec3 x) {
   vec3 t = 2.0 * cross(q.xyz, x);
-  return x + q.w * t + cross(q.xyz, t);
+  return q.w * t + cross(q.xyz, t);
 }
+vec3 rotate(vec4 q, vec3 x) { return x + displacement(q, x); }
 
 /// One Newton step towards length 1: keeps a product of hundreds of turns a turn.
 vec4 renormalized(vec4 q) { return q * (1.5 - 0.5 * dot(q, q)); }

@@ -8,7 +8,7 @@
 /// γ^RUN by squaring (pow() would cost digits and time).
 float gammaToRun(float beta) {
   float g = 1.0 - beta;
-  for (int n = 1; n < RUN; n *= 2) g *= g;
+  [[unroll]] for (int n = 1; n < RUN; n *= 2) g *= g;
   return g;
 }
 
@@ -17,7 +17,7 @@ FilterState filterBeforeRun(FilterState end, FilterState start, float beta) {
   if (kLanes == 1) return start;
   float nBeta = float(RUN) * beta;
   float gammaToN = gammaToRun(beta);
-  for (uint o = 1; o < kLanes; o *= 2) {
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) {
     FilterState before = FilterState(fromRootward(end.a, o), fromRootward(end.d, o));
     FilterState joined = carryFilter(before, end, nBeta, gammaToN);
     if (lane >= o) end = joined;
@@ -34,7 +34,7 @@ FilterState filterBeyondRun(FilterState end, float beta) {
   if (kLanes == 1) return nothing;
   float nBeta = float(RUN) * beta;
   float gammaToN = gammaToRun(beta);
-  for (uint o = 1; o < kLanes; o *= 2) {
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) {
     FilterState before = FilterState(fromTipward(end.a, o), fromTipward(end.d, o));
     FilterState joined = carryFilter(before, end, nBeta, gammaToN);
     if (lane + o < kLanes) end = joined;

@@ -8,7 +8,7 @@
 /// `turn`: the product of this lane's turns. Returns the frame before the run: all earlier lanes' turns after `rootFrame`.
 vec4 frameBeforeRun(vec4 turn, vec4 rootFrame) {
   if (kLanes == 1) return rootFrame;
-  for (uint o = 1; o < kLanes; o *= 2) {
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) {
     vec4 before = fromRootward(turn, o);
     if (lane >= o) turn = renormalized(multiply(turn, before));
   }

@@ -27,19 +27,19 @@ vec3 fromTipward(vec3 x, uint offset) { return subgroupShuffle(x, tipward(offset
 
 /// The sum over the strand's lanes, the same bits in each.
 float sumOverStrand(float x) {
-  for (uint o = 1; o < kLanes; o *= 2) x += subgroupShuffle(x, gl_SubgroupInvocationID ^ o);
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) x += subgroupShuffle(x, gl_SubgroupInvocationID ^ o);
   return x;
 }
 uint sumOverStrand(uint x) {
-  for (uint o = 1; o < kLanes; o *= 2) x += subgroupShuffle(x, gl_SubgroupInvocationID ^ o);
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) x += subgroupShuffle(x, gl_SubgroupInvocationID ^ o);
   return x;
 }
 float maxOverStrand(float x) {
-  for (uint o = 1; o < kLanes; o *= 2) x = max(x, subgroupShuffle(x, gl_SubgroupInvocationID ^ o));
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) x = max(x, subgroupShuffle(x, gl_SubgroupInvocationID ^ o));
   return x;
 }
 uint minOverStrand(uint x) {
-  for (uint o = 1; o < kLanes; o *= 2) x = min(x, subgroupShuffle(x, gl_SubgroupInvocationID ^ o));
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) x = min(x, subgroupShuffle(x, gl_SubgroupInvocationID ^ o));
   return x;
 }
 

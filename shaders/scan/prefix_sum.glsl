@@ -5,7 +5,7 @@
 #include "scan/lanes.glsl"
 
 vec3 sumBeforeRun(vec3 sum) {
-  for (uint o = 1; o < kLanes; o *= 2) {
+  [[unroll]] for (uint o = 1; o < kLanes; o *= 2) {
     vec3 before = fromRootward(sum, o);
     if (lane >= o) sum += before;
   }

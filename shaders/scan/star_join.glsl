@@ -40,7 +40,7 @@ Boundary joinLanes(LaneSystem system) {
   Symmetric P = system.P;
   vec3 y = system.y;
   Boundary boundary;
-  for (uint round = 1; round < kLanes; ++round) {
+  [[unroll]] for (uint round = 1; round < kLanes; ++round) {
     Symmetric PNext = Symmetric(fromTipward(P.d, 1), fromTipward(P.o, 1));
     vec3 yNext = fromTipward(y, 1);
     boundary = boundaryTo(PNext, yNext, system);
@@ -56,7 +56,7 @@ Boundary joinLanes(LaneSystem system) {
 /// From the root's velocity to every lane's node 0. Returns f, the force across this lane's boundary; `v` is node 0's velocity.
 vec3 solveBoundaries(LaneSystem system, Boundary boundary, inout vec3 v) {
   vec3 f = vec3(0);
-  for (uint round = 0; round < kLanes; ++round) {
+  [[unroll]] for (uint round = 0; round < kLanes; ++round) {
     f = system.joined ? multiply(boundary.Y, boundary.s - system.transfer * v) : vec3(0);
     if (round + 1 == kLanes) break;
     vec3 vNext = multiply(boundary.inversePNext, boundary.yNext - f);

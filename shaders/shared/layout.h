@@ -29,8 +29,8 @@ RINGLET_CONSTANT uint kIntegratorJacobi = 0;
 RINGLET_CONSTANT uint kIntegratorPointJacobi = 1;
 RINGLET_CONSTANT uint kIntegratorPaper = 2;
 
-// 16 KiB, the smallest uniform buffer Vulkan guarantees: 510 outer steps in a frame and the two poses before them.
-RINGLET_CONSTANT uint kMaxStepPoses = 512;
+// Within 16 KiB, the smallest uniform buffer Vulkan guarantees: 340 outer steps in a frame and the pose it starts from.
+RINGLET_CONSTANT uint kMaxStepPoses = 341;
 RINGLET_CONSTANT uint kMaxRootCount = 3;
 RINGLET_CONSTANT uint kScratchPerParticle = 8;
 
@@ -59,10 +59,10 @@ struct ParticleRest {
   float mass;      // [mass unit]
   float edgeLength;      // the groom's edge [m]: the stretch limit refers to it
   float coreEdgeLength;  // |b_i| at rest [m]
-  float edgeScale;       // the strand's constants times this are the edge's: 1 / edge length, or 1 for `paper`
 };
 
-// Constant per strand. Stiffnesses K [N / mass unit], dampings C [N s/m m / mass unit]: times edgeScale, per edge.
+// Constant per strand. Stiffnesses K and dampings C [N and N s per mass unit]: divided by the edge's length they are the
+// edge's own. For `paper`, k and c of every edge, as they are.
 struct StrandRest {
   uint firstParticle;
   uint particleCount;
@@ -89,9 +89,11 @@ struct StrandReport {
   uint firstNonfinite;      // the first of them, counted along the strand
 };
 
-// The head, per outer step. poses[0] is one step before the frame, poses[1] its start, poses[2 + k] the end of step k.
+// The head, per outer step. poses[0] is the frame's start, poses[1 + k] the end of step k.
 struct StepPose {
   vec4 rotation;        // quaternion (x, y, z, w)
+  vec4 turn;            // quaternion that takes the pose one step before to this; as the difference of two rotations it
+                        // would have lost its digits
   vec4 velocityChange;  // xyz: how much faster the head travels in this step than in the one before [m/s]
 };
 

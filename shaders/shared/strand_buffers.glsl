@@ -3,10 +3,12 @@
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 
+#include "maths/quaternion.glsl"
 #include "shared/layout.h"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint kIntegrator = kIntegratorJacobi;
+layout(constant_id = 3) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -21,11 +23,18 @@ StrandRest strand;  // this invocation's
 
 float stepSeconds() { return parameters.gravity.w; }
 
-// Poses of outer step `step`: one step before its start, its start, its end.
-vec4 rotationBefore(uint step) { return poses[step].rotation; }
-vec4 rotationAtStart(uint step) { return poses[step + 1].rotation; }
-vec4 rotationAtEnd(uint step) { return poses[step + 2].rotation; }
-vec3 headVelocityChange(uint step) { return poses[step + 2].velocityChange.xyz; }
+// The head in outer step `step`.
+vec4 rotationAtStart(uint step) { return poses[step].rotation; }
+vec4 rotationAtEnd(uint step) { return poses[step + 1].rotation; }
+vec3 headVelocityChange(uint step) { return poses[step + 1].velocityChange.xyz; }
+
+/// How fast the head moves x, a place at the step's start, by its turning in this step.
+vec3 turningVelocity(uint step, vec3 x) { return displacement(poses[step + 1].turn, x) / stepSeconds(); }
+/// And in the step before.
+vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(poses[step].turn), x) / stepSeconds(); }
+
+// The strand's constants times this are the edge's.
+float edgeScaleOf(float edgeLength) { return kIntegrator == kIntegratorPaper ? 1.0 : 1.0 / edgeLength; }
 
 bool isFiniteVec3(vec3 x) { return !(any(isnan(x)) || any(isinf(x))); }
 

@@ -10,9 +10,9 @@ namespace ringlet::reference::test {
 namespace {
 
 // Along the edge `stiffness` times the mass, across it a tenth of that.
-StrandSystem<double> randomSystem(std::size_t particleCount, std::size_t rootCount, double stiffness) {
+StrandSystem randomSystem(std::size_t particleCount, std::size_t rootCount, double stiffness) {
   std::mt19937 random(11);
-  StrandSystem<double> system;
+  StrandSystem system;
   system.rootCount = rootCount;
   for (std::size_t i = 0; i < particleCount; ++i) {
     system.masses.push_back(1 + std::abs(randomVector(random, 1).x()));
@@ -30,7 +30,7 @@ struct DenseSystem {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd right;
 };
-DenseSystem densify(const StrandSystem<double>& system, const Field<double>& velocities) {
+DenseSystem densify(const StrandSystem& system, const Field<double>& velocities) {
   const std::size_t first = system.rootCount, n = system.particleCount();
   const auto size = static_cast<Eigen::Index>(3 * (n - first));
   DenseSystem dense{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd(size)};
@@ -68,10 +68,10 @@ TEST(StrandSolve, MatchesTheDenseSolve) {
     for (const std::size_t rootCount : {1u, 2u}) {
       if (particleCount <= rootCount) continue;
       for (const double stiffness : {0.0, 10.0, 1e5}) {
-        const StrandSystem<double> system = randomSystem(particleCount, rootCount, stiffness);
+        const StrandSystem system = randomSystem(particleCount, rootCount, stiffness);
         Field<double> velocities = randomField(random, particleCount, 1);
         const DenseSystem dense = densify(system, velocities);
-        SolveScratch<double> scratch;
+        SolveScratch scratch;
         solveStrand(system, scratch, velocities);
         const Eigen::VectorXd found = flatten(velocities, rootCount),
                               expected = dense.matrix.llt().solve(dense.right);
@@ -86,19 +86,19 @@ TEST(StrandSolve, MatchesTheDenseSolve) {
 
 TEST(StrandSolve, ALongStiffStrandKeepsItsMass) {
   // Free fall of 1,000 particles from a moving root: momenta m v with one v everywhere, so v is the solution.
-  StrandSystem<double> system = randomSystem(1000, 1, 1e6);
+  StrandSystem system = randomSystem(1000, 1, 1e6);
   const Vector3<double> v(0.3, -0.2, 0.5);
   for (std::size_t i = 0; i < 1000; ++i) system.momenta[i] = system.masses[i] * v;
-  Field<float> velocities(1000, Vector3<float>::Zero());
-  velocities[0] = v.cast<float>();
-  SolveScratch<float> scratch;
+  Field<double> velocities(1000, Vector3<double>::Zero());
+  velocities[0] = v;
+  SolveScratch scratch;
   solveStrand(system, scratch, velocities);
-  for (const Vector3<float>& found : velocities) EXPECT_LT((found.cast<double>() - v).norm(), 1e-7);
+  for (const Vector3<double>& found : velocities) EXPECT_LT((found - v).norm(), 1e-7);
 }
 
 TEST(StrandSolve, TheIterationBoundIsOne) {
   for (const double stiffness : {1.0, 100.0}) {
-    const StrandSystem<double> system = randomSystem(20, 1, stiffness);
+    const StrandSystem system = randomSystem(20, 1, stiffness);
     const Eigen::MatrixXd matrix = densify(system, Field<double>(20, Vector3<double>::Zero())).matrix;
     Eigen::MatrixXd diagonal = Eigen::MatrixXd::Zero(matrix.rows(), matrix.cols());
     for (Eigen::Index row = 0; row < matrix.rows(); row += 3) {
@@ -114,9 +114,9 @@ TEST(StrandSolve, TheIterationBoundIsOne) {
 
 TEST(StrandSolve, PointIterationsConvergeToTheExactSolution) {
   std::mt19937 random(6);
-  const StrandSystem<double> system = randomSystem(30, 2, 20);
+  const StrandSystem system = randomSystem(30, 2, 20);
   const Field<double> start = randomField(random, 30, 1);
-  SolveScratch<double> scratch;
+  SolveScratch scratch;
   Field<double> exact = start;
   solveStrand(system, scratch, exact);
   const auto error = [&](int iterationCount, bool chebyshev) {

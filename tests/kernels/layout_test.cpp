@@ -55,8 +55,7 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_SAME_OFFSET(ParticleRest, mass);
   EXPECT_SAME_OFFSET(ParticleRest, edgeLength);
   EXPECT_SAME_OFFSET(ParticleRest, coreEdgeLength);
-  EXPECT_SAME_OFFSET(ParticleRest, edgeScale);
-  EXPECT_EQ(offsets.at("ParticleRest").size(), 5u);
+  EXPECT_EQ(offsets.at("ParticleRest").size(), 4u);
   EXPECT_EQ(reflection.strides.at("ParticleRest"), sizeof(layout::ParticleRest));
 
   EXPECT_SAME_OFFSET(StrandRest, firstParticle);
@@ -85,8 +84,9 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_EQ(reflection.strides.at("StrandReport"), sizeof(layout::StrandReport));
 
   EXPECT_SAME_OFFSET(StepPose, rotation);
+  EXPECT_SAME_OFFSET(StepPose, turn);
   EXPECT_SAME_OFFSET(StepPose, velocityChange);
-  EXPECT_EQ(offsets.at("StepPose").size(), 2u);
+  EXPECT_EQ(offsets.at("StepPose").size(), 3u);
   EXPECT_EQ(reflection.strides.at("StepPose"), sizeof(layout::StepPose));
 
   EXPECT_SAME_OFFSET(StepParameters, gravity);

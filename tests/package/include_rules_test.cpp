@@ -59,7 +59,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
     for (const fs::path& file : sourcesBelow("src/ringlet/" + module)) {
       for (const std::string& include : includesOf(file)) {
         const std::string other = moduleOf(include);
-        if (!other.empty()) EXPECT_TRUE(mayKnow.at(module).count(other)) << file << " includes " << include;
+        EXPECT_TRUE(other.empty() || mayKnow.at(module).count(other)) << file << " includes " << include;
         EXPECT_NE(include.rfind("reference/", 0), 0u) << file << " includes the reference: " << include;
         EXPECT_NE(include.rfind("Eigen", 0), 0u) << file << " includes " << include;
         if (include.rfind("shared/", 0) == 0) {
@@ -78,7 +78,7 @@ TEST(IncludeRules, PublicHeadersShowNeitherVulkanNorGpu) {
     for (const std::string& include : includesOf(file)) {
       EXPECT_EQ(include.find("vulkan"), std::string::npos) << file << " includes " << include;
       EXPECT_EQ(include.find("volk"), std::string::npos) << file << " includes " << include;
-      if (!isPrivate) EXPECT_NE(moduleOf(include), "gpu") << file << " includes " << include;
+      EXPECT_TRUE(isPrivate || moduleOf(include) != "gpu") << file << " includes " << include;
     }
   }
 }

@@ -21,7 +21,7 @@ using ReferenceD = reference::Simulation<double>;
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
-  double operator()() { return 2.0 * engine_() / 4294967295.0 - 1.0; }
+  double operator()() { return 2.0 * static_cast<double>(engine_()) / 4294967295.0 - 1.0; }
   Vec3d vector() {
     const double x = (*this)(), y = (*this)(), z = (*this)();
     return {x, y, z};
@@ -97,16 +97,39 @@ Groom randomGroom(const std::vector<int>& particleCounts, std::uint32_t seed) {
   return groom;
 }
 
+namespace {
+
+// Three sine waves along a strand, s in [0, 1], zero at the root; of size about 1.
+class Wave {
+ public:
+  explicit Wave(Random& random) {
+    for (Vec3d& a : amplitudes_) a = random.vector();
+  }
+  Vec3d at(double s) const {
+    Vec3d sum;
+    for (int k = 0; k < 3; ++k) sum += amplitudes_[k] * std::sin((k + 0.5) * std::numbers::pi * s);
+    return sum;
+  }
+
+ private:
+  Vec3d amplitudes_[3];
+};
+
+}  // namespace
+
 HairState randomState(const Groom& groom, const Settings& settings, std::uint32_t seed) {
   Random random(seed + 1000);
   HairState state;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const auto strand = groom.strand(s);
-    const double edge = meanEdge(strand);
+    const double edge = meanEdge(strand), total = edge * static_cast<double>(strand.size() - 1);
+    const Wave swing(random), speed(random);
     for (std::size_t i = 0; i < strand.size(); ++i) {
       const bool pinned = i < static_cast<std::size_t>(settings.rootCount);
-      const Vec3d shift = random.vector() * (pinned ? 0 : 0.04 * edge), velocity = random.vector();
-      state.positions.push_back(static_cast<Vec3f>(static_cast<Vec3d>(strand[i]) + shift));
+      const double along = static_cast<double>(i) / static_cast<double>(strand.size() - 1);
+      const Vec3d shift = swing.at(along) * (0.002 * total) + random.vector() * (0.01 * edge);
+      const Vec3d velocity = speed.at(along) + random.vector() * 0.01;
+      state.positions.push_back(pinned ? strand[i] : static_cast<Vec3f>(static_cast<Vec3d>(strand[i]) + shift));
       state.velocities.push_back(pinned ? Vec3f{} : static_cast<Vec3f>(velocity));
     }
   }

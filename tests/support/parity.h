@@ -22,8 +22,8 @@ std::vector<Vec3f> helix(int particles, double radius, double length, double tur
 /// Curls, waves and straight strands of the given particle counts, about 25 cm long, in metres; a fixed seed.
 Groom randomGroom(const std::vector<int>& particleCounts, std::uint32_t seed);
 
-/// Every particle moved by up to 0.04 of the mean edge, so that no edge is beyond the stretch limit, and given up to
-/// 1 m/s, so that many will be; pinned ones stay.
+/// Strands swung along smooth waves, at about 1 m/s, with noise on top: a hundredth of an edge and a hundredth of the
+/// speed. No edge is beyond the stretch limit before the step, many are after it; pinned particles stay.
 HairState randomState(const Groom& groom, const Settings& settings, std::uint32_t seed);
 
 /// Two poses before the step and one after: the head travels and turns.

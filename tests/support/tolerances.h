@@ -17,6 +17,10 @@ inline constexpr double kAtRest = 1e-5;
 // Rest state, the solver's (double, stored as float) against the reference's own: rounding to float.
 inline constexpr double kRestState = 1e-6;
 
+// The same for rest targets, share of the edge: smoothing weights are stored as float (6e-8), and the frames add up what
+// that shifts over up to 300 edges.
+inline constexpr double kRestTarget = 3e-6;
+
 // Exact solve in float32 after 100 shaken steps at N = 64 and K_s up to 10,000 w, in metres (method.md, section 7).
 inline constexpr double kStiffSolveMetres = 1e-5;
 

@@ -33,7 +33,7 @@ std::vector<Quatd> framesBeforeEdges(std::span<const Vec3d> smoothedEdges, Vec3d
   std::vector<Quatd> frames;
   frames.reserve(smoothedEdges.size());
   Quatd frame;
-  Vec3d direction = normalizedOr(firstEdge, Vec3d{1, 0, 0});
+  Vec3d direction = normalizedOr(firstEdge, Vec3d{});
   for (Vec3d d : smoothedEdges) {
     frames.push_back(frame);
     Vec3d next = normalizedOr(d, direction);

@@ -94,7 +94,7 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
     massBeyond += cut.masses[i + 1];
     const double stretchStiffness = c.stretchStiffness * edgeScale[i], bendStiffness = c.bendStiffness * edgeScale[i];
     const Vec3d carried = settings.gravity * (settings.gravityPreload * massBeyond);
-    const Vec3d direction = normalizedOr(cut.edges[i], Vec3d{1, 0, 0});
+    const Vec3d direction = normalizedOr(cut.edges[i], Vec3d{});
     const double along = dot(carried, direction);
     const Vec3d across = carried - direction * along;
     const Vec3d target = cut.edges[i] - across / bendStiffness;
@@ -102,7 +102,6 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
     particles[i].mass = static_cast<float>(cut.masses[i] / massUnit);
     particles[i].edgeLength = static_cast<float>(cut.edgeLengths[i]);
     particles[i].coreEdgeLength = static_cast<float>(length(coreEdges[i]));
-    particles[i].edgeScale = static_cast<float>(edgeScale[i]);
     restCoreLength += length(coreEdges[i]);
     if (static_cast<int>(i) + 1 >= settings.rootCount) {
       load = std::max(load, length(across) / (bendStiffness * cut.edgeLengths[i]));
@@ -214,7 +213,7 @@ Status checkSettings(const Settings& s, const Material& m) {
   };
   const Range ranges[] = {
       {"framesPerSecond", s.framesPerSecond, 1e-3, 1e6},
-      {"stepsPerFrame", double(s.stepsPerFrame), 1, double(layout::kMaxStepPoses - 2)},
+      {"stepsPerFrame", double(s.stepsPerFrame), 1, double(layout::kMaxStepPoses - 1)},
       {"gravityPreload", s.gravityPreload, 0, 1},
       {"gravity.x", s.gravity.x, -1e4, 1e4},
       {"gravity.y", s.gravity.y, -1e4, 1e4},

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
@@ -29,11 +28,12 @@ DeviceLimits limitsOf(const gpu::Device& device) {
   return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
 }
 
-// One outer step before the frame, the frame's start, and one more for each step.
+// Where the head is and was one outer step before.
 struct HeadHistory {
   HeadPose oneStepEarlier, now;
 
   Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
+  Quatd turn() const { return now.rotation * oneStepEarlier.rotation.conjugate(); }
 };
 
 std::string describe(std::span<const StrandRange> ranges, std::uint32_t subgroupSize) {
@@ -94,8 +94,10 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   std::unique_ptr<Implementation> self(new Implementation{
       device, std::move(*rest), settings, material, choice, {oneStepEarlier, start}, std::move(*buffers),
       std::move(*ranges), std::move(*plan), {}, {}, {}, 0, {}});
+  const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
+                                        [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   for (const StrandRange& range : self->ranges) {
-    auto kernel = createStrandKernel(device.gpu(), range.shape, settings.integrator, choice.taps);
+    auto kernel = createStrandKernel(device.gpu(), range.shape, {settings.integrator, oneSmoothing, choice.taps});
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
     if (!bindings) return bindings.error();
@@ -150,13 +152,12 @@ Status Simulation::Implementation::recordFrame() {
 void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses) {
   const double T = settings.stepSeconds();
   const auto poses = buffers.mappedPoses();
-  poses[0].rotation = packed(head.oneStepEarlier.rotation);
-  poses[1].rotation = packed(head.now.rotation);
+  poses[0] = {packed(head.now.rotation), packed(head.turn()), {}};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const Vec3d before = head.velocity(T);
     head = {head.now, stepPoses[k]};
     head.now.rotation = normalized(head.now.rotation);
-    poses[2 + k] = {packed(head.now.rotation), packed(head.velocity(T) - before)};
+    poses[1 + k] = {packed(head.now.rotation), packed(head.turn()), packed(head.velocity(T) - before)};
   }
 }
 

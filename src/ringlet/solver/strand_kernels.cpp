@@ -38,14 +38,14 @@ std::uint32_t integratorConstant(Integrator integrator) {
 
 }  // namespace
 
-Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape, Integrator integrator, bool taps) {
+Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape, const StrandKernelOptions& options) {
   using enum gpu::BindingKind;
   gpu::KernelDescription description;
   description.name = "strand_step " + shape.describe();
-  description.spirv = spirvOf(shape, taps);
+  description.spirv = spirvOf(shape, options.taps);
   description.bindings = {storage, storage, storage, storage, storage, storage, uniform};
   description.pushConstantBytes = sizeof(layout::StepParameters);
-  description.constants = {{0, kStrandGroupSize}, {2, integratorConstant(integrator)}};
+  description.constants = {{0, kStrandGroupSize}, {2, integratorConstant(options.integrator)}, {3, options.oneSmoothing ? 1u : 0u}};
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});

@@ -14,6 +14,13 @@ namespace ringlet {
 /// Invocations of a workgroup.
 inline constexpr std::uint32_t kStrandGroupSize = 64;
 
-Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape, Integrator integrator, bool taps);
+/// What a strand kernel is specialized for besides its shape.
+struct StrandKernelOptions {
+  Integrator integrator = Integrator::jacobi;
+  bool oneSmoothing = false;  // alpha_b and alpha_c are equal in every strand
+  bool taps = false;
+};
+
+Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape, const StrandKernelOptions& options);
 
 }  // namespace ringlet
