@@ -1,6 +1,6 @@
 // `point_jacobi`, the particle as block: a fixed number of Jacobi iterations on the same implicit system, plain or
-// Chebyshev-accelerated. By residuals: the error of an inverse in float32 then slows the iteration instead of moving its
-// end. The baseline, and a check of the strand block. Included by kernels/strand_step.comp.
+// Chebyshev-accelerated. By residuals and changes: the error of an inverse in float32 then slows the iteration instead of
+// moving its end, and Chebyshev's recurrence adds up rounding of the change, not of the velocity. The baseline, and a check of the strand block. Included by kernels/strand_step.comp.
 
 #include "equations/chebyshev_weight.glsl"
 
@@ -8,7 +8,7 @@ void iteratePointJacobi(vec3 pinned[3]) {
   ImplicitEdge edge[RUN];
   vec3 rhs[RUN];
   Symmetric inverseDiagonal[RUN];
-  vec3 previous[RUN];
+  vec3 change[RUN];
 
   vec3 forceBefore = forceFromRootward();
   [[unroll]] for (int k = 0; k < RUN; ++k) {
@@ -24,7 +24,7 @@ void iteratePointJacobi(vec3 pinned[3]) {
     D = addOuter(addOuter(D, edge[k].along, edge[k].direction), before.along, before.direction);
     inverseDiagonal[k] = inverse(D);
     if (isPinned(k)) v[k] = pinned[min(k, 2)];
-    previous[k] = v[k];
+    change[k] = vec3(0);
   }
 
   float omega = 1.0;
@@ -40,9 +40,8 @@ void iteratePointJacobi(vec3 pinned[3]) {
       ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
       vec3 now = v[k];
       vec3 residual = rhs[k] - restEdge[k].x * now + multiply(edge[k], tipwardNow - now) + multiply(before, rootwardNow - now);
-      vec3 jacobi = now + multiply(inverseDiagonal[k], residual);
-      if (isFree(k)) v[k] = parameters.chebyshev != 0 ? omega * (jacobi - previous[k]) + previous[k] : jacobi;
-      previous[k] = now;
+      change[k] = (omega - 1.0) * change[k] + omega * multiply(inverseDiagonal[k], residual);
+      if (isFree(k)) v[k] = now + change[k];
       rootwardNow = now;
     }
   }

@@ -23,7 +23,7 @@ const uint kTransfer = 3;     // 3 columns of M: v_{i+1} = M v_i + z            
 const uint kOffset = 6;       // xyz z                                                            (jacobi)
 const uint kInverse = 3;      // D⁻¹, two vec4s: diagonal, off-diagonal                           (point_jacobi)
 const uint kRightHandSide = 5;  // xyz                                                            (point_jacobi)
-const uint kPrevious = 6;     // xyz velocity one iteration before                                (point_jacobi)
+const uint kChange = 6;       // xyz change of the velocity in the last iteration                 (point_jacobi)
 const uint kCoreDirection = 3;  // xyz                                                            (paper)
 
 uint count;  // particles of the strand
@@ -189,7 +189,7 @@ void beginPointJacobi(uint step) {
   }
   for (uint i = 0; i < count; ++i) {
     if (isPinned(i)) setVelocity(i, pinnedVelocity(i, step));
-    setScratch(i, kPrevious, velocity(i));
+    setScratch(i, kChange, vec3(0));
   }
 }
 
@@ -205,10 +205,10 @@ void iteratePointJacobi() {
       vec3 residual = scratchOf(i, kRightHandSide) - mass(i) * now;
       if (i + 1 < count) residual += multiply(implicitEdgeOf(i), velocity(i + 1) - now);
       if (i > 0) residual += multiply(implicitEdgeOf(i - 1), rootwardNow - now);
-      vec3 jacobi = now + multiply(Symmetric(scratchOf(i, kInverse), scratchOf(i, kInverse + 1)), residual);
-      vec3 previous = scratchOf(i, kPrevious);
-      if (!isPinned(i)) setVelocity(i, parameters.chebyshev != 0 ? omega * (jacobi - previous) + previous : jacobi);
-      setScratch(i, kPrevious, now);
+      vec3 correction = multiply(Symmetric(scratchOf(i, kInverse), scratchOf(i, kInverse + 1)), residual);
+      vec3 change = (omega - 1.0) * scratchOf(i, kChange) + omega * correction;
+      if (!isPinned(i)) setVelocity(i, now + change);
+      setScratch(i, kChange, change);
       rootwardNow = now;
     }
   }
