@@ -1,6 +1,6 @@
-// The strand kernel against the double reference on one thread: first that they agree, then how long each takes.
-// Prints, in one run, milliseconds per outer step (device time, wall time, process CPU time per core) and their ratio.
-// Run: build/release/bench/kernels_bench
+// The strand kernel against the double reference on one thread: first that they agree, then how long each
+// takes. Prints, in one run, milliseconds per outer step (device time, wall time, process CPU time per core)
+// and their ratio. Run: build/release/bench/kernels_bench
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -29,7 +29,8 @@ Groom curls(int strands, int particles) {
     std::vector<Vec3f> points;
     for (int i = 0; i < particles; ++i) {
       const double u = double(i) / (particles - 1), angle = 2 * std::numbers::pi * turns * u;
-      points.push_back({static_cast<float>(0.01 * std::cos(angle) + 0.001 * (s % 64)), static_cast<float>(-0.25 * u),
+      points.push_back({static_cast<float>(0.01 * std::cos(angle) + 0.001 * (s % 64)),
+                        static_cast<float>(-0.25 * u),
                         static_cast<float>(0.01 * std::sin(angle) + 0.001 * (s / 64))});
     }
     groom.addStrand(points);
@@ -53,7 +54,8 @@ Settings settingsOf(int steps) {
 const ComputeDevice* device = nullptr;
 std::map<int, double> referenceMilliseconds;  // per step, by particles
 
-// The device's positions after a shaken frame against double, as a share of the strand's length; the benchmark's licence.
+// The device's positions after a shaken frame against double, as a share of the strand's length; the
+// benchmark's licence.
 double disagreement(int particles, int steps) {
   const Groom groom = curls(64, particles);
   const Settings settings = settingsOf(steps);
@@ -61,7 +63,8 @@ double disagreement(int particles, int steps) {
   if (!simulation) return INFINITY;
   reference::Simulation<double> expected(groom, {}, settings);
   std::vector<HeadPose> poses;
-  for (int k = 1; k <= steps; ++k) poses.push_back({{0.5 * std::pow(k * settings.stepSeconds(), 2), 0, 0}, {}});
+  for (int k = 1; k <= steps; ++k)
+    poses.push_back({{0.5 * std::pow(k * settings.stepSeconds(), 2), 0, 0}, {}});
   if (!simulation->stepFrame(poses)) return INFINITY;
   expected.stepFrame(poses);
   const auto found = *simulation->positions();
@@ -82,7 +85,8 @@ void referenceStep(benchmark::State& state) {
     simulation.stepFrame(pose);
     samples.push_back(processCpuSeconds() - start);
   }
-  std::nth_element(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2), samples.end());
+  std::nth_element(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2),
+                   samples.end());
   referenceMilliseconds[particles] = 1e3 * samples[samples.size() / 2];
   state.counters["ms_per_step"] = referenceMilliseconds[particles];
 }
@@ -108,7 +112,8 @@ void strandStep(benchmark::State& state) {
   };
   const double perStep = median(deviceSamples) / steps;
   state.counters["ms_per_step"] = perStep;
-  state.counters["cpu_ms_per_core"] = 1e3 * median(cpuSamples) / steps / std::max(1u, std::thread::hardware_concurrency());
+  state.counters["cpu_ms_per_core"] =
+      1e3 * median(cpuSamples) / steps / std::max(1u, std::thread::hardware_concurrency());
   state.counters["Mparticles/s"] = 1e-3 * kStrands * particles / perStep;
   state.counters["over_reference"] = referenceMilliseconds[particles] / perStep;
   state.SetLabel(simulation->kernelDescription());
@@ -124,12 +129,19 @@ int main(int argc, char** argv) {
     return 1;
   }
   device = &*opened;
-  fmt::print("device: {} ({}), {} strands; over_reference: times faster than the double reference on one thread\n",
-             device->name(), device->driver(), kStrands);
+  fmt::print(
+      "device: {} ({}), {} strands; over_reference: times faster than the double reference on one thread\n",
+      device->name(), device->driver(), kStrands);
   for (int particles : {32, 64, 128}) {
-    benchmark::RegisterBenchmark("reference_step", referenceStep)->Arg(particles)->Unit(benchmark::kMillisecond)->Iterations(9);
+    benchmark::RegisterBenchmark("reference_step", referenceStep)
+        ->Arg(particles)
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(9);
     for (int steps : {4, 8}) {
-      benchmark::RegisterBenchmark("strand_step", strandStep)->Args({particles, steps})->Unit(benchmark::kMillisecond)->Iterations(31);
+      benchmark::RegisterBenchmark("strand_step", strandStep)
+          ->Args({particles, steps})
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(31);
     }
   }
   benchmark::RunSpecifiedBenchmarks();

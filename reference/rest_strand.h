@@ -51,8 +51,9 @@ struct RestStrand {
   std::size_t edgeCount() const { return edges.size(); }
 };
 
-/// alpha by the rule of section 4: half a turn, more for a tightly wound curl; a tenth of a straight strand. At most half
-/// the strand: the rule grows without bound as a curl becomes a flat ring, which has no core to follow.
+/// alpha by the rule of section 4: half a turn, more for a tightly wound curl; a tenth of a straight strand.
+/// At most half the strand: the rule grows without bound as a curl becomes a flat ring, which has no core to
+/// follow.
 inline double smoothingLengthByRule(const CurlShape& curl, double arcLength) {
   if (curl.turns == 0) return 0.1 * arcLength;
   const double longest = 0.5 * arcLength;

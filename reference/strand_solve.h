@@ -19,8 +19,8 @@
 namespace ringlet::reference {
 
 /// One strand's system, in double whatever the simulation's Real: A is many thousand times m, and in float
-/// D_i = m_i I + A_i + A_{i-1} has lost m before the elimination could cancel A; an iteration would add up its rounding.
-/// Masses and right hand side per particle, the rest per edge.
+/// D_i = m_i I + A_i + A_{i-1} has lost m before the elimination could cancel A; an iteration would add up
+/// its rounding. Masses and right hand side per particle, the rest per edge.
 struct StrandSystem {
   std::size_t rootCount = 1;
   Scalars<double> masses;         // m_i [kg]
@@ -88,12 +88,12 @@ inline double pointIterationBound(const StrandSystem& system) {
   return bound;
 }
 
-/// Point Jacobi: all free particles at once, v_i <- D_i^-1 (r_i + A_i v_{i+1} + A_{i-1} v_{i-1}), `iterationCount` times,
-/// written as a correction by the residual. Chebyshev-accelerated (Golub and Varga 1961; for Jacobi, Wang 2015):
-/// v^{k+1} = w_{k+1} (J v^k - v^{k-1}) + v^{k-1}, w_1 = 1, w_2 = 2 / (2 - mu^2), w_{k+1} = 4 / (4 - mu^2 w_k).
-/// velocities: the start, and pinned ones [m/s].
-inline void iteratePoints(const StrandSystem& system, int iterationCount, bool chebyshev, SolveScratch& scratch,
-                          Field<double>& velocities) {
+/// Point Jacobi: all free particles at once, v_i <- D_i^-1 (r_i + A_i v_{i+1} + A_{i-1} v_{i-1}),
+/// `iterationCount` times, written as a correction by the residual. Chebyshev-accelerated (Golub and Varga
+/// 1961; for Jacobi, Wang 2015): v^{k+1} = w_{k+1} (J v^k - v^{k-1}) + v^{k-1}, w_1 = 1, w_2 = 2 / (2 -
+/// mu^2), w_{k+1} = 4 / (4 - mu^2 w_k). velocities: the start, and pinned ones [m/s].
+inline void iteratePoints(const StrandSystem& system, int iterationCount, bool chebyshev,
+                          SolveScratch& scratch, Field<double>& velocities) {
   const std::size_t n = system.particleCount(), first = system.rootCount;
   if (n <= first) return;
   scratch.blocks.resize(n);

@@ -13,8 +13,8 @@ namespace ringlet::reference {
 /// The smallest rotation that takes a's direction to b's. Opposite directions: a half turn about a fixed
 /// perpendicular of a. A zero a or b: no turn.
 ///
-/// With a, b of length 1 and h = a + b half way between them, the quaternion is (|h| / 2, a x h / |h|): it keeps its digits
-/// near the half turn, where 1 + a . b has none left.
+/// With a, b of length 1 and h = a + b half way between them, the quaternion is (|h| / 2, a x h / |h|): it
+/// keeps its digits near the half turn, where 1 + a . b has none left.
 template <class Real>
 Rotation<Real> smallestRotation(const Vector3<Real>& a, const Vector3<Real>& b) {
   const Real lengthA = a.norm(), lengthB = b.norm();
@@ -31,8 +31,9 @@ Rotation<Real> smallestRotation(const Vector3<Real>& a, const Vector3<Real>& b) 
 }
 
 /// F_i for every edge i from the smoothed edges d_i [any unit]. `rootDirection` is x before edge 0, already
-/// carried by the root frame. A zero d_i turns nothing and leaves x as it is. The product is kept in double whatever Real
-/// is: over a hundred turns its own rounding in float would be as large as what the kernels are allowed.
+/// carried by the root frame. A zero d_i turns nothing and leaves x as it is. The product is kept in double
+/// whatever Real is: over a hundred turns its own rounding in float would be as large as what the kernels are
+/// allowed.
 template <class Real>
 void transportFrames(const Rotation<Real>& rootFrame, const Vector3<Real>& rootDirection,
                      const Field<Real>& smoothedEdges, std::vector<Rotation<Real>>& frames) {

@@ -6,8 +6,8 @@
 //     shift = 0 up to the last pinned particle;   shift_{i+1} = shift_i + (min(1, s_max l_i / |e_i|) - 1) e_i
 //     p_i += shift_i,   v_i += shift_i / T
 //
-// l_i is the groom's edge, not the preloaded one. e_i are the moved edges, e + T dv: taken from positions they would be
-// rounded to the hair's size, and shift / T would show it.
+// l_i is the groom's edge, not the preloaded one. e_i are the moved edges, e + T dv: taken from positions
+// they would be rounded to the hair's size, and shift / T would show it.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,9 @@
 
 namespace ringlet::reference {
 
-/// Shortens the edges i >= rootCount - 1 to maxStretch (s_max) times edgeLengths (l_i) [m]; movedEdges [m] are those
-/// between the given positions. Velocities follow the shift over T [s]. Returns how many edges were too long.
+/// Shortens the edges i >= rootCount - 1 to maxStretch (s_max) times edgeLengths (l_i) [m]; movedEdges [m]
+/// are those between the given positions. Velocities follow the shift over T [s]. Returns how many edges were
+/// too long.
 template <class Real>
 std::size_t limitStretch(std::size_t rootCount, Real maxStretch, Real stepSeconds,
                          const Scalars<Real>& edgeLengths, const Field<Real>& movedEdges,

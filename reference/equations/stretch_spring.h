@@ -11,8 +11,9 @@
 
 namespace ringlet::reference {
 
-/// Elastic part [N]: stiffness k_s [N/m], edge e and rest length s [m], direction e^. The lengths are compared in double
-/// whatever Real is: they are nearly equal, and their rounding in float would be the reference's own noise.
+/// Elastic part [N]: stiffness k_s [N/m], edge e and rest length s [m], direction e^. The lengths are
+/// compared in double whatever Real is: they are nearly equal, and their rounding in float would be the
+/// reference's own noise.
 template <class Real>
 Vector3<Real> stretchForce(Real stiffness, const Vector3<Real>& edge, const Vector3<Real>& direction,
                            Real restLength) {

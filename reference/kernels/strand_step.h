@@ -21,16 +21,21 @@ namespace ringlet::reference {
 /// What the head does in the step from n to n + 1.
 template <class Real>
 struct HeadStep {
-  Rotation<double> before, now, next;  // rotations of poses n - 1, n, n + 1: their differences over T need the digits
-  Vector3<Real> velocityChange;        // of its translation: V_{n+1} - V_n [m/s]
-  Real seconds = 0;                    // T
+  Rotation<double> before, now,
+      next;  // rotations of poses n - 1, n, n + 1: their differences over T need the digits
+  Vector3<Real> velocityChange;  // of its translation: V_{n+1} - V_n [m/s]
+  Real seconds = 0;              // T
 
   Rotation<Real> rotation() const { return now.template cast<Real>(); }
-  /// Velocity of a point x of the groom that the head carries, in the step from n - 1 to n, and from n to n + 1 [m/s].
-  Vector3<Real> carriedVelocityBefore(const Vector3<Real>& x) const { return carriedVelocity(before, now, x); }
+  /// Velocity of a point x of the groom that the head carries, in the step from n - 1 to n, and from n to n +
+  /// 1 [m/s].
+  Vector3<Real> carriedVelocityBefore(const Vector3<Real>& x) const {
+    return carriedVelocity(before, now, x);
+  }
   Vector3<Real> carriedVelocity(const Vector3<Real>& x) const { return carriedVelocity(now, next, x); }
 
-  Vector3<Real> carriedVelocity(const Rotation<double>& from, const Rotation<double>& to, const Vector3<Real>& x) const {
+  Vector3<Real> carriedVelocity(const Rotation<double>& from, const Rotation<double>& to,
+                                const Vector3<Real>& x) const {
     const Vector3<double> place = x.template cast<double>();
     return ((to * place - from * place) / static_cast<double>(seconds)).template cast<Real>();
   }
@@ -151,7 +156,8 @@ Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i) {
 /// (M + T C + T^2 K) v+ = M v + T (f + m g), the strand's own system.
 template <class Real>
 void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, const Field<Real>& directions,
-                    const Vector3<double>& gravity, double T, FieldView<Real> velocities, StrandSystem& system) {
+                    const Vector3<double>& gravity, double T, FieldView<Real> velocities,
+                    StrandSystem& system) {
   system.rootCount = rest.rootCount;
   system.masses.assign(rest.masses.begin(), rest.masses.end());
   system.momenta.resize(rest.particleCount());
@@ -218,13 +224,15 @@ void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, con
     runPaperLoops(rest, settings, head, scratch, taps, velocities);
     return;
   }
-  assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(), velocities,
-                 scratch.system);
+  assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(),
+                 velocities, scratch.system);
   scratch.solved.resize(velocities.size());
-  for (std::size_t i = 0; i < velocities.size(); ++i) scratch.solved[i] = velocities[i].template cast<double>();
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    scratch.solved[i] = velocities[i].template cast<double>();
   if (settings.integrator == Integrator::jacobi) solveStrand(scratch.system, scratch.solve, scratch.solved);
   if (settings.integrator == Integrator::pointJacobi) {
-    iteratePoints(scratch.system, settings.pointIterations, settings.chebyshev, scratch.solve, scratch.solved);
+    iteratePoints(scratch.system, settings.pointIterations, settings.chebyshev, scratch.solve,
+                  scratch.solved);
   }
   for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = scratch.solved[i].template cast<Real>();
 }
@@ -262,7 +270,8 @@ void stepStrand(const RestStrand<Real>& rest, const Settings& settings, const He
   solveVelocities(rest, settings, head, scratch, taps, velocities);
   taps.solvedVelocities.assign(velocities.begin(), velocities.end());
 
-  for (std::size_t i = 0; i < pinnedCount; ++i) positions[i] = head.next.template cast<Real>() * rest.points[i];
+  for (std::size_t i = 0; i < pinnedCount; ++i)
+    positions[i] = head.next.template cast<Real>() * rest.points[i];
   for (std::size_t i = pinnedCount; i < positions.size(); ++i) positions[i] += head.seconds * velocities[i];
 
   scratch.movedEdges = scratch.edges;

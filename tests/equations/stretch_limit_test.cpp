@@ -27,8 +27,10 @@ Limited limitRandom(std::size_t rootCount, double maxStretch, double T) {
   result.positions = result.before;
   result.velocities.assign(result.before.size(), Vector3<double>(1, 2, 3));
   Field<double> edges;
-  for (std::size_t i = 0; i + 1 < result.before.size(); ++i) edges.push_back(result.before[i + 1] - result.before[i]);
-  result.count = limitStretch(rootCount, maxStretch, T, result.lengths, edges, result.positions, result.velocities);
+  for (std::size_t i = 0; i + 1 < result.before.size(); ++i)
+    edges.push_back(result.before[i + 1] - result.before[i]);
+  result.count =
+      limitStretch(rootCount, maxStretch, T, result.lengths, edges, result.positions, result.velocities);
   return result;
 }
 

@@ -1,4 +1,5 @@
-// How a groom is cut into dispatches: every strand and step exactly once, within the device's limits. No device needed.
+// How a groom is cut into dispatches: every strand and step exactly once, within the device's limits. No
+// device needed.
 #include "ringlet/solver/dispatch_plan.h"
 
 #include <gtest/gtest.h>
@@ -72,15 +73,20 @@ TEST(DispatchPlan, EveryStrandAndStepOnce) {
 
 TEST(DispatchPlan, RefusesWhatCannotBe) {
   const std::vector<std::uint32_t> counts{300};
-  EXPECT_NE(planRanges(counts, kLavapipe, {KernelChoice::Form::lanes}).error().message.find("300 particles does not fit"),
+  EXPECT_NE(planRanges(counts, kLavapipe, {KernelChoice::Form::lanes})
+                .error()
+                .message.find("300 particles does not fit"),
             std::string::npos);
-  EXPECT_NE(planRanges(counts, kLavapipe, {KernelChoice::Form::automatic, 5}).error().message.find("5 particles per lane"),
+  EXPECT_NE(planRanges(counts, kLavapipe, {KernelChoice::Form::automatic, 5})
+                .error()
+                .message.find("5 particles per lane"),
             std::string::npos);
   Settings settings;
   settings.integrator = Integrator::paper;
   const auto ranges = planRanges(std::vector<std::uint32_t>{20000}, kLavapipe, {});
   ASSERT_TRUE(ranges);
-  EXPECT_NE(planFrame(*ranges, kLavapipe, settings, 64).error().message.find("20000 particles"), std::string::npos);
+  EXPECT_NE(planFrame(*ranges, kLavapipe, settings, 64).error().message.find("20000 particles"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The structs of shaders/shared/layout.h lie the same in C++ and in the compiled shaders: offsets and strides are read
-// from the SPIR-V itself.
+// The structs of shaders/shared/layout.h lie the same in C++ and in the compiled shaders: offsets and strides
+// are read from the SPIR-V itself.
 #include "shared/layout.h"
 
 #include <gtest/gtest.h>
@@ -15,14 +15,15 @@
 namespace ringlet::test {
 namespace {
 
-// Member offsets of every struct of a module, by struct and member name; array strides by the struct they hold.
+// Member offsets of every struct of a module, by struct and member name; array strides by the struct they
+// hold.
 struct Reflection {
   std::map<std::string, std::map<std::string, std::uint32_t>> offsets;
   std::map<std::string, std::uint32_t> strides;
 
   explicit Reflection(std::span<const std::uint32_t> spirv) {
-    constexpr std::uint32_t kOpName = 5, kOpMemberName = 6, kOpDecorate = 71, kOpMemberDecorate = 72, kOffset = 35,
-                            kArrayStride = 6, kOpTypeArray = 28, kOpTypeRuntimeArray = 29;
+    constexpr std::uint32_t kOpName = 5, kOpMemberName = 6, kOpDecorate = 71, kOpMemberDecorate = 72,
+                            kOffset = 35, kArrayStride = 6, kOpTypeArray = 28, kOpTypeRuntimeArray = 29;
     std::map<std::uint32_t, std::string> names;
     std::map<std::uint32_t, std::map<std::uint32_t, std::string>> memberNames;
     std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> memberOffsets;
@@ -30,13 +31,24 @@ struct Reflection {
     for (std::size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
       const auto* word = &spirv[at];
       switch (word[0] & 0xffff) {
-        case kOpName: names[word[1]] = reinterpret_cast<const char*>(word + 2); break;
-        case kOpMemberName: memberNames[word[1]][word[2]] = reinterpret_cast<const char*>(word + 3); break;
-        case kOpDecorate: if (word[2] == kArrayStride) arrayStrides[word[1]] = word[3]; break;
-        case kOpMemberDecorate: if (word[3] == kOffset) memberOffsets[word[1]][word[2]] = word[4]; break;
+        case kOpName:
+          names[word[1]] = reinterpret_cast<const char*>(word + 2);
+          break;
+        case kOpMemberName:
+          memberNames[word[1]][word[2]] = reinterpret_cast<const char*>(word + 3);
+          break;
+        case kOpDecorate:
+          if (word[2] == kArrayStride) arrayStrides[word[1]] = word[3];
+          break;
+        case kOpMemberDecorate:
+          if (word[3] == kOffset) memberOffsets[word[1]][word[2]] = word[4];
+          break;
         case kOpTypeArray:
-        case kOpTypeRuntimeArray: if (arrayStrides.count(word[1])) strides[names[word[2]]] = arrayStrides[word[1]]; break;
-        default: break;
+        case kOpTypeRuntimeArray:
+          if (arrayStrides.count(word[1])) strides[names[word[2]]] = arrayStrides[word[1]];
+          break;
+        default:
+          break;
       }
     }
     for (const auto& [id, members] : memberOffsets) {

@@ -1,13 +1,14 @@
-// The solver's rest state against the reference's own: two derivations of the same laws, so that a fault in one shows.
+// The solver's rest state against the reference's own: two derivations of the same laws, so that a fault in
+// one shows.
 #include "ringlet/rest/rest_state.h"
 
 #include <gtest/gtest.h>
 
 #include "reference/step.h"
+#include "ringlet/groom/groom_file.h"
 #include "tests/support/parity.h"
 #include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
-#include "ringlet/groom/groom_file.h"
 
 namespace ringlet::test {
 namespace {
@@ -50,7 +51,9 @@ void expectSameRest(const Groom& groom, const Settings& settings) {
       expectNear(strand.coreDamping * scale, expected.coreDamping[i], at + " coreDamping");
       expectNear(particle.target.w, expected.stretchRestLengths[i], at + " stretch rest length");
       const Eigen::Vector3d target(particle.target.x, particle.target.y, particle.target.z);
-      EXPECT_LE((target - expected.restTargets[i]).norm(), kRestState * std::max(l, expected.restTargets[i].norm())) << at << " target";
+      EXPECT_LE((target - expected.restTargets[i]).norm(),
+                kRestState * std::max(l, expected.restTargets[i].norm()))
+          << at << " target";
     }
   }
 }
@@ -96,7 +99,8 @@ TEST(RestState, RefusesWhatItCannotHold) {
   EXPECT_NE(errorOf(point, {}).find("length"), std::string::npos);
   Settings settings;
   settings.stepsPerFrame = 100000;
-  EXPECT_NE(errorOf(good, settings).find("stepsPerFrame is 100000; it must be from 1 to 340"), std::string::npos);
+  EXPECT_NE(errorOf(good, settings).find("stepsPerFrame is 100000; it must be from 1 to 340"),
+            std::string::npos);
   settings = {};
   settings.maxStretch = NAN;
   EXPECT_NE(errorOf(good, settings).find("maxStretch"), std::string::npos);

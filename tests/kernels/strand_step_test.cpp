@@ -1,5 +1,6 @@
-// The strand kernels, both forms and all integrators, against the float reference: every field of one step at awkward
-// sizes, and positions after a frame against double. Mirrors shaders/kernels/strand_step.comp and strand_step_serial.comp.
+// The strand kernels, both forms and all integrators, against the float reference: every field of one step at
+// awkward sizes, and positions after a frame against double. Mirrors shaders/kernels/strand_step.comp and
+// strand_step_serial.comp.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -45,15 +46,17 @@ class StrandStep : public GpuTest {
   void expectOneStep(const ParityCase& c, const std::string& label, double tolerance = kOneStep) {
     const auto errors = oneStepErrors(device(), c);
     fmt::print("{:<44} {}\n", label, toText(errors));
-    for (const FieldError& e : errors) EXPECT_LE(e.error, tolerance) << label << ": " << e.field << "\n" << e.where;
+    for (const FieldError& e : errors)
+      EXPECT_LE(e.error, tolerance) << label << ": " << e.field << "\n" << e.where;
   }
 };
 
 TEST_F(StrandStep, JacobiFieldsAgreeAtAwkwardSizes) {
   for (const Variant& variant : kVariants) {
     for (int strands : {1, 2, 31, 33, 127}) {
-      expectOneStep({randomGroom(awkwardLengths(strands), 7), {}, settingsFor(Integrator::jacobi), variant.kernel},
-                    fmt::format("jacobi, {}, {} strands", variant.name, strands));
+      expectOneStep(
+          {randomGroom(awkwardLengths(strands), 7), {}, settingsFor(Integrator::jacobi), variant.kernel},
+          fmt::format("jacobi, {}, {} strands", variant.name, strands));
     }
   }
 }
@@ -61,7 +64,10 @@ TEST_F(StrandStep, JacobiFieldsAgreeAtAwkwardSizes) {
 TEST_F(StrandStep, UniformLengthsAgree) {
   for (int particles : {2, 3, 31, 100, 128}) {
     for (const Variant& variant : kVariants) {
-      expectOneStep({randomGroom(std::vector<int>(33, particles), 11), {}, settingsFor(Integrator::jacobi), variant.kernel},
+      expectOneStep({randomGroom(std::vector<int>(33, particles), 11),
+                     {},
+                     settingsFor(Integrator::jacobi),
+                     variant.kernel},
                     fmt::format("jacobi, {}, 33 x {}", variant.name, particles));
     }
   }
@@ -77,8 +83,9 @@ TEST_F(StrandStep, PlainPointJacobiFieldsAgree) {
   }
 }
 
-// Enough iterations to converge: the k-th Chebyshev iterate changes k^2 times as much as the matrix does, so that one cut
-// short shows the rounding of the coefficients, whoever computes it (6e-6 at 128 particles after 40).
+// Enough iterations to converge: the k-th Chebyshev iterate changes k^2 times as much as the matrix does, so
+// that one cut short shows the rounding of the coefficients, whoever computes it (6e-6 at 128 particles after
+// 40).
 TEST_F(StrandStep, ChebyshevPointJacobiFieldsAgree) {
   for (const Variant& variant : kVariants) {
     Settings settings = settingsFor(Integrator::pointJacobi);
@@ -121,7 +128,8 @@ TEST_F(StrandStep, AFrameAgreesWithDouble) {
     for (const Variant& variant : kVariants) {
       const ParityCase c{randomGroom(awkwardLengths(25), 29), {}, settingsFor(integrator), variant.kernel};
       const FieldError e = oneFrameError(device(), c);
-      fmt::print("one frame, integrator {}, {:<12} {:.1e} of the arc length\n", int(integrator), variant.name, e.error);
+      fmt::print("one frame, integrator {}, {:<12} {:.1e} of the arc length\n", int(integrator), variant.name,
+                 e.error);
       EXPECT_LE(e.error, kOneFrame) << variant.name << ": " << e.where;
     }
   }

@@ -1,5 +1,5 @@
-// Who may know whom: reads every #include of the sources and fails on a forbidden one (CONTRIBUTING.md, "Who may know
-// whom"), and on a public header that shows Vulkan, Eigen or gpu/.
+// Who may know whom: reads every #include of the sources and fails on a forbidden one (CONTRIBUTING.md, "Who
+// may know whom"), and on a public header that shows Vulkan, Eigen or gpu/.
 #include <gtest/gtest.h>
 
 #include <filesystem>

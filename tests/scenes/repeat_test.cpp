@@ -1,5 +1,5 @@
-// Determinism: same input, device, driver and kernel variant give the same bits, however a run is cut into frames and
-// dispatches, and with or without taps.
+// Determinism: same input, device, driver and kernel variant give the same bits, however a run is cut into
+// frames and dispatches, and with or without taps.
 #include <gtest/gtest.h>
 
 #include "ringlet/scene/motion.h"
@@ -43,18 +43,21 @@ TEST_F(Repeat, TwoRunsGiveTheSameBits) {
   }
 }
 
-// A frame of 330 steps must be cut into several dispatches on lavapipe, whose loops end after 65,535 turns; a dispatch
-// that went past that would give other bits than single steps do.
+// A frame of 330 steps must be cut into several dispatches on lavapipe, whose loops end after 65,535 turns; a
+// dispatch that went past that would give other bits than single steps do.
 TEST_F(Repeat, LongFramesGiveTheBitsOfSingleSteps) {
   for (KernelChoice::Form form : {KernelChoice::Form::automatic, KernelChoice::Form::serial}) {
-    expectSameBits(run(330, 330, Integrator::jacobi, {form}), run(330, 1, Integrator::jacobi, {form}), "jacobi");
-    expectSameBits(run(40, 40, Integrator::pointJacobi, {form}), run(40, 1, Integrator::pointJacobi, {form}), "point_jacobi");
+    expectSameBits(run(330, 330, Integrator::jacobi, {form}), run(330, 1, Integrator::jacobi, {form}),
+                   "jacobi");
+    expectSameBits(run(40, 40, Integrator::pointJacobi, {form}), run(40, 1, Integrator::pointJacobi, {form}),
+                   "point_jacobi");
     expectSameBits(run(12, 12, Integrator::paper, {form}), run(12, 1, Integrator::paper, {form}), "paper");
   }
 }
 
 TEST_F(Repeat, TapsChangeNoBit) {
-  for (KernelChoice kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::automatic, 8}, KernelChoice{KernelChoice::Form::serial}}) {
+  for (KernelChoice kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::automatic, 8},
+                              KernelChoice{KernelChoice::Form::serial}}) {
     for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
       KernelChoice withTaps = kernel;
       withTaps.taps = true;

@@ -1,5 +1,6 @@
-// The strand solve in float32 against double where it is hardest: stretch up to 10,000 times the strand's weight, straight
-// and curly, 8 to 256 particles, 100 shaken steps. A solve that loses the mass to cancellation fails this by decades.
+// The strand solve in float32 against double where it is hardest: stretch up to 10,000 times the strand's
+// weight, straight and curly, 8 to 256 particles, 100 shaken steps. A solve that loses the mass to
+// cancellation fails this by decades.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -42,8 +43,12 @@ class StiffSolve : public GpuTest {
 };
 
 TEST_F(StiffSolve, StaysWithDoubleUpToTenThousandWeights) {
-  const struct { const char* name; KernelChoice kernel; } forms[] = {
-      {"16 a lane", {}}, {"8 a lane", {KernelChoice::Form::automatic, 8}}, {"serial", {KernelChoice::Form::serial}}};
+  const struct {
+    const char* name;
+    KernelChoice kernel;
+  } forms[] = {{"16 a lane", {}},
+               {"8 a lane", {KernelChoice::Form::automatic, 8}},
+               {"serial", {KernelChoice::Form::serial}}};
   for (double stiffness : {10.0, 100.0, 1000.0, 10000.0}) {
     for (const auto& form : forms) {
       for (double radius : {0.0, 0.01}) {
@@ -54,9 +59,11 @@ TEST_F(StiffSolve, StaysWithDoubleUpToTenThousandWeights) {
           groom.addStrand(helix(n, radius, 0.25, std::min(8.0, n / 4.0), 0, 1));
           const double distance = distanceAfterShake(groom, stiffness, form.kernel);
           line += fmt::format(" {}: {:.1e}", n, distance);
-          EXPECT_LE(distance, kStiffSolveMetres) << "K_s " << stiffness << " w, radius " << radius << ", N " << n << ", " << form.name;
+          EXPECT_LE(distance, kStiffSolveMetres)
+              << "K_s " << stiffness << " w, radius " << radius << ", N " << n << ", " << form.name;
         }
-        fmt::print("K_s {:>5} w, {:<8} {:<9}, [m] at N{}\n", stiffness, radius > 0 ? "curly" : "straight", form.name, line);
+        fmt::print("K_s {:>5} w, {:<8} {:<9}, [m] at N{}\n", stiffness, radius > 0 ? "curly" : "straight",
+                   form.name, line);
       }
     }
   }

@@ -20,7 +20,8 @@ double largestMove(const Groom& groom, std::span<const Vec3f> positions) {
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const auto strand = groom.strand(s);
     double total = 0;
-    for (std::size_t i = 1; i < strand.size(); ++i) total += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
+    for (std::size_t i = 1; i < strand.size(); ++i)
+      total += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
     for (std::size_t i = 0; i < strand.size(); ++i) {
       const Vec3d rest = static_cast<Vec3d>(strand[i]) * groom.metresPerUnit;
       const double distance = length(static_cast<Vec3d>(positions[groom.firstPoint[s] + i]) - rest);
@@ -42,7 +43,8 @@ class Still : public GpuTest {
     double largest = 0;
     for (int frame = 0; frame < seconds * settings.framesPerSecond; ++frame) {
       std::vector<HeadPose> poses;
-      for (int k = 1; k <= settings.stepsPerFrame; ++k) poses.push_back(poseAt(frame * settings.stepsPerFrame + k));
+      for (int k = 1; k <= settings.stepsPerFrame; ++k)
+        poses.push_back(poseAt(frame * settings.stepsPerFrame + k));
       EXPECT_TRUE(simulation->stepFrame(poses));
       largest = std::max(largest, largestMove(groom, *simulation->positions()));
     }
@@ -82,7 +84,8 @@ TEST_F(Still, ConstantVelocityStaysRigid) {
   settings.gravity = {};
   for (Vec3d start : {Vec3d{}, Vec3d{100, -50, 80}}) {
     const double moved = moveOver(10, mixedGroom(), settings, start, {1.3, 0.4, -2});
-    fmt::print("constant velocity from ({}, {}, {}), 10 s: moved {:.1e} of the arc length\n", start.x, start.y, start.z, moved);
+    fmt::print("constant velocity from ({}, {}, {}), 10 s: moved {:.1e} of the arc length\n", start.x,
+               start.y, start.z, moved);
     EXPECT_LE(moved, kAtRest);
   }
 }

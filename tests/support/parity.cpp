@@ -33,7 +33,8 @@ class Random {
 
 double meanEdge(std::span<const Vec3f> strand) {
   double sum = 0;
-  for (std::size_t i = 0; i + 1 < strand.size(); ++i) sum += length(static_cast<Vec3d>(strand[i + 1] - strand[i]));
+  for (std::size_t i = 0; i + 1 < strand.size(); ++i)
+    sum += length(static_cast<Vec3d>(strand[i + 1] - strand[i]));
   return sum / static_cast<double>(strand.size() - 1);
 }
 
@@ -49,13 +50,16 @@ class Comparison {
  public:
   Comparison(std::string field) { error_.field = std::move(field); }
 
-  void add(std::size_t strand, std::size_t particle, double scale, const Eigen::VectorXd& expected, const Eigen::VectorXd& found) {
+  void add(std::size_t strand, std::size_t particle, double scale, const Eigen::VectorXd& expected,
+           const Eigen::VectorXd& found) {
     double error = (expected - found).norm() / scale;
     if (!(error <= error_.error) || error_.where.empty()) {
       error_.error = std::isfinite(error) ? error : INFINITY;
       std::string values;
-      for (Eigen::Index k = 0; k < expected.size(); ++k) values += fmt::format(" {:.9g}|{:.9g}", expected[k], found[k]);
-      error_.where = fmt::format("strand {} particle {} scale {:.4g}: expected|found{}", strand, particle, scale, values);
+      for (Eigen::Index k = 0; k < expected.size(); ++k)
+        values += fmt::format(" {:.9g}|{:.9g}", expected[k], found[k]);
+      error_.where = fmt::format("strand {} particle {} scale {:.4g}: expected|found{}", strand, particle,
+                                 scale, values);
     }
   }
   FieldError result() const { return error_; }
@@ -70,7 +74,8 @@ Eigen::VectorXd three(const std::array<float, 4>& v, double factor = 1) {
 
 }  // namespace
 
-std::vector<Vec3f> helix(int particles, double radius, double length, double turns, double noise, std::uint32_t seed) {
+std::vector<Vec3f> helix(int particles, double radius, double length, double turns, double noise,
+                         std::uint32_t seed) {
   Random random(seed);
   std::vector<Vec3f> points;
   for (int i = 0; i < particles; ++i) {
@@ -87,7 +92,8 @@ Groom randomGroom(const std::vector<int>& particleCounts, std::uint32_t seed) {
   groom.metresPerUnit = 1;
   for (std::size_t s = 0; s < particleCounts.size(); ++s) {
     const int n = particleCounts[s];
-    const double length = 0.25 + 0.05 * random(), turns = s % 3 == 2 ? 0 : std::min(8.0, n / 6.0) * (s % 2 ? 1 : -1);
+    const double length = 0.25 + 0.05 * random(),
+                 turns = s % 3 == 2 ? 0 : std::min(8.0, n / 6.0) * (s % 2 ? 1 : -1);
     const double radius = s % 3 == 2 ? 0 : 0.01 + 0.004 * random();
     auto strand = helix(n, radius, length, turns, 0.05 * length / n, seed + static_cast<std::uint32_t>(s));
     const Vec3f root = static_cast<Vec3f>(random.vector() * 0.1);
@@ -129,7 +135,8 @@ HairState randomState(const Groom& groom, const Settings& settings, std::uint32_
       const double along = static_cast<double>(i) / static_cast<double>(strand.size() - 1);
       const Vec3d shift = swing.at(along) * (0.002 * total) + random.vector() * (0.01 * edge);
       const Vec3d velocity = speed.at(along) + random.vector() * 0.01;
-      state.positions.push_back(pinned ? strand[i] : static_cast<Vec3f>(static_cast<Vec3d>(strand[i]) + shift));
+      state.positions.push_back(pinned ? strand[i]
+                                       : static_cast<Vec3f>(static_cast<Vec3d>(strand[i]) + shift));
       state.velocities.push_back(pinned ? Vec3f{} : static_cast<Vec3f>(velocity));
     }
   }
@@ -138,7 +145,8 @@ HairState randomState(const Groom& groom, const Settings& settings, std::uint32_
 
 HeadStep movingHead() {
   const auto pose = [](double t) {
-    return HeadPose{Vec3d{3 + 0.8 * t, 1 - 0.3 * t * t, 2 * t}, fromRotationVector(Vec3d{0.1, 1, 0.3} * (3 * t * t + t))};
+    return HeadPose{Vec3d{3 + 0.8 * t, 1 - 0.3 * t * t, 2 * t},
+                    fromRotationVector(Vec3d{0.1, 1, 0.3} * (3 * t * t + t))};
   };
   const double T = 1.0 / 192;
   return {pose(-T), pose(0), pose(T)};
@@ -151,7 +159,8 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
   const HeadStep head = movingHead();
   const HairState start = randomState(c.groom, c.settings, c.seed);
 
-  auto simulation = Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel);
+  auto simulation =
+      Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel);
   if (!simulation) return {{"create", INFINITY, simulation.error().message}};
   EXPECT_TRUE(simulation->setState(start));
   EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1)));
@@ -166,12 +175,13 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
   for (const auto& v : expected.velocities()) largestSpeed = std::max<double>(largestSpeed, v.norm());
 
   const auto tap = [&](std::uint32_t field) { return *simulation->tap(field); };
-  const auto smoothed = tap(layout::kTapSmoothedEdge), core = tap(layout::kTapCoreEdge), frames = tap(layout::kTapFrame),
-             targets = tap(layout::kTapTarget), stretch = tap(layout::kTapStretchForce), bend = tap(layout::kTapBendForce),
+  const auto smoothed = tap(layout::kTapSmoothedEdge), core = tap(layout::kTapCoreEdge),
+             frames = tap(layout::kTapFrame), targets = tap(layout::kTapTarget),
+             stretch = tap(layout::kTapStretchForce), bend = tap(layout::kTapBendForce),
              coreForce = tap(layout::kTapCoreForce), solved = tap(layout::kTapVelocity);
   Comparison cSmoothed("smoothed edges"), cCore("core edges"), cFrames("frames"), cTargets("targets"),
-      cStretch("stretch forces"), cBend("bend forces"), cCoreForce("core forces"), cSolved("solved velocities"),
-      cPositions("positions"), cVelocities("velocities");
+      cStretch("stretch forces"), cBend("bend forces"), cCoreForce("core forces"),
+      cSolved("solved velocities"), cPositions("positions"), cVelocities("velocities");
   for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
     const auto& rest = expected.restStrands()[s];
     const auto& taps = expected.taps()[s];
@@ -181,8 +191,10 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
       const std::size_t g = c.groom.firstPoint[s] + i;
       const auto v = [](const auto& x) { return Eigen::VectorXd(x.template cast<double>()); };
       cSolved.add(s, i, largestSpeed, v(taps.solvedVelocities[i]), three(solved[g]));
-      cPositions.add(s, i, rest.arcLength, v(expected.positions()[g]), v(reference::toEigen<float>(found->positions[g])));
-      cVelocities.add(s, i, largestSpeed, v(expected.velocities()[g]), v(reference::toEigen<float>(found->velocities[g])));
+      cPositions.add(s, i, rest.arcLength, v(expected.positions()[g]),
+                     v(reference::toEigen<float>(found->positions[g])));
+      cVelocities.add(s, i, largestSpeed, v(expected.velocities()[g]),
+                      v(reference::toEigen<float>(found->velocities[g])));
       if (i >= rest.edgeCount()) continue;
       cSmoothed.add(s, i, edge, v(taps.smoothedEdges[i]), three(smoothed[g]));
       cCore.add(s, i, edge, v(taps.coreEdges[i]), three(core[g]));
@@ -196,8 +208,9 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
       cCoreForce.add(s, i, rest.coreStiffness[i] * l, v(taps.coreForces[i]), three(coreForce[g], unit));
     }
   }
-  return {cSmoothed.result(), cCore.result(),  cFrames.result(),    cTargets.result(),   cStretch.result(),
-          cBend.result(),     cCoreForce.result(), cSolved.result(), cPositions.result(), cVelocities.result()};
+  return {cSmoothed.result(),  cCore.result(),      cFrames.result(),    cTargets.result(),
+          cStretch.result(),   cBend.result(),      cCoreForce.result(), cSolved.result(),
+          cPositions.result(), cVelocities.result()};
 }
 
 FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
@@ -223,7 +236,8 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
   for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
     for (std::size_t i = 0; i < c.groom.strand(s).size(); ++i) {
       const std::size_t g = c.groom.firstPoint[s] + i;
-      comparison.add(s, i, expected.restStrands()[s].arcLength, expected.positions()[g], reference::toEigen<double>((*found)[g]));
+      comparison.add(s, i, expected.restStrands()[s].arcLength, expected.positions()[g],
+                     reference::toEigen<double>((*found)[g]));
     }
   }
   return comparison.result();
@@ -231,7 +245,8 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
 
 std::string toText(const std::vector<FieldError>& errors) {
   std::string text;
-  for (const FieldError& e : errors) text += fmt::format("{}{} {:.1e}", text.empty() ? "" : ", ", e.field, e.error);
+  for (const FieldError& e : errors)
+    text += fmt::format("{}{} {:.1e}", text.empty() ? "" : ", ", e.field, e.error);
   return text;
 }
 

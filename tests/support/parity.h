@@ -1,7 +1,7 @@
-// Parity: random valid grooms and states from fixed seeds, one step of them on the device (with taps) and in the
-// reference, and the comparison field by field. An error is a share of the field's scale: positions by rest arc length,
-// edges and targets by mean edge length, forces by stiffness times edge length, velocities by the largest speed,
-// frames by 1; forces cancel, so an error relative to each value would mean nothing.
+// Parity: random valid grooms and states from fixed seeds, one step of them on the device (with taps) and in
+// the reference, and the comparison field by field. An error is a share of the field's scale: positions by
+// rest arc length, edges and targets by mean edge length, forces by stiffness times edge length, velocities
+// by the largest speed, frames by 1; forces cancel, so an error relative to each value would mean nothing.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,17 @@
 
 namespace ringlet::test {
 
-/// One helix, in metres, hanging from the origin: radius and length [m]; `noise` [m] moves each particle at random.
-std::vector<Vec3f> helix(int particles, double radius, double length, double turns, double noise, std::uint32_t seed);
+/// One helix, in metres, hanging from the origin: radius and length [m]; `noise` [m] moves each particle at
+/// random.
+std::vector<Vec3f> helix(int particles, double radius, double length, double turns, double noise,
+                         std::uint32_t seed);
 
 /// Curls, waves and straight strands of the given particle counts, about 25 cm long, in metres; a fixed seed.
 Groom randomGroom(const std::vector<int>& particleCounts, std::uint32_t seed);
 
-/// Strands swung along smooth waves, at about 1 m/s, with noise on top: a hundredth of an edge and a hundredth of the
-/// speed. No edge is beyond the stretch limit before the step, many are after it; pinned particles stay.
+/// Strands swung along smooth waves, at about 1 m/s, with noise on top: a hundredth of an edge and a
+/// hundredth of the speed. No edge is beyond the stretch limit before the step, many are after it; pinned
+/// particles stay.
 HairState randomState(const Groom& groom, const Settings& settings, std::uint32_t seed);
 
 /// Two poses before the step and one after: the head travels and turns.
@@ -34,7 +37,7 @@ HeadStep movingHead();
 
 struct FieldError {
   std::string field;
-  double error = 0;  // largest, share of scale
+  double error = 0;   // largest, share of scale
   std::string where;  // strand, particle, expected, found
 };
 
@@ -49,7 +52,8 @@ struct ParityCase {
 /// All fields of one step, device against reference::Simulation<float>, from the same random state.
 std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase parityCase);
 
-/// Largest distance of positions after one frame from reference::Simulation<double>, share of the strand's arc length.
+/// Largest distance of positions after one frame from reference::Simulation<double>, share of the strand's
+/// arc length.
 FieldError oneFrameError(const ComputeDevice& device, const ParityCase& parityCase);
 
 /// "smoothed edges 1.2e-07, frames 3e-07, ..." for the test's log.

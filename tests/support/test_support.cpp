@@ -10,7 +10,8 @@ namespace ringlet::test {
 std::optional<std::filesystem::path> dataFile(const std::string& relative) {
   namespace fs = std::filesystem;
   const char* folder = std::getenv("RINGLET_DATA");
-  fs::path path = (folder ? fs::path(folder) : fs::path(RINGLET_SOURCE_DIR) / ".." / "shared" / "data") / relative;
+  fs::path path =
+      (folder ? fs::path(folder) : fs::path(RINGLET_SOURCE_DIR) / ".." / "shared" / "data") / relative;
   if (!fs::exists(path)) return std::nullopt;
   return path;
 }

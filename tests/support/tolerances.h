@@ -3,16 +3,16 @@
 
 namespace ringlet::test {
 
-// One outer step, float kernel against float reference: sums along 128 edges of values rounded to 6e-8, and the order of
-// operations is the kernel's own.
+// One outer step, float kernel against float reference: sums along 128 edges of values rounded to 6e-8, and
+// the order of operations is the kernel's own.
 inline constexpr double kOneStep = 2e-6;
 
-// The same for strands of up to 1,000 particles, where the rounding of a chain of turns grows as the root of its length:
-// 2e-6 sqrt(1000 / 128).
+// The same for strands of up to 1,000 particles, where the rounding of a chain of turns grows as the root of
+// its length: 2e-6 sqrt(1000 / 128).
 inline constexpr double kOneStepOfLongStrands = 5.6e-6;
 
-// One frame of 8 steps, float kernel against the double reference, as a share of the strand's rest arc length: float
-// positions have 3e-8 of it, the springs carry the error of one step into the next.
+// One frame of 8 steps, float kernel against the double reference, as a share of the strand's rest arc
+// length: float positions have 3e-8 of it, the springs carry the error of one step into the next.
 inline constexpr double kOneFrame = 1e-5;
 
 // Lying still: how far a particle may wander in 10 s, share of the arc length.
@@ -21,7 +21,8 @@ inline constexpr double kAtRest = 1e-5;
 // Rest state, the solver's (double, stored as float) against the reference's own: rounding to float.
 inline constexpr double kRestState = 1e-6;
 
-// Exact solve in float32 after 100 shaken steps at N = 64 and K_s up to 10,000 w, in metres (method.md, section 7).
+// Exact solve in float32 after 100 shaken steps at N = 64 and K_s up to 10,000 w, in metres (method.md,
+// section 7).
 inline constexpr double kStiffSolveMetres = 1e-5;
 
 }  // namespace ringlet::test

@@ -24,9 +24,18 @@ class [[nodiscard]] Result {
 
   explicit operator bool() const { return value_.has_value(); }
 
-  T& operator*() & { RINGLET_ASSERT(value_, "a Result was read without testing it"); return *value_; }
-  const T& operator*() const& { RINGLET_ASSERT(value_, "a Result was read without testing it"); return *value_; }
-  T&& operator*() && { RINGLET_ASSERT(value_, "a Result was read without testing it"); return std::move(*value_); }
+  T& operator*() & {
+    RINGLET_ASSERT(value_, "a Result was read without testing it");
+    return *value_;
+  }
+  const T& operator*() const& {
+    RINGLET_ASSERT(value_, "a Result was read without testing it");
+    return *value_;
+  }
+  T&& operator*() && {
+    RINGLET_ASSERT(value_, "a Result was read without testing it");
+    return std::move(*value_);
+  }
   T* operator->() { return &**this; }
   const T* operator->() const { return &**this; }
 

@@ -1,4 +1,5 @@
-// Vec3 and Quat: the little mathematics the public interface needs (heavier work uses Eigen, in reference/ only).
+// Vec3 and Quat: the little mathematics the public interface needs (heavier work uses Eigen, in reference/
+// only).
 #pragma once
 
 #include <cmath>
@@ -19,19 +20,32 @@ struct Vec3 {
   bool operator==(const Vec3&) const = default;
 
   template <class U>
-  explicit operator Vec3<U>() const { return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)}; }
+  explicit operator Vec3<U>() const {
+    return {static_cast<U>(x), static_cast<U>(y), static_cast<U>(z)};
+  }
 };
 template <class T>
-Vec3<T> operator*(T s, Vec3<T> v) { return v * s; }
+Vec3<T> operator*(T s, Vec3<T> v) {
+  return v * s;
+}
 template <class T>
-T dot(Vec3<T> a, Vec3<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+T dot(Vec3<T> a, Vec3<T> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 template <class T>
-Vec3<T> cross(Vec3<T> a, Vec3<T> b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+Vec3<T> cross(Vec3<T> a, Vec3<T> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 template <class T>
-T length(Vec3<T> v) { return std::sqrt(dot(v, v)); }
+T length(Vec3<T> v) {
+  return std::sqrt(dot(v, v));
+}
 /// v / |v|, or `fallback` for the zero vector.
 template <class T>
-Vec3<T> normalizedOr(Vec3<T> v, Vec3<T> fallback) { T l = length(v); return l > T(0) ? v / l : fallback; }
+Vec3<T> normalizedOr(Vec3<T> v, Vec3<T> fallback) {
+  T l = length(v);
+  return l > T(0) ? v / l : fallback;
+}
 
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
@@ -75,14 +89,18 @@ Quat<T> fromRotationVector(Vec3<T> rotation) {
 template <class T>
 Quat<T> slerp(Quat<T> a, Quat<T> b, T s) {
   T c = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
-  if (c < 0) { b = {-b.x, -b.y, -b.z, -b.w}; c = -c; }
+  if (c < 0) {
+    b = {-b.x, -b.y, -b.z, -b.w};
+    c = -c;
+  }
   T wa = 1 - s, wb = s;
   if (c < T(0.9999)) {
     T angle = std::acos(c);
     wa = std::sin(wa * angle) / std::sin(angle);
     wb = std::sin(wb * angle) / std::sin(angle);
   }
-  return normalized(Quat<T>{wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z, wa * a.w + wb * b.w});
+  return normalized(
+      Quat<T>{wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z, wa * a.w + wb * b.w});
 }
 
 using Quatf = Quat<float>;

@@ -1,5 +1,5 @@
-// The smoothed curve of a strand and the frames carried along it, at rest: the same equations as the step's, in double
-// (shaders/equations/smoothing.glsl, frame.glsl), so that a hair at rest is at rest.
+// The smoothed curve of a strand and the frames carried along it, at rest: the same equations as the step's,
+// in double (shaders/equations/smoothing.glsl, frame.glsl), so that a hair at rest is at rest.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@ namespace ringlet {
 /// Edges smoothed with weight beta from the first edge. One per edge.
 std::vector<Vec3d> smoothEdges(std::span<const Vec3d> edges, double beta);
 
-/// The frame each edge is held in, F_{i-1}: the identity for the first, then carried along the smoothed edges.
+/// The frame each edge is held in, F_{i-1}: the identity for the first, then carried along the smoothed
+/// edges.
 std::vector<Quatd> framesBeforeEdges(std::span<const Vec3d> smoothedEdges, Vec3d firstEdge);
 
 }  // namespace ringlet

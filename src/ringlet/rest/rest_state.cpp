@@ -14,8 +14,8 @@
 namespace ringlet {
 namespace {
 
-// An edge's constants and limit take it for no shorter than this share of the mean: a file's coincident points would
-// otherwise be springs of infinite stiffness.
+// An edge's constants and limit take it for no shorter than this share of the mean: a file's coincident
+// points would otherwise be springs of infinite stiffness.
 constexpr double kShortestEdge = 0.01;
 
 layout::vec4 packed(Vec3d v, double w) {
@@ -54,11 +54,14 @@ struct Cut {
   }
 };
 
-// 1 - mu^2 of the point Jacobi iteration, mu a bound on its spectral radius: by Gershgorin, block row by block row.
-double jacobiGap(const Cut& cut, std::span<const double> edgeScale, double bendDamping, const Settings& settings) {
+// 1 - mu^2 of the point Jacobi iteration, mu a bound on its spectral radius: by Gershgorin, block row by
+// block row.
+double jacobiGap(const Cut& cut, std::span<const double> edgeScale, double bendDamping,
+                 const Settings& settings) {
   const StrandConstants& c = cut.constants;
   const double T = settings.stepSeconds();
-  const double perScale = T * (std::max(bendDamping, c.stretchDamping) + T * (c.bendStiffness + c.stretchStiffness));
+  const double perScale =
+      T * (std::max(bendDamping, c.stretchDamping) + T * (c.bendStiffness + c.stretchStiffness));
   double smallestShare = 1;  // of the mass in the block row: 1 - mu
   for (std::size_t i = static_cast<std::size_t>(settings.rootCount); i < cut.points.size(); ++i) {
     double coupling = 0;
@@ -86,19 +89,22 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
   const auto frames = framesBeforeEdges(smoothEdges(cut.edges, bendBeta), cut.edges[0]);
   const auto coreEdges = smoothEdges(cut.edges, coreBeta);
 
-  // Gravity balanced edge by edge, from the tip (method.md, section 8): edge i carries the weight of all beyond it.
+  // Gravity balanced edge by edge, from the tip (method.md, section 8): edge i carries the weight of all
+  // beyond it.
   double load = 0, restCoreLength = 0, massBeyond = 0;
   std::vector<layout::ParticleRest> particles(n);
   particles[n - 1].mass = static_cast<float>(cut.masses[n - 1] / massUnit);
   for (std::size_t i = n - 1; i-- > 0;) {
     massBeyond += cut.masses[i + 1];
-    const double stretchStiffness = c.stretchStiffness * edgeScale[i], bendStiffness = c.bendStiffness * edgeScale[i];
+    const double stretchStiffness = c.stretchStiffness * edgeScale[i],
+                 bendStiffness = c.bendStiffness * edgeScale[i];
     const Vec3d carried = settings.gravity * (settings.gravityPreload * massBeyond);
     const Vec3d direction = normalizedOr(cut.edges[i], Vec3d{});
     const double along = dot(carried, direction);
     const Vec3d across = carried - direction * along;
     const Vec3d target = cut.edges[i] - across / bendStiffness;
-    particles[i].target = packed(rotate(frames[i].conjugate(), target), length(cut.edges[i]) - along / stretchStiffness);
+    particles[i].target =
+        packed(rotate(frames[i].conjugate(), target), length(cut.edges[i]) - along / stretchStiffness);
     particles[i].mass = static_cast<float>(cut.masses[i] / massUnit);
     particles[i].edgeLength = static_cast<float>(cut.edgeLengths[i]);
     particles[i].coreEdgeLength = static_cast<float>(length(coreEdges[i]));
@@ -110,7 +116,8 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
 
   // The implicit step damps by T K of itself: take that off, but leave half.
   const double T = settings.stepSeconds();
-  const double bendDamping = paper ? c.bendDamping : std::max(c.bendDamping - T * c.bendStiffness, c.bendDamping / 2);
+  const double bendDamping =
+      paper ? c.bendDamping : std::max(c.bendDamping - T * c.bendStiffness, c.bendDamping / 2);
 
   layout::StrandRest rest;
   rest.firstParticle = static_cast<std::uint32_t>(state.points.size());
@@ -126,7 +133,8 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
   rest.restCoreLength = static_cast<float>(std::max(restCoreLength, 1e-12));
   rest.jacobiGap = static_cast<float>(jacobiGap(cut, edgeScale, bendDamping, settings));
   rest.firstEdge = packed(cut.edges[0], massUnit);
-  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k) rest.pins[k] = packed(cut.points[std::min(k, n - 1)], 0);
+  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k)
+    rest.pins[k] = packed(cut.points[std::min(k, n - 1)], 0);
 
   state.strands.push_back(rest);
   state.particles.insert(state.particles.end(), particles.begin(), particles.end());
@@ -145,16 +153,17 @@ void addWarnings(RestState& state, const Extremes& extremes, const Settings& set
   if (extremes.cappedStrands > 0) {
     int needed = static_cast<int>(std::ceil(settings.stepsPerFrame / std::sqrt(extremes.smallestCoreShare)));
     state.warnings.push_back(
-        fmt::format("the core spring of {} of {} strands is weakened (to {:.0f} % at least) to stay stable at {} steps per "
+        fmt::format("the core spring of {} of {} strands is weakened (to {:.0f} % at least) to stay stable "
+                    "at {} steps per "
                     "frame; {} steps per frame give it in full",
                     extremes.cappedStrands, state.strands.size(), 100 * extremes.smallestCoreShare,
                     settings.stepsPerFrame, needed));
   }
   if (extremes.overloadedStrands > 0) {
-    state.warnings.push_back(
-        fmt::format("gravity preload bends the stored shape of {} of {} strands by more than 27 degrees (strand {} most: "
-                    "load {:.2f}); use a stiffer material or less preload",
-                    extremes.overloadedStrands, state.strands.size(), extremes.largestLoadStrand, extremes.largestLoad));
+    state.warnings.push_back(fmt::format(
+        "gravity preload bends the stored shape of {} of {} strands by more than 27 degrees (strand {} most: "
+        "load {:.2f}); use a stiffer material or less preload",
+        extremes.overloadedStrands, state.strands.size(), extremes.largestLoadStrand, extremes.largestLoad));
   }
 }
 
@@ -174,15 +183,20 @@ std::vector<Vec3f> inMetres(std::span<const Vec3f> strand, double metresPerUnit)
 }
 
 Status checkStrand(std::span<const Vec3f> strand, std::size_t index) {
-  if (strand.size() < 2) return Error{fmt::format("strand {} has {} particle; a strand needs at least 2", index, strand.size())};
+  if (strand.size() < 2)
+    return Error{fmt::format("strand {} has {} particle; a strand needs at least 2", index, strand.size())};
   double total = 0;
   for (std::size_t i = 0; i < strand.size(); ++i) {
     if (!std::isfinite(strand[i].x) || !std::isfinite(strand[i].y) || !std::isfinite(strand[i].z)) {
-      return Error{fmt::format("strand {} particle {} is not finite: ({}, {}, {})", index, i, strand[i].x, strand[i].y, strand[i].z)};
+      return Error{fmt::format("strand {} particle {} is not finite: ({}, {}, {})", index, i, strand[i].x,
+                               strand[i].y, strand[i].z)};
     }
     if (i > 0) total += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
   }
-  if (!(total > 1e-6)) return Error{fmt::format("strand {} is {} m long; a strand needs a length of at least 1e-6 m (is the unit right?)", index, total)};
+  if (!(total > 1e-6))
+    return Error{
+        fmt::format("strand {} is {} m long; a strand needs a length of at least 1e-6 m (is the unit right?)",
+                    index, total)};
   return {};
 }
 

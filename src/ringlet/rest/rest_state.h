@@ -1,4 +1,5 @@
-// RestState: everything about a groom that does not change while it moves, as the device reads it. Built once, shareable.
+// RestState: everything about a groom that does not change while it moves, as the device reads it. Built
+// once, shareable.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +15,15 @@
 
 namespace ringlet {
 
-/// Arrays in device order: strands by rising particle count, groom order among equals, so that strands of one length
-/// class lie together and short ones do not pay for long ones.
+/// Arrays in device order: strands by rising particle count, groom order among equals, so that strands of one
+/// length class lie together and short ones do not pay for long ones.
 struct RestState {
   std::vector<layout::StrandRest> strands;
   std::vector<layout::ParticleRest> particles;
-  std::vector<Vec3f> points;                   // rest positions [m]
-  std::vector<std::uint32_t> strandInGroom;    // groom's index of each strand
-  std::vector<std::uint32_t> firstInGroom;     // groom's index of each strand's root particle
-  std::vector<std::string> warnings;           // for the user: what the step or the load changed, with numbers
+  std::vector<Vec3f> points;                 // rest positions [m]
+  std::vector<std::uint32_t> strandInGroom;  // groom's index of each strand
+  std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle
+  std::vector<std::string> warnings;         // for the user: what the step or the load changed, with numbers
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite, strands of no length.

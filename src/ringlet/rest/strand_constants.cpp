@@ -25,15 +25,16 @@ void setPaperConstants(StrandConstants& c) {
 double smoothingLengthOf(const CurlShape& shape, double arcLength) {
   constexpr double kTiltLeft = 0.3;  // tilt of the smoothed curve at which every trial was calm
   if (shape.turns == 0) return 0.1 * arcLength;
-  const double longest = 0.5 * arcLength;  // a flat ring has no core to follow; the rule would ask for infinity
+  const double longest =
+      0.5 * arcLength;  // a flat ring has no core to follow; the rule would ask for infinity
   if (shape.pitch <= 0) return longest;
   double tilt = 2 * std::numbers::pi * shape.radius / shape.pitch;
   double needed = std::sqrt(std::max(0.0, tilt / kTiltLeft - 1)) / (2 * std::numbers::pi);
   return std::min(longest, shape.turnLength * std::max(0.5, needed));
 }
 
-StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs, const Material& material,
-                                const Settings& settings) {
+StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs,
+                                const Material& material, const Settings& settings) {
   StrandConstants c;
   c.arcLength = std::accumulate(arcs.begin(), arcs.end(), 0.0);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) c.meanEdgeLength += length(points[i + 1] - points[i]);
@@ -55,8 +56,8 @@ StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const d
   c.stretchStiffness = material.stretchStiffness * weight;
   c.stretchDamping = material.stretchDampingTime * c.stretchStiffness;
 
-  // B tanh(l / 2 alpha) / l^2 with B = 2 alpha K_b: the angle between an edge and its target grows as coth, because the
-  // target lags through the smoothing; without the tanh a curl cut finer would be stiffer.
+  // B tanh(l / 2 alpha) / l^2 with B = 2 alpha K_b: the angle between an edge and its target grows as coth,
+  // because the target lags through the smoothing; without the tanh a curl cut finer would be stiffer.
   const double bend = material.bendStiffness * weight, alpha = c.bendSmoothingLength;
   c.bendStiffness = alpha > 0 ? 2 * alpha * bend * std::tanh(l / (2 * alpha)) / l : 2 * fromShape * bend / l;
   c.bendDamping = material.bendDampingRatio * S * std::sqrt(bend * lambda);

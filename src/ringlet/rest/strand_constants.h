@@ -1,5 +1,6 @@
-// The laws that turn a material in continuum units into one strand's constants (method.md, sections 4, 5 and 8), so that
-// a material means the same however finely a strand is cut. Mirrored, independently, by reference/rest_strand.h.
+// The laws that turn a material in continuum units into one strand's constants (method.md, sections 4, 5 and
+// 8), so that a material means the same however finely a strand is cut. Mirrored, independently, by
+// reference/rest_strand.h.
 #pragma once
 
 #include <span>
@@ -11,10 +12,11 @@
 
 namespace ringlet {
 
-/// One strand's constants in SI units. An edge's own are these times its scale: 1 / edge length, or 1 for `paper`.
+/// One strand's constants in SI units. An edge's own are these times its scale: 1 / edge length, or 1 for
+/// `paper`.
 struct StrandConstants {
-  double arcLength = 0;       // S [m]
-  double meanEdgeLength = 0;  // l, of the chords [m]
+  double arcLength = 0;                                     // S [m]
+  double meanEdgeLength = 0;                                // l, of the chords [m]
   double bendSmoothingLength = 0, coreSmoothingLength = 0;  // alpha_b, alpha_c [m]
   double bendBeta = 1, coreBeta = 1;                        // 1 - exp(-l / alpha)
   double stretchStiffness = 0, stretchDamping = 0;          // K [N], C [N s]; for `paper` k [N/m], c [N s/m]
@@ -27,7 +29,7 @@ struct StrandConstants {
 double smoothingLengthOf(const CurlShape& shape, double arcLength);
 
 /// `points`: the strand at rest [m]; `arcs`: arc length of each edge [m].
-StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs, const Material& material,
-                                const Settings& settings);
+StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs,
+                                const Material& material, const Settings& settings);
 
 }  // namespace ringlet

@@ -22,17 +22,18 @@ enum class MotionKind {
 /// Position and orientation of the head as a smooth function of time.
 struct Motion {
   MotionKind kind = MotionKind::still;
-  Vec3d axis{1, 0, 0};     // unit vector: direction of travel, or axis of turning
-  double amplitude = 0.1;  // shake [m]; nod [rad]; spin [rad/s]; glide [m/s]
-  double frequency = 2;    // shake, nod [Hz]
+  Vec3d axis{1, 0, 0};        // unit vector: direction of travel, or axis of turning
+  double amplitude = 0.1;     // shake [m]; nod [rad]; spin [rad/s]; glide [m/s]
+  double frequency = 2;       // shake, nod [Hz]
   double easeSeconds = 0.25;  // shake, nod, spin: amplitude or speed grows smoothly from 0 over this time
-  Vec3d start{};                // position of the head at t = 0 [m]
+  Vec3d start{};              // position of the head at t = 0 [m]
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;
 };
 
-/// The motion a name stands for with its default size, for a head whose up axis is `up`; nothing for an unknown name.
+/// The motion a name stands for with its default size, for a head whose up axis is `up`; nothing for an
+/// unknown name.
 std::optional<Motion> motionByName(std::string_view name, Vec3d up);
 
 /// The names motionByName knows, separated by commas, for messages and --help.

@@ -1,4 +1,5 @@
-// Settings: how a scene is stepped. Everything here holds for a whole run; what a hair is made of is in rest/material.h.
+// Settings: how a scene is stepped. Everything here holds for a whole run; what a hair is made of is in
+// rest/material.h.
 #pragma once
 
 #include "ringlet/base/vec3.h"
@@ -13,17 +14,18 @@ enum class Integrator {
 };
 
 struct Settings {
-  double framesPerSecond = 24;      // [1/s]
-  int stepsPerFrame = 8;            // outer steps per frame; the step T is 1 / (framesPerSecond stepsPerFrame)
+  double framesPerSecond = 24;  // [1/s]
+  int stepsPerFrame = 8;        // outer steps per frame; the step T is 1 / (framesPerSecond stepsPerFrame)
   Integrator integrator = Integrator::jacobi;
-  Vec3d gravity{0, -9.81, 0};       // [m/s^2]
-  double gravityPreload = 1;        // share of gravity balanced in the rest pose, 0..1
-  double maxStretch = 1.1;          // longest an edge may become, as a multiple of the groom's edge; 1 is inextensible
-  int rootCount = 1;                // particles at the root that follow the head, 1..3
-  int pointIterations = 100;        // pointJacobi: iterations per outer step
-  bool chebyshev = true;            // pointJacobi: Chebyshev-accelerated rather than plain
-  int forceLoops = 15;              // paper: force loops per outer step
-  int dampingLoops = 10;            // paper: damping loops per force loop
+  Vec3d gravity{0, -9.81, 0};  // [m/s^2]
+  double gravityPreload = 1;   // share of gravity balanced in the rest pose, 0..1
+  double maxStretch =
+      1.1;            // longest an edge may become, as a multiple of the groom's edge; 1 is inextensible
+  int rootCount = 1;  // particles at the root that follow the head, 1..3
+  int pointIterations = 100;  // pointJacobi: iterations per outer step
+  bool chebyshev = true;      // pointJacobi: Chebyshev-accelerated rather than plain
+  int forceLoops = 15;        // paper: force loops per outer step
+  int dampingLoops = 10;      // paper: damping loops per force loop
 
   double stepSeconds() const { return 1 / (framesPerSecond * stepsPerFrame); }
 };

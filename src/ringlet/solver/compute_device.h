@@ -8,23 +8,26 @@
 #include "ringlet/base/result.h"
 
 namespace ringlet {
-namespace gpu { class Device; }
+namespace gpu {
+class Device;
+}
 
 /// One line of `ringlet devices`.
 struct DeviceSummary {
   int index = 0;
-  std::string name;    // as the driver states it
-  std::string type;    // discrete, integrated, virtual, cpu, other
-  std::string driver;  // name and version
-  bool usable = false; // has a compute queue and the limits the solver needs
-  std::string why;     // if not usable: what is missing
+  std::string name;     // as the driver states it
+  std::string type;     // discrete, integrated, virtual, cpu, other
+  std::string driver;   // name and version
+  bool usable = false;  // has a compute queue and the limits the solver needs
+  std::string why;      // if not usable: what is missing
 };
 
 /// Cheap to copy; the device closes with its last copy.
 class ComputeDevice {
  public:
-  /// Opens the device `choice` names, by part of its name or by index; an empty choice takes $RINGLET_DEVICE, else the
-  /// best (discrete, then integrated, then virtual, then CPU). Fails where there is no Vulkan or no such device.
+  /// Opens the device `choice` names, by part of its name or by index; an empty choice takes $RINGLET_DEVICE,
+  /// else the best (discrete, then integrated, then virtual, then CPU). Fails where there is no Vulkan or no
+  /// such device.
   static Result<ComputeDevice> open(const std::string& choice = "");
 
   /// All devices, best first by index order of the driver. Empty where there is no Vulkan.
@@ -33,7 +36,8 @@ class ComputeDevice {
   std::string name() const;
   std::string driver() const;
 
-  /// Messages of the validation layer so far (it is on when RINGLET_VALIDATION=1); a correct program has none.
+  /// Messages of the validation layer so far (it is on when RINGLET_VALIDATION=1); a correct program has
+  /// none.
   std::vector<std::string> validationMessages() const;
 
   gpu::Device& gpu() const { return *device_; }

@@ -26,7 +26,8 @@ Result<Buffer> createZero(gpu::Device& device, std::uint64_t bytes, const std::s
 
 }  // namespace
 
-Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest, std::uint64_t scratchRecords) {
+Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
+                                        std::uint64_t scratchRecords) {
   const std::uint64_t stateBytes = rest.points.size() * sizeof(layout::vec4);
   auto positions = createZero(device, stateBytes, "positions");
   if (!positions) return positions.error();
@@ -40,10 +41,12 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
   if (!reports) return reports.error();
   auto scratch = createZero(device, scratchRecords * sizeof(layout::vec4), "scratch");
   if (!scratch) return scratch.error();
-  auto poses = Buffer::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), BufferKind::stream, "poses");
+  auto poses =
+      Buffer::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), BufferKind::stream, "poses");
   if (!poses) return poses.error();
-  return DeviceGroom{std::move(*positions), std::move(*velocities), std::move(*particles), std::move(*strands),
-                     std::move(*reports),   std::move(*scratch),    std::move(*poses)};
+  return DeviceGroom{std::move(*positions), std::move(*velocities), std::move(*particles),
+                     std::move(*strands),   std::move(*reports),    std::move(*scratch),
+                     std::move(*poses)};
 }
 
 std::span<layout::StepPose> DeviceGroom::mappedPoses() const {

@@ -1,5 +1,5 @@
-// DeviceGroom: the buffers of one groom on one device, and the ways in and out of them. Constant and changing data never
-// share a buffer; all upload at creation and in setState, all download here.
+// DeviceGroom: the buffers of one groom on one device, and the ways in and out of them. Constant and changing
+// data never share a buffer; all upload at creation and in setState, all download here.
 #pragma once
 
 #include <array>
@@ -34,7 +34,8 @@ std::vector<To> inGroomOrder(const RestState& rest, std::span<const From> device
   std::vector<To> values(deviceValues.size());
   for (std::size_t s = 0; s < rest.strands.size(); ++s) {
     const std::size_t from = rest.strands[s].firstParticle, to = rest.firstInGroom[s];
-    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i) values[to + i] = convert(deviceValues[from + i]);
+    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
+      values[to + i] = convert(deviceValues[from + i]);
   }
   return values;
 }
@@ -43,7 +44,8 @@ std::vector<To> inDeviceOrder(const RestState& rest, std::span<const From> groom
   std::vector<To> values(groomValues.size());
   for (std::size_t s = 0; s < rest.strands.size(); ++s) {
     const std::size_t to = rest.strands[s].firstParticle, from = rest.firstInGroom[s];
-    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i) values[to + i] = convert(groomValues[from + i]);
+    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
+      values[to + i] = convert(groomValues[from + i]);
   }
   return values;
 }
@@ -52,7 +54,8 @@ std::vector<To> inDeviceOrder(const RestState& rest, std::span<const From> groom
 template <class T>
 Result<std::vector<T>> downloadAll(const gpu::Buffer& buffer, std::size_t count, std::uint64_t offset = 0) {
   std::vector<T> values(count);
-  if (Status status = buffer.download(std::as_writable_bytes(std::span(values)), offset * sizeof(T)); !status) {
+  if (Status status = buffer.download(std::as_writable_bytes(std::span(values)), offset * sizeof(T));
+      !status) {
     return status.error();
   }
   return values;

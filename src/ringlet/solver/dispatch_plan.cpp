@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint32_t kRuns[] = {4, 8, 16};  // compiled run lengths
 
-// lavapipe ends every loop of an invocation once they have made 65,535 turns together, without a word. Others have no
-// such limit; theirs is a dispatch short enough not to be taken for a hang.
+// lavapipe ends every loop of an invocation once they have made 65,535 turns together, without a word. Others
+// have no such limit; theirs is a dispatch short enough not to be taken for a hang.
 std::uint64_t loopBudget(const DeviceLimits& limits) { return limits.isCpu ? 65000 : 4'000'000; }
 
 // Turns of loops, at most: what one step costs besides its solve's outer loops, and what one of those costs.
@@ -40,9 +40,10 @@ LoopCost loopCost(const StrandRange& range, const Settings& settings) {
   return cost;
 }
 
-// Cuts a frame's steps for one range into pieces within the budget: several steps a dispatch where they fit, else one,
-// else (serial form only) one step in several.
-Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits, const Settings& settings) {
+// Cuts a frame's steps for one range into pieces within the budget: several steps a dispatch where they fit,
+// else one, else (serial form only) one step in several.
+Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits,
+                                               const Settings& settings) {
   const std::uint64_t budget = loopBudget(limits);
   const LoopCost cost = loopCost(range, settings);
   const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
@@ -52,20 +53,28 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
   if (whole <= budget) {
     const std::uint32_t stepsAtOnce = static_cast<std::uint32_t>(budget / whole);
     for (std::uint32_t s = 0; s < steps; s += stepsAtOnce) {
-      pieces.push_back({.stepBegin = s, .stepEnd = std::min(steps, s + stepsAtOnce), .phases = layout::kPhaseAll, .loopEnd = loops});
+      pieces.push_back({.stepBegin = s,
+                        .stepEnd = std::min(steps, s + stepsAtOnce),
+                        .phases = layout::kPhaseAll,
+                        .loopEnd = loops});
     }
     return pieces;
   }
   if (!range.shape.serial() || cost.step > budget || cost.perSolveLoop > budget) {
-    return Error{fmt::format("a strand of {} particles needs {} loop turns for one step of this integrator; this device allows "
-                             "{} in a dispatch. Use the jacobi integrator, fewer iterations or the reference backend",
-                             range.longest, whole, budget)};
+    return Error{fmt::format(
+        "a strand of {} particles needs {} loop turns for one step of this integrator; this device allows "
+        "{} in a dispatch. Use the jacobi integrator, fewer iterations or the reference backend",
+        range.longest, whole, budget)};
   }
-  const std::uint32_t loopsAtOnce = static_cast<std::uint32_t>(budget / std::max<std::uint64_t>(1, cost.perSolveLoop));
+  const std::uint32_t loopsAtOnce =
+      static_cast<std::uint32_t>(budget / std::max<std::uint64_t>(1, cost.perSolveLoop));
   for (std::uint32_t s = 0; s < steps; ++s) {
     pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseSprings});
     for (std::uint32_t l = 0; l < loops; l += loopsAtOnce) {
-      pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseSolve, .loopBegin = l,
+      pieces.push_back({.stepBegin = s,
+                        .stepEnd = s + 1,
+                        .phases = layout::kPhaseSolve,
+                        .loopBegin = l,
                         .loopEnd = std::min(loops, l + loopsAtOnce)});
     }
     pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseMove});
@@ -81,10 +90,12 @@ std::string StrandShape::describe() const {
 
 StrandShape chooseShape(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice) {
   if (choice.form == KernelChoice::Form::serial || !limits.hasSubgroupShuffle) return {};
-  // lavapipe is fastest with long runs, where little is done twice; a GPU wants many short ones, for its registers.
-  const std::uint32_t preferred = choice.particlesPerLane > 0 ? static_cast<std::uint32_t>(choice.particlesPerLane)
-                                  : limits.isCpu              ? 16
-                                                              : 4;
+  // lavapipe is fastest with long runs, where little is done twice; a GPU wants many short ones, for its
+  // registers.
+  const std::uint32_t preferred = choice.particlesPerLane > 0
+                                      ? static_cast<std::uint32_t>(choice.particlesPerLane)
+                                  : limits.isCpu ? 16
+                                                 : 4;
   for (std::uint32_t run : kRuns) {
     if (run < preferred || (choice.particlesPerLane > 0 && run != preferred)) continue;
     const std::uint32_t lanes = std::bit_ceil((particleCount + run - 1) / run);
@@ -93,18 +104,21 @@ StrandShape chooseShape(std::uint32_t particleCount, const DeviceLimits& limits,
   return {};
 }
 
-Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts, const DeviceLimits& limits,
-                                            const KernelChoice& choice) {
-  if (choice.particlesPerLane != 0 && std::find(std::begin(kRuns), std::end(kRuns), choice.particlesPerLane) == std::end(kRuns)) {
-    return Error{fmt::format("{} particles per lane was asked for; 4, 8 and 16 exist, 0 chooses", choice.particlesPerLane)};
+Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
+                                            const DeviceLimits& limits, const KernelChoice& choice) {
+  if (choice.particlesPerLane != 0 &&
+      std::find(std::begin(kRuns), std::end(kRuns), choice.particlesPerLane) == std::end(kRuns)) {
+    return Error{fmt::format("{} particles per lane was asked for; 4, 8 and 16 exist, 0 chooses",
+                             choice.particlesPerLane)};
   }
   std::vector<StrandRange> ranges;
   for (std::uint32_t s = 0; s < particleCounts.size(); ++s) {
     const StrandShape shape = chooseShape(particleCounts[s], limits, choice);
     if (choice.form == KernelChoice::Form::lanes && shape.serial()) {
-      return Error{fmt::format("the lanes form was asked for, but a strand of {} particles does not fit: this device has "
-                               "subgroups of {}{}. Leave the choice to ringlet or ask for the serial form",
-                               particleCounts[s], limits.subgroupSize, limits.hasSubgroupShuffle ? "" : " without shuffles")};
+      return Error{fmt::format(
+          "the lanes form was asked for, but a strand of {} particles does not fit: this device has "
+          "subgroups of {}{}. Leave the choice to ringlet or ask for the serial form",
+          particleCounts[s], limits.subgroupSize, limits.hasSubgroupShuffle ? "" : " without shuffles")};
     }
     if (ranges.empty() || ranges.back().shape != shape) ranges.push_back({shape, s, s, 0});
     ranges.back().end = s + 1;
@@ -113,8 +127,9 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
   return ranges;
 }
 
-Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges, const DeviceLimits& limits,
-                                               const Settings& settings, std::uint32_t groupSize) {
+Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
+                                               const DeviceLimits& limits, const Settings& settings,
+                                               std::uint32_t groupSize) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
     const StrandRange& range = ranges[r];
@@ -126,7 +141,8 @@ Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> rang
       for (PlannedDispatch piece : *steps) {
         piece.range = r;
         piece.strandBegin = static_cast<std::uint32_t>(begin);
-        piece.strandEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
+        piece.strandEnd =
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
         piece.groupCount = (piece.strandEnd - piece.strandBegin + strandsPerGroup - 1) / strandsPerGroup;
         plan.push_back(piece);
       }

@@ -1,5 +1,5 @@
-// How a groom is cut into dispatches: which strands run in which form of the strand kernel, and how many steps each
-// dispatch may do. Pure arithmetic, no device.
+// How a groom is cut into dispatches: which strands run in which form of the strand kernel, and how many
+// steps each dispatch may do. Pure arithmetic, no device.
 #pragma once
 
 #include <cstdint>
@@ -51,14 +51,15 @@ struct PlannedDispatch {
 /// The shape for a strand of this many particles; the serial one where no other fits.
 StrandShape chooseShape(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice);
 
-/// Ranges of equal shape. `particleCounts`: of the strands in device order, rising. Fails where the choice asks for
-/// lanes that the device or the strands do not allow.
-Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts, const DeviceLimits& limits,
-                                            const KernelChoice& choice);
+/// Ranges of equal shape. `particleCounts`: of the strands in device order, rising. Fails where the choice
+/// asks for lanes that the device or the strands do not allow.
+Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
+                                            const DeviceLimits& limits, const KernelChoice& choice);
 
-/// The dispatches of one frame, in order; those of one range depend on each other, those of different ranges do not.
-/// Fails where a step cannot be cut small enough for the device.
-Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges, const DeviceLimits& limits,
-                                               const Settings& settings, std::uint32_t groupSize);
+/// The dispatches of one frame, in order; those of one range depend on each other, those of different ranges
+/// do not. Fails where a step cannot be cut small enough for the device.
+Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
+                                               const DeviceLimits& limits, const Settings& settings,
+                                               std::uint32_t groupSize);
 
 }  // namespace ringlet

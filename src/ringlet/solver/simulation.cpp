@@ -16,7 +16,9 @@
 namespace ringlet {
 namespace {
 
-layout::vec4 packed(Vec3d v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0}; }
+layout::vec4 packed(Vec3d v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+}
 layout::vec4 packed(Vec3f v) { return {v.x, v.y, v.z, 0}; }
 layout::vec4 packed(Quatd q) {
   return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
@@ -71,8 +73,9 @@ struct Simulation::Implementation {
   Status placeAtRest();
 };
 
-Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom, const Material& material,
-                                      const Settings& settings, const HeadPose& start, const HeadPose& oneStepEarlier,
+Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom,
+                                      const Material& material, const Settings& settings,
+                                      const HeadPose& start, const HeadPose& oneStepEarlier,
                                       const KernelChoice& choice) {
   auto rest = buildRestState(groom, material, settings);
   if (!rest) return rest.error();
@@ -85,19 +88,32 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   auto plan = planFrame(*ranges, limits, settings, kStrandGroupSize);
   if (!plan) return plan.error();
 
-  const bool anySerial = std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
+  const bool anySerial =
+      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
   const std::uint64_t scratchPerParticle =
       (anySerial ? layout::kScratchPerParticle : 0) + (choice.taps ? layout::kTapCount : 0);
   auto buffers = DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle);
   if (!buffers) return buffers.error();
 
-  std::unique_ptr<Implementation> self(new Implementation{
-      device, std::move(*rest), settings, material, choice, {oneStepEarlier, start}, std::move(*buffers),
-      std::move(*ranges), std::move(*plan), {}, {}, {}, 0, {}});
+  std::unique_ptr<Implementation> self(new Implementation{device,
+                                                          std::move(*rest),
+                                                          settings,
+                                                          material,
+                                                          choice,
+                                                          {oneStepEarlier, start},
+                                                          std::move(*buffers),
+                                                          std::move(*ranges),
+                                                          std::move(*plan),
+                                                          {},
+                                                          {},
+                                                          {},
+                                                          0,
+                                                          {}});
   const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   for (const StrandRange& range : self->ranges) {
-    auto kernel = createStrandKernel(device.gpu(), range.shape, {settings.integrator, oneSmoothing, choice.taps});
+    auto kernel =
+        createStrandKernel(device.gpu(), range.shape, {settings.integrator, oneSmoothing, choice.taps});
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
     if (!bindings) return bindings.error();
@@ -141,8 +157,10 @@ Status Simulation::Implementation::recordFrame() {
   recorder->beginStage("strand_step");
   for (std::size_t d = 0; d < plan.size(); ++d) {
     // Only dispatches on the same strands depend on each other.
-    if (d > 0 && plan[d].range == plan[d - 1].range && plan[d].strandBegin == plan[d - 1].strandBegin) recorder->barrier();
-    recorder->dispatch(kernels[plan[d].range], bindings[plan[d].range], parametersOf(plan[d]), plan[d].groupCount);
+    if (d > 0 && plan[d].range == plan[d - 1].range && plan[d].strandBegin == plan[d - 1].strandBegin)
+      recorder->barrier();
+    recorder->dispatch(kernels[plan[d].range], bindings[plan[d].range], parametersOf(plan[d]),
+                       plan[d].groupCount);
   }
   recorder->endStage();
   frame = std::move(*recorder);
@@ -185,10 +203,12 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 Status Simulation::stepFrame(std::span<const HeadPose> stepPoses) {
-  RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame), "stepFrame takes one pose per outer step");
+  RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame),
+                 "stepFrame takes one pose per outer step");
   self_->writePoses(stepPoses);
   if (Status status = self_->frame->submitAndWait(); !status) return status;
-  for (const auto& [stage, milliseconds] : self_->frame->stageMilliseconds()) self_->stageMilliseconds[stage] += milliseconds;
+  for (const auto& [stage, milliseconds] : self_->frame->stageMilliseconds())
+    self_->stageMilliseconds[stage] += milliseconds;
   self_->stepsDone += stepPoses.size();
   return {};
 }
@@ -218,7 +238,8 @@ Result<HairState> Simulation::state() const {
 
 Status Simulation::setState(const HairState& state) {
   const std::size_t count = self_->rest.points.size();
-  RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count, "a state has one position and velocity a particle");
+  RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count,
+                 "a state has one position and velocity a particle");
   const auto pack = [](Vec3f v) { return packed(v); };
   return self_->uploadState(inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.positions, pack),
                             inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.velocities, pack));
@@ -253,12 +274,14 @@ const std::vector<std::string>& Simulation::warnings() const { return self_->res
 std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }
 
 Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) const {
-  RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount, "taps are written only with KernelChoice::taps");
+  RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount,
+                 "taps are written only with KernelChoice::taps");
   const std::size_t count = self_->rest.points.size();
   auto values = downloadAll<layout::vec4>(self_->buffers.scratch, count, field * count);
   if (!values) return values.error();
-  return inGroomOrder<std::array<float, 4>, layout::vec4>(
-      self_->rest, *values, [](layout::vec4 v) { return std::array<float, 4>{v.x, v.y, v.z, v.w}; });
+  return inGroomOrder<std::array<float, 4>, layout::vec4>(self_->rest, *values, [](layout::vec4 v) {
+    return std::array<float, 4>{v.x, v.y, v.z, v.w};
+  });
 }
 
 std::string Simulation::kernelDescription() const {

@@ -1,5 +1,5 @@
-// Simulation: one groom on one device. Everything is uploaded at creation; a frame costs one submission and no traffic
-// but the head's poses; positions come back when asked for.
+// Simulation: one groom on one device. Everything is uploaded at creation; a frame costs one submission and
+// no traffic but the head's poses; positions come back when asked for.
 #pragma once
 
 #include <array>
@@ -22,12 +22,12 @@ namespace ringlet {
 
 /// What happened to the numbers since the simulation began.
 struct SimulationReport {
-  double maxEdgeStretch = 0;        // longest edge over the groom's edge, over every outer step
-  double limitedShare = 0;          // share of edges (times steps) the stretch limit touched
-  std::uint64_t nonfinite = 0;      // particles whose position or velocity is not finite now
+  double maxEdgeStretch = 0;               // longest edge over the groom's edge, over every outer step
+  double limitedShare = 0;                 // share of edges (times steps) the stretch limit touched
+  std::uint64_t nonfinite = 0;             // particles whose position or velocity is not finite now
   std::int64_t firstNonfiniteStrand = -1;  // strand (groom order) and particle of the first of them, or -1
   std::int64_t firstNonfiniteParticle = -1;
-  std::uint64_t degenerateEdges = 0;       // edges (times steps) that had no direction
+  std::uint64_t degenerateEdges = 0;  // edges (times steps) that had no direction
 };
 
 /// Particles' positions and velocities, in groom order, relative to the head's origin and its translation,
@@ -42,17 +42,17 @@ struct KernelChoice {
   enum class Form { automatic, lanes, serial };
   Form form = Form::automatic;  // lanes x run with the star join, or one thread per strand
   int particlesPerLane = 0;     // 4, 8 or 16; 0: choose
-  bool taps = false;            // write every intermediate of the last step (Simulation::tap); slower, for tests
+  bool taps = false;  // write every intermediate of the last step (Simulation::tap); slower, for tests
 };
 
 class Simulation {
  public:
-  /// Uploads a groom. The head starts at `start`, coming from `oneStepEarlier` (one outer step before), and the hair
-  /// moves with it. Fails, with what to do, on settings out of range, on a groom with fewer than one strand or with
-  /// non-finite points, and when the device lacks memory.
+  /// Uploads a groom. The head starts at `start`, coming from `oneStepEarlier` (one outer step before), and
+  /// the hair moves with it. Fails, with what to do, on settings out of range, on a groom with fewer than one
+  /// strand or with non-finite points, and when the device lacks memory.
   static Result<Simulation> create(const ComputeDevice& device, const Groom& groom, const Material& material,
-                                   const Settings& settings, const HeadPose& start, const HeadPose& oneStepEarlier,
-                                   const KernelChoice& kernel = {});
+                                   const Settings& settings, const HeadPose& start,
+                                   const HeadPose& oneStepEarlier, const KernelChoice& kernel = {});
   static Result<Simulation> create(const ComputeDevice& device, const Groom& groom, const Material& material,
                                    const Settings& settings, const HeadPose& start = {}) {
     return create(device, groom, material, settings, start, start);
@@ -66,7 +66,8 @@ class Simulation {
   /// The same with the poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
-  /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position + p.
+  /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
+  /// p.
   Result<std::vector<Vec3f>> positions() const;
   /// Positions and velocities, for a checkpoint; setState puts one back.
   Result<HairState> state() const;
@@ -74,12 +75,14 @@ class Simulation {
 
   const HeadPose& head() const;
   Result<SimulationReport> report() const;
-  /// Things the user should know of (a core spring capped for this step, gravity preload too large), a sentence each.
+  /// Things the user should know of (a core spring capped for this step, gravity preload too large), a
+  /// sentence each.
   const std::vector<std::string>& warnings() const;
-  /// Milliseconds spent on the device, by stage, summed over all frames; by GPU timestamps where the device has them.
+  /// Milliseconds spent on the device, by stage, summed over all frames; by GPU timestamps where the device
+  /// has them.
   std::map<std::string, double> stageMilliseconds() const;
-  /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i); `field` is
-  /// one of layout.h's kTap... Needs KernelChoice::taps.
+  /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
+  /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
   /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".
   std::string kernelDescription() const;

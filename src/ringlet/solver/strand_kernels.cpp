@@ -19,33 +19,43 @@ namespace ringlet {
 namespace {
 
 std::span<const std::uint32_t> spirvOf(const StrandShape& shape, bool taps) {
-  if (shape.serial()) return taps ? std::span<const std::uint32_t>(k_strand_step_serial_taps) : k_strand_step_serial_plain;
+  if (shape.serial())
+    return taps ? std::span<const std::uint32_t>(k_strand_step_serial_taps) : k_strand_step_serial_plain;
   switch (shape.particlesPerLane) {
-    case 4: return taps ? std::span<const std::uint32_t>(k_strand_step_run4_taps) : k_strand_step_run4;
-    case 8: return taps ? std::span<const std::uint32_t>(k_strand_step_run8_taps) : k_strand_step_run8;
-    default: return taps ? std::span<const std::uint32_t>(k_strand_step_run16_taps) : k_strand_step_run16;
+    case 4:
+      return taps ? std::span<const std::uint32_t>(k_strand_step_run4_taps) : k_strand_step_run4;
+    case 8:
+      return taps ? std::span<const std::uint32_t>(k_strand_step_run8_taps) : k_strand_step_run8;
+    default:
+      return taps ? std::span<const std::uint32_t>(k_strand_step_run16_taps) : k_strand_step_run16;
   }
 }
 
 std::uint32_t integratorConstant(Integrator integrator) {
   switch (integrator) {
-    case Integrator::jacobi: return layout::kIntegratorJacobi;
-    case Integrator::pointJacobi: return layout::kIntegratorPointJacobi;
-    case Integrator::paper: return layout::kIntegratorPaper;
+    case Integrator::jacobi:
+      return layout::kIntegratorJacobi;
+    case Integrator::pointJacobi:
+      return layout::kIntegratorPointJacobi;
+    case Integrator::paper:
+      return layout::kIntegratorPaper;
   }
   return layout::kIntegratorJacobi;
 }
 
 }  // namespace
 
-Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape, const StrandKernelOptions& options) {
+Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
+                                       const StrandKernelOptions& options) {
   using enum gpu::BindingKind;
   gpu::KernelDescription description;
   description.name = "strand_step " + shape.describe();
   description.spirv = spirvOf(shape, options.taps);
   description.bindings = {storage, storage, storage, storage, storage, storage, uniform};
   description.pushConstantBytes = sizeof(layout::StepParameters);
-  description.constants = {{0, kStrandGroupSize}, {2, integratorConstant(options.integrator)}, {3, options.oneSmoothing ? 1u : 0u}};
+  description.constants = {{0, kStrandGroupSize},
+                           {2, integratorConstant(options.integrator)},
+                           {3, options.oneSmoothing ? 1u : 0u}};
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});

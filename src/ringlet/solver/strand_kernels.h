@@ -21,6 +21,7 @@ struct StrandKernelOptions {
   bool taps = false;
 };
 
-Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape, const StrandKernelOptions& options);
+Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
+                                       const StrandKernelOptions& options);
 
 }  // namespace ringlet

@@ -13,9 +13,11 @@ int main() {
   if (!simulation) return std::puts(simulation.error().message.c_str()), 1;
   const auto shake = *ringlet::motionByName("shake", {0, 1, 0});
   for (int frame = 1; frame <= 24; ++frame) {
-    if (auto status = simulation->stepFrame(shake.poseAt(frame / 24.0)); !status) return std::puts(status.error().message.c_str()), 1;
+    if (auto status = simulation->stepFrame(shake.poseAt(frame / 24.0)); !status)
+      return std::puts(status.error().message.c_str()), 1;
   }
   const auto positions = simulation->positions();  // metres, groom order, relative to simulation->head()
   if (!positions) return std::puts(positions.error().message.c_str()), 1;
-  std::printf("%zu strands on %s; the last tip is at y = %.3f m\n", groom->strandCount(), device->name().c_str(), positions->back().y);
+  std::printf("%zu strands on %s; the last tip is at y = %.3f m\n", groom->strandCount(),
+              device->name().c_str(), positions->back().y);
 }
