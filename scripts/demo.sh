@@ -10,7 +10,7 @@ cmake --build --preset release
 out=${1:-out/demo}
 mkdir -p "$out"
 build/release/ringlet make head -o "$out/head.obj"
-build/release/ringlet simulate "$out/head.obj" --motion shake --frames 48 -o "$out"
+build/release/ringlet simulate "$out/head.obj" --motion shake --amplitude 0.04 --frames 48 -o "$out"
 echo
 echo "Results are in $PWD/$out:"
 echo "  sheet.png   six frames side by side"

@@ -48,7 +48,8 @@ class Backend {
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
                                                 const KernelChoice& kernel);
 
-/// The reference in double precision, on one thread. Trusts that the groom came from readGroom and is sound.
-std::unique_ptr<Backend> makeReferenceBackend(const BackendInput& input);
+/// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
+/// warns of.
+Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input);
 
 }  // namespace ringlet::program

@@ -3,14 +3,16 @@
 
 #include "program/backend.h"
 #include "reference/step.h"
+#include "ringlet/rest/rest_state.h"
 
 namespace ringlet::program {
 namespace {
 
 class ReferenceBackend : public Backend {
  public:
-  explicit ReferenceBackend(const BackendInput& input)
-      : simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier) {}
+  ReferenceBackend(const BackendInput& input, std::vector<std::string> warnings)
+      : warnings_(std::move(warnings)),
+        simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier) {}
 
   Status stepFrame(std::span<const HeadPose> stepPoses) override {
     const auto start = std::chrono::steady_clock::now();
@@ -38,20 +40,23 @@ class ReferenceBackend : public Backend {
   std::map<std::string, double> stageMilliseconds() const override {
     return {{"strand_step", milliseconds_}};
   }
-  std::vector<std::string> warnings() const override { return {}; }
+  std::vector<std::string> warnings() const override { return warnings_; }
   std::string device() const override { return "CPU, one thread"; }
   std::string driver() const override { return "none"; }
   std::string kernel() const override { return "reference, double precision"; }
 
  private:
+  std::vector<std::string> warnings_;
   reference::Simulation<double> simulation_;
   double milliseconds_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Backend> makeReferenceBackend(const BackendInput& input) {
-  return std::make_unique<ReferenceBackend>(input);
+Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input) {
+  auto rest = buildRestState(input.groom, input.material, input.settings);
+  if (!rest) return rest.error();
+  return std::unique_ptr<Backend>(std::make_unique<ReferenceBackend>(input, std::move(rest->warnings)));
 }
 
 }  // namespace ringlet::program

@@ -43,7 +43,7 @@ struct Typed {
   SimulateOptions options;
   std::string integrator = "jacobi", motion = "shake", up = "Y", backend = "gpu", kernel = "auto";
   std::optional<int> stepsPerFrame;
-  std::optional<double> preload;
+  std::optional<double> preload, amplitude, frequency;
   double gravity = 9.81;
   bool noChebyshev = false, json = false, quiet = false;
   bool iterationsGiven = false;
@@ -57,6 +57,8 @@ void resolve(Typed& typed) {
   const Vec3d up = options.up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
   settings.gravity = up * -typed.gravity;
   options.motion = motionByName(typed.motion, up).value();
+  options.motion.amplitude = typed.amplitude.value_or(options.motion.amplitude);
+  options.motion.frequency = typed.frequency.value_or(options.motion.frequency);
 
   // The paper's own scheme is explicit: it needs short steps, and knows no preload.
   const bool isPaper = typed.integrator == "paper", isPoint = typed.integrator == "point_jacobi";
@@ -99,7 +101,7 @@ nlohmann::ordered_json asJson(const Typed& typed, const SimulateOutcome& outcome
   json["particles"] = outcome.particleCount;
   json["ms_per_frame"] = outcome.millisecondsPerFrame;
   json["stages_ms"] = outcome.stages;
-  json["max_edge_stretch"] = outcome.report.maxEdgeStretch;
+  json["max_edge_stretch"] = outcome.report.maxEdgeStretch;  // null where it is not finite
   json["limited_share"] = outcome.report.limitedShare;
   json["nonfinite"] = outcome.report.nonfinite;
   json["device"] = outcome.device;
@@ -207,6 +209,17 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command->add_option("--motion", typed->motion, "How the head moves: " + motionNames() + " (default shake)")
       ->check(oneOf(motionNameList()))
       ->type_name("NAME")
+      ->group(scene);
+  command
+      ->add_option("--amplitude", typed->amplitude,
+                   "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "
+                   "glide metres/s (1)")
+      ->check(between(-1000, 1000))
+      ->type_name("A")
+      ->group(scene);
+  command->add_option("--frequency", typed->frequency, "Shakes (default 2) or nods (default 1) per second")
+      ->check(between(0, 1000))
+      ->type_name("HZ")
       ->group(scene);
   command
       ->add_option("--unit", options.metresPerUnit,

@@ -15,6 +15,10 @@ inline constexpr double kOneStepOfLongStrands = 5.6e-6;
 // length: float positions have 3e-8 of it, the springs carry the error of one step into the next.
 inline constexpr double kOneFrame = 1e-5;
 
+// A second of shaking, tips, share of the arc length: the error of a frame, carried by springs that neither damp it at
+// once nor let it grow.
+inline constexpr double kOneSecond = 1e-5;
+
 // Lying still: how far a particle may wander in 10 s, share of the arc length.
 inline constexpr double kAtRest = 1e-5;
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
@@ -265,6 +266,7 @@ Result<SimulationReport> Simulation::report() const {
       total.firstNonfiniteParticle = r.firstNonfinite;
     }
   }
+  if (total.nonfinite > 0) total.maxEdgeStretch = std::numeric_limits<double>::infinity();
   const double edgeSteps = static_cast<double>(edges) * static_cast<double>(self_->stepsDone);
   total.limitedShare = edgeSteps > 0 ? static_cast<double>(limited) / edgeSteps : 0;
   return total;

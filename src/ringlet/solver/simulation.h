@@ -22,7 +22,7 @@ namespace ringlet {
 
 /// What happened to the numbers since the simulation began.
 struct SimulationReport {
-  double maxEdgeStretch = 0;               // longest edge over the groom's edge, over every outer step
+  double maxEdgeStretch = 0;               // longest edge over the groom's edge, over every outer step; infinite once numbers are lost
   double limitedShare = 0;                 // share of edges (times steps) the stretch limit touched
   std::uint64_t nonfinite = 0;             // particles whose position or velocity is not finite now
   std::int64_t firstNonfiniteStrand = -1;  // strand (groom order) and particle of the first of them, or -1
