@@ -1,6 +1,6 @@
 // The rest state of one strand: its constants per edge, masses, rest targets and preload. The reference's own
 // derivation from groom points and material; a test compares it with ringlet/rest, whose job is the same, so
-// that a fault there cannot hide. Section numbers are method.md's; "(3.1)" and the like are Iben et al. 2012.
+// that a fault there cannot hide. Numbers like "(3.1)" are sections of Iben et al. 2012.
 #pragma once
 
 #include <algorithm>

@@ -4,15 +4,15 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh
-cmake --preset release -DRINGLET_BUILD_TESTS=OFF -DRINGLET_BUILD_BENCHMARKS=OFF
-cmake --build --preset release
+cmake --preset release
+cmake --build --preset release --target ringlet_program
 
 out=${1:-out/demo}
 mkdir -p "$out"
 build/release/ringlet make head -o "$out/head.obj"
 build/release/ringlet simulate "$out/head.obj" --motion shake --amplitude 0.04 --frames 48 -o "$out"
 echo
-echo "Results are in $PWD/$out:"
+echo "Results are in $(realpath "$out"):"
 echo "  sheet.png   six frames side by side"
 echo "  hair.usda   the animation, for usdview, Houdini, Blender 4 and others"
 echo "  last.obj    the last frame as OBJ polylines"

@@ -26,7 +26,7 @@ Vector3<Real> bendDamping(Real damping, const Vector3<Real>& velocityDifference,
   return damping * (velocityDifference - velocityDifference.dot(direction) * direction);
 }
 
-/// Backward Euler damps by itself, as T k_b would: take that off c_b, but keep half. [choice] method.md 7.
+/// Backward Euler damps by itself, as T k_b would: take that off c_b, but keep half. Our choice.
 inline double compensatedBendDamping(double damping, double stiffness, double stepSeconds) {
   return std::max(damping - stepSeconds * stiffness, damping / 2);
 }

@@ -6,7 +6,7 @@
 //
 // Nonlinear (same section): both constants are scaled, per strand, by how far the core is elongated.
 // Deviation: the implicit integrators put h on the particles through the transpose of the smoothing
-// (smoothing.h), not on edge i, which would be no gradient and pump energy (method.md 5).
+// (smoothing.h), not on edge i, which would be no gradient and pump energy.
 #pragma once
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 //     d_i = 2(1-beta) d_{i-1} - (1-beta)^2 d_{i-2} + beta^2 x_i        beta = 1 - exp(-l / alpha)
 //
 // written as the cascade a += beta (x_i - a), d += beta (a - d): the expanded form above loses float
-// (method.md 3). Deviation: the start is the caller's (the rest first edge carried by the root frame), not
+//. Deviation: the start is the caller's (the rest first edge carried by the root frame), not
 // x_0, which would put a hinge at the root.
 #pragma once
 
@@ -36,7 +36,7 @@ void smooth(const Field<Real>& x, std::type_identity_t<Real> beta,
 }
 
 /// The transpose of `smooth` with zero start: sum smooth(x)_i . h_i = sum x_i . spread_i for every x.
-/// The same cascade from the tip, zero beyond it. [choice] method.md 5, "transposed core".
+/// The same cascade from the tip, zero beyond it. Our choice ("transposed core").
 template <class Real>
 void smoothTransposed(const Field<Real>& h, std::type_identity_t<Real> beta, Field<Real>& spread) {
   spread.resize(h.size());

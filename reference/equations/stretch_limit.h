@@ -1,6 +1,6 @@
 // The limit on an edge's length, and on its rate. Mirrors shaders/equations/stretch_limit.glsl.
 // Iben et al. 2012, section 3.1: root to tip, an edge that is too long is shortened, and in the damping loops
-// one that lengthens too fast is slowed. The paper gives no formula. [choice] method.md 2: all edges as they
+// one that lengthens too fast is slowed. The paper gives no formula. Our choice: all edges as they
 // are before limiting, so that the shifts are a sum along the strand.
 //
 //     shift = 0 up to the last pinned particle;   shift_{i+1} = shift_i + (min(1, s_max l_i / |e_i|) - 1) e_i

@@ -1,6 +1,6 @@
 // One outer step of one strand, all three integrators. Mirrors shaders/kernels/strand_step.comp.
 // Positions are relative to the head's origin, along world axes; velocities relative to the head's
-// translation. Iben et al. 2012, section 5; the implicit solve is ours (method.md 7).
+// translation. Iben et al. 2012, section 5; the implicit solve is ours.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // One step of the strand's exact solve, from the tip: eliminates particle i+1 across edge i. Subtraction-free where it
-// matters: assembling A + P and inverting would lose the mass to cancellation in float32 (method.md, section 7).
-// The reference does it the plain way, by block Cholesky in double: reference/equations/strand_solve.h.
+// matters: assembling A + P and inverting would lose the mass to cancellation in float32.
+// The reference does it the plain way, by block Cholesky in double: reference/strand_solve.h.
 #ifndef RINGLET_ELIMINATE_EDGE
 #define RINGLET_ELIMINATE_EDGE
 

@@ -1,11 +1,11 @@
 // What an edge adds to the implicit velocity solve (M + T C + T² K) v⁺ = M v + T f (our choice; the paper, section 5,
 // loops explicitly): the matrix across I + along ê êᵀ between its two particles. Mirrored by
-// reference/equations/implicit_edge.h.
+// assembleSystem in reference/kernels/strand_step.h.
 #ifndef RINGLET_IMPLICIT_EDGE
 #define RINGLET_IMPLICIT_EDGE
 
 struct ImplicitEdge {
-  vec3 direction;  // ê, a unit vector even where the edge is void
+  vec3 direction;  // ê; zero for an edge without length
   float along;     // stretch beyond bending [mass unit]
   float across;    // bending [mass unit]; positive for a real edge, 0 for a void one
 };
@@ -14,7 +14,6 @@ struct ImplicitEdge {
 ImplicitEdge implicitEdge(vec3 direction, float T, float stretchStiffness, float stretchDamping, float bendStiffness,
                           float bendDamping) {
   float along = max(0.0, T * (stretchDamping + T * stretchStiffness - bendDamping));
-  // The elimination needs a positive part across; 1e-6 of the mass changes nothing that can be seen.
   return ImplicitEdge(direction, along, T * (bendDamping + T * bendStiffness));
 }
 

@@ -41,6 +41,7 @@ float coreScale;    // blend of the core's constants
 float maxStretch = 0.0;
 uint limitedEdges = 0;
 uint degenerateEdges = 0;
+float velocityResidual = 0.0;
 
 bool isParticle(int k) { return first + k < strand.particleCount; }
 bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
@@ -173,14 +174,17 @@ vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN -
 #include "integrators/jacobi.glsl"
 #include "integrators/paper.glsl"
 #include "integrators/point_jacobi.glsl"
+#include "integrators/residual.glsl"
 
 void solveVelocities(uint step) {
   vec3 pinned[3];
   [[unroll]] for (int k = 0; k < 3; ++k) {
     pinned[k] = turningVelocity(step, rotate(rotationAtStart(step), pin(k)));
   }
+  vec3 before[RUN] = v;
   if (kIntegrator == kIntegratorJacobi) solveStrandBlock(pinned);
   if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
+  if (kMeasureResidual && kIntegrator != kIntegratorPaper) measureResidual(before);
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
@@ -198,7 +202,7 @@ void moveAndLimit(uint step) {
   vec3 shift = vec3(0);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     vec3 edge = e[k] + T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
-    float share = limitedEdgeShare(edge, restEdge[k].y);
+    float share = isPinned(k + 1) ? 0.0 : limitedEdgeShare(edge, restEdge[k].y);
     limitedEdges += share < 0.0 ? 1 : 0;
     e[k] = shift;  // of particle k; the edge itself is no longer needed
     shift += share * edge;
@@ -236,6 +240,7 @@ void storeStrand(uint strandIndex) {
     report.degenerateEdges += degenerateEdges;
     report.nonfiniteParticles = nonfinite;
     report.firstNonfinite = firstNonfinite;
+    report.velocityResidual = max(report.velocityResidual, velocityResidual);
     reports[strandIndex] = report;
   }
 }

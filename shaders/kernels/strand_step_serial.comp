@@ -24,12 +24,14 @@ const uint kOffset = 6;       // xyz z                                          
 const uint kInverse = 3;      // D⁻¹, two vec4s: diagonal, off-diagonal                           (point_jacobi)
 const uint kRightHandSide = 5;  // xyz                                                            (point_jacobi)
 const uint kChange = 6;       // xyz change of the velocity in the last iteration                 (point_jacobi)
+const uint kKeptRightHandSide = 7;  // xyz, for the residual                                      (jacobi, point_jacobi)
 const uint kCoreDirection = 3;  // xyz                                                            (paper)
 
 uint count;  // particles of the strand
 float maxStretch = 0.0;
 uint limitedEdges = 0;
 uint degenerateEdges = 0;
+float velocityResidual = 0.0;
 
 // With taps the scratch follows them in the same buffer.
 #ifdef RINGLET_TAPS
@@ -257,6 +259,20 @@ void loopAsThePaper() {
   }
 }
 
+// |r - L v| / |r| over the free particles; the right-hand sides are those kept before the solve.
+void measureResidual() {
+  float residualSquared = 0.0;
+  float rhsSquared = 0.0;
+  for (uint i = parameters.rootCount; i < count; ++i) {
+    vec3 rhs = scratchOf(i, kKeptRightHandSide);
+    vec3 residual = rhs - mass(i) * velocity(i) + multiply(implicitEdgeOf(i - 1), velocity(i - 1) - velocity(i));
+    if (i + 1 < count) residual += multiply(implicitEdgeOf(i), velocity(i + 1) - velocity(i));
+    residualSquared += dot(residual, residual);
+    rhsSquared += dot(rhs, rhs);
+  }
+  velocityResidual = max(velocityResidual, sqrt(residualSquared / max(rhsSquared, 1e-30)));
+}
+
 // Root to tip: p += T v, then the stretch limit with the edges as they are before limiting. The moved edges come from
 // edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
 void moveAndLimit(uint step) {
@@ -293,6 +309,7 @@ void storeReport(uint strandIndex) {
   report.maxStretch = max(report.maxStretch, maxStretch);
   report.limitedEdges += limitedEdges;
   report.degenerateEdges += degenerateEdges;
+  report.velocityResidual = max(report.velocityResidual, velocityResidual);
   reports[strandIndex] = report;
 }
 
@@ -300,6 +317,9 @@ void springs(uint step) {
   for (uint i = 0; i < count; ++i) setVelocity(i, velocity(i) - headVelocityChange(step));
   float coreScale = springSweep(step);
   coreSweep(coreScale);
+  if (kMeasureResidual) {
+    for (uint i = 0; i < count; ++i) setScratch(i, kKeptRightHandSide, rightHandSide(i));
+  }
   if (kIntegrator == kIntegratorPointJacobi) {
     beginPointJacobi(step);
     carry(1.0);
@@ -323,6 +343,7 @@ void main() {
       if (kIntegrator == kIntegratorPaper) loopAsThePaper();
     }
     if ((parameters.phases & kPhaseMove) == 0) continue;
+    if (kMeasureResidual && kIntegrator != kIntegratorPaper) measureResidual();
 #ifdef RINGLET_TAPS
     for (uint i = 0; i < count; ++i) RINGLET_TAP(kTapVelocity, i, vec4(velocity(i), 0));
 #endif

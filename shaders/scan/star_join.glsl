@@ -1,5 +1,5 @@
 // Joins the lanes' eliminations into the strand's exact solve. Each lane has eliminated its own particles down to its
-// node 0, with its tip end free; a lane's boundary edge to the next lane is a compliance H, and everything joined is a
+// particle 0, with its tip end free; a lane's boundary edge to the next lane is a compliance H, and everything joined is a
 // mass, a transfer or a compliance, all positive: as exact in float32 as one serial sweep. (Redheffer's star product;
 // a form in stiffnesses fails quietly from K_s = 1000 w on.)
 //
@@ -11,7 +11,7 @@
 #include "scan/lanes.glsl"
 
 struct LaneSystem {
-  Symmetric P;  // of node 0, without what lies beyond the boundary
+  Symmetric P;  // of the lane's particle 0, without what lies beyond the boundary
   vec3 y;
   mat3 transfer;         // Ψ
   vec3 offset;           // z, less what the boundary edge's springs pull
@@ -22,7 +22,7 @@ struct LaneSystem {
 struct Boundary {
   Symmetric Y;
   vec3 s;
-  Symmetric inversePNext;  // P⁻¹ of the next lane's node 0, and its y
+  Symmetric inversePNext;  // P⁻¹ of the next lane's particle 0, and its y
   vec3 yNext;
 };
 
@@ -53,7 +53,7 @@ Boundary joinLanes(LaneSystem system) {
   return boundary;
 }
 
-/// From the root's velocity to every lane's node 0. Returns f, the force across this lane's boundary; `v` is node 0's velocity.
+/// From the root's velocity to every lane's particle 0, whose velocity is `v`. Returns f, the force across this lane's boundary.
 vec3 solveBoundaries(LaneSystem system, Boundary boundary, inout vec3 v) {
   vec3 f = vec3(0);
   [[unroll]] for (uint round = 0; round < kLanes; ++round) {

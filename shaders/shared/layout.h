@@ -80,13 +80,14 @@ struct StrandRest {
   vec4 pins[kMaxRootCount];  // xyz: rest positions of the first particles, which the head carries [m]
 };
 
-// What the numbers did, per strand; the first three since the simulation began.
+// What the numbers did, per strand; the first three and the last since the simulation began.
 struct StrandReport {
   float maxStretch;         // longest edge over the groom's edge
   uint limitedEdges;        // edges x steps the stretch limit touched
   uint degenerateEdges;     // edges x steps that had no direction
   uint nonfiniteParticles;  // now
   uint firstNonfinite;      // the first of them, counted along the strand
+  float velocityResidual;   // since the simulation began, where measured: |r - L v| / |r| of the velocity solve L v = r
 };
 
 // The head, per outer step. poses[0] is the frame's start, poses[1 + k] the end of step k.

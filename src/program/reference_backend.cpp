@@ -1,5 +1,6 @@
 // `--backend reference`: reference::Simulation<double> behind backend.h.
 #include <chrono>
+#include <cmath>
 
 #include "program/backend.h"
 #include "reference/step.h"
@@ -31,7 +32,7 @@ class ReferenceBackend : public Backend {
 
   Result<SimulationReport> report() override {
     const auto from = simulation_.report();
-    return SimulationReport{.maxEdgeStretch = from.maxEdgeStretch,
+    return SimulationReport{.maxEdgeStretch = from.nonfinite > 0 ? INFINITY : from.maxEdgeStretch,
                             .limitedShare = from.limitedShare(),
                             .nonfinite = from.nonfinite,
                             .degenerateEdges = from.degenerateEdges};

@@ -1,4 +1,4 @@
-// The curl method.md 8 measures, hung from its root: how far it droops, at any resolution, and not at all
+// The curl our design was measured on, hung from its root: how far it droops, at any resolution, and not at all
 // with preload.
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ Hanging hang(int particleCount, double preload, double seconds, const Material& 
           simulation.report().limitedShare()};
 }
 
-// method.md 8, found by an independent prototype without the core spring: its law makes droop independent of
+// Found by an independent prototype without the core spring: its law makes droop independent of
 // resolution, 28.5, 31.5, 32.3 mm (what remains at 32, four particles a turn, is the polygon's geometry);
 // plain B / l^2 would give 40.8, 26.9, 15.1. The numbers there have three digits.
 TEST(HangingCurl, DroopsByTheKnownAmountWithoutItsCore) {

@@ -86,7 +86,7 @@ TEST(Smoothing, TransposeIsTheAdjoint) {
   }
 }
 
-// Why a cascade: in float it keeps its digits at any length (method.md 3: at most 2.2e-7; twice that here).
+// Why a cascade: in float it keeps its digits at any length (at most 2.2e-7 in a prototype; twice that here).
 TEST(Smoothing, FloatKeepsItsDigitsOnALongStrand) {
   Field<float> x;
   Field<double> exact, smoothedExact;

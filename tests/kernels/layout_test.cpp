@@ -92,7 +92,8 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_SAME_OFFSET(StrandReport, degenerateEdges);
   EXPECT_SAME_OFFSET(StrandReport, nonfiniteParticles);
   EXPECT_SAME_OFFSET(StrandReport, firstNonfinite);
-  EXPECT_EQ(offsets.at("StrandReport").size(), 5u);
+  EXPECT_SAME_OFFSET(StrandReport, velocityResidual);
+  EXPECT_EQ(offsets.at("StrandReport").size(), 6u);
   EXPECT_EQ(reflection.strides.at("StrandReport"), sizeof(layout::StrandReport));
 
   EXPECT_SAME_OFFSET(StepPose, rotation);

@@ -66,6 +66,15 @@ TEST_F(Repeat, TapsChangeNoBit) {
   }
 }
 
+TEST_F(Repeat, MeasuringTheResidualChangesNoBit) {
+  for (KernelChoice::Form form : {KernelChoice::Form::automatic, KernelChoice::Form::serial}) {
+    for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi}) {
+      expectSameBits(run(24, 8, integrator, {form}), run(24, 8, integrator, {.form = form, .residual = true}),
+                     "residual");
+    }
+  }
+}
+
 TEST_F(Repeat, StateCanBePutBack) {
   Settings settings;
   const Groom groom = randomGroom({31, 64, 300}, 4);

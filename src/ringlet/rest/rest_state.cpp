@@ -89,7 +89,7 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
   const auto frames = framesBeforeEdges(smoothEdges(cut.edges, bendBeta), cut.edges[0]);
   const auto coreEdges = smoothEdges(cut.edges, coreBeta);
 
-  // Gravity balanced edge by edge, from the tip (method.md, section 8): edge i carries the weight of all
+  // Gravity balanced edge by edge, from the tip: edge i carries the weight of all
   // beyond it.
   double load = 0, restCoreLength = 0, massBeyond = 0;
   std::vector<layout::ParticleRest> particles(n);

@@ -1,5 +1,4 @@
-// The laws that turn a material in continuum units into one strand's constants (method.md, sections 4, 5 and
-// 8), so that a material means the same however finely a strand is cut. Mirrored, independently, by
+// The laws that turn a material in continuum units into one strand's constants, so that a material means the same however finely a strand is cut. Mirrored, independently, by
 // reference/rest_strand.h.
 #pragma once
 
@@ -25,7 +24,7 @@ struct StrandConstants {
   double coreStiffnessAsked = 0;  // before it was capped for the step
 };
 
-/// The smoothing length below which bending may feed on itself (method.md, section 4) [unit of the shape].
+/// The smoothing length below which bending may feed on itself [unit of the shape].
 double smoothingLengthOf(const CurlShape& shape, double arcLength);
 
 /// `points`: the strand at rest [m]; `arcs`: arc length of each edge [m].

@@ -30,7 +30,7 @@ class ComputeDevice {
   /// such device.
   static Result<ComputeDevice> open(const std::string& choice = "");
 
-  /// All devices, best first by index order of the driver. Empty where there is no Vulkan.
+  /// All devices, by index (the Vulkan loader's order). Empty where there is no Vulkan.
   static std::vector<DeviceSummary> list();
 
   std::string name() const;

@@ -61,10 +61,14 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
     return pieces;
   }
   if (!range.shape.serial() || cost.step > budget || cost.perSolveLoop > budget) {
+    const char* remedy = !range.shape.serial() ? "ask for the serial kernel form, or fewer iterations"
+                         : settings.integrator == Integrator::jacobi
+                             ? "cut the strand into fewer particles, or use a GPU or the reference"
+                             : "use the jacobi integrator, fewer iterations or the reference";
     return Error{fmt::format(
-        "a strand of {} particles needs {} loop turns for one step of this integrator; this device allows "
-        "{} in a dispatch. Use the jacobi integrator, fewer iterations or the reference backend",
-        range.longest, whole, budget)};
+        "a strand of {} particles needs {} loop turns for one step of this integrator, and this device makes "
+        "{} in a dispatch at most; {}",
+        range.longest, whole, budget, remedy)};
   }
   const std::uint32_t loopsAtOnce =
       static_cast<std::uint32_t>(budget / std::max<std::uint64_t>(1, cost.perSolveLoop));
@@ -85,7 +89,7 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
 }  // namespace
 
 std::string StrandShape::describe() const {
-  return serial() ? "serial" : fmt::format("{} x {}", lanes, particlesPerLane);
+  return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
 }
 
 StrandShape chooseShape(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice) {

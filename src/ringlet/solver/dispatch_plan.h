@@ -28,7 +28,7 @@ struct StrandShape {
 
   bool serial() const { return lanes == 0; }
   std::uint32_t capacity() const { return lanes * particlesPerLane; }
-  std::string describe() const;  // "4 x 16" or "serial"
+  std::string describe() const;  // "lanes 4 x 16" or "serial"
   bool operator==(const StrandShape&) const = default;
 };
 

@@ -42,9 +42,9 @@ struct HeadHistory {
 std::string describe(std::span<const StrandRange> ranges, std::uint32_t subgroupSize) {
   std::string text;
   for (const StrandRange& range : ranges) {
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", range.shape.describe());
+    text += (text.empty() ? "" : ", ") + range.shape.describe();
   }
-  return fmt::format("lanes x run: {} (subgroup {})", text, subgroupSize);
+  return fmt::format("{} (subgroup {})", text, subgroupSize);
 }
 
 }  // namespace
@@ -113,8 +113,8 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   for (const StrandRange& range : self->ranges) {
-    auto kernel =
-        createStrandKernel(device.gpu(), range.shape, {settings.integrator, oneSmoothing, choice.taps});
+    auto kernel = createStrandKernel(device.gpu(), range.shape,
+                                     {settings.integrator, oneSmoothing, choice.taps, choice.residual});
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
     if (!bindings) return bindings.error();
@@ -259,6 +259,7 @@ Result<SimulationReport> Simulation::report() const {
     limited += r.limitedEdges;
     total.maxEdgeStretch = std::max<double>(total.maxEdgeStretch, r.maxStretch);
     total.degenerateEdges += r.degenerateEdges;
+    total.velocityResidual = std::max<double>(total.velocityResidual, r.velocityResidual);
     total.nonfinite += r.nonfiniteParticles;
     const std::int64_t strand = self_->rest.strandInGroom[s];
     if (r.nonfiniteParticles > 0 && (total.firstNonfiniteStrand < 0 || strand < total.firstNonfiniteStrand)) {

@@ -22,11 +22,14 @@ namespace ringlet {
 
 /// What happened to the numbers since the simulation began.
 struct SimulationReport {
-  double maxEdgeStretch = 0;               // longest edge over the groom's edge, over every outer step; infinite once numbers are lost
+  double maxEdgeStretch =
+      0;  // longest edge over the groom's edge, over every outer step; infinite once numbers are lost
   double limitedShare = 0;                 // share of edges (times steps) the stretch limit touched
   std::uint64_t nonfinite = 0;             // particles whose position or velocity is not finite now
   std::int64_t firstNonfiniteStrand = -1;  // strand (groom order) and particle of the first of them, or -1
   std::int64_t firstNonfiniteParticle = -1;
+  double velocityResidual =
+      0;  // |r - L v| / |r| of the velocity solve, worst strand and step; 0 if not measured
   std::uint64_t degenerateEdges = 0;  // edges (times steps) that had no direction
 };
 
@@ -42,7 +45,8 @@ struct KernelChoice {
   enum class Form { automatic, lanes, serial };
   Form form = Form::automatic;  // lanes x run with the star join, or one thread per strand
   int particlesPerLane = 0;     // 4, 8 or 16; 0: choose
-  bool taps = false;  // write every intermediate of the last step (Simulation::tap); slower, for tests
+  bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
+  bool taps = false;      // write every intermediate of the last step (Simulation::tap); slower, for tests
 };
 
 class Simulation {

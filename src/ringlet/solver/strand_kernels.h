@@ -19,6 +19,7 @@ struct StrandKernelOptions {
   Integrator integrator = Integrator::jacobi;
   bool oneSmoothing = false;  // alpha_b and alpha_c are equal in every strand
   bool taps = false;
+  bool residual = false;  // measure the residual of the velocity solve
 };
 
 Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,

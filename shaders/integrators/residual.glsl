@@ -1,0 +1,27 @@
+// How well the velocities solve the implicit system: |r - L v| / |r| over the strand's free particles. Included by
+// kernels/strand_step.comp; compiled in only where asked for.
+void measureResidual(vec3 before[RUN]) {
+  vec3 after[RUN] = v;
+  vec3 forceBefore = forceFromRootward();
+  vec3 vBefore = fromRootward(v[RUN - 1], 1);
+  vec3 vNext = fromTipward(v[0], 1);
+  ImplicitEdge last = implicitEdgeOf(RUN - 1);
+  ImplicitEdge rootwardEdge = ImplicitEdge(fromRootward(last.direction, 1), fromRootward(last.along, 1), fromRootward(last.across, 1));
+  if (lane == 0) rootwardEdge = voidEdge();
+  float residualSquared = 0.0;
+  float rhsSquared = 0.0;
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    v[k] = before[k];
+    vec3 rhs = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
+    v[k] = after[k];
+    ImplicitEdge edge = implicitEdgeOf(k);
+    vec3 residual = rhs - restEdge[k].x * v[k];
+    residual += multiply(edge, (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
+    residual += multiply(rootwardEdge, (k > 0 ? v[max(k - 1, 0)] : vBefore) - v[k]);
+    rootwardEdge = edge;
+    residualSquared += isFree(k) ? dot(residual, residual) : 0.0;
+    rhsSquared += isFree(k) ? dot(rhs, rhs) : 0.0;
+  }
+  float ratio = sqrt(sumOverStrand(residualSquared) / max(sumOverStrand(rhsSquared), 1e-30));
+  velocityResidual = max(velocityResidual, ratio);
+}
