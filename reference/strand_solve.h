@@ -54,7 +54,7 @@ struct SolveScratch {
 inline void solveStrand(const StrandSystem& system, SolveScratch& scratch, Field<double>& velocities) {
   const std::size_t n = system.particleCount(), first = system.rootCount;
   if (n <= first) return;
-  scratch.blocks.resize(n);
+  scratch.blocks.resize(n, Eigen::LLT<Matrix3<double>>(Matrix3<double>::Identity()));
   scratch.reduced.resize(n);
   auto& pivots = scratch.blocks;
   Field<double>& y = scratch.reduced;
@@ -97,7 +97,7 @@ inline void iteratePoints(const StrandSystem& system, int iterationCount, bool c
                           SolveScratch& scratch, Field<double>& velocities) {
   const std::size_t n = system.particleCount(), first = system.rootCount;
   if (n <= first) return;
-  scratch.blocks.resize(n);
+  scratch.blocks.resize(n, Eigen::LLT<Matrix3<double>>(Matrix3<double>::Identity()));
   for (std::size_t i = first; i < n; ++i) scratch.blocks[i].compute(system.particleBlock(i));
   scratch.older = scratch.newer = velocities;
 

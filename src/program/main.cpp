@@ -11,6 +11,9 @@
 #include "program/devices_command.h"
 #include "program/exit_codes.h"
 #include "program/make_command.h"
+#include "program/material_command.h"
+#include "program/measure_command.h"
+#include "program/scene_command.h"
 #include "program/simulate_command.h"
 
 int main(int argumentCount, char** arguments) {
@@ -26,7 +29,10 @@ int main(int argumentCount, char** arguments) {
       "own --help.");
   addMakeCommand(app, exitCode);
   addSimulateCommand(app, exitCode);
+  addMeasureCommand(app, exitCode);
+  addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);
+  addMaterialCommand(app, exitCode);
 
   try {
     app.parse(argumentCount, arguments);

@@ -1,5 +1,5 @@
-// Implements simulate_command.h: options to SimulateOptions, SimulateOutcome to text or JSON. The run is
-// simulate_run.cpp.
+// Implements simulate_command.h: options to SimulateOptions. The run is simulate_run.cpp, what is said of it
+// run_report.cpp.
 #include "program/simulate_command.h"
 
 #include <fmt/format.h>
@@ -7,19 +7,19 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/material_command.h"
+#include "program/run_report.h"
 #include "program/simulate_run.h"
 
 namespace ringlet::program {
 namespace {
 
 constexpr int kMostFrames = 1'000'000;  // eleven hours at 24 a second; more is a slip of the finger
-constexpr int kStepsPerFrame = 8, kPaperStepsPerFrame = 30;
 constexpr const char* kExample =
     "Example:\n"
     "  ringlet make head -o head.obj && ringlet simulate head.obj --motion shake --frames 48 -o out\n"
@@ -33,7 +33,7 @@ constexpr const char* kExample =
     "--json keys: frames strands particles ms_per_frame (wall time of stepping alone, without reading back "
     "and writing)\n"
     "stages_ms (per frame, by stage) max_edge_stretch limited_share nonfinite device driver kernel backend\n"
-    "positions_hash integrator steps_per_frame fps interrupted warnings outputs.\n"
+    "positions_hash integrator material steps_per_frame fps interrupted warnings outputs.\n"
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
     "Ctrl-C.";
@@ -62,14 +62,16 @@ void resolve(Typed& typed) {
 
   // The paper's own scheme is explicit: it needs short steps, and knows no preload.
   const bool isPaper = typed.integrator == "paper", isPoint = typed.integrator == "point_jacobi";
-  settings.integrator = isPaper ? Integrator::paper : isPoint ? Integrator::pointJacobi : Integrator::jacobi;
-  settings.stepsPerFrame = typed.stepsPerFrame.value_or(isPaper ? kPaperStepsPerFrame : kStepsPerFrame);
+  settings.integrator = integratorByName(typed.integrator);
+  options.choosesSteps = !typed.stepsPerFrame;
+  settings.stepsPerFrame = typed.stepsPerFrame.value_or(1);
   settings.gravityPreload = typed.preload.value_or(isPaper ? 0 : 1);
   settings.chebyshev = !typed.noChebyshev;
   if (!isPoint && (typed.iterationsGiven || typed.noChebyshev)) {
     throw CLI::ValidationError(typed.noChebyshev ? "--no-chebyshev" : "--iterations",
                                "only --integrator point_jacobi has iterations");
   }
+  checkMaterialOptions(options.material, settings.integrator);
 
   options.onReference = typed.backend == "reference";
   if (options.onReference && (!options.device.empty() || typed.kernel != "auto")) {
@@ -93,91 +95,21 @@ std::vector<std::string> motionNameList() {
   return names;
 }
 
-nlohmann::ordered_json asJson(const Typed& typed, const SimulateOutcome& outcome) {
-  const Settings& settings = typed.options.settings;
-  nlohmann::ordered_json json;
-  json["frames"] = outcome.frameCount;
-  json["strands"] = outcome.strandCount;
-  json["particles"] = outcome.particleCount;
-  json["ms_per_frame"] = outcome.millisecondsPerFrame;
-  json["stages_ms"] = outcome.stages;
-  json["max_edge_stretch"] = outcome.report.maxEdgeStretch;  // null where it is not finite
-  json["limited_share"] = outcome.report.limitedShare;
-  json["nonfinite"] = outcome.report.nonfinite;
-  json["device"] = outcome.device;
-  json["driver"] = outcome.driver;
-  json["kernel"] = outcome.kernel;
-  json["backend"] = typed.backend;
-  json["positions_hash"] = outcome.positionsHash;
-  json["integrator"] = typed.integrator;
-  json["steps_per_frame"] = settings.stepsPerFrame;
-  json["fps"] = settings.framesPerSecond;
-  json["interrupted"] = outcome.interrupted;
-  json["warnings"] = outcome.warnings;
-  json["outputs"] = nlohmann::json::array();
-  for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
-  return json;
-}
-
-std::string asText(const Typed& typed, const SimulateOutcome& outcome) {
-  const Settings& settings = typed.options.settings;
-  std::string text = fmt::format("{} frame{} of {} strand{}, {} particles{}\n", outcome.frameCount,
-                                 outcome.frameCount == 1 ? "" : "s", outcome.strandCount,
-                                 outcome.strandCount == 1 ? "" : "s", outcome.particleCount,
-                                 outcome.interrupted ? " (interrupted)" : "");
-  text += fmt::format("  stepped by    {}, {} steps a frame, on {} ({})\n", typed.integrator,
-                      settings.stepsPerFrame, outcome.device, outcome.kernel);
-  text +=
-      fmt::format("  a frame took  {:.2f} ms to step, {:.2f} ms to read back, {:.2f} ms to write\n",
-                  outcome.millisecondsPerFrame, outcome.stages.at("readback"), outcome.stages.at("write"));
-  text +=
-      fmt::format("  longest edge  {:.4f} x its length in the groom; the limit touched {:.3g} % of edges\n",
-                  outcome.report.maxEdgeStretch, 100 * outcome.report.limitedShare);
-  for (const auto& path : outcome.outputs) {
-    text += fmt::format("  {}  {}\n", path == outcome.outputs.front() ? "written     " : "            ",
-                        path.string());
-  }
-  return text;
-}
-
-void warn(const std::string& sentence) { fmt::print(stderr, "ringlet simulate: warning: {}\n", sentence); }
-
 int run(Typed& typed) {
   auto outcome = runSimulation(typed.options);
   if (!outcome) {
     fmt::print(stderr, "ringlet simulate: {}\n", outcome.error().message);
     return kExitFailed;
   }
-  for (const std::string& warning : outcome->warnings) warn(warning);
-
-  // Particles without a position: say which was the first, so that it can be looked at.
-  const SimulationReport& report = outcome->report;
-  if (report.nonfinite > 0) {
-    std::string first;
-    if (report.firstNonfiniteStrand >= 0) {
-      first = fmt::format(", first strand {} particle {}", report.firstNonfiniteStrand,
-                          report.firstNonfiniteParticle);
-    }
-    fmt::print(stderr,
-               "ringlet simulate: {} particles have no finite position{}; in the files their strands end "
-               "before them. Try more --steps-per-frame.\n",
-               report.nonfinite, first);
-  }
-  if (outcome->interrupted) {
-    fmt::print(stderr, "ringlet simulate: interrupted after {} of {} frames{}\n", outcome->frameCount,
-               typed.options.frameCount,
-               outcome->frameCount == 0 ? "; nothing was written" : "; they are kept");
-  }
-
+  const int exitCode = tellTroubles("simulate", *outcome, typed.options.frameCount);
+  RunNames names{typed.integrator, typed.backend};
+  if (!typed.options.material.name.empty()) names.material = typed.options.material.name;
   if (typed.json) {
-    // Not UTF-8, say in a path, is replaced rather than fatal.
-    const auto replace = nlohmann::json::error_handler_t::replace;
-    fmt::print("{}\n", asJson(typed, *outcome).dump(2, ' ', false, replace));
+    printJson(runJson(names, typed.options.settings, *outcome));
   } else if (!typed.quiet) {
-    fmt::print("{}", asText(typed, *outcome));
+    fmt::print("{}", runText(names, typed.options.settings, *outcome));
   }
-  if (outcome->interrupted) return kExitInterrupted;
-  return report.nonfinite > 0 ? kExitNonfinite : kExitFine;
+  return exitCode;
 }
 
 }  // namespace
@@ -213,11 +145,11 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--amplitude", typed->amplitude,
                    "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "
-                   "glide metres/s (1)")
+                   "glide metres/s (1), walk metres (0.025)")
       ->check(between(-1000, 1000))
       ->type_name("A")
       ->group(scene);
-  command->add_option("--frequency", typed->frequency, "Shakes (default 2) or nods (default 1) per second")
+  command->add_option("--frequency", typed->frequency, "Shakes (default 2), nods or strides (1) per second")
       ->check(between(0, 1000))
       ->type_name("HZ")
       ->group(scene);
@@ -242,30 +174,30 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("P")
       ->group(scene);
 
+  // What hair is made of.
+  addMaterialOptions(command, options.material, "Material");
+
   // How it is stepped.
   const char* solver = "Solver";
   command->add_option("--integrator", typed->integrator, "jacobi, point_jacobi or paper (default jacobi)")
-      ->check(oneOf({"jacobi", "point_jacobi", "paper"}))
+      ->check(oneOf(integratorNames()))
       ->type_name("NAME")
       ->group(solver);
   command
-      ->add_option("--steps-per-frame", typed->stepsPerFrame, "Outer steps a frame (default 8; 30 for paper)")
-      ->check(wholeBetween(1, 10'000))
+      ->add_option(
+          "--steps-per-frame", typed->stepsPerFrame,
+          "Outer steps a frame, 1 to 340 (default: enough for this groom and material, at 24 fps from 8; 30 "
+          "for paper)")
+      ->check(wholeBetween(1, 340))
       ->type_name("N")
       ->group(solver);
   command
       ->add_option("--iterations", settings.pointIterations, "point_jacobi: iterations a step (default 100)")
-      ->check(wholeBetween(1, 100'000))
+      ->check(wholeBetween(1, 60'000))
       ->type_name("N")
       ->group(solver)
       ->each([typed](const std::string&) { typed->iterationsGiven = true; });
   command->add_flag("--no-chebyshev", typed->noChebyshev, "point_jacobi: plain iterations, not accelerated")
-      ->group(solver);
-  command
-      ->add_option("--max-stretch", settings.maxStretch,
-                   "Longest an edge may become, as a multiple of the groom's edge (default 1.1)")
-      ->check(between(1, 1000))
-      ->type_name("S")
       ->group(solver);
   command
       ->add_option("--roots", settings.rootCount,

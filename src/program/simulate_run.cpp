@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "ringlet/output/positions_hash.h"
 #include "ringlet/output/sheet.h"
 #include "ringlet/output/usd_writer.h"
+#include "ringlet/rest/rest_state.h"
 
 namespace ringlet::program {
 namespace {
@@ -55,16 +57,16 @@ std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head
   return points;
 }
 
-Result<std::unique_ptr<Backend>> makeBackend(const SimulateOptions& options, const Groom& groom) {
-  const BackendInput input{groom, options.material, options.settings, options.motion.poseAt(0),
-                           options.motion.poseAt(-options.settings.stepSeconds())};
-  if (options.onReference) return makeReferenceBackend(input);
-  return makeGpuBackend(input, options.device, options.kernel);
+Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOptions& options) {
+  const BackendInput start{input.groom, input.material, input.settings, input.motion.poseAt(0),
+                           input.motion.poseAt(-input.settings.stepSeconds())};
+  if (options.onReference) return makeReferenceBackend(start);
+  return makeGpuBackend(start, options.device, options.kernel);
 }
 
 // A failure in the middle of a run, with what it leaves.
 Error afterFrames(int frameCount, const Error& cause, const std::filesystem::path& folder) {
-  if (frameCount == 0) return cause;
+  if (frameCount == 0 || folder.empty()) return cause;
   return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
                            (folder / "hair.usda.partial").string())};
 }
@@ -89,38 +91,40 @@ struct Writers {
   }
 };
 
-Result<Writers> openWriters(const SimulateOptions& options, const Groom& groom) {
+Result<Writers> openWriters(const RunInput& input, const RunOptions& options) {
+  const double metresPerUnit = input.groom.metresPerUnit;
   std::error_code code;
   std::filesystem::create_directories(options.folder, code);
   if (code)
     return Error{fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message())};
-  auto usd = UsdWriter::create(options.folder / "hair.usda", groom,
-                               {.framesPerSecond = options.settings.framesPerSecond,
-                                .metresPerUnit = options.metresPerUnit,
+  auto usd = UsdWriter::create(options.folder / "hair.usda", input.groom,
+                               {.framesPerSecond = input.settings.framesPerSecond,
+                                .metresPerUnit = metresPerUnit,
                                 .up = options.up,
-                                .diameter = static_cast<float>(options.width / options.metresPerUnit),
+                                .diameter = static_cast<float>(options.width / metresPerUnit),
                                 .frameCount = options.frameCount});
   if (!usd) return usd.error();
-  return Writers{std::move(*usd), Sheet(groom, options.frameCount, options.up), {}};
+  return Writers{std::move(*usd), Sheet(input.groom, options.frameCount, options.up), {}};
 }
 
 }  // namespace
 
-Result<SimulateOutcome> runSimulation(const SimulateOptions& options) {
+Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
+                                const FrameObserver& observer) {
+  const Groom& groom = input.groom;
   SimulateOutcome outcome;
-  catchInterruption();
-
-  // Everything that can fail before the first step: the groom, the folder, the device.
-  auto loaded = readGroom(options.groom);
-  if (!loaded) return loaded.error();
-  Groom& groom = loaded->groom;
-  groom.metresPerUnit = options.metresPerUnit;
   outcome.strandCount = groom.strandCount();
   outcome.particleCount = groom.points.size();
-  outcome.warnings = loaded->warnings;
-  auto writers = openWriters(options, groom);
-  if (!writers) return writers.error();
-  auto backend = makeBackend(options, groom);
+  catchInterruption();
+
+  // Everything that can fail before the first step: the folder, the device.
+  std::optional<Writers> writers;
+  if (!options.folder.empty()) {
+    auto opened = openWriters(input, options);
+    if (!opened) return opened.error();
+    writers.emplace(std::move(*opened));
+  }
+  auto backend = makeBackend(input, options);
   if (!backend) return backend.error();
 
   // Frames, until all are done or Ctrl-C comes.
@@ -131,7 +135,7 @@ Result<SimulateOutcome> runSimulation(const SimulateOptions& options) {
     ProgressBar progress(options.frameCount, options.showProgress);
     for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
       progress.show(frame);
-      const std::vector<HeadPose> poses = posesOfFrame(options.motion, options.settings, frame);
+      const std::vector<HeadPose> poses = posesOfFrame(input.motion, input.settings, frame);
       {
         Stopwatch watch(stepping);
         if (Status stepped = (*backend)->stepFrame(poses); !stepped)
@@ -144,9 +148,15 @@ Result<SimulateOutcome> runSimulation(const SimulateOptions& options) {
         positions = std::move(*read);
       }
       Stopwatch watch(writing);
-      std::vector<Vec3f> points = toFile(positions, poses.back(), options.metresPerUnit);
+      std::vector<Vec3f> points = toFile(positions, poses.back(), groom.metresPerUnit);
       mostReplaced = std::max(mostReplaced, replaceNonfinite(groom, points));
-      if (Status added = writers->addFrame(frame + 1, std::move(points)); !added) return added.error();
+      if (observer) {
+        if (Status seen = observer(points, poses.back()); !seen)
+          return afterFrames(frame, seen.error(), options.folder);
+      }
+      if (writers) {
+        if (Status added = writers->addFrame(frame + 1, std::move(points)); !added) return added.error();
+      }
       outcome.frameCount = frame + 1;
     }
     progress.show(outcome.frameCount);
@@ -154,7 +164,7 @@ Result<SimulateOutcome> runSimulation(const SimulateOptions& options) {
   outcome.interrupted = wasInterrupted() && outcome.frameCount < options.frameCount;
 
   // What there is becomes files.
-  if (outcome.frameCount > 0) {
+  if (writers && outcome.frameCount > 0) {
     Stopwatch watch(writing);
     auto outputs = writers->finish(options.folder, groom);
     if (!outputs) return outputs.error();
@@ -177,6 +187,26 @@ Result<SimulateOutcome> runSimulation(const SimulateOptions& options) {
   for (auto& [stage, milliseconds] : outcome.stages) milliseconds /= frames;
   outcome.millisecondsPerFrame = stepping / frames;
   for (const std::string& warning : (*backend)->warnings()) outcome.warnings.push_back(warning);
+  return outcome;
+}
+
+Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
+  auto loaded = readGroom(options.groom);
+  if (!loaded) return loaded.error();
+  loaded->groom.metresPerUnit = options.metresPerUnit;
+  std::vector<std::string> warnings = loaded->warnings;
+  Settings settings = options.settings;
+  const auto material = chooseMaterial(options.material, settings, warnings);
+  if (!material) return material.error();
+  if (options.choosesSteps) {
+    const auto steps = chooseStepsPerFrame(loaded->groom, *material, settings);
+    if (!steps) return steps.error();
+    settings.stepsPerFrame = options.settings.stepsPerFrame = *steps;
+  }
+
+  auto outcome = runHair({loaded->groom, *material, settings, options.motion}, options);
+  if (!outcome) return outcome.error();
+  outcome->warnings.insert(outcome->warnings.begin(), warnings.begin(), warnings.end());
   return outcome;
 }
 

@@ -1,35 +1,43 @@
-// One run of `ringlet simulate`: reads the groom, steps it frame by frame, writes what comes out.
+// One run of hair: steps it frame by frame, writes what comes out. `ringlet simulate` reads it from a file
+// first.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "program/material_command.h"
 #include "ringlet/base/result.h"
 #include "ringlet/output/up_axis.h"
-#include "ringlet/rest/material.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::program {
 
-/// What the user asked for, checked.
-struct SimulateOptions {
-  std::filesystem::path groom;
-  std::filesystem::path folder;  // for the results
+/// Where hair is stepped, how long, and what is kept of it.
+struct RunOptions {
+  std::filesystem::path folder;  // for the results; empty: nothing is written
   int frameCount = 48;
-  double metresPerUnit = 0.01;  // of the groom's file, and of what is written
   UpAxis up = UpAxis::y;
-  double width = 0.0005;  // diameter of strands in hair.usda [m]
-  Motion motion;
-  Settings settings;
-  Material material;
+  double width = 0.0005;     // diameter of strands in hair.usda [m]
   bool onReference = false;  // rather than on the GPU
   std::string device;
   KernelChoice kernel;
   bool showProgress = true;
+};
+
+/// What the user asked for, checked.
+struct SimulateOptions : RunOptions {
+  std::filesystem::path groom;
+  double metresPerUnit = 0.01;  // of the groom's file, and of what is written
+  Motion motion;
+  Settings settings;          // but maxStretch, which is the material's
+  bool choosesSteps = false;  // settings.stepsPerFrame is to be chosen for the groom
+  MaterialChoice material;
 };
 
 /// What came of it. Times are wall clock, per finished frame [ms].
@@ -47,7 +55,23 @@ struct SimulateOutcome {
   std::vector<std::filesystem::path> outputs;
 };
 
+/// What moves.
+struct RunInput {
+  const Groom& groom;
+  const Material& material;
+  const Settings& settings;
+  const Motion& motion;
+};
+
+/// Sees every frame: points in the groom's unit, in its order, finite; and where the head is.
+using FrameObserver = std::function<Status(std::span<const Vec3f> points, const HeadPose& head)>;
+
 /// Fails with one sentence; frames finished before a failure are kept. Ctrl-C ends it early, but well.
-Result<SimulateOutcome> runSimulation(const SimulateOptions& options);
+Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
+                                const FrameObserver& observer = {});
+
+/// Reads the groom and the material first, and fills in options.settings.stepsPerFrame where it is to be
+/// chosen.
+Result<SimulateOutcome> runSimulation(SimulateOptions& options);
 
 }  // namespace ringlet::program

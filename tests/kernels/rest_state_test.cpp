@@ -83,6 +83,39 @@ TEST(RestState, AgreesWithTheReferenceOnARealGroom) {
   expectSameRest(loaded->groom, settingsWith(Integrator::jacobi, 1, 8));
 }
 
+TEST(RestState, StepsAreChosenByTheMotionAndTheGroom) {
+  Groom curl;
+  curl.metresPerUnit = 1;
+  curl.addStrand(helix(64, 0.01, 0.25, 8, 0, 1));
+  Groom withShort = curl;
+  withShort.addStrand(helix(16, 0.001, 0.02, 3, 0, 1));
+  const auto chosen = [](const Groom& groom, double fps, Integrator integrator) {
+    Settings settings = settingsWith(integrator, 1, 1);
+    settings.framesPerSecond = fps;
+    const auto steps = chooseStepsPerFrame(groom, {}, settings);
+    EXPECT_TRUE(steps) << steps.error().message;
+    settings.stepsPerFrame = *steps;
+    EXPECT_TRUE(buildRestState(groom, {}, settings)->warnings.empty()) << *steps << " steps";
+    return *steps;
+  };
+  EXPECT_EQ(chosen(curl, 24, Integrator::jacobi), 8);
+  EXPECT_EQ(chosen(curl, 60, Integrator::jacobi), 4);  // 192 / 60, rounded up
+  EXPECT_GT(chosen(withShort, 24, Integrator::jacobi), 8);
+
+  // Fewer than it needs: a warning with the number that is enough.
+  const auto rest = buildRestState(withShort, {}, settingsWith(Integrator::jacobi, 1, 4));
+  ASSERT_FALSE(rest->warnings.empty());
+  const int enough = chosen(withShort, 24, Integrator::jacobi);
+  EXPECT_NE(rest->warnings[0].find(std::to_string(enough) + " steps per frame give it in full"),
+            std::string::npos)
+      << rest->warnings[0];
+  Material loose;
+  loose.bendDampingRatio = 0.05;
+  const auto undamped = buildRestState(curl, loose, settingsWith(Integrator::jacobi, 1, 8));
+  ASSERT_EQ(undamped->warnings.size(), 1u);
+  EXPECT_NE(undamped->warnings[0].find("0.05"), std::string::npos);
+}
+
 TEST(RestState, RefusesWhatItCannotHold) {
   const auto errorOf = [](const Groom& groom, const Settings& settings) {
     const auto rest = buildRestState(groom, {}, settings);

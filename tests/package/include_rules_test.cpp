@@ -49,8 +49,10 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"groom", {"base", "groom"}},
       {"scene", {"base", "scene"}},
       {"rest", {"base", "groom", "scene", "rest"}},
+      {"scenes", {"base", "groom", "scene", "rest", "scenes"}},
       {"gpu", {"base", "gpu"}},
       {"solver", {"base", "groom", "scene", "rest", "gpu", "solver"}},
+      {"measure", {"base", "groom", "rest", "scene", "measure"}},
       {"output", {"base", "groom", "gpu", "output"}},
   };
   for (const auto& entry : fs::directory_iterator(kRoot / "src/ringlet")) {

@@ -49,7 +49,7 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
     std::string message;
   };
   const std::vector<Case> cases{
-      {{}, "say what to do: make, simulate, devices"},
+      {{}, "say what to do: make, simulate, measure, scene, devices, material"},
       {{"simulat"}, "did you mean simulate?"},
       {{"make", "crul", "-o", "a.obj"}, "did you mean curl?"},
       {{"make", "curl"}, "--output is required"},

@@ -56,7 +56,8 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   EXPECT_EQ(out["nonfinite"], 0);
   EXPECT_EQ(out["backend"], GetParam());
   EXPECT_EQ(out["integrator"], "jacobi");
-  EXPECT_EQ(out["steps_per_frame"], 8);
+  EXPECT_GE(out["steps_per_frame"].get<int>(), 7) << "1/192 s and less at 30 frames a second";
+  EXPECT_EQ(out["warnings"], json::array()) << "steps chosen for the groom need no warning";
   EXPECT_EQ(out["fps"], 30);
   EXPECT_EQ(out["interrupted"], false);
   EXPECT_GT(out["ms_per_frame"].get<double>(), 0);
@@ -106,7 +107,7 @@ TEST_P(Backends, EveryIntegratorRuns) {
     const json out = simulate(
         folder_, {"groom.obj", "--frames", "2", "--integrator", integrator, "--backend", GetParam()});
     EXPECT_EQ(out["integrator"], integrator);
-    EXPECT_EQ(out["steps_per_frame"], integrator == std::string("paper") ? 30 : 8);
+    EXPECT_GE(out["steps_per_frame"].get<int>(), integrator == std::string("paper") ? 30 : 8);
     EXPECT_EQ(out["nonfinite"], 0) << integrator;
   }
 }

@@ -1,14 +1,52 @@
 // Material: what a hair is made of, in continuum units, so that it means the same however finely a strand is
 // cut. Stiffnesses are multiples of the strand's own weight w = lambda g S [N] (line density, standard
 // gravity, rest arc length): a stiffness of 5 means "5 w", whatever the strand's length. The laws that turn
-// them into constants per edge are in rest/edge_constants.h and, independently, in reference/.
+// them into constants per edge are in rest/strand_constants.h and, independently, in reference/. What each
+// number does and its range: rest/material_parameters.h.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
+
+#include "ringlet/groom/seeded_random.h"
 
 namespace ringlet {
 
 inline constexpr double kStandardGravity = 9.81;  // [m/s^2], used for w even where the scene has no gravity
+
+/// A factor that changes from root to tip: straight lines from point to point, level before the first point
+/// and after the last.
+struct Profile {
+  struct Point {
+    double s = 0;  // share of the strand's rest arc length, 0 at the root, 1 at the tip
+    double factor = 1;
+    bool operator==(const Point&) const = default;
+  };
+  std::vector<Point> points{};  // by rising s; none: 1 everywhere
+
+  double at(double s) const {
+    if (points.empty()) return 1;
+    if (!(s > points.front().s)) return points.front().factor;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Point &a = points[i - 1], &b = points[i];
+      if (s < b.s) return a.factor + (b.factor - a.factor) * ((s - a.s) / (b.s - a.s));
+    }
+    return points.back().factor;
+  }
+  bool operator==(const Profile&) const = default;
+};
+
+/// How strands differ from one another: a strand's value is the material's times a factor drawn evenly from
+/// 1 - share to 1 + share, by seed and the strand's index in groom order.
+struct MaterialVariation {
+  double bendStiffness = 0;     // share, 0 for none
+  double coreStiffness = 0;     // share
+  double bendDampingRatio = 0;  // share
+  std::uint32_t seed = 1;
+  bool operator==(const MaterialVariation&) const = default;
+};
 
 struct Material {
   double lineDensity =
@@ -23,9 +61,32 @@ struct Material {
   double coreElongationLow = 1.0;   // core elongation (current / rest length) at which it begins to stiffen
   double coreElongationHigh = 1.1;  // and at which it has its full constants
   std::optional<double>
-      bendSmoothingLength;  // alpha_b [m]; unset: from the rest curl (method.md 4); 0: raw curve
-  std::optional<double> coreSmoothingLength;  // alpha_c [m]; unset: as above
+      bendSmoothingLength{};  // alpha_b [m]; unset: from the rest curl (method.md 4); 0: raw curve
+  std::optional<double> coreSmoothingLength{};  // alpha_c [m]; unset: as above
+
+  Profile bendStiffnessProfile{};  // on K_b, root to tip
+  Profile lineDensityProfile{};    // on lambda, root to tip
+  MaterialVariation variation{};   // from strand to strand
+  bool operator==(const Material&) const = default;
 };
+
+/// The material of one strand: the groom's with the strand's own variation worked in, and none left.
+/// strandIndex: in groom order. The same seed and index give the same strand, whatever other strands there
+/// are.
+inline Material materialOfStrand(const Material& material, std::size_t strandIndex) {
+  const MaterialVariation& variation = material.variation;
+  // A stream apart from grooms, which draw by small seeds too.
+  constexpr std::uint64_t kStream = std::uint64_t{1} << 40;
+  SeededRandom random(kStream + variation.seed, strandIndex);
+  auto factor = [&](double share) { return 1 + share * random.between(-1, 1); };
+
+  Material own = material;
+  own.bendStiffness *= factor(variation.bendStiffness);
+  own.coreStiffness *= factor(variation.coreStiffness);
+  own.bendDampingRatio *= factor(variation.bendDampingRatio);
+  own.variation = {};
+  return own;
+}
 
 /// The constants of Integrator::paper, per edge, for particles of mass 1 (paper Fig. 2 and public
 /// implementations).

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/rest_curve.h"
 #include "ringlet/rest/strand_constants.h"
 
@@ -18,6 +19,9 @@ namespace {
 // points would otherwise be springs of infinite stiffness.
 constexpr double kShortestEdge = 0.01;
 
+// Below this share of the damping scale bending can feed on itself through the smoothed curve.
+constexpr double kLeastCalmDamping = 0.1;
+
 layout::vec4 packed(Vec3d v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
@@ -26,6 +30,8 @@ layout::vec4 packed(Vec3d v, double w) {
 struct Extremes {
   std::size_t cappedStrands = 0;
   double smallestCoreShare = 1;
+  std::size_t feedingStrands = 0;  // the step is too long for their bending
+  double longestCalmStep = 1;      // [s]
   std::size_t overloadedStrands = 0;
   double largestLoad = 0;
   std::size_t largestLoadStrand = 0;
@@ -145,19 +151,33 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
     ++extremes.cappedStrands;
     extremes.smallestCoreShare = std::min(extremes.smallestCoreShare, c.coreStiffness / c.coreStiffnessAsked);
   }
+  if (settings.stepSeconds() > c.longestBendStep) ++extremes.feedingStrands;
+  extremes.longestCalmStep = std::min({extremes.longestCalmStep, c.longestCoreStep, c.longestBendStep});
   if (load > 0.5) ++extremes.overloadedStrands;
   if (load > extremes.largestLoad) extremes.largestLoad = load, extremes.largestLoadStrand = groomIndex;
 }
 
-void addWarnings(RestState& state, const Extremes& extremes, const Settings& settings) {
+void addWarnings(RestState& state, const Extremes& extremes, const Material& material,
+                 const Settings& settings) {
+  const int needed =
+      static_cast<int>(std::ceil(1 / (settings.framesPerSecond * extremes.longestCalmStep) - 1e-6));
   if (extremes.cappedStrands > 0) {
-    int needed = static_cast<int>(std::ceil(settings.stepsPerFrame / std::sqrt(extremes.smallestCoreShare)));
     state.warnings.push_back(
         fmt::format("the core spring of {} of {} strands is weakened (to {:.0f} % at least) to stay stable "
-                    "at {} steps per "
-                    "frame; {} steps per frame give it in full",
+                    "at {} steps per frame; "
+                    "{} steps per frame give it in full",
                     extremes.cappedStrands, state.strands.size(), 100 * extremes.smallestCoreShare,
                     settings.stepsPerFrame, needed));
+  }
+  if (extremes.feedingStrands > 0) {
+    state.warnings.push_back(fmt::format(
+        "{} steps per frame are too few for the bending of {} of {} strands, which may not come to rest; "
+        "{} steps per frame are enough, or a softer or more smoothed material",
+        settings.stepsPerFrame, extremes.feedingStrands, state.strands.size(), needed));
+  }
+  if (settings.integrator != Integrator::paper && material.bendDampingRatio < kLeastCalmDamping) {
+    state.warnings.push_back(fmt::format("a bend damping ratio of {} may not come to rest; {} and more does",
+                                         material.bendDampingRatio, kLeastCalmDamping));
   }
   if (extremes.overloadedStrands > 0) {
     state.warnings.push_back(fmt::format(
@@ -216,11 +236,25 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
     appendStrand(state, extremes, strand, index, material, settings);
     state.firstInGroom.push_back(groom.firstPoint[index]);
   }
-  addWarnings(state, extremes, settings);
+  state.longestCalmStep = extremes.longestCalmStep;
+  addWarnings(state, extremes, material, settings);
   return state;
 }
 
-Status checkSettings(const Settings& s, const Material& m) {
+Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings) {
+  const double longestStep = settings.integrator == Integrator::paper ? 1.0 / 720 : 1.0 / 192;
+  const auto stepsOf = [&](double step) {
+    return static_cast<int>(std::ceil(1 / (std::max(settings.framesPerSecond, 1e-3) * step) - 1e-6));
+  };
+  const int fewest = std::clamp(stepsOf(longestStep), 1, static_cast<int>(layout::kMaxStepPoses - 1));
+  settings.stepsPerFrame = fewest;
+  const auto rest = buildRestState(groom, material, settings);
+  if (!rest) return rest.error();
+  const int most = std::min(4 * fewest, static_cast<int>(layout::kMaxStepPoses - 1));
+  return std::clamp(stepsOf(rest->longestCalmStep), fewest, most);
+}
+
+Status checkSettings(const Settings& s, const Material& material) {
   struct Range {
     const char* name;
     double value, low, high;
@@ -237,25 +271,13 @@ Status checkSettings(const Settings& s, const Material& m) {
       {"pointIterations", double(s.pointIterations), 1, 60000},
       {"forceLoops", double(s.forceLoops), 1, 1000},
       {"dampingLoops", double(s.dampingLoops), 1, 1000},
-      {"lineDensity", m.lineDensity, 1e-12, 1e6},
-      {"stretchStiffness", m.stretchStiffness, 1e-3, 1e6},
-      {"stretchDampingTime", m.stretchDampingTime, 0, 10},
-      {"bendStiffness", m.bendStiffness, 1e-3, 1e6},
-      {"bendDampingRatio", m.bendDampingRatio, 0, 100},
-      {"coreStiffness", m.coreStiffness, 0, 1e6},
-      {"coreDampingRatio", m.coreDampingRatio, 0, 100},
-      {"coreRelaxedShare", m.coreRelaxedShare, 0, 1},
-      {"coreElongationLow", m.coreElongationLow, 0, 1e3},
-      {"coreElongationHigh", m.coreElongationHigh, m.coreElongationLow + 1e-6, 1e3},
-      {"bendSmoothingLength", m.bendSmoothingLength.value_or(0), 0, 1e3},
-      {"coreSmoothingLength", m.coreSmoothingLength.value_or(0), 0, 1e3},
   };
   for (const Range& r : ranges) {
     if (!(r.value >= r.low && r.value <= r.high)) {
       return Error{fmt::format("{} is {}; it must be from {} to {}", r.name, r.value, r.low, r.high)};
     }
   }
-  return {};
+  return checkMaterial(material);
 }
 
 }  // namespace ringlet

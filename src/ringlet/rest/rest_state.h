@@ -23,12 +23,18 @@ struct RestState {
   std::vector<Vec3f> points;                 // rest positions [m]
   std::vector<std::uint32_t> strandInGroom;  // groom's index of each strand
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle
+  double longestCalmStep = 0;                // longest outer step that needs no warning [s]
   std::vector<std::string> warnings;         // for the user: what the step or the load changed, with numbers
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite, strands of no length.
 /// Cost: one pass over the groom, in double.
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings);
+
+/// The fewest outer steps per frame that resolve the motion (1/192 s each; `paper` 1/720 s, its own) and need
+/// no warning: the core spring in full, bending calm. At most four times what the motion needs; a groom that
+/// wants more is warned of. Fails as buildRestState does, whose cost it has.
+Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings);
 
 /// The sentence that says what is wrong with the settings or material, if anything is.
 Status checkSettings(const Settings& settings, const Material& material);

@@ -2,6 +2,7 @@
 #include "ringlet/rest/strand_constants.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -18,6 +19,7 @@ void setPaperConstants(StrandConstants& c) {
   c.bendDamping = paper.bendDamping;
   c.coreStiffness = c.coreStiffnessAsked = paper.coreStiffness;
   c.coreDamping = paper.coreDamping;
+  c.longestCoreStep = c.longestBendStep = std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -66,6 +68,8 @@ StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const d
   const double coreLength = c.coreSmoothingLength > 0 ? c.coreSmoothingLength : l;
   c.coreStiffnessAsked = material.coreStiffness * weight;
   c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (3 * coreLength / T) * (3 * coreLength / T));
+  c.longestCoreStep = 3 * coreLength * std::sqrt(lambda / std::max(c.coreStiffnessAsked, 1e-300));
+  c.longestBendStep = 3 * (alpha > 0 ? alpha : l) * std::sqrt(lambda / bend);
   c.coreDamping = 4 * material.coreDampingRatio * coreLength * std::sqrt(c.coreStiffness * lambda);
   return c;
 }

@@ -1,5 +1,5 @@
-// The laws that turn a material in continuum units into one strand's constants, so that a material means the same however finely a strand is cut. Mirrored, independently, by
-// reference/rest_strand.h.
+// The laws that turn a material in continuum units into one strand's constants, so that a material means the
+// same however finely a strand is cut. Mirrored, independently, by reference/rest_strand.h.
 #pragma once
 
 #include <span>
@@ -22,6 +22,8 @@ struct StrandConstants {
   double bendStiffness = 0, bendDamping = 0;
   double coreStiffness = 0, coreDamping = 0;
   double coreStiffnessAsked = 0;  // before it was capped for the step
+  double longestCoreStep = 0;     // longest outer step with the core spring in full [s]
+  double longestBendStep = 0;     // longest outer step at which targets held over it cannot feed bending [s]
 };
 
 /// The smoothing length below which bending may feed on itself [unit of the shape].

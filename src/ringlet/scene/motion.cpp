@@ -24,11 +24,22 @@ double easeIntegral(double t, double seconds) {
   return within + std::max(0.0, t - seconds);
 }
 
+// What a walk does beside its bob, per metre of it: some 2 cm to either side, 4 degrees of turning, 2 of
+// nodding, where the bob is 2.5 cm.
+constexpr double kSwayPerBob = 0.8;       // [m/m]
+constexpr double kTurningPerBob = 2.8;    // [rad/m]
+constexpr double kNoddingPerBob = 1.4;    // [rad/m]
+constexpr double kNoddingAfterBob = 0.8;  // the head follows the body [rad]
+
+constexpr Vec3d kSide{1, 0, 0};  // X, whichever of Y and Z is up
+
 }  // namespace
 
 HeadPose Motion::poseAt(double t) const {
   HeadPose pose{start, {}};
-  double swing = std::sin(2 * std::numbers::pi * frequency * t) * ease(t, easeSeconds);
+  const double size = ease(t, easeSeconds) * ease(untilSeconds - t, easeSeconds);
+  const double angle = 2 * std::numbers::pi * frequency * t;
+  const double swing = std::sin(angle) * size;
   switch (kind) {
     case MotionKind::still:
       break;
@@ -44,24 +55,32 @@ HeadPose Motion::poseAt(double t) const {
     case MotionKind::glide:
       pose.position += axis * (amplitude * t);
       break;
+    case MotionKind::walk: {
+      // Two steps a stride: what is the same for either leg comes twice. The way forward is left out: at an
+      // even pace hair does not feel it.
+      const double bob = std::sin(2 * angle) * size, nodding = std::sin(2 * angle - kNoddingAfterBob) * size;
+      pose.position += (axis * bob + kSide * (kSwayPerBob * swing)) * amplitude;
+      pose.rotation = fromRotationVector(axis * (kTurningPerBob * amplitude * swing)) *
+                      fromRotationVector(kSide * (kNoddingPerBob * amplitude * nodding));
+      break;
+    }
   }
   return pose;
 }
 
 std::optional<Motion> motionByName(std::string_view name, Vec3d up) {
-  // The side: X, whichever of Y and Z is up.
-  const Vec3d side{1, 0, 0};
   if (name == "still") return Motion{};
   if (name == "shake")
-    return Motion{.kind = MotionKind::shake, .axis = side, .amplitude = 0.1, .frequency = 2};
-  if (name == "nod") return Motion{.kind = MotionKind::nod, .axis = side, .amplitude = 0.4, .frequency = 1};
+    return Motion{.kind = MotionKind::shake, .axis = kSide, .amplitude = 0.1, .frequency = 2};
+  if (name == "nod") return Motion{.kind = MotionKind::nod, .axis = kSide, .amplitude = 0.4, .frequency = 1};
   if (name == "spin") {
     return Motion{.kind = MotionKind::spin, .axis = up, .amplitude = std::numbers::pi, .easeSeconds = 0.5};
   }
-  if (name == "glide") return Motion{.kind = MotionKind::glide, .axis = side, .amplitude = 1};
+  if (name == "glide") return Motion{.kind = MotionKind::glide, .axis = kSide, .amplitude = 1};
+  if (name == "walk") return Motion{.kind = MotionKind::walk, .axis = up, .amplitude = 0.025, .frequency = 1};
   return std::nullopt;
 }
 
-std::string motionNames() { return "still, shake, nod, spin, glide"; }
+std::string motionNames() { return "still, shake, nod, spin, glide, walk"; }
 
 }  // namespace ringlet

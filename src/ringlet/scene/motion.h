@@ -2,6 +2,7 @@
 // `glide`, whose constant velocity the hair has from the start.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,16 +18,19 @@ enum class MotionKind {
   nod,    // turns to and fro about `axis`
   spin,   // turns about `axis` at constant speed, reached after easeSeconds
   glide,  // moves along `axis` at constant speed, from the first instant
+  walk,   // on the spot, `axis` up: bobs at every step, sways and turns from leg to leg, nods a little
 };
 
 /// Position and orientation of the head as a smooth function of time.
 struct Motion {
   MotionKind kind = MotionKind::still;
   Vec3d axis{1, 0, 0};        // unit vector: direction of travel, or axis of turning
-  double amplitude = 0.1;     // shake [m]; nod [rad]; spin [rad/s]; glide [m/s]
-  double frequency = 2;       // shake, nod [Hz]
-  double easeSeconds = 0.25;  // shake, nod, spin: amplitude or speed grows smoothly from 0 over this time
-  Vec3d start{};              // position of the head at t = 0 [m]
+  double amplitude = 0.1;     // shake, walk (of its bob) [m]; nod [rad]; spin [rad/s]; glide [m/s]
+  double frequency = 2;       // shake, nod [Hz]; walk: strides, of two steps each [Hz]
+  double easeSeconds = 0.25;  // all but glide: amplitude or speed grows smoothly from 0 over this time
+  double untilSeconds =
+      std::numeric_limits<double>::infinity();  // shake, nod, walk: over by then, eased out as it eased in
+  Vec3d start{};                                // position of the head at t = 0 [m]
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;

@@ -1,0 +1,396 @@
+// Implements measure_command.h: reads a groom and what became of it, prints tables or JSON. The measuring is
+// src/ringlet/measure.
+#include "program/measure_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "program/command_line.h"
+#include "program/exit_codes.h"
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/output/usd_reader.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr double kCentimetre = 0.01;  // what a groom's unit is taken for
+constexpr const char* kExample =
+    "Examples:\n"
+    "  ringlet measure groom.obj                     the curls of a groom\n"
+    "  ringlet measure groom.obj settled.obj         what is left of them in another pose\n"
+    "  ringlet measure groom.obj out --json          and in what `ringlet simulate` wrote\n"
+    "\n"
+    "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or its hair.usda.\n"
+    "Against an animation the groom counts as the frame before the first; tables show the last frame.\n"
+    "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
+    "root, or roots on a line, cannot show every turn; the head then turns as little as they allow).\n"
+    "Bounce (of the core's length), sway and settling are those after the head last drove the hair.\n"
+    "\n"
+    "--json keys: strands particles frames; over strands of the last frame, means: droop_mm\n"
+    "core_elongation, and of the curled: turns mean_radius_mm; handedness_kept: by all;\n"
+    "tip_rotation_deg: the largest; over all frames, the largest: arc_drift max_edge_stretch worst\n"
+    "{droop_mm core_elongation tip_rotation_deg}; of the motion: bounce_hz sway_hz (means) settle_s (the\n"
+    "last to settle) energy_ratio (last second over peak); spread {KEY: [mean, min, max]} of the last\n"
+    "frame; per_strand with --strands. null: nothing to measure.\n"
+    "\n"
+    "Exit status: 0 done, 1 something failed, 2 wrong usage.";
+
+// The command line as typed.
+struct Typed {
+  std::filesystem::path rest, other;
+  std::optional<double> metresPerUnit;
+  std::optional<std::string> up;
+  bool json = false, strands = false;
+};
+
+// What was measured: a groom alone, another pose of it, or a motion. Only the last has frames.
+struct Measured {
+  GroomRuler ruler;
+  std::vector<StrandMeasure> strands;  // of the pose, or of the last frame
+  std::vector<StrandMotion> motions;   // one a strand, or none
+  CurlNumbers numbers;
+  double seconds = 0, freeSeconds = 0;
+  bool isPose = false;        // against another pose or a motion
+  bool isUnfinished = false;  // an animation that was not finished
+};
+
+void warn(const std::string& sentence) { fmt::print(stderr, "ringlet measure: warning: {}\n", sentence); }
+
+Result<Groom> read(const std::filesystem::path& path, double metresPerUnit) {
+  auto loaded = readGroom(path);
+  if (!loaded) return loaded.error();
+  for (const std::string& warning : loaded->warnings) warn(warning);
+  loaded->groom.metresPerUnit = metresPerUnit;
+  return std::move(loaded->groom);
+}
+
+// Whether two files hold the same strands, particle for particle.
+Status checkSameStrands(const Groom& rest, const std::vector<std::uint32_t>& counts, const Typed& typed) {
+  const std::string files = fmt::format("{} and {}", typed.rest.string(), typed.other.string());
+  if (counts.size() != rest.strandCount()) {
+    return Error{fmt::format("{} hold {} and {} strands; only the same strands can be compared", files,
+                             rest.strandCount(), counts.size())};
+  }
+  for (std::size_t s = 0; s < counts.size(); ++s) {
+    if (counts[s] == rest.strand(s).size()) continue;
+    return Error{
+        fmt::format("strand {} has {} particles in {} and {} in {}; only the same strands can be compared", s,
+                    rest.strand(s).size(), typed.rest.string(), counts[s], typed.other.string())};
+  }
+  return {};
+}
+
+Vec3d upOf(const Typed& typed, UpAxis otherwise) {
+  const bool isZ = typed.up ? *typed.up == "Z" : otherwise == UpAxis::z;
+  return isZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
+}
+
+Result<Measured> measureGroom(const Typed& typed) {
+  const double unit = typed.metresPerUnit.value_or(kCentimetre);
+  auto rest = read(typed.rest, unit);
+  if (!rest) return rest.error();
+  auto ruler = GroomRuler::make(*rest);
+  if (!ruler) return Error{fmt::format("{}: {}", typed.rest.string(), ruler.error().message)};
+  std::vector<StrandMeasure> strands = ruler->rest();
+
+  // The same strands elsewhere.
+  if (!typed.other.empty()) {
+    auto other = read(typed.other, unit);
+    if (!other) return other.error();
+    std::vector<std::uint32_t> counts;
+    for (std::size_t s = 0; s < other->strandCount(); ++s)
+      counts.push_back(static_cast<std::uint32_t>(other->strand(s).size()));
+    if (Status same = checkSameStrands(*rest, counts, typed); !same) return same.error();
+    auto measured = ruler->measure(other->points, unit, upOf(typed, UpAxis::y),
+                                   ruler->headRotationOf(other->points, unit));
+    if (!measured) return Error{fmt::format("{}: {}", typed.other.string(), measured.error().message)};
+    strands = std::move(*measured);
+  }
+  const CurlNumbers numbers = curlNumbers(*ruler, strands);
+  Measured measured{
+      .ruler = std::move(*ruler), .strands = std::move(strands), .motions = {}, .numbers = numbers};
+  measured.isPose = !typed.other.empty();
+  return measured;
+}
+
+Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::path& path) {
+  auto reader = UsdReader::open(path);
+  if (!reader) return reader.error();
+  const double unit = reader->metresPerUnit();
+  if (typed.metresPerUnit && std::abs(*typed.metresPerUnit / unit - 1) > 1e-9) {
+    return Error{fmt::format("--unit {} does not fit {}, which was written in units of {} m; leave it out",
+                             *typed.metresPerUnit, path.string(), unit)};
+  }
+  auto rest = read(typed.rest, unit);
+  if (!rest) return rest.error();
+  if (Status same = checkSameStrands(*rest, reader->particleCounts(), typed); !same) return same.error();
+
+  // Frame by frame, from the groom itself on.
+  auto motion = MotionMeasure::make(
+      *rest, {.framesPerSecond = reader->framesPerSecond(), .up = upOf(typed, reader->up())});
+  if (!motion) return Error{fmt::format("{}: {}", typed.rest.string(), motion.error().message)};
+  std::vector<Vec3f> points = rest->points;
+  for (;;) {
+    if (Status added = motion->addFrame(points, unit); !added)
+      return Error{
+          fmt::format("{}: frame {}: {}", path.string(), motion->frameCount(), added.error().message)};
+    auto more = reader->readFrame(points);
+    if (!more) return more.error();
+    if (!*more) break;
+  }
+  if (motion->frameCount() < 2) return Error{fmt::format("{} holds no frame", path.string())};
+
+  MotionReport report = motion->report();
+  Measured measured{.ruler = motion->ruler(), .strands = {}, .motions = {}, .numbers = {}};
+  measured.numbers = curlNumbers(motion->ruler(), report);
+  --measured.numbers.frameCount;  // the groom itself is none of the file's
+  for (const StrandMotion& strand : report.strands) measured.strands.push_back(strand.last);
+  measured.motions = std::move(report.strands);
+  measured.seconds = report.seconds;
+  measured.freeSeconds = report.freeSeconds;
+  measured.isPose = true;
+  measured.isUnfinished = path.extension() == ".partial";
+  return measured;
+}
+
+// What OTHER is: a folder stands for the animation in it.
+Result<Measured> measure(const Typed& typed) {
+  namespace fs = std::filesystem;
+  fs::path path = typed.other;
+  std::error_code code;
+  if (fs::is_directory(path, code)) {
+    path = typed.other / "hair.usda";
+    if (!fs::exists(path, code)) path += ".partial";
+    if (!fs::exists(path, code))
+      return Error{fmt::format("{} holds no hair.usda; is it a folder that `ringlet simulate` wrote?",
+                               typed.other.string())};
+  }
+  const bool isAnimation = path.extension() == ".usda" || path.extension() == ".partial";
+  return isAnimation ? measureAnimation(typed, path) : measureGroom(typed);
+}
+
+nlohmann::json orNull(std::optional<double> value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+// A line of the table and of the JSON's spread: one value of every strand, in the unit shown.
+struct Row {
+  const char* label;
+  const char* key;
+  double StrandMeasure::*member;
+  double scale;
+  int digits;
+  bool onlyInPoses;  // says nothing about a groom alone
+};
+constexpr Row kRows[] = {
+    {"droop [mm]", "droop_mm", &StrandMeasure::droop, 1000, 3, true},
+    {"  of length [%]", "relative_droop", &StrandMeasure::relativeDroop, 100, 3, true},
+    {"core elongation", "core_elongation", &StrandMeasure::coreElongation, 1, 4, true},
+    {"chord elongation", "chord_elongation", &StrandMeasure::chordElongation, 1, 4, true},
+    {"core [mm]", "core_length_mm", &StrandMeasure::coreLength, 1000, 2, false},
+    {"chord [mm]", "chord_mm", &StrandMeasure::chord, 1000, 2, false},
+    {"turns", "turns", &StrandMeasure::turns, 1, 3, false},
+    {"winding [turns]", "winding", &StrandMeasure::winding, 1, 3, false},
+    {"radius [mm]", "mean_radius_mm", &StrandMeasure::meanRadius, 1000, 3, false},
+    {"hand kept [%]", "handedness_share", &StrandMeasure::handednessKept, 100, 1, true},
+    {"arc drift [%]", "arc_drift", &StrandMeasure::arcDrift, 100, 4, true},
+    {"longest edge [x]", "max_edge_stretch", &StrandMeasure::maxEdgeStretch, 1, 4, true},
+    {"tip rotation [deg]", "tip_rotation_deg", &StrandMeasure::tipRotation, 1, 2, true},
+};
+
+// JSON has shares where the table has per cent.
+double jsonScale(const Row& row) { return row.scale == 100 ? 1 : row.scale; }
+
+std::vector<double> valuesOf(const std::vector<StrandMeasure>& strands, const Row& row, double scale) {
+  std::vector<double> values;
+  for (const StrandMeasure& strand : strands) values.push_back(strand.*row.member * scale);
+  return values;
+}
+
+nlohmann::ordered_json asJson(const Typed& typed, const Measured& measured) {
+  nlohmann::ordered_json json;
+  json["strands"] = measured.numbers.strandCount;
+  json["particles"] = measured.numbers.particleCount;
+  json["frames"] = measured.numbers.frameCount;
+  addCurlKeys(json, measured.numbers);
+  for (const Row& row : kRows) {
+    const Spread spread = spreadOf(valuesOf(measured.strands, row, jsonScale(row)));
+    json["spread"][row.key] = {spread.mean, spread.min, spread.max};
+  }
+  if (!typed.strands) return json;
+
+  json["per_strand"] = nlohmann::json::array();
+  for (std::size_t s = 0; s < measured.strands.size(); ++s) {
+    const StrandMeasure& strand = measured.strands[s];
+    nlohmann::ordered_json entry;
+    entry["particles"] = measured.ruler.strand(s).particleCount();
+    for (const Row& row : kRows) entry[row.key] = strand.*row.member * jsonScale(row);
+    entry["turns_at_rest"] = measured.ruler.strand(s).rest().turns;
+    entry["handedness"] = strand.handedness;
+    entry["handedness_kept"] = strand.handednessKept >= kHandKeptShare;
+    if (!measured.motions.empty()) {
+      const StrandMotion& motion = measured.motions[s];
+      entry["bounce_hz"] = orNull(motion.bounceHz);
+      entry["sway_hz"] = orNull(motion.swayHz);
+      entry["settle_s"] = orNull(motion.settleSeconds);
+      entry["energy_ratio"] = motion.energyRatio;
+    }
+    json["per_strand"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::string count(std::size_t number, const char* noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
+// A number of the table; never "-0.00".
+std::string shown(double value, int digits) {
+  const double unit = std::pow(10, -digits);
+  return fmt::format("{:.{}f}", std::abs(value) < unit / 2 ? 0.0 : value, digits);
+}
+std::string shown(std::optional<double> value, int digits) { return value ? shown(*value, digits) : "-"; }
+
+std::string summaryText(const Measured& measured) {
+  const GroomMeasure groom = measured.ruler.summarize(measured.strands);
+  const CurlNumbers& numbers = measured.numbers;
+  std::string text =
+      fmt::format("{}, {} particles: {} curled ({} right-handed, {} left-handed), {} straight\n",
+                  count(groom.strandCount, "strand"), groom.particleCount, groom.curledCount,
+                  groom.rightHandedCount, groom.leftHandedCount, groom.strandCount - groom.curledCount);
+  if (!measured.motions.empty()) {
+    text += fmt::format("{}, {:.2f} s{}; the table shows the last\n", count(numbers.frameCount, "frame"),
+                        measured.seconds, measured.isUnfinished ? " (not finished)" : "");
+  }
+  text += fmt::format("\n  {:<20}{:>12}{:>12}{:>12}\n", "", "mean", "min", "max");
+  auto line = [&](const char* label, const Spread& spread, int digits) {
+    text += fmt::format("  {:<20}{:>12}{:>12}{:>12}\n", label, shown(spread.mean, digits),
+                        shown(spread.min, digits), shown(spread.max, digits));
+  };
+  for (const Row& row : kRows) {
+    if (row.onlyInPoses && !measured.isPose) continue;
+    line(row.label, spreadOf(valuesOf(measured.strands, row, row.scale)), row.digits);
+    if (!measured.isPose) continue;
+    if (row.member == &StrandMeasure::turns) line("  at rest", groom.turnsAtRest, row.digits);
+    if (row.member == &StrandMeasure::meanRadius) {
+      const Spread& rest = groom.meanRadiusAtRest;
+      line("  at rest [mm]", {1000 * rest.mean, 1000 * rest.min, 1000 * rest.max}, row.digits);
+    }
+  }
+  if (measured.isPose)
+    text +=
+        fmt::format("\n  handedness    {}\n", numbers.handednessKept ? "kept by every strand" : "not kept");
+  if (measured.motions.empty()) return text;
+
+  // What only a motion has.
+  text += fmt::format(
+      "  at the worst  droop {} mm, core elongation {}, longest edge {} x, tip rotation {} degrees\n",
+      shown(1000 * numbers.worstDroop, 3), shown(numbers.worstCoreElongation, 4),
+      shown(numbers.maxEdgeStretch, 4), shown(numbers.worstTipRotation, 2));
+  text += fmt::format("  bounce        {} Hz, sway {} Hz\n", shown(numbers.bounceHz, 3),
+                      shown(numbers.swayHz, 3));
+  text += fmt::format("  settled       {} s\n", shown(numbers.settleSeconds, 2));
+  text += numbers.energyRatio ? fmt::format("  energy        {:.3g} of its peak left\n", *numbers.energyRatio)
+                              : "";
+  if (measured.freeSeconds > 0) {
+    text += fmt::format("  bounce and settling are those after the head last drove the hair, at {:.2f} s\n",
+                        measured.freeSeconds);
+  }
+  return text;
+}
+
+std::string strandsText(const Measured& measured) {
+  std::string text = fmt::format("\n{:>7}{:>10}", "strand", "particles");
+  const char* headings[] = {"droop mm", "%",      "core x", "chord x", "core mm", "chord mm", "turns",
+                            "winding",  "radius", "hand %", "drift %", "edge x",  "tip deg"};
+  static_assert(std::size(headings) == std::size(kRows));
+  for (std::size_t k = 0; k < std::size(kRows); ++k) {
+    if (!kRows[k].onlyInPoses || measured.isPose) text += fmt::format("{:>10}", headings[k]);
+  }
+  if (!measured.motions.empty())
+    text += fmt::format("{:>10}{:>10}{:>10}{:>10}", "bounce Hz", "sway Hz", "settle s", "energy");
+  text += "\n";
+  for (std::size_t s = 0; s < measured.strands.size(); ++s) {
+    text += fmt::format("{:>7}{:>10}", s, measured.ruler.strand(s).particleCount());
+    for (const Row& row : kRows) {
+      if (!row.onlyInPoses || measured.isPose)
+        text += fmt::format("{:>10}", shown(measured.strands[s].*row.member * row.scale, row.digits));
+    }
+    if (!measured.motions.empty()) {
+      const StrandMotion& motion = measured.motions[s];
+      text += fmt::format("{:>10}{:>10}{:>10}{:>10.2g}", shown(motion.bounceHz, 3), shown(motion.swayHz, 3),
+                          shown(motion.settleSeconds, 2), motion.energyRatio);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+int run(const Typed& typed) {
+  auto measured = measure(typed);
+  if (!measured) {
+    fmt::print(stderr, "ringlet measure: {}\n", measured.error().message);
+    return kExitFailed;
+  }
+  if (measured->isUnfinished) warn("the animation was not finished; its frames so far were measured");
+  if (typed.json) {
+    fmt::print("{}\n", asJson(typed, *measured).dump(2));
+  } else {
+    fmt::print("{}{}", summaryText(*measured), typed.strands ? strandsText(*measured) : "");
+  }
+  return kExitFine;
+}
+
+}  // namespace
+
+void addCurlKeys(nlohmann::ordered_json& json, const CurlNumbers& numbers) {
+  json["droop_mm"] = 1000 * numbers.droop;
+  json["core_elongation"] = numbers.coreElongation;
+  json["turns"] = numbers.turns;
+  json["mean_radius_mm"] = 1000 * numbers.meanRadius;
+  json["handedness_kept"] = numbers.handednessKept;
+  json["arc_drift"] = numbers.arcDrift;
+  json["max_edge_stretch"] = numbers.maxEdgeStretch;
+  json["tip_rotation_deg"] = numbers.tipRotation;
+  json["bounce_hz"] = orNull(numbers.bounceHz);
+  json["sway_hz"] = orNull(numbers.swayHz);
+  json["settle_s"] = orNull(numbers.settleSeconds);
+  json["energy_ratio"] = orNull(numbers.energyRatio);
+  json["worst"] = {{"droop_mm", 1000 * numbers.worstDroop},
+                   {"core_elongation", numbers.worstCoreElongation},
+                   {"tip_rotation_deg", numbers.worstTipRotation}};
+}
+
+void addMeasureCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command = app.add_subcommand("measure", "Measures the curl of a groom, and what became of it");
+  command->footer(kExample);
+  command->add_option("REST", typed->rest, "The groom at rest: a .hair or .obj file")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("OTHER", typed->other, "What became of it: a pose (.hair, .obj), a folder or a hair.usda")
+      ->type_name("PATH");
+  command
+      ->add_option("--unit", typed->metresPerUnit,
+                   "Metres per unit of the files (default: the animation's, else 0.01: centimetres)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
+  command->add_option("--up", typed->up, "The files' up axis, Y or Z (default: the animation's, else Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS");
+  command->add_flag("--strands", typed->strands, "Every strand by itself too");
+  command->add_flag("--json", typed->json, "Print one JSON object instead of tables");
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,95 @@
+// Implements run_report.h.
+#include "program/run_report.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "program/exit_codes.h"
+
+namespace ringlet::program {
+
+std::vector<std::string> integratorNames() { return {"jacobi", "point_jacobi", "paper"}; }
+
+Integrator integratorByName(const std::string& name) {
+  if (name == "paper") return Integrator::paper;
+  return name == "point_jacobi" ? Integrator::pointJacobi : Integrator::jacobi;
+}
+
+nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
+                               const SimulateOutcome& outcome) {
+  nlohmann::ordered_json json;
+  json["frames"] = outcome.frameCount;
+  json["strands"] = outcome.strandCount;
+  json["particles"] = outcome.particleCount;
+  json["ms_per_frame"] = outcome.millisecondsPerFrame;
+  json["stages_ms"] = outcome.stages;
+  json["max_edge_stretch"] = outcome.report.maxEdgeStretch;  // null where it is not finite
+  json["limited_share"] = outcome.report.limitedShare;
+  json["nonfinite"] = outcome.report.nonfinite;
+  json["device"] = outcome.device;
+  json["driver"] = outcome.driver;
+  json["kernel"] = outcome.kernel;
+  json["backend"] = names.backend;
+  json["positions_hash"] = outcome.positionsHash;
+  json["integrator"] = names.integrator;
+  json["material"] = names.material;
+  json["steps_per_frame"] = settings.stepsPerFrame;
+  json["fps"] = settings.framesPerSecond;
+  json["interrupted"] = outcome.interrupted;
+  json["warnings"] = outcome.warnings;
+  json["outputs"] = nlohmann::json::array();
+  for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
+  return json;
+}
+
+std::string runText(const RunNames& names, const Settings& settings, const SimulateOutcome& outcome) {
+  std::string text = fmt::format("{} frame{} of {} strand{}, {} particles{}\n", outcome.frameCount,
+                                 outcome.frameCount == 1 ? "" : "s", outcome.strandCount,
+                                 outcome.strandCount == 1 ? "" : "s", outcome.particleCount,
+                                 outcome.interrupted ? " (interrupted)" : "");
+  text += fmt::format("  stepped by    {}, {} steps a frame, on {} ({})\n", names.integrator,
+                      settings.stepsPerFrame, outcome.device, outcome.kernel);
+  text +=
+      fmt::format("  a frame took  {:.2f} ms to step, {:.2f} ms to read back, {:.2f} ms to write\n",
+                  outcome.millisecondsPerFrame, outcome.stages.at("readback"), outcome.stages.at("write"));
+  text +=
+      fmt::format("  longest edge  {:.4f} x its length in the groom; the limit touched {:.3g} % of edges\n",
+                  outcome.report.maxEdgeStretch, 100 * outcome.report.limitedShare);
+  for (const auto& path : outcome.outputs) {
+    text += fmt::format("  {}  {}\n", path == outcome.outputs.front() ? "written     " : "            ",
+                        path.string());
+  }
+  return text;
+}
+
+int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameCount) {
+  for (const std::string& warning : outcome.warnings)
+    fmt::print(stderr, "ringlet {}: warning: {}\n", command, warning);
+
+  // Particles without a position: say which was the first, so that it can be looked at.
+  const SimulationReport& report = outcome.report;
+  if (report.nonfinite > 0) {
+    std::string first;
+    if (report.firstNonfiniteStrand >= 0) {
+      first = fmt::format(", first strand {} particle {}", report.firstNonfiniteStrand,
+                          report.firstNonfiniteParticle);
+    }
+    fmt::print(stderr,
+               "ringlet {}: {} particles have no finite position{}; in the files their strands end before "
+               "them. Try more --steps-per-frame.\n",
+               command, report.nonfinite, first);
+  }
+  if (outcome.interrupted) {
+    fmt::print(stderr, "ringlet {}: interrupted after {} of {} frames{}\n", command, outcome.frameCount,
+               frameCount, outcome.frameCount == 0 ? "; nothing was written" : "; they are kept");
+    return kExitInterrupted;
+  }
+  return report.nonfinite > 0 ? kExitNonfinite : kExitFine;
+}
+
+void printJson(const nlohmann::ordered_json& json) {
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,11 @@
+// `ringlet scene`: the built-in scenes, run and measured.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ringlet::program {
+
+/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+void addSceneCommand(CLI::App& app, int& exitCode);
+
+}  // namespace ringlet::program

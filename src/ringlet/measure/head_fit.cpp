@@ -1,0 +1,95 @@
+// Implements measure/head_fit.h. B. K. P. Horn, "Closed-form solution of absolute orientation using unit
+// quaternions", 1987: the quaternion is the eigenvector of a symmetric 4x4 matrix with the greatest
+// eigenvalue.
+#include "ringlet/measure/head_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ringlet/base/assert.h"
+
+namespace ringlet {
+namespace {
+
+using Row = std::array<double, 4>;
+using Matrix = std::array<Row, 4>;
+
+// Eigenvalues of a symmetric matrix come to stand on its diagonal, eigenvectors in the columns returned
+// (Jacobi's rotations; a 4x4 matrix is diagonal to rounding after about six sweeps).
+Matrix diagonalize(Matrix& a) {
+  Matrix vectors{Row{1, 0, 0, 0}, Row{0, 1, 0, 0}, Row{0, 0, 1, 0}, Row{0, 0, 0, 1}};
+  for (int sweep = 0; sweep < 16; ++sweep) {
+    for (std::size_t p = 0; p < 4; ++p) {
+      for (std::size_t q = p + 1; q < 4; ++q) {
+        if (a[p][q] == 0) continue;
+        const double angle = 0.5 * std::atan2(2 * a[p][q], a[q][q] - a[p][p]);
+        const double c = std::cos(angle), s = std::sin(angle);
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double kp = a[k][p], kq = a[k][q];
+          a[k][p] = c * kp - s * kq;
+          a[k][q] = s * kp + c * kq;
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double pk = a[p][k], qk = a[q][k];
+          a[p][k] = c * pk - s * qk;
+          a[q][k] = s * pk + c * qk;
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double kp = vectors[k][p], kq = vectors[k][q];
+          vectors[k][p] = c * kp - s * kq;
+          vectors[k][q] = s * kp + c * kq;
+        }
+      }
+    }
+  }
+  return vectors;
+}
+
+Vec3d meanOf(std::span<const Vec3d> points) {
+  Vec3d sum{};
+  for (Vec3d p : points) sum += p;
+  return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+}
+
+// Eigenvalues nearer to the greatest than this share of it are the same: what separates them is rounding.
+constexpr double kSameEigenvalue = 1e-6;
+
+}  // namespace
+
+Quatd fitHeadRotation(std::span<const Vec3d> restRoots, std::span<const Vec3d> roots) {
+  RINGLET_ASSERT(restRoots.size() == roots.size(), "as many roots as at rest");
+  const Vec3d restMean = meanOf(restRoots), mean = meanOf(roots);
+  Vec3d sx{}, sy{}, sz{};  // sx.y is the sum of rest x times now y
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    const Vec3d a = restRoots[i] - restMean, b = roots[i] - mean;
+    sx += b * a.x;
+    sy += b * a.y;
+    sz += b * a.z;
+  }
+
+  // Horn's matrix, in the order x y z w.
+  Matrix n{Row{sx.x - sy.y - sz.z, sx.y + sy.x, sz.x + sx.z, sy.z - sz.y},
+           Row{sx.y + sy.x, sy.y - sx.x - sz.z, sy.z + sz.y, sz.x - sx.z},
+           Row{sz.x + sx.z, sy.z + sz.y, sz.z - sx.x - sy.y, sx.y - sy.x},
+           Row{sy.z - sz.y, sz.x - sx.z, sx.y - sy.x, sx.x + sy.y + sz.z}};
+  const Matrix vectors = diagonalize(n);
+  const double greatest = std::max({n[0][0], n[1][1], n[2][2], n[3][3]});
+
+  // The identity's projection on all that fit best: of these the smallest rotation.
+  Quatd best{0, 0, 0, 0};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (n[k][k] < greatest - kSameEigenvalue * std::abs(greatest)) continue;
+    const double share = vectors[3][k];
+    best = {best.x + share * vectors[0][k], best.y + share * vectors[1][k], best.z + share * vectors[2][k],
+            best.w + share * vectors[3][k]};
+  }
+  if (best.w > 1e-24) return normalized(best);
+  // Half a turn: none of them has a share of the identity.
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (n[k][k] == greatest) best = {vectors[0][k], vectors[1][k], vectors[2][k], vectors[3][k]};
+  }
+  return normalized(best);
+}
+
+}  // namespace ringlet

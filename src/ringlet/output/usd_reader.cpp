@@ -1,0 +1,244 @@
+// Implements output/usd_reader.h. The text's form is drawn in usd_writer.cpp.
+#include "ringlet/output/usd_reader.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+#include "ringlet/groom/quoted.h"
+
+namespace ringlet {
+namespace {
+
+constexpr std::size_t kReadBytes = 1 << 16;
+constexpr std::size_t kLongestToken = 128;  // of what we write; more is not ours
+
+bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
+bool isOfNumber(char c) {
+  return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E';
+}
+
+// The whole text as a finite number, or nothing.
+template <class T>
+std::optional<T> parse(std::string_view text) {
+  T value{};
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value)))
+    return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+Result<UsdReader> UsdReader::open(const std::filesystem::path& path) {
+  UsdReader reader;
+  reader.path_ = path;
+  errno = 0;
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code))
+    return Error{fmt::format("cannot read {}: it is a folder", path.string())};
+  reader.file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!reader.file_)
+    return Error{fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno))};
+  if (Status read = reader.readHeader(); !read) return read.error();
+  return reader;
+}
+
+Status UsdReader::readHeader() {
+  // What the file is measured in.
+  std::string upAxis;
+  for (std::string_view token : {"#usda", "1.0", "(", "defaultPrim", "=", "\"Hair\"", "endTimeCode", "="}) {
+    if (Status found = expect(token); !found) return found;
+  }
+  auto frames = number();
+  if (!frames) return frames.error();
+  if (!(*frames >= 0 && *frames <= std::numeric_limits<int>::max())) return wanted("a number of frames");
+  frameCount_ = static_cast<int>(*frames);
+  struct Entry {
+    std::string_view key;
+    double* value;
+  };
+  for (const Entry& entry : {Entry{"metersPerUnit", &metresPerUnit_}, Entry{"startTimeCode", nullptr},
+                             Entry{"timeCodesPerSecond", &framesPerSecond_}}) {
+    if (Status found = expect(entry.key); !found) return found;
+    if (Status found = expect("="); !found) return found;
+    auto value = number();
+    if (!value) return value.error();
+    if (!(*value > 0)) return wanted(fmt::format("{} above 0", entry.key));
+    if (entry.value) *entry.value = *value;
+  }
+  for (std::string_view token : {"upAxis", "="}) {
+    if (Status found = expect(token); !found) return found;
+  }
+  if (accept("\"Z\"")) {
+    up_ = UpAxis::z;
+  } else if (Status found = expect("\"Y\""); !found) {
+    return found;
+  }
+
+  // The strands.
+  for (std::string_view token :
+       {")", "def", "BasisCurves", "\"Hair\"", "{", "int[]", "curveVertexCounts", "=", "["}) {
+    if (Status found = expect(token); !found) return found;
+  }
+  while (!accept("]")) {
+    if (!particleCounts_.empty()) {
+      if (Status found = expect(","); !found) return found;
+    }
+    auto count = number();
+    if (!count) return count.error();
+    if (!(*count >= 1 && *count <= 1e9) || *count != std::floor(*count)) return wanted("a particle count");
+    particleCounts_.push_back(static_cast<std::uint32_t>(*count));
+    particleCount_ += particleCounts_.back();
+  }
+  for (std::string_view token :
+       {"uniform", "token", "type", "=", "\"linear\"", "float[]", "widths", "=", "["}) {
+    if (Status found = expect(token); !found) return found;
+  }
+  if (auto width = number(); !width) return width.error();
+  for (std::string_view token :
+       {"]", "(", "interpolation", "=", "\"constant\"", ")", "uniform", "token", "wrap", "=",
+        "\"nonperiodic\"", "float3[]", "extent.timeSamples", "=", "{"}) {
+    if (Status found = expect(token); !found) return found;
+  }
+  if (Status read = readExtents(); !read) return read;
+  for (std::string_view token : {"point3f[]", "points.timeSamples", "=", "{"}) {
+    if (Status found = expect(token); !found) return found;
+  }
+  return {};
+}
+
+// They are not needed, only read over. The last frame's may be there before its points are.
+Status UsdReader::readExtents() {
+  while (!accept("}")) {
+    auto timeCode = number();
+    if (!timeCode) return timeCode.error();
+    for (std::string_view token : {":", "["}) {
+      if (Status found = expect(token); !found) return found;
+    }
+    for (std::string_view token : {",", "]"}) {
+      if (auto corner = readTuple(); !corner) return corner.error();
+      if (Status found = expect(token); !found) return found;
+    }
+    if (Status found = expect(","); !found) return found;
+  }
+  return {};
+}
+
+Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
+  if (isFinished_) return false;
+  if (accept("}")) {
+    if (Status found = expect("}"); !found) return found.error();
+    skipSpace();
+    if (fill()) return wanted("the end of the file");
+    if (framesRead_ != frameCount_)
+      return wanted(fmt::format("{} frames, as endTimeCode says, after {}", frameCount_, framesRead_));
+    isFinished_ = true;
+    return false;
+  }
+  auto timeCode = number();
+  if (!timeCode) return timeCode.error();
+  if (*timeCode != framesRead_ + 1) return wanted(fmt::format("frame {}", framesRead_ + 1));
+  for (std::string_view token : {":", "["}) {
+    if (Status found = expect(token); !found) return found.error();
+  }
+  points.clear();
+  points.reserve(particleCount_);
+  while (points.size() < particleCount_) {
+    auto point = readTuple();
+    if (!point) return point.error();
+    points.push_back(*point);
+    if (Status found = expect(","); !found) return found.error();
+  }
+  for (std::string_view token : {"]", ","}) {
+    if (Status found = expect(token); !found) return found.error();
+  }
+  ++framesRead_;
+  return true;
+}
+
+Result<Vec3f> UsdReader::readTuple() {
+  float values[3]{};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (Status found = expect(axis == 0 ? "(" : ","); !found) return found.error();
+    auto value = coordinate();
+    if (!value) return value.error();
+    values[axis] = *value;
+  }
+  if (Status found = expect(")"); !found) return found.error();
+  return Vec3f{values[0], values[1], values[2]};
+}
+
+// More text behind what is there; false at the end of the file.
+bool UsdReader::fill() {
+  if (buffer_.size() - at_ >= kLongestToken) return true;
+  if (file_) {
+    bufferStart_ += at_;
+    buffer_.erase(0, at_);
+    at_ = 0;
+    const std::size_t before = buffer_.size();
+    buffer_.resize(before + kReadBytes);
+    buffer_.resize(before + std::fread(buffer_.data() + before, 1, kReadBytes, file_.get()));
+    if (buffer_.size() == before) file_.reset();
+  }
+  return at_ < buffer_.size();
+}
+
+char UsdReader::peek() { return at_ < buffer_.size() || fill() ? buffer_[at_] : '\0'; }
+
+void UsdReader::skipSpace() {
+  while (isSpace(peek())) ++at_;
+  fill();
+}
+
+bool UsdReader::accept(std::string_view token) {
+  skipSpace();
+  if (std::string_view(buffer_).substr(at_, token.size()) != token) return false;
+  at_ += token.size();
+  return true;
+}
+
+Status UsdReader::expect(std::string_view token) {
+  if (!accept(token)) return wanted(fmt::format("'{}'", token));
+  return {};
+}
+
+std::string UsdReader::word() {
+  skipSpace();
+  std::size_t end = at_;
+  while (end < buffer_.size() && end - at_ < kLongestToken && isOfNumber(buffer_[end])) ++end;
+  return buffer_.substr(at_, end - at_);
+}
+
+Result<double> UsdReader::number() {
+  const std::string text = word();
+  const std::optional<double> value = parse<double>(text);
+  if (!value) return wanted("a number");
+  at_ += text.size();
+  return *value;
+}
+
+// Read as float at once: nine digits stand for a float, not for the nearest double.
+Result<float> UsdReader::coordinate() {
+  const std::string text = word();
+  const std::optional<float> value = parse<float>(text);
+  if (!value) return wanted("a finite number");
+  at_ += text.size();
+  return *value;
+}
+
+Error UsdReader::wanted(std::string_view what) {
+  skipSpace();
+  const std::string found =
+      at_ < buffer_.size() ? quoted(std::string_view(buffer_).substr(at_, 33)) : "the end of the file";
+  return Error{
+      fmt::format("{}: byte {}: expected {}, found {}; only animations that `ringlet simulate` wrote can "
+                  "be read",
+                  path_.string(), bufferStart_ + at_, what, found)};
+}
+
+}  // namespace ringlet

@@ -1,0 +1,256 @@
+// Implements rest/material_parameters.h.
+#include "ringlet/rest/material_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace ringlet {
+namespace {
+
+constexpr std::size_t kMostProfilePoints = 256;  // as many as a long strand has particles
+constexpr double kLeastElongationGap = 1e-6;     // between low and high, for the smoothstep between them
+
+template <class Owner>
+Status checkNumbers(std::span<const Parameter<Owner>> parameters, const Owner& owner, const char* table) {
+  for (const Parameter<Owner>& parameter : parameters) {
+    const std::optional<double> value = parameter.of(owner);
+    if (!value || parameter.allowed.contains(*value)) continue;
+    return Error{fmt::format("{}{} is {}; it must be {}", table, parameter.key, *value,
+                             rangeText(parameter.allowed, parameter.unit))};
+  }
+  return {};
+}
+
+template <class Owner>
+void addUnusual(std::span<const Parameter<Owner>> parameters, const Owner& owner, const char* table,
+                std::vector<std::string>& sentences) {
+  for (const Parameter<Owner>& parameter : parameters) {
+    const std::optional<double> value = parameter.of(owner);
+    if (!value || parameter.usual.contains(*value)) continue;
+    sentences.push_back(fmt::format("{}{} is {}; usual is {}. {}", table, parameter.key, *value,
+                                    rangeText(parameter.usual, parameter.unit), parameter.effect));
+  }
+}
+
+}  // namespace
+
+std::span<const Parameter<Material>> materialParameters() {
+  using M = Material;
+  static const Parameter<M> all[] = {
+      {{"line_density",
+        "kg/m",
+        "Mass per length of a strand; stiffnesses scale with it, so free hair moves the same whatever it is.",
+        {1e-12, 1e6},
+        {1e-7, 1e-2}},
+       &M::lineDensity},
+      {{"stretch_stiffness",
+        "w",
+        "Resists lengthening along the strand: one that hangs straight becomes longer by half of 1 / this.",
+        {1e-3, 1e6},
+        {10, 1e4}},
+       &M::stretchStiffness},
+      {{"stretch_damping_time",
+        "s",
+        "Calms ringing along the strand: its damping over its stiffness.",
+        {0, 10},
+        {0.001, 0.1}},
+       &M::stretchDampingTime},
+      {{"bend_stiffness",
+        "w",
+        "Keeps the groomed shape: stiffer hair droops less and bounces faster.",
+        {1e-3, 1e6},
+        {0.2, 200}},
+       &M::bendStiffness},
+      {{"bend_damping_ratio",
+        "1",
+        "How fast swinging settles; below 0.1 bending can feed on itself and never come to rest.",
+        {0, 100},
+        {kLeastBendDampingRatio, 2}},
+       &M::bendDampingRatio},
+      {{"core_stiffness",
+        "w",
+        "Keeps a curl from unwinding into a line when it is shaken or hangs; 0 is no core spring.",
+        {0, 1e6},
+        {0, 200}},
+       &M::coreStiffness},
+      {{"core_damping_ratio", "1", "How fast a bounce along the curl's core settles.", {0, 100}, {0.05, 2}},
+       &M::coreDampingRatio},
+      {{"core_relaxed_share",
+        "1",
+        "The core spring at rest length as a share of the elongated one: less lets small bounces be softer.",
+        {0, 1},
+        {0.05, 1}},
+       &M::coreRelaxedShare},
+      {{"core_elongation_low",
+        "1",
+        "Length of the curl's core over that at rest at which the core spring begins to stiffen.",
+        {0, 1e3},
+        {0.8, 1.5}},
+       &M::coreElongationLow},
+      {{"core_elongation_high",
+        "1",
+        "The same at which the core spring has stiffened fully; above core_elongation_low.",
+        {0, 1e3},
+        {1.01, 3}},
+       &M::coreElongationHigh},
+      {{"bend_smoothing_length",
+        "m",
+        "Length along the strand over which its curl is smoothed away to steer bending; shorter spins more.",
+        {0, 1e3},
+        {0, 0.5}},
+       &M::bendSmoothingLength},
+      {{"core_smoothing_length",
+        "m",
+        "Length along the strand over which its curl is smoothed away to find its core.",
+        {0, 1e3},
+        {0, 0.5}},
+       &M::coreSmoothingLength},
+  };
+  return all;
+}
+
+std::span<const Parameter<MaterialDials>> dialParameters() {
+  using D = MaterialDials;
+  static const Parameter<D> all[] = {
+      {{"hold", "1", "How firmly the groom is kept: a factor on bend_stiffness.", {0.001, 1000}, {0.1, 10}},
+       &D::hold},
+      {{"bounce",
+        "1",
+        "How far hair may lengthen: an edge may become 1 + bounce of its length in the groom; 0 is "
+        "inextensible.",
+        {0, 99},
+        {0, 0.5}},
+       &D::bounce},
+      {{"spring_back",
+        "1",
+        "How fast hair settles: a factor on bend_damping_ratio and core_damping_ratio.",
+        {0.001, 1000},
+        {0.2, 5}},
+       &D::springBack},
+      {{"curl_keep",
+        "1",
+        "How much a curl resists unwinding: a factor on core_stiffness.",
+        {0, 1000},
+        {0, 5}},
+       &D::curlKeep},
+  };
+  return all;
+}
+
+std::span<const Parameter<MaterialVariation>> variationParameters() {
+  using V = MaterialVariation;
+  static const Parameter<V> all[] = {
+      {{"bend_stiffness",
+        "1",
+        "Strands differ in bend_stiffness by up to this share, more or less.",
+        {0, 0.9},
+        {0, 0.5}},
+       &V::bendStiffness},
+      {{"core_stiffness",
+        "1",
+        "Strands differ in core_stiffness by up to this share, more or less.",
+        {0, 0.9},
+        {0, 0.5}},
+       &V::coreStiffness},
+      {{"bend_damping_ratio",
+        "1",
+        "Strands differ in bend_damping_ratio by up to this share, more or less.",
+        {0, 0.9},
+        {0, 0.5}},
+       &V::bendDampingRatio},
+      {{"seed",
+        "1",
+        "Another seed, other differences; a whole number.",
+        {0, 4294967295.0},
+        {0, 4294967295.0}},
+       &V::seed},
+  };
+  return all;
+}
+
+std::span<const ProfileParameter> profileParameters() {
+  static const ProfileParameter all[] = {
+      {{"bend_stiffness",
+        "1",
+        "Factor on bend_stiffness from root to tip: points [share of the arc length, factor].",
+        {0.001, 1000},
+        {0.05, 20}},
+       &Material::bendStiffnessProfile},
+      {{"line_density",
+        "1",
+        "Factor on line_density from root to tip: points [share of the arc length, factor].",
+        {0.001, 1000},
+        {0.05, 20}},
+       &Material::lineDensityProfile},
+  };
+  return all;
+}
+
+Status checkProfile(const ProfileParameter& parameter, const Profile& profile) {
+  if (profile.points.size() > kMostProfilePoints) {
+    return Error{fmt::format("profile.{} has {} points; it may have {}", parameter.key, profile.points.size(),
+                             kMostProfilePoints)};
+  }
+  for (std::size_t i = 0; i < profile.points.size(); ++i) {
+    const Profile::Point& point = profile.points[i];
+    const char* problem = nullptr;
+    if (!NumberRange{0, 1}.contains(point.s)) problem = "its share of the arc length must be from 0 to 1";
+    if (i > 0 && !(point.s > profile.points[i - 1].s)) problem = "points must go from root to tip";
+    if (!problem && parameter.allowed.contains(point.factor)) continue;
+    return Error{fmt::format(
+        "profile.{}: point {} is [{}, {}]; {}", parameter.key, i + 1, point.s, point.factor,
+        problem ? problem : "its factor must be " + rangeText(parameter.allowed, parameter.unit))};
+  }
+  return {};
+}
+
+Status checkMaterial(const Material& material) {
+  if (Status status = checkNumbers(materialParameters(), material, ""); !status) return status;
+  if (!(material.coreElongationHigh >= material.coreElongationLow + kLeastElongationGap)) {
+    return Error{
+        fmt::format("core_elongation_high is {}; it must be above core_elongation_low, which is {}, by {} or "
+                    "more",
+                    material.coreElongationHigh, material.coreElongationLow, kLeastElongationGap)};
+  }
+  for (const ProfileParameter& parameter : profileParameters()) {
+    if (Status status = checkProfile(parameter, material.*parameter.member); !status) return status;
+  }
+  return checkNumbers(variationParameters(), material.variation, "variation.");
+}
+
+Status checkDials(const MaterialDials& dials) { return checkNumbers(dialParameters(), dials, "dials."); }
+
+std::vector<std::string> unusualNumbers(const Material& material, const MaterialDials& dials) {
+  std::vector<std::string> sentences;
+  addUnusual(materialParameters(), material, "", sentences);
+  addUnusual(dialParameters(), dials, "dials.", sentences);
+  addUnusual(variationParameters(), material.variation, "variation.", sentences);
+  for (const ProfileParameter& parameter : profileParameters()) {
+    for (const Profile::Point& point : (material.*parameter.member).points) {
+      if (parameter.usual.contains(point.factor)) continue;
+      sentences.push_back(fmt::format("profile.{} has a factor of {}; usual is {}", parameter.key,
+                                      point.factor, rangeText(parameter.usual, parameter.unit)));
+      break;
+    }
+  }
+
+  // Varied damping is lowest at the end of its range.
+  const double varied = material.bendDampingRatio * (1 - material.variation.bendDampingRatio);
+  if (varied < kLeastBendDampingRatio && material.bendDampingRatio >= kLeastBendDampingRatio) {
+    sentences.push_back(fmt::format(
+        "variation.bend_damping_ratio lowers bend_damping_ratio to {:.3g} in some strands; below {} bending "
+        "can feed on itself",
+        varied, kLeastBendDampingRatio));
+  }
+  return sentences;
+}
+
+std::string rangeText(const NumberRange& range, const char* unit) {
+  const std::string_view name = unit;
+  return fmt::format("from {} to {}{}{}", range.low, range.high, name == "1" ? "" : " ",
+                     name == "1" ? "" : name);
+}
+
+}  // namespace ringlet

@@ -1,0 +1,85 @@
+// Implements rest/material_presets.h.
+#include "ringlet/rest/material_presets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace ringlet {
+namespace {
+
+struct Preset {
+  const char* name;
+  const char* summary;
+  Material material;
+};
+
+// Chosen so that the hanging curl (radius 1 cm, 8 turns, 25 cm, no preload) bounces at the frequency named,
+// and so that neither core nor bending asks for more than 4 steps per 24 Hz frame: T sqrt(K / lambda) / alpha
+// <= 3 (method.md, sections 4 and 5) for 2 to 24 turns on 25 cm. Bend stiffness stays above 2 w: below it a
+// preloaded groom is bent by more than 27 degrees where it lies across gravity.
+std::span<const Preset> presets() {
+  static const Preset all[] = {
+      {"straight",
+       "Long smooth hair that swings in sheets and settles quickly. Hardly bounces along its length.",
+       {.stretchStiffness = 200, .bendStiffness = 3, .bendDampingRatio = 0.3, .coreStiffness = 5}},
+      {"wavy",
+       "Soft waves that sway more than they bounce and come to rest after two or three swings.",
+       {.bendStiffness = 3, .bendDampingRatio = 0.2, .coreStiffness = 8}},
+      {"loose_curl",
+       "Big soft curls that open and close with every move and swing on for a while, at a little below 4 Hz.",
+       {.bendStiffness = 2, .bendDampingRatio = 0.15, .coreStiffness = 10}},
+      {"ringlet",
+       "Springy, well drawn corkscrews: they lengthen under a jolt and come back with a lively bounce of "
+       "4 to 5 Hz.",
+       {.bendStiffness = 5, .bendDampingRatio = 0.15, .coreStiffness = 10}},
+      {"coil",
+       "Tight firm coils that keep their shape and move as a body, with a short quick bounce of about 5 Hz.",
+       {.bendStiffness = 10, .bendDampingRatio = 0.15, .coreStiffness = 10}},
+  };
+  return all;
+}
+
+const Preset* presetOf(std::string_view name) {
+  for (const Preset& preset : presets()) {
+    if (preset.name == name) return &preset;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<std::string> presetNames() {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return names;
+}
+
+std::optional<Material> materialPreset(std::string_view name) {
+  const Preset* preset = presetOf(name);
+  return preset ? std::optional(preset->material) : std::nullopt;
+}
+
+std::string presetSummary(std::string_view name) {
+  const Preset* preset = presetOf(name);
+  return preset ? preset->summary : "";
+}
+
+std::optional<std::string> applyDials(const MaterialDials& dials, Material& material, Settings& settings) {
+  material.bendStiffness *= dials.hold;
+  material.coreStiffness *= dials.curlKeep;
+  material.coreDampingRatio *= dials.springBack;
+  settings.maxStretch = 1 + dials.bounce;
+
+  const double own = material.bendDampingRatio, asked = own * dials.springBack;
+  material.bendDampingRatio = std::max(asked, std::min(own, kLeastBendDampingRatio));
+  if (asked >= material.bendDampingRatio) return std::nullopt;
+  return fmt::format(
+      "spring_back {} asks for a bend damping ratio of {:.3g} x {} = {:.3g}, below {}, where bending can "
+      "feed "
+      "on itself: {:.3g} is used",
+      dials.springBack, own, dials.springBack, asked, kLeastBendDampingRatio, material.bendDampingRatio);
+}
+
+}  // namespace ringlet

@@ -1,0 +1,52 @@
+// Built-in scenes: hair, head and settings for what a curl solver must show, by name. Tests, benchmarks and
+// `ringlet scene` use the same ones.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/rest/material.h"
+#include "ringlet/scene/motion.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet {
+
+/// What may be asked of any scene; what is left out is the scene's own.
+struct SceneOptions {
+  std::optional<int> particles{};      // of each strand, in [2, 65536]
+  std::optional<int> strands{};        // copies side by side, in [1, 100000]; `release` takes whole rows of 8
+  std::optional<double> preload{};     // share of gravity balanced in the rest pose
+  bool core = true;                    // false: no core spring
+  bool smoothedFrames = true;          // false: frames follow the raw strand, smoothing length 0
+  std::optional<int> stepsPerFrame{};  // default 8, or 30 for Integrator::paper
+  std::optional<double> seconds{};     // length of the scene, in (0, 36000]
+  Integrator integrator = Integrator::jacobi;  // `paper` has its own constants and no preload
+};
+
+/// Everything a simulation starts from. The head rests at t = 0 and eases into its motion. Y is up.
+struct BuiltinScene {
+  std::string name, summary;
+  Groom groom;
+  Material material;
+  Settings settings;
+  Motion motion;
+  double seconds = 0;
+
+  int frameCount() const;  // whole frames, at least one
+};
+
+/// hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release.
+std::vector<std::string> sceneNames();
+
+/// What it shows, in a sentence; empty for an unknown name.
+std::string sceneSummary(std::string_view name);
+
+/// Errors: an unknown name, an option out of its range, a core or smoothed frames switched off for `paper`,
+/// which knows neither switch.
+Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& options = {});
+
+}  // namespace ringlet

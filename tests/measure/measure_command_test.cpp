@@ -1,0 +1,151 @@
+// `ringlet measure` as a user runs it: a groom, a pose, an animation.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/output/usd_writer.h"
+#include "tests/measure/strand_samples.h"
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+using namespace test;
+using nlohmann::json;
+
+// Two curls in centimetres, as the default unit has it.
+Groom twoCurls(double stretch = 1) {
+  Groom groom;
+  for (double x : {0.0, 0.05}) {
+    std::vector<Vec3f> strand;
+    for (Vec3d p : cut({.handedness = x > 0 ? -1 : 1}, 64))
+      strand.push_back(Vec3f(Vec3d{p.x + x, stretch * p.y, p.z} * 100.0));
+    groom.addStrand(strand);
+  }
+  return groom;
+}
+
+void writeAnimation(const std::filesystem::path& folder, double metresPerUnit = 0.01) {
+  std::filesystem::create_directories(folder);
+  auto writer =
+      UsdWriter::create(folder / "hair.usda", twoCurls(), {.metresPerUnit = metresPerUnit, .frameCount = 96});
+  ASSERT_TRUE(writer);
+  for (int k = 1; k <= 96; ++k) {
+    const double t = k / 24.0;
+    ASSERT_TRUE(writer->addFrame(twoCurls(1 + 0.1 * std::exp(-4 * t) * std::sin(2 * kPi * 3 * t)).points));
+  }
+  ASSERT_TRUE(writer->finish());
+}
+
+json measureJson(const std::filesystem::path& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "measure");
+  arguments.push_back("--json");
+  const ProgramResult result = runProgram(folder, arguments);
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  return json::parse(result.out, nullptr, false);
+}
+
+TEST(Measure, AGroomAlone) {
+  const auto folder = scratchFolder("measure_groom");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  const json found = measureJson(folder, {"rest.obj"});
+  for (const char* key : {"strands", "particles", "frames", "droop_mm", "core_elongation", "turns",
+                          "mean_radius_mm", "handedness_kept", "arc_drift", "max_edge_stretch",
+                          "tip_rotation_deg", "bounce_hz", "settle_s", "energy_ratio"})
+    EXPECT_TRUE(found.contains(key)) << key;
+  EXPECT_EQ(found["strands"], 2);
+  EXPECT_EQ(found["particles"], 128);
+  EXPECT_EQ(found["frames"], 0);
+  EXPECT_NEAR(found["turns"].get<double>(), 8, 0.01);
+  EXPECT_NEAR(found["mean_radius_mm"].get<double>(), 10, 0.01);
+  EXPECT_NEAR(found["spread"]["core_length_mm"][0].get<double>(), 250, 0.1);
+  EXPECT_EQ(found["droop_mm"], 0);
+  EXPECT_TRUE(found["bounce_hz"].is_null());
+
+  // In another unit everything is as much larger.
+  EXPECT_NEAR(measureJson(folder, {"rest.obj", "--unit", "1"})["mean_radius_mm"].get<double>(), 1000, 1);
+}
+
+TEST(Measure, APose) {
+  const auto folder = scratchFolder("measure_pose");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  ASSERT_TRUE(writeGroom(folder / "now.hair", twoCurls(1.1)));
+  const json found = measureJson(folder, {"rest.obj", "now.hair", "--strands"});
+  EXPECT_NEAR(found["droop_mm"].get<double>(), 25, 1e-3);
+  EXPECT_NEAR(found["core_elongation"].get<double>(), 1.1, 1e-3);
+  EXPECT_EQ(found["handedness_kept"], true);
+  ASSERT_EQ(found["per_strand"].size(), 2u);
+  EXPECT_EQ(found["per_strand"][0]["handedness"], 1);
+  EXPECT_EQ(found["per_strand"][1]["handedness"], -1);
+  EXPECT_NEAR(found["per_strand"][1]["droop_mm"].get<double>(), 25, 1e-3);
+  // Up along Z nothing droops.
+  EXPECT_NEAR(measureJson(folder, {"rest.obj", "now.hair", "--up", "Z"})["droop_mm"].get<double>(), 0, 1e-3);
+
+  const ProgramResult text = runProgram(folder, {"measure", "rest.obj", "now.hair", "--strands"});
+  EXPECT_EQ(text.exitCode, 0) << text.err;
+  for (const char* part : {"2 strands", "droop [mm]", "25.000", "kept by every strand", "strand"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+}
+
+TEST(Measure, AnAnimation) {
+  const auto folder = scratchFolder("measure_animation");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  writeAnimation(folder / "out");
+  for (const char* other : {"out", "out/hair.usda"}) {
+    const json found = measureJson(folder, {"rest.obj", other, "--strands"});
+    EXPECT_EQ(found["frames"], 96);
+    EXPECT_NEAR(found["bounce_hz"].get<double>(), 3, 0.1);
+    EXPECT_LT(found["settle_s"].get<double>(), 1.5);
+    EXPECT_LT(found["energy_ratio"].get<double>(), 1e-6);
+    EXPECT_NEAR(found["droop_mm"].get<double>(), 0, 1e-3);
+    EXPECT_GT(found["worst"]["core_elongation"].get<double>(), 1.06);
+    EXPECT_TRUE(found["per_strand"][1].contains("settle_s"));
+  }
+  const ProgramResult text = runProgram(folder, {"measure", "rest.obj", "out"});
+  for (const char* part : {"96 frames", "bounce", "settled", "energy"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+
+  // One that was not finished is measured as far as it goes, with a warning.
+  std::filesystem::rename(folder / "out/hair.usda", folder / "out/hair.usda.partial");
+  const ProgramResult cut = runProgram(folder, {"measure", "rest.obj", "out"});
+  EXPECT_EQ(cut.exitCode, 0);
+  EXPECT_NE(cut.err.find("not finished"), std::string::npos) << cut.err;
+}
+
+TEST(Measure, SaysWhatIsWrong) {
+  const auto folder = scratchFolder("measure_wrong");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  Groom fewer, shorter = twoCurls();
+  fewer.addStrand(twoCurls().strand(0));
+  shorter.points.pop_back();
+  --shorter.firstPoint.back();
+  ASSERT_TRUE(writeGroom(folder / "fewer.obj", fewer));
+  ASSERT_TRUE(writeGroom(folder / "shorter.obj", shorter));
+  writeAnimation(folder / "out");
+  std::filesystem::create_directories(folder / "empty");
+  struct Case {
+    std::vector<std::string> arguments;
+    int exitCode;
+    const char* part;
+  };
+  for (const Case& c :
+       {Case{{"missing.obj"}, 1, "missing.obj"}, Case{{"rest.obj", "missing.obj"}, 1, "missing.obj"},
+        Case{{"rest.obj", "fewer.obj"}, 1, "2 and 1 strands"},
+        Case{{"rest.obj", "shorter.obj"}, 1, "strand 1 has 64 particles"},
+        Case{{"fewer.obj", "out"}, 1, "1 and 2 strands"},
+        Case{{"rest.obj", "empty"}, 1, "holds no hair.usda"},
+        Case{{"rest.obj", "out", "--unit", "1"}, 1, "--unit 1 does not fit"}, Case{{}, 2, "REST"},
+        Case{{"rest.obj", "--up", "X"}, 2, "X"}, Case{{"rest.obj", "--unit", "-1"}, 2, "-1"}}) {
+    auto arguments = c.arguments;
+    arguments.insert(arguments.begin(), "measure");
+    const ProgramResult result = runProgram(folder, arguments);
+    EXPECT_EQ(result.exitCode, c.exitCode) << result.err;
+    EXPECT_NE(result.err.find(c.part), std::string::npos) << c.part << " in\n" << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace ringlet

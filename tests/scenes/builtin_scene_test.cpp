@@ -1,0 +1,98 @@
+// Built-in scenes as such: what may be asked of them, and heads that rest at the start.
+#include "ringlet/scenes/builtin_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "ringlet/rest/rest_state.h"
+
+namespace ringlet::test {
+namespace {
+
+// How far a pose is from another: metres and radians, added.
+double distance(const HeadPose& a, const HeadPose& b) {
+  const Quatd turn = a.rotation * b.rotation.conjugate();
+  return length(a.position - b.position) + 2 * length(Vec3d{turn.x, turn.y, turn.z});
+}
+
+void expectError(std::string_view name, const SceneOptions& options, const std::string& part) {
+  const auto scene = makeScene(name, options);
+  ASSERT_FALSE(scene) << part;
+  EXPECT_NE(scene.error().message.find(part), std::string::npos) << scene.error().message;
+}
+
+TEST(BuiltinScene, EveryOneStartsAtRest) {
+  for (const std::string& name : sceneNames()) {
+    const auto scene = makeScene(name);
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->name, name);
+    EXPECT_FALSE(sceneSummary(name).empty());
+    const Motion& motion = scene->motion;
+    EXPECT_EQ(distance(motion.poseAt(0), HeadPose{}), 0) << name;
+    EXPECT_EQ(distance(motion.poseAt(-1), HeadPose{}), 0) << name;
+    // The swing begins with s^3 of the ease times its own first power: below 1 um in the first millisecond.
+    EXPECT_LT(distance(motion.poseAt(1e-3), HeadPose{}), 1e-6) << name;
+    EXPECT_TRUE(buildRestState(scene->groom, scene->material, scene->settings)) << name;
+  }
+}
+
+TEST(BuiltinScene, AWalkIsPeriodicAndStaysOnTheSpot) {
+  const Motion walk = *motionByName("walk", {0, 1, 0});
+  double farthest = 0, lowest = 0, highest = 0;
+  for (double t = 1; t < 2; t += 0.01) {
+    EXPECT_LT(distance(walk.poseAt(t), walk.poseAt(t + 5 / walk.frequency)), 1e-12);
+    farthest = std::max(farthest, distance(walk.poseAt(t), HeadPose{}));
+    lowest = std::min(lowest, walk.poseAt(t).position.y);
+    highest = std::max(highest, walk.poseAt(t).position.y);
+  }
+  EXPECT_NEAR(highest, walk.amplitude, 1e-4);
+  EXPECT_NEAR(lowest, -walk.amplitude, 1e-4);
+  EXPECT_LT(farthest, 0.2);  // 2.5 cm, 2 cm, and some 6 degrees
+}
+
+TEST(BuiltinScene, AMotionWithAnEndIsOverByThen) {
+  for (const char* name : {"shake", "nod", "walk"}) {
+    Motion motion = *motionByName(name, {0, 1, 0});
+    motion.untilSeconds = 2.1;
+    EXPECT_GT(distance(motion.poseAt(1.1), HeadPose{}), 1e-3) << name;
+    EXPECT_LT(distance(motion.poseAt(2.1 - 1e-3), HeadPose{}), 1e-6) << name;
+    EXPECT_EQ(distance(motion.poseAt(2.2), HeadPose{}), 0) << name;
+  }
+}
+
+TEST(BuiltinScene, TakesItsOptions) {
+  const auto scene = makeScene("hanging_curl", {.particles = 128,
+                                                .strands = 5,
+                                                .preload = 0.25,
+                                                .core = false,
+                                                .smoothedFrames = false,
+                                                .stepsPerFrame = 16,
+                                                .seconds = 2});
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->groom.strandCount(), 5u);
+  EXPECT_EQ(scene->groom.strand(4).size(), 128u);
+  EXPECT_EQ(scene->settings.gravityPreload, 0.25);
+  EXPECT_EQ(scene->settings.stepsPerFrame, 16);
+  EXPECT_EQ(scene->material.coreStiffness, 0);
+  EXPECT_EQ(scene->material.bendSmoothingLength, 0);
+  EXPECT_EQ(scene->frameCount(), 48);
+
+  const auto paper = makeScene("release", {.integrator = Integrator::paper});
+  ASSERT_TRUE(paper) << paper.error().message;
+  EXPECT_EQ(paper->settings.stepsPerFrame, 30);
+  EXPECT_EQ(paper->settings.gravityPreload, 0);
+}
+
+TEST(BuiltinScene, SaysWhatIsWrong) {
+  expectError("walk", {}, "there are hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release");
+  expectError("hanging_curl", {.particles = 1}, "particle");
+  expectError("hanging_curl", {.strands = 0}, "0 strands");
+  expectError("hanging_curl", {.preload = 2}, "2");
+  expectError("hanging_curl", {.stepsPerFrame = 0}, "0");
+  expectError("hanging_curl", {.seconds = -1}, "-1 seconds");
+  expectError("twist_jump", {.particles = 15}, "16 to 65536");
+  expectError("head_shake", {.core = false, .integrator = Integrator::paper}, "leave the switch out");
+  expectError("head_shake", {.preload = 1, .integrator = Integrator::paper}, "no preload");
+}
+
+}  // namespace
+}  // namespace ringlet::test
