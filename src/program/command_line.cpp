@@ -8,27 +8,12 @@
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
-#include <numeric>
 #include <system_error>
+
+#include "ringlet/base/nearest_name.h"
 
 namespace ringlet::program {
 namespace {
-
-// Levenshtein's distance, a row at a time.
-std::size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-    }
-  }
-  return row.back();
-}
 
 // The subcommand the user meant, innermost: `make curl`, not `make`.
 const CLI::App& innermost(const CLI::App& app) {
@@ -43,16 +28,8 @@ std::string fullName(const CLI::App& app) {
 }  // namespace
 
 std::string closestName(std::string_view word, const std::vector<std::string>& names) {
-  std::string closest;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& name : names) {
-    const std::size_t distance = editDistance(word, name);
-    if (distance < least && distance < name.size()) {
-      least = distance;
-      closest = name;
-    }
-  }
-  return closest;
+  const std::size_t nearest = nearestName(word, names);
+  return nearest < names.size() ? names[nearest] : "";
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
