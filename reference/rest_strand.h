@@ -96,9 +96,10 @@ inline ContinuumConstants continuumConstants(const Material& material, const Res
   return constants;
 }
 
-/// Fills the constants per edge: K / l_i of a material, or the paper's as printed.
+/// Fills the constants per edge: K / l_i of a material, or the paper's as printed. `middles`: share of the
+/// arc length at the middle of each edge, where the profiles are read; damping goes as the root of stiffness.
 inline void setEdgeConstants(const Material& material, const PaperMaterial& paper, const Settings& settings,
-                             double ruleLength, RestStrand<double>& strand) {
+                             double ruleLength, const Scalars<double>& middles, RestStrand<double>& strand) {
   const std::size_t edgeCount = strand.edgeCount();
   if (settings.integrator == Integrator::paper) {
     strand.stretchStiffness.assign(edgeCount, paper.stretchStiffness);
@@ -113,12 +114,14 @@ inline void setEdgeConstants(const Material& material, const PaperMaterial& pape
   const double T = settings.stepSeconds();
   const ContinuumConstants constants = continuumConstants(material, strand, weight, ruleLength, T);
   strand.coreIsCapped = constants.coreIsCapped;
-  for (const double length : strand.edgeLengths) {
-    const double bend = constants.bend / length;
+  for (std::size_t i = 0; i < edgeCount; ++i) {
+    const double length = strand.edgeLengths[i], factor = material.bendStiffnessProfile.at(middles[i]);
+    const double bend = constants.bend * factor / length,
+                 damping = constants.bendDamping * std::sqrt(factor) / length;
     strand.stretchStiffness.push_back(constants.stretch / length);
     strand.stretchDamping.push_back(constants.stretchDamping / length);
     strand.bendStiffness.push_back(bend);
-    strand.bendDamping.push_back(compensatedBendDamping(constants.bendDamping / length, bend, T));
+    strand.bendDamping.push_back(compensatedBendDamping(damping, bend, T));
     strand.coreStiffness.push_back(constants.core / length);
     strand.coreDamping.push_back(constants.coreDamping / length);
   }
@@ -193,11 +196,19 @@ inline RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double
     strand.meanEdgeLength += strand.edges[i].norm() / static_cast<double>(edgeCount);
   }
 
+  Scalars<double> middles;
+  double arcBefore = 0;
+  for (const double arc : arcs) {
+    middles.push_back((arcBefore + arc / 2) / strand.arcLength);
+    arcBefore += arc;
+  }
+
   // Masses from the arcs of the curve, not the chords: half of each edge to either end.
   strand.masses.assign(edgeCount + 1, 0.0);
   for (std::size_t i = 0; i < edgeCount; ++i) {
     strand.edgeLengths.push_back(std::max(strand.edges[i].norm(), 0.01 * strand.meanEdgeLength));
-    const double half = material.lineDensity * std::max(arcs[i], strand.edgeLengths[i]) / 2;
+    const double density = material.lineDensity * material.lineDensityProfile.at(middles[i]);
+    const double half = density * std::max(arcs[i], strand.edgeLengths[i]) / 2;
     strand.masses[i] += half;
     strand.masses[i + 1] += half;
   }
@@ -209,7 +220,7 @@ inline RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double
   strand.bendSmoothingShare = smoothingShare(strand.meanEdgeLength, strand.bendSmoothingLength);
   strand.coreSmoothingShare = smoothingShare(strand.meanEdgeLength, strand.coreSmoothingLength);
 
-  setEdgeConstants(material, paper, settings, ruleLength, strand);
+  setEdgeConstants(material, paper, settings, ruleLength, middles, strand);
   setRestShape(settings, strand);
   return strand;
 }

@@ -35,7 +35,8 @@ class Simulation {
              const HeadPose& oneStepEarlier, const PaperMaterial& paper = {})
       : settings_(settings), previousHead_(oneStepEarlier), head_(start), firstPoint_(groom.firstPoint) {
     for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-      rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit, material, paper, settings));
+      rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit,
+                                           materialOfStrand(material, s), paper, settings));
     }
     taps_.resize(groom.strandCount());
     placeAtRest();

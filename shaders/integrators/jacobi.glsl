@@ -6,7 +6,7 @@
 ImplicitEdge implicitEdgeOf(int k) {
   float s = restEdge[k].w;
   return implicitEdge(eHat[k], stepSeconds(), strand.stretchStiffness * s, strand.stretchDamping * s,
-                      strand.bendStiffness * s, strand.bendDamping * s);
+                      bendStiffnessOf(k), bendDampingOf(k));
 }
 
 // M v + T (springs + gravity) of particle k.

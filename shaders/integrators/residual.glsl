@@ -1,5 +1,7 @@
-// How well the velocities solve the implicit system: |r - L v| / |r| over the strand's free particles. Included by
-// kernels/strand_step.comp; compiled in only where asked for.
+// The residual of the velocity solve over the strand's free particles. Included by kernels/strand_step.comp; compiled in
+// only where asked for.
+#include "equations/velocity_residual.glsl"
+
 void measureResidual(vec3 before[RUN]) {
   vec3 after[RUN] = v;
   vec3 forceBefore = forceFromRootward();
@@ -9,7 +11,7 @@ void measureResidual(vec3 before[RUN]) {
   ImplicitEdge rootwardEdge = ImplicitEdge(fromRootward(last.direction, 1), fromRootward(last.along, 1), fromRootward(last.across, 1));
   if (lane == 0) rootwardEdge = voidEdge();
   float residualSquared = 0.0;
-  float rhsSquared = 0.0;
+  float scaleSquared = 0.0;
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     v[k] = before[k];
     vec3 rhs = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
@@ -20,8 +22,8 @@ void measureResidual(vec3 before[RUN]) {
     residual += multiply(rootwardEdge, (k > 0 ? v[max(k - 1, 0)] : vBefore) - v[k]);
     rootwardEdge = edge;
     residualSquared += isFree(k) ? dot(residual, residual) : 0.0;
-    rhsSquared += isFree(k) ? dot(rhs, rhs) : 0.0;
+    scaleSquared += isFree(k) ? residualScaleSquared(rhs, restEdge[k].x, stepSeconds()) : 0.0;
   }
-  float ratio = sqrt(sumOverStrand(residualSquared) / max(sumOverStrand(rhsSquared), 1e-30));
-  velocityResidual = max(velocityResidual, ratio);
+  velocityResidual =
+      max(velocityResidual, velocityResidualShare(sumOverStrand(residualSquared), sumOverStrand(scaleSquared)));
 }

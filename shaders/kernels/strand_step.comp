@@ -10,6 +10,7 @@
 #include "equations/bend_spring.glsl"
 #include "equations/core_spring.glsl"
 #include "equations/frame.glsl"
+#include "equations/implicit_edge.glsl"
 #include "equations/stretch_limit.glsl"
 #include "equations/stretch_spring.glsl"
 #include "scan/filter_scan.glsl"
@@ -25,6 +26,7 @@ vec3 v[RUN];
 vec4 restTarget[RUN];  // xyz rest vector in its frame, w stretch rest length
 vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
 float inverseLength[RUN];  // 1 / the groom's edge length
+vec2 bendVariation[RUN];   // factors of bend stiffness and damping, where they vary along the strand
 uint first;            // place along the strand of this lane's particle 0
 
 // Of the step at hand:
@@ -63,7 +65,14 @@ void loadStrand() {
     restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? parameters.maxStretch * rest.edgeLength : 1e30,
                        rest.coreEdgeLength, edge ? edgeScaleOf(rest.edgeLength) : 0.0);
     inverseLength[k] = edge ? 1.0 / rest.edgeLength : 0.0;
+    if (kBendVaries) bendVariation[k] = vec2(rest.bendFactor, sqrt(rest.bendFactor));
   }
+}
+
+float bendStiffnessOf(int k) { return strand.bendStiffness * restEdge[k].w * (kBendVaries ? bendVariation[k].x : 1.0); }
+float bendDampingOf(int k) {
+  float damping = strand.bendDamping * restEdge[k].w * (kBendVaries ? bendVariation[k].y : 1.0);
+  return compensatedBendDamping(damping, bendStiffnessOf(k), stepSeconds());
 }
 
 // Edges, velocity differences, lengths and directions; an edge of no length has direction zero.
@@ -135,7 +144,7 @@ void shapeForces(vec4 rootFrame) {
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     vec3 target = rotate(frame, restTarget[k].xyz);
     vec3 stretch = stretchForce(strand.stretchStiffness * restEdge[k].w, eLength[k], restTarget[k].w, eHat[k]);
-    vec3 bend = bendForce(strand.bendStiffness * restEdge[k].w, e[k], target);
+    vec3 bend = bendForce(bendStiffnessOf(k), e[k], target);
     force[k] = stretch + bend;
     frame = turned(turn[k], frame);
     if (isEdge(k)) {

@@ -14,6 +14,7 @@
 #include "equations/smoothing.glsl"
 #include "equations/stretch_limit.glsl"
 #include "equations/stretch_spring.glsl"
+#include "equations/velocity_residual.glsl"
 
 // Scratch of particle i and its edge, vec4s; M, z and the others share room, as each integrator needs only its own.
 const uint kEdge = 0;         // xyz direction, w length
@@ -103,7 +104,7 @@ float springSweep(uint step) {
     if (i % 16 == 15) frame = renormalized(frame);
     direction = next;
     vec3 stretch = stretchForce(strand.stretchStiffness * scale, edge.w, rest.target.w, edge.xyz);
-    vec3 bend = bendForce(strand.bendStiffness * scale, e, target);
+    vec3 bend = bendForce(strand.bendStiffness * scale * (kBendVaries ? rest.bendFactor : 1.0), e, target);
     setScratch(i, kForce, stretch + bend);
 
     float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping;
@@ -149,8 +150,11 @@ vec3 rightHandSide(uint i) {
 }
 ImplicitEdge implicitEdgeOf(uint i) {
   float s = edgeScale(i);
+  float factor = kBendVaries ? restOf(i).bendFactor : 1.0;
+  float bendStiffness = strand.bendStiffness * s * factor;
+  float bendDamping = strand.bendDamping * s * sqrt(factor);
   return implicitEdge(scratchOf(i, kEdge), stepSeconds(), strand.stretchStiffness * s, strand.stretchDamping * s,
-                      strand.bendStiffness * s, strand.bendDamping * s);
+                      bendStiffness, compensatedBendDamping(bendDamping, bendStiffness, stepSeconds()));
 }
 
 void solveStrandBlock(uint step) {
@@ -259,18 +263,18 @@ void loopAsThePaper() {
   }
 }
 
-// |r - L v| / |r| over the free particles; the right-hand sides are those kept before the solve.
+// Over the free particles; the right-hand sides are those kept before the solve.
 void measureResidual() {
   float residualSquared = 0.0;
-  float rhsSquared = 0.0;
+  float scaleSquared = 0.0;
   for (uint i = parameters.rootCount; i < count; ++i) {
     vec3 rhs = scratchOf(i, kKeptRightHandSide);
     vec3 residual = rhs - mass(i) * velocity(i) + multiply(implicitEdgeOf(i - 1), velocity(i - 1) - velocity(i));
     if (i + 1 < count) residual += multiply(implicitEdgeOf(i), velocity(i + 1) - velocity(i));
     residualSquared += dot(residual, residual);
-    rhsSquared += dot(rhs, rhs);
+    scaleSquared += residualScaleSquared(rhs, mass(i), stepSeconds());
   }
-  velocityResidual = max(velocityResidual, sqrt(residualSquared / max(rhsSquared, 1e-30)));
+  velocityResidual = max(velocityResidual, velocityResidualShare(residualSquared, scaleSquared));
 }
 
 // Root to tip: p += T v, then the stretch limit with the edges as they are before limiting. The moved edges come from

@@ -59,6 +59,7 @@ struct ParticleRest {
   float mass;      // [mass unit]
   float edgeLength;      // the groom's edge [m]: the stretch limit refers to it
   float coreEdgeLength;  // |b_i| at rest [m]
+  float bendFactor;      // of the bend stiffness profile, root to tip; 1 where there is none
 };
 
 // Constant per strand. Stiffnesses K and dampings C [N and N s per mass unit]: divided by the edge's length they are the
@@ -71,7 +72,7 @@ struct StrandRest {
   float stretchStiffness;
   float stretchDamping;
   float bendStiffness;
-  float bendDamping;  // compensated for the step's own damping where the integrator is implicit
+  float bendDamping;
   float coreStiffness;
   float coreDamping;
   float restCoreLength;  // sum of |b_i| at rest [m]
@@ -87,7 +88,7 @@ struct StrandReport {
   uint degenerateEdges;     // edges x steps that had no direction
   uint nonfiniteParticles;  // now
   uint firstNonfinite;      // the first of them, counted along the strand
-  float velocityResidual;   // since the simulation began, where measured: |r - L v| / |r| of the velocity solve L v = r
+  float velocityResidual;   // since the simulation began, where measured, of the velocity solve L v = r: see velocityResidualShare
 };
 
 // The head, per outer step. poses[0] is the frame's start, poses[1 + k] the end of step k.

@@ -10,6 +10,7 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint kIntegrator = kIntegratorJacobi;
 layout(constant_id = 3) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
 layout(constant_id = 4) const bool kMeasureResidual = false;
+layout(constant_id = 5) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };

@@ -67,7 +67,8 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_SAME_OFFSET(ParticleRest, mass);
   EXPECT_SAME_OFFSET(ParticleRest, edgeLength);
   EXPECT_SAME_OFFSET(ParticleRest, coreEdgeLength);
-  EXPECT_EQ(offsets.at("ParticleRest").size(), 4u);
+  EXPECT_SAME_OFFSET(ParticleRest, bendFactor);
+  EXPECT_EQ(offsets.at("ParticleRest").size(), 5u);
   EXPECT_EQ(reflection.strides.at("ParticleRest"), sizeof(layout::ParticleRest));
 
   EXPECT_SAME_OFFSET(StrandRest, firstParticle);

@@ -102,6 +102,16 @@ TEST_F(StrandStep, PaperFieldsAgree) {
   }
 }
 
+TEST_F(StrandStep, VaryingMaterialsAgree) {
+  for (Integrator integrator : {Integrator::jacobi, Integrator::paper}) {
+    for (const Variant& variant : kVariants) {
+      expectOneStep(
+          {randomGroom(awkwardLengths(25), 37), varyingMaterial(), settingsFor(integrator), variant.kernel},
+          fmt::format("varying material, {}, {}", int(integrator), variant.name));
+    }
+  }
+}
+
 TEST_F(StrandStep, MoreRootsAgree) {
   for (int roots : {2, 3}) {
     for (const Variant& variant : kVariants) {

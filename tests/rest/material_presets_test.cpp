@@ -1,4 +1,4 @@
-// Presets on the hanging curl of method.md (radius 1 cm, 8 turns, 25 cm), in the double reference: how fast
+// Presets on the hanging curl (radius 1 cm, 8 turns, 25 cm), in the double reference: how fast
 // they bounce, and that a shake leaves them whole. Dials by formula.
 #include "ringlet/rest/material_presets.h"
 
@@ -108,7 +108,7 @@ TEST(Presets, AShakeLeavesThemWhole) {
   }
 }
 
-// method.md 4 and 5: T sqrt(K / lambda) / alpha <= 3, for bending and for the core, at 4 steps per 24 Hz
+// The rules for a calm step: T sqrt(K / lambda) / alpha <= 3, for bending and for the core, at 4 steps per 24 Hz
 // frame and 2 to 24 turns on 25 cm.
 TEST(Presets, NeedNoMoreThanFourStepsPerFrame) {
   for (const std::string& name : presetNames()) {

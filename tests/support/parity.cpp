@@ -143,6 +143,14 @@ HairState randomState(const Groom& groom, const Settings& settings, std::uint32_
   return state;
 }
 
+Material varyingMaterial() {
+  Material material;
+  material.bendStiffnessProfile.points = {{0, 2}, {0.5, 1}, {1, 0.3}};
+  material.lineDensityProfile.points = {{0, 1.5}, {1, 0.5}};
+  material.variation = {.bendStiffness = 0.3, .coreStiffness = 0.2, .bendDampingRatio = 0.3, .seed = 5};
+  return material;
+}
+
 HeadStep movingHead() {
   const auto pose = [](double t) {
     return HeadPose{Vec3d{3 + 0.8 * t, 1 - 0.3 * t * t, 2 * t},

@@ -29,6 +29,9 @@ Groom randomGroom(const std::vector<int>& particleCounts, std::uint32_t seed);
 /// particles stay.
 HairState randomState(const Groom& groom, const Settings& settings, std::uint32_t seed);
 
+/// A material that differs from strand to strand and from root to tip.
+Material varyingMaterial();
+
 /// Two poses before the step and one after: the head travels and turns.
 struct HeadStep {
   HeadPose before, now, next;

@@ -13,7 +13,7 @@
 namespace ringlet {
 namespace {
 
-// Share of a straight strand that is smoothed over (method.md, section 4).
+// Share of a straight strand that is smoothed over.
 constexpr double kStraightWindowShare = 0.1;
 
 // A stretch of the first mean shorter than this share of the window has no slope of its own.

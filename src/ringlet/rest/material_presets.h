@@ -30,7 +30,7 @@ struct MaterialDials {
   bool operator==(const MaterialDials&) const = default;
 };
 
-/// The least bend damping ratio dials go down to: below it bending can feed on itself (method.md, section 4).
+/// The least bend damping ratio dials go down to: below it bending can feed on itself.
 inline constexpr double kLeastBendDampingRatio = 0.1;
 
 /// Works the dials into a material, and sets maxStretch. Returns a sentence where the bend damping asked for

@@ -37,73 +37,79 @@ struct Extremes {
   std::size_t largestLoadStrand = 0;
 };
 
-// The sizes the strand is cut into: chords, floored lengths, masses.
+// The sizes the strand is cut into: chords, floored lengths, masses, factors of the profiles.
 struct Cut {
   std::vector<Vec3d> points, edges;
   std::vector<double> arcs, edgeLengths, masses;
+  std::vector<double>
+      edgeScale;  // times this, the strand's constants are the edge's: 1 / length, or 1 for `paper`
+  std::vector<double> bendFactors;  // of the bend stiffness profile, at the middle of each edge
   StrandConstants constants;
+  double massUnit = 1;  // [kg]
 
   Cut(std::span<const Vec3f> strand, const Material& material, const Settings& settings) {
+    const bool paper = settings.integrator == Integrator::paper;
     for (Vec3f p : strand) points.push_back(static_cast<Vec3d>(p));
     arcs.resize(points.size() - 1);
     measureArcs(points, arcs);
     constants = strandConstants(points, arcs, material, settings);
-    masses.resize(points.size(), settings.integrator == Integrator::paper ? 1.0 : 0.0);
+    massUnit = paper ? 1.0 : material.lineDensity * constants.meanEdgeLength;
+    masses.resize(points.size(), paper ? 1.0 : 0.0);
+    double arcBefore = 0;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       edges.push_back(points[i + 1] - points[i]);
       edgeLengths.push_back(std::max(length(edges[i]), kShortestEdge * constants.meanEdgeLength));
-      if (settings.integrator == Integrator::paper) continue;
-      double half = 0.5 * material.lineDensity * std::max(arcs[i], edgeLengths[i]);
+      edgeScale.push_back(paper ? 1.0 : 1 / edgeLengths[i]);
+      const double along = (arcBefore + arcs[i] / 2) / constants.arcLength;
+      arcBefore += arcs[i];
+      bendFactors.push_back(paper ? 1.0 : material.bendStiffnessProfile.at(along));
+      if (paper) continue;
+      const double half = 0.5 * material.lineDensity * material.lineDensityProfile.at(along) *
+                          std::max(arcs[i], edgeLengths[i]);
       masses[i] += half;
       masses[i + 1] += half;
     }
+  }
+
+  double bendStiffness(std::size_t edge) const {
+    return constants.bendStiffness * bendFactors[edge] * edgeScale[edge];
   }
 };
 
 // 1 - mu^2 of the point Jacobi iteration, mu a bound on its spectral radius: by Gershgorin, block row by
 // block row.
-double jacobiGap(const Cut& cut, std::span<const double> edgeScale, double bendDamping,
-                 const Settings& settings) {
+double jacobiGap(const Cut& cut, const Settings& settings) {
   const StrandConstants& c = cut.constants;
   const double T = settings.stepSeconds();
-  const double perScale =
-      T * (std::max(bendDamping, c.stretchDamping) + T * (c.bendStiffness + c.stretchStiffness));
+  std::vector<double> coupling(cut.points.size(), 0.0);
+  for (std::size_t i = 0; i < cut.edges.size(); ++i) {
+    const double bendStiffness = cut.bendStiffness(i);
+    const double damping = c.bendDamping * std::sqrt(cut.bendFactors[i]) * cut.edgeScale[i];
+    const double bendDamping = std::max(damping - T * bendStiffness, damping / 2);
+    const double edge = T * (std::max(bendDamping, c.stretchDamping * cut.edgeScale[i]) +
+                             T * (bendStiffness + c.stretchStiffness * cut.edgeScale[i]));
+    coupling[i] += edge;
+    coupling[i + 1] += edge;
+  }
   double smallestShare = 1;  // of the mass in the block row: 1 - mu
   for (std::size_t i = static_cast<std::size_t>(settings.rootCount); i < cut.points.size(); ++i) {
-    double coupling = 0;
-    if (i < edgeScale.size()) coupling += edgeScale[i] * perScale;
-    if (i > 0) coupling += edgeScale[i - 1] * perScale;
-    smallestShare = std::min(smallestShare, cut.masses[i] / (cut.masses[i] + coupling));
+    smallestShare = std::min(smallestShare, cut.masses[i] / (cut.masses[i] + coupling[i]));
   }
   return smallestShare * (2 - smallestShare);
 }
 
-// Appends one strand to the state, in device order.
-void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> strand, std::size_t groomIndex,
-                  const Material& material, const Settings& settings) {
-  const Cut cut(strand, material, settings);
-  const StrandConstants& c = cut.constants;
-  const bool paper = settings.integrator == Integrator::paper;
+// The strand's particles, with gravity balanced edge by edge from the tip: edge i carries the weight of all
+// beyond it. `coreEdges`: the smoothed edges the core spring holds. Returns the preload's largest load.
+double appendParticles(RestState& state, const Cut& cut, std::span<const Quatd> frames,
+                       std::span<const Vec3d> coreEdges, const Settings& settings) {
   const std::size_t n = cut.points.size();
-  const double massUnit = paper ? 1.0 : material.lineDensity * c.meanEdgeLength;
-
-  std::vector<double> edgeScale(n - 1);
-  for (std::size_t i = 0; i + 1 < n; ++i) edgeScale[i] = paper ? 1.0 : 1 / cut.edgeLengths[i];
-
-  // The device smooths with the float weights; the rest state must be at rest under exactly those.
-  const float bendBeta = static_cast<float>(c.bendBeta), coreBeta = static_cast<float>(c.coreBeta);
-  const auto frames = framesBeforeEdges(smoothEdges(cut.edges, bendBeta), cut.edges[0]);
-  const auto coreEdges = smoothEdges(cut.edges, coreBeta);
-
-  // Gravity balanced edge by edge, from the tip: edge i carries the weight of all
-  // beyond it.
-  double load = 0, restCoreLength = 0, massBeyond = 0;
   std::vector<layout::ParticleRest> particles(n);
-  particles[n - 1].mass = static_cast<float>(cut.masses[n - 1] / massUnit);
+  particles[n - 1].mass = static_cast<float>(cut.masses[n - 1] / cut.massUnit);
+  double load = 0, massBeyond = 0;
   for (std::size_t i = n - 1; i-- > 0;) {
     massBeyond += cut.masses[i + 1];
-    const double stretchStiffness = c.stretchStiffness * edgeScale[i],
-                 bendStiffness = c.bendStiffness * edgeScale[i];
+    const double stretchStiffness = cut.constants.stretchStiffness * cut.edgeScale[i];
+    const double bendStiffness = cut.bendStiffness(i);
     const Vec3d carried = settings.gravity * (settings.gravityPreload * massBeyond);
     const Vec3d direction = normalizedOr(cut.edges[i], Vec3d{});
     const double along = dot(carried, direction);
@@ -111,39 +117,54 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
     const Vec3d target = cut.edges[i] - across / bendStiffness;
     particles[i].target =
         packed(rotate(frames[i].conjugate(), target), length(cut.edges[i]) - along / stretchStiffness);
-    particles[i].mass = static_cast<float>(cut.masses[i] / massUnit);
+    particles[i].mass = static_cast<float>(cut.masses[i] / cut.massUnit);
     particles[i].edgeLength = static_cast<float>(cut.edgeLengths[i]);
     particles[i].coreEdgeLength = static_cast<float>(length(coreEdges[i]));
-    restCoreLength += length(coreEdges[i]);
+    particles[i].bendFactor = static_cast<float>(cut.bendFactors[i]);
     if (static_cast<int>(i) + 1 >= settings.rootCount) {
       load = std::max(load, length(across) / (bendStiffness * cut.edgeLengths[i]));
     }
   }
-
-  // The implicit step damps by T K of itself: take that off, but leave half.
-  const double T = settings.stepSeconds();
-  const double bendDamping =
-      paper ? c.bendDamping : std::max(c.bendDamping - T * c.bendStiffness, c.bendDamping / 2);
-
-  layout::StrandRest rest;
-  rest.firstParticle = static_cast<std::uint32_t>(state.points.size());
-  rest.particleCount = static_cast<std::uint32_t>(n);
-  rest.bendBeta = bendBeta;
-  rest.coreBeta = coreBeta;
-  rest.stretchStiffness = static_cast<float>(c.stretchStiffness / massUnit);
-  rest.stretchDamping = static_cast<float>(c.stretchDamping / massUnit);
-  rest.bendStiffness = static_cast<float>(c.bendStiffness / massUnit);
-  rest.bendDamping = static_cast<float>(bendDamping / massUnit);
-  rest.coreStiffness = static_cast<float>(c.coreStiffness / massUnit);
-  rest.coreDamping = static_cast<float>(c.coreDamping / massUnit);
-  rest.restCoreLength = static_cast<float>(std::max(restCoreLength, 1e-12));
-  rest.jacobiGap = static_cast<float>(jacobiGap(cut, edgeScale, bendDamping, settings));
-  rest.firstEdge = packed(cut.edges[0], massUnit);
-  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k)
-    rest.pins[k] = packed(cut.points[std::min(k, n - 1)], 0);
-
-  state.strands.push_back(rest);
   state.particles.insert(state.particles.end(), particles.begin(), particles.end());
+  return load;
+}
+
+layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, std::size_t firstParticle,
+                              const Settings& settings) {
+  const StrandConstants& c = cut.constants;
+  const auto perMass = [&](double x) { return static_cast<float>(x / cut.massUnit); };
+  double restCoreLength = 0;
+  for (Vec3d b : coreEdges) restCoreLength += length(b);
+  layout::StrandRest rest;
+  rest.firstParticle = static_cast<std::uint32_t>(firstParticle);
+  rest.particleCount = static_cast<std::uint32_t>(cut.points.size());
+  rest.bendBeta = static_cast<float>(c.bendBeta);
+  rest.coreBeta = static_cast<float>(c.coreBeta);
+  rest.stretchStiffness = perMass(c.stretchStiffness);
+  rest.stretchDamping = perMass(c.stretchDamping);
+  rest.bendStiffness = perMass(c.bendStiffness);
+  rest.bendDamping = perMass(c.bendDamping);
+  rest.coreStiffness = perMass(c.coreStiffness);
+  rest.coreDamping = perMass(c.coreDamping);
+  rest.restCoreLength = static_cast<float>(std::max(restCoreLength, 1e-12));
+  rest.jacobiGap = static_cast<float>(jacobiGap(cut, settings));
+  rest.firstEdge = packed(cut.edges[0], cut.massUnit);
+  for (std::size_t k = 0; k < layout::kMaxRootCount; ++k) {
+    rest.pins[k] = packed(cut.points[std::min(k, cut.points.size() - 1)], 0);
+  }
+  return rest;
+}
+
+// Appends one strand to the state, in device order.
+void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> strand, std::size_t groomIndex,
+                  const Material& material, const Settings& settings) {
+  const Cut cut(strand, material, settings);
+  const StrandConstants& c = cut.constants;
+  // The device smooths with the float weights; the rest state must be at rest under exactly those.
+  const auto frames = framesBeforeEdges(smoothEdges(cut.edges, static_cast<float>(c.bendBeta)), cut.edges[0]);
+  const auto coreEdges = smoothEdges(cut.edges, static_cast<float>(c.coreBeta));
+  state.strands.push_back(strandRest(cut, coreEdges, state.points.size(), settings));
+  const double load = appendParticles(state, cut, frames, coreEdges, settings);
   state.points.insert(state.points.end(), strand.begin(), strand.end());
   state.strandInGroom.push_back(static_cast<std::uint32_t>(groomIndex));
 
@@ -151,8 +172,10 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
     ++extremes.cappedStrands;
     extremes.smallestCoreShare = std::min(extremes.smallestCoreShare, c.coreStiffness / c.coreStiffnessAsked);
   }
-  if (settings.stepSeconds() > c.longestBendStep) ++extremes.feedingStrands;
-  extremes.longestCalmStep = std::min({extremes.longestCalmStep, c.longestCoreStep, c.longestBendStep});
+  const double stiffest = *std::max_element(cut.bendFactors.begin(), cut.bendFactors.end());
+  const double longestBendStep = c.longestBendStep / std::sqrt(stiffest);
+  if (settings.stepSeconds() > longestBendStep) ++extremes.feedingStrands;
+  extremes.longestCalmStep = std::min({extremes.longestCalmStep, c.longestCoreStep, longestBendStep});
   if (load > 0.5) ++extremes.overloadedStrands;
   if (load > extremes.largestLoad) extremes.largestLoad = load, extremes.largestLoadStrand = groomIndex;
 }
@@ -233,7 +256,7 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   for (std::uint32_t index : deviceOrder(groom)) {
     const auto strand = inMetres(groom.strand(index), groom.metresPerUnit);
     if (Status status = checkStrand(strand, index); !status) return status.error();
-    appendStrand(state, extremes, strand, index, material, settings);
+    appendStrand(state, extremes, strand, index, materialOfStrand(material, index), settings);
     state.firstInGroom.push_back(groom.firstPoint[index]);
   }
   state.longestCalmStep = extremes.longestCalmStep;

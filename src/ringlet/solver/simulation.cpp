@@ -112,9 +112,12 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           {}});
   const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
+  const bool bendVaries =
+      !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   for (const StrandRange& range : self->ranges) {
-    auto kernel = createStrandKernel(device.gpu(), range.shape,
-                                     {settings.integrator, oneSmoothing, choice.taps, choice.residual});
+    auto kernel =
+        createStrandKernel(device.gpu(), range.shape,
+                           {settings.integrator, oneSmoothing, bendVaries, choice.taps, choice.residual});
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
     if (!bindings) return bindings.error();

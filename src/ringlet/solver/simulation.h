@@ -29,7 +29,7 @@ struct SimulationReport {
   std::int64_t firstNonfiniteStrand = -1;  // strand (groom order) and particle of the first of them, or -1
   std::int64_t firstNonfiniteParticle = -1;
   double velocityResidual =
-      0;  // |r - L v| / |r| of the velocity solve, worst strand and step; 0 if not measured
+      0;  // |r - L v| of the velocity solve over |r| and a step's gravity; worst strand and step; 0 if not measured
   std::uint64_t degenerateEdges = 0;  // edges (times steps) that had no direction
 };
 

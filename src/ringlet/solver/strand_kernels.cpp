@@ -56,7 +56,8 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   description.constants = {{0, kStrandGroupSize},
                            {2, integratorConstant(options.integrator)},
                            {3, options.oneSmoothing ? 1u : 0u},
-                           {4, options.residual ? 1u : 0u}};
+                           {4, options.residual ? 1u : 0u},
+                           {5, options.bendVaries ? 1u : 0u}};
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});

@@ -18,6 +18,7 @@ inline constexpr std::uint32_t kStrandGroupSize = 64;
 struct StrandKernelOptions {
   Integrator integrator = Integrator::jacobi;
   bool oneSmoothing = false;  // alpha_b and alpha_c are equal in every strand
+  bool bendVaries = false;    // along some strand
   bool taps = false;
   bool residual = false;  // measure the residual of the velocity solve
 };
