@@ -23,6 +23,9 @@ inline constexpr double kSolveResidual = 2.4e-4;
 // damp it at once nor let it grow.
 inline constexpr double kOneSecond = 1e-5;
 
+// A pushed curl after 20 s: kinetic energy of the last second over the greatest. Noise in float is some 1e-12.
+inline constexpr double kCalmEnergyRatio = 1e-8;
+
 // Lying still: how far a particle may wander in 10 s, share of the arc length.
 inline constexpr double kAtRest = 1e-5;
 
