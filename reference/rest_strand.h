@@ -87,9 +87,9 @@ inline ContinuumConstants continuumConstants(const Material& material, const Res
       alphaB > 0 ? 2 * alphaB * bend * std::tanh(l / (2 * alphaB)) / l : 2 * ruleLength * bend / l;
   constants.bendDamping = material.bendDampingRatio * strand.arcLength * std::sqrt(bend * lambda);
 
-  // The core is explicit: stable up to T = 3 alpha_c sqrt(lambda / K_c). Beyond it, K_c is lowered.
+  // The core is explicit: calm up to T = 4 alpha_c sqrt(lambda / K_c). Beyond it, K_c is lowered.
   const double alphaC = strand.coreSmoothingLength > 0 ? strand.coreSmoothingLength : l;
-  const double highestCore = lambda * (3 * alphaC / stepSeconds) * (3 * alphaC / stepSeconds);
+  const double highestCore = lambda * (4 * alphaC / stepSeconds) * (4 * alphaC / stepSeconds);
   constants.core = std::min(material.coreStiffness * weight, highestCore);
   constants.coreIsCapped = material.coreStiffness * weight > highestCore;
   constants.coreDamping = 4 * material.coreDampingRatio * alphaC * std::sqrt(constants.core * lambda);

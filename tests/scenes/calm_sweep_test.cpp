@@ -72,7 +72,10 @@ class CalmSweep : public GpuTest {
 TEST_F(CalmSweep, APushedCurlComesToRest) {
   std::vector<std::pair<std::string, Material>> materials;
   for (const std::string& name : presetNames()) materials.push_back({name, *materialPreset(name)});
+  materials.push_back({"default", Material{}});
   materials.push_back({"soft", Material{.bendStiffness = 0.5}});
+  materials.push_back(
+      {"soft, core 1", Material{.bendStiffness = 0.5, .coreRelaxedShare = 1}});  // as head_shake's
   const auto all = curls();
   int runs = 0;
   fmt::print("largest energy ratio after {} s over {} curls of 2 to 24 turns, 16 to 256 particles\n",

@@ -64,11 +64,12 @@ StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const d
   c.bendStiffness = alpha > 0 ? 2 * alpha * bend * std::tanh(l / (2 * alpha)) / l : 2 * fromShape * bend / l;
   c.bendDamping = material.bendDampingRatio * S * std::sqrt(bend * lambda);
 
-  // The core is explicit: stable up to T = 3 alpha sqrt(lambda / K_c), capped beyond.
+  // The core is explicit: calm up to T = 4 alpha sqrt(lambda / K_c) (tests/scenes/calm_sweep_test.cpp; at 4.4
+  // a soft curl feeds on itself), capped beyond.
   const double coreLength = c.coreSmoothingLength > 0 ? c.coreSmoothingLength : l;
   c.coreStiffnessAsked = material.coreStiffness * weight;
-  c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (3 * coreLength / T) * (3 * coreLength / T));
-  c.longestCoreStep = 3 * coreLength * std::sqrt(lambda / std::max(c.coreStiffnessAsked, 1e-300));
+  c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (4 * coreLength / T) * (4 * coreLength / T));
+  c.longestCoreStep = 4 * coreLength * std::sqrt(lambda / std::max(c.coreStiffnessAsked, 1e-300));
   c.longestBendStep = 3 * (alpha > 0 ? alpha : l) * std::sqrt(lambda / bend);
   c.coreDamping = 4 * material.coreDampingRatio * coreLength * std::sqrt(c.coreStiffness * lambda);
   return c;
