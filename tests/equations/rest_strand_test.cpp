@@ -76,7 +76,7 @@ TEST(RestStrand, TheCoreIsCappedWhereTheStepIsTooLongForIt) {
   settings.stepsPerFrame = 2;
   const RestStrand<double> rest = restOf(straightStrand({0.2, 0, 0}, 21), settings, material);
   const double T = 1.0 / 48, lambda = material.lineDensity, alpha = 0.02;
-  const double highest = lambda * std::pow(3 * alpha / T, 2);
+  const double highest = lambda * std::pow(4 * alpha / T, 2);
   ASSERT_LT(highest, 4000 * lambda * 9.81 * 0.2);
   EXPECT_TRUE(rest.coreIsCapped);
   EXPECT_NEAR(rest.coreStiffness[3] / (highest / 0.01), 1, 1e-5);

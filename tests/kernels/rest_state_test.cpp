@@ -91,7 +91,7 @@ TEST(RestState, StepsAreChosenByTheMotionAndTheGroom) {
   curl.metresPerUnit = 1;
   curl.addStrand(helix(64, 0.01, 0.25, 8, 0, 1));
   Groom withShort = curl;
-  withShort.addStrand(helix(16, 0.001, 0.02, 3, 0, 1));
+  withShort.addStrand(helix(16, 0.0003, 0.004, 3, 0, 1));
   const auto chosen = [](const Groom& groom, double fps, Integrator integrator) {
     Settings settings = settingsWith(integrator, 1, 1);
     settings.framesPerSecond = fps;
