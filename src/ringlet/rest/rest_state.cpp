@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_curve.h"
 #include "ringlet/rest/strand_constants.h"
 
@@ -18,9 +19,6 @@ namespace {
 // An edge's constants and limit take it for no shorter than this share of the mean: a file's coincident
 // points would otherwise be springs of infinite stiffness.
 constexpr double kShortestEdge = 0.01;
-
-// Below this share of the damping scale bending can feed on itself through the smoothed curve.
-constexpr double kLeastCalmDamping = 0.1;
 
 layout::vec4 packed(Vec3d v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
@@ -198,9 +196,9 @@ void addWarnings(RestState& state, const Extremes& extremes, const Material& mat
         "{} steps per frame are enough, or a softer or more smoothed material",
         settings.stepsPerFrame, extremes.feedingStrands, state.strands.size(), needed));
   }
-  if (settings.integrator != Integrator::paper && material.bendDampingRatio < kLeastCalmDamping) {
+  if (settings.integrator != Integrator::paper && material.bendDampingRatio < kLeastBendDampingRatio) {
     state.warnings.push_back(fmt::format("a bend damping ratio of {} may not come to rest; {} and more does",
-                                         material.bendDampingRatio, kLeastCalmDamping));
+                                         material.bendDampingRatio, kLeastBendDampingRatio));
   }
   if (extremes.overloadedStrands > 0) {
     state.warnings.push_back(fmt::format(
