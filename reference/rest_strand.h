@@ -63,6 +63,24 @@ inline double smoothingLengthByRule(const CurlShape& curl, double arcLength) {
   return std::min(longest, curl.turnLength * std::max(0.5, calm));
 }
 
+/// alpha of a whole strand, whose curl may vary: the smallest that serves nine tenths of its curled length,
+/// turn by turn, perversions aside.
+inline double smoothingLengthByRule(std::span<const Vec3d> points, double arcLength) {
+  std::vector<CurlStretch> curled = measureCurlAlong(points);
+  std::erase_if(curled, [](const CurlStretch& stretch) { return stretch.shape.perversions > 0; });
+  double smallest = 0;
+  for (const CurlStretch& candidate : curled) {
+    const double alpha = smoothingLengthByRule(candidate.shape, arcLength);
+    double served = 0, all = 0;
+    for (const CurlStretch& stretch : curled) {
+      all += stretch.length;
+      if (smoothingLengthByRule(stretch.shape, arcLength) <= alpha) served += stretch.length;
+    }
+    if (served >= 0.9 * all && (smallest == 0 || alpha < smallest)) smallest = alpha;
+  }
+  return curled.empty() ? smoothingLengthByRule(measureCurl(points), arcLength) : smallest;
+}
+
 /// The strand's stiffnesses and dampings before they are divided by the edge's length: K [N], C [N s].
 struct ContinuumConstants {
   double stretch = 0, stretchDamping = 0;
@@ -214,7 +232,7 @@ inline RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double
   }
   if (settings.integrator == Integrator::paper) strand.masses.assign(edgeCount + 1, 1.0);
 
-  const double ruleLength = smoothingLengthByRule(measureCurl(curve), strand.arcLength);
+  const double ruleLength = smoothingLengthByRule(curve, strand.arcLength);
   strand.bendSmoothingLength = material.bendSmoothingLength.value_or(ruleLength);
   strand.coreSmoothingLength = material.coreSmoothingLength.value_or(ruleLength);
   strand.bendSmoothingShare = smoothingShare(strand.meanEdgeLength, strand.bendSmoothingLength);

@@ -111,6 +111,94 @@ TEST(CurlShape, AStraightRootDoesNotWidenTheRinglet) {
   EXPECT_NEAR(shape.turnLength, std::hypot(2 * kPi * 0.01, 0.25 / 8), 0.004);
 }
 
+// Helices one after another along Z, an equal share of the particles each. From one to the next the curl's
+// rate changes over half a turn, so that the strand has no kink: where the hand changes, a perversion as in
+// real hair.
+Strand joined(const std::vector<Helix>& parts, int count) {
+  const int steps = count / static_cast<int>(parts.size());
+  auto rate = [&](std::size_t part) { return parts[part].handedness * 2 * kPi * parts[part].turns / steps; };
+  Strand strand{{0.01, 0, 0}};
+  double angle = 0, height = 0;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const double half = 0.25 * steps / std::max(parts[part].turns, 1.0);  // of the change, in particles
+    for (int i = 0; i < steps; ++i) {
+      double share = 0;
+      std::size_t other = part;
+      if (part > 0 && i < half) other = part - 1, share = 0.5 - 0.5 * (i + 0.5) / half;
+      if (part + 1 < parts.size() && steps - i <= half) {
+        other = part + 1, share = 0.5 - 0.5 * (steps - i - 0.5) / half;
+      }
+      angle += rate(part) + share * (rate(other) - rate(part));
+      height += parts[part].length / steps;
+      strand.push_back({0.01 * std::cos(angle), 0.01 * std::sin(angle), height});
+    }
+  }
+  return strand;
+}
+
+TEST(CurlShape, PerversionsDoNotFlattenACurl) {
+  // However coarse: 4 particles a turn is what real tight coils have, and there the halves used to cancel.
+  for (int count : {40, 80, 160, 320}) {
+    SCOPED_TRACE(testing::Message() << count << " particles");
+    const Helix right{.turns = 5, .length = 0.125}, left{.turns = 5, .length = 0.125, .handedness = -1};
+    const CurlShape half = measureCurl(turned(joined({right, left}, count)));
+    EXPECT_NEAR(half.turns, 10, 0.5);
+    EXPECT_NEAR(half.radius, 0.01, 0.0005);
+    EXPECT_NEAR(half.pitch, 0.025, 0.0025);
+    EXPECT_EQ(half.handedness, 0);
+    EXPECT_EQ(half.perversions, 1);
+
+    const CurlShape most = measureCurl(turned(joined({left, right, right, right}, 2 * count)));
+    EXPECT_EQ(most.handedness, 1);
+    EXPECT_EQ(most.perversions, 1);
+    EXPECT_EQ(measureCurl(joined({right, left, right}, 3 * count / 2)).perversions, 2);
+    EXPECT_EQ(measureCurl(joined({right, right}, count)).perversions, 0);
+  }
+}
+
+TEST(CurlShape, StretchesFollowACurlThatVaries) {
+  // Loose at the root, tight at the tip.
+  const Helix loose{.turns = 4, .length = 0.2}, tight{.turns = 12, .length = 0.1};
+  const Strand strand = joined({loose, tight}, 240);
+  const std::vector<CurlStretch> stretches = measureCurlAlong(turned(strand));
+  ASSERT_GE(stretches.size(), 6u);
+  EXPECT_NEAR(stretches.front().shape.turnLength, std::hypot(2 * kPi * 0.01, 0.05), 0.002);
+  EXPECT_NEAR(stretches.front().shape.pitch, 0.05, 0.002);
+  EXPECT_NEAR(stretches.back().shape.turnLength, std::hypot(2 * kPi * 0.01, 0.1 / 12), 0.002);
+  EXPECT_NEAR(stretches.back().shape.pitch, 0.1 / 12, 0.001);
+  double length = 0, turns = 0;
+  for (const CurlStretch& stretch : stretches) length += stretch.length, turns += stretch.shape.turns;
+  EXPECT_NEAR(turns, 16, 0.4);
+  EXPECT_NEAR(length, std::hypot(8 * kPi * 0.01, 0.2) + std::hypot(24 * kPi * 0.01, 0.1), 0.02);
+}
+
+TEST(CurlShape, StretchesLeaveOutWhatIsStraight) {
+  const Strand strand = joined({{.turns = 0, .length = 0.2}, {.turns = 6, .length = 0.15}}, 128);
+  const std::vector<CurlStretch> stretches = measureCurlAlong(strand);
+  ASSERT_FALSE(stretches.empty());
+  double length = 0;
+  for (const CurlStretch& stretch : stretches) {
+    length += stretch.length;
+    EXPECT_EQ(stretch.shape.handedness, 1);
+  }
+  const double curled = std::hypot(12 * kPi * 0.01, 0.15);
+  EXPECT_NEAR(length, curled, 0.2 * curled);  // to a stretch at the border
+
+  // Exactly one helix: every stretch is it. A straight strand has none, a perversion is told of.
+  for (const CurlStretch& stretch : measureCurlAlong(cut(Helix{}, 64))) {
+    EXPECT_NEAR(stretch.shape.radius, 0.01, 1e-9);
+    EXPECT_NEAR(stretch.shape.pitch, 0.25 / 8, 1e-9);
+    EXPECT_EQ(stretch.shape.perversions, 0);
+  }
+  EXPECT_TRUE(measureCurlAlong(cut(Helix{.radius = 0}, 64)).empty());
+  int perversions = 0;
+  for (const CurlStretch& stretch : measureCurlAlong(
+           joined({{.turns = 5, .length = 0.1}, {.turns = 5, .length = 0.1, .handedness = -1}}, 80))) {
+    perversions += stretch.shape.perversions;
+  }
+  EXPECT_EQ(perversions, 1);
+}
+
 TEST(CurlShape, ScalesWithTheUnit) {
   const Helix helix;
   Strand large = cut(helix, 64);

@@ -3,6 +3,8 @@
 //        ê_i  /\  ê_{i+1}        theta_i: turn at the joint, about the normal b_i = ê_i x ê_{i+1}
 //            /  \                phi:     turn of that normal about the edge between two joints
 //      -----/ b_i \-----         w:       both composed: the helix's own turn about its axis per edge
+//
+// phi > 0 is a right-handed turn, phi < 0 a left-handed one; at a perversion it changes sign.
 #include "ringlet/groom/curl_shape.h"
 
 #include <algorithm>
@@ -25,9 +27,17 @@ constexpr double kShortestEdgeShare = 1e-3;
 constexpr double kFewestParticlesPerTurn = 2.5;
 
 // Share of the bending that must turn with the fitted helix. Chance reaches 0.6 on one strand in a thousand
-// of pure noise and flat waves 0.2; a real groom's tight coils have 0.78 to 0.9.
+// of pure noise and flat waves 0.2; a real groom's tight coils have 0.9. Hands that change along the strand
+// fit noise better, too, and so must fit the strand better.
 constexpr double kLeastCoherence = 0.6;
+constexpr double kLeastCoherenceOfTwoHands = 0.8;
 constexpr std::size_t kShortestWindow = 8;  // joints; below, chance alone makes a few of them agree
+
+// A stretch has a hand where phi is at least this share of w: a flat ring has none.
+constexpr double kLeastTwist = 0.05;
+
+// A stretch of a curled strand is straight if it bends by less than this share of the strand's mean.
+constexpr double kStraightBendShare = 0.3;
 
 // Documented in the header.
 constexpr double kFewestTurns = 1;
@@ -95,73 +105,213 @@ std::vector<std::complex<double>> measureBends(std::span<const Vec3d> directions
   return bends;
 }
 
-// How much of the bending turns by phi per joint: 1 on a helix, near 0 on noise and on flat waves. Taken over
-// windows of about a turn, so that a curl whose rate drifts along the strand still counts as one.
-double coherence(std::span<const std::complex<double>> bends, double phi, double jointsPerTurn) {
-  std::vector<std::complex<double>> sums{0.0};
-  std::vector<double> sizes{0.0};
-  for (std::size_t i = 0; i < bends.size(); ++i) {
-    sums.push_back(sums.back() + bends[i] * std::polar(1.0, -phi * static_cast<double>(i)));
-    sizes.push_back(sizes.back() + std::abs(bends[i]));
+// A range of joints.
+struct Range {
+  std::size_t begin = 0, end = 0;
+};
+
+// What the joints of a strand say, in the order of its usable edges: joint i lies between edges i and i + 1.
+class Joints {
+ public:
+  explicit Joints(std::span<const Vec3d> strand) : edges_(usableEdges(strand)) {
+    if (edges_.directions.size() < 3) return;
+    std::vector<double> arcs(strand.size() - 1);
+    measureArcs(strand, arcs);
+    for (std::size_t index : edges_.indices) arcs_.push_back(arcs[index]);
+    bends_ = measureBends(edges_.directions);
+    // A first guess of the turn needs the hands, and the hands over a turn need its length.
+    readHands(kShortestWindow);
+    readHands(jointsPerTurn());
   }
-  const double wanted = std::clamp(std::round(jointsPerTurn), 1.0, static_cast<double>(bends.size()));
-  const std::size_t window =
-      std::min(bends.size(), std::max(kShortestWindow, static_cast<std::size_t>(wanted)));
-  double together = 0, apart = 0;
-  for (std::size_t i = 0; i + window < sums.size(); ++i) {
-    together += std::abs(sums[i + window] - sums[i]);
-    apart += sizes[i + window] - sizes[i];
+
+  bool areEnough() const { return !bends_.empty(); }
+  Range all() const { return {0, bends_.size()}; }
+
+  // The helix that the joints of a range follow; straight if there is none. Each joint counts by its bend.
+  CurlShape fit(Range range) const {
+    const Turn turn = turnOf(range);
+    if (!(turn.w > 0) || turn.w > kTurn / kFewestParticlesPerTurn) return {};
+
+    // The axis of that turn meets the edge at a known angle: along it is rise, across it a chord 2 r
+    // sin(w/2).
+    const double alongAxis =
+        std::cos(turn.theta / 2) * std::abs(std::sin(turn.phi / 2)) / std::sin(turn.w / 2);
+    const double acrossAxis = std::sqrt(std::max(0.0, 1 - alongAxis * alongAxis));
+    CurlShape shape;
+    shape.turns = turn.curledShare * static_cast<double>(range.end - range.begin) * turn.w / kTurn;
+    shape.turnLength = turn.arc * kTurn / turn.w;
+    shape.radius = turn.chord * acrossAxis / (2 * std::sin(turn.w / 2));
+    shape.pitch = turn.chord * alongAxis * kTurn / turn.w;
+    if (kTurn * shape.radius < kShallowestCurl * shape.pitch) return {};
+    return shape;
   }
-  return apart > 0 ? together / apart : 0;
+
+  // Right-handed joints less left-handed ones, each counting by its bend, as a share of all.
+  double handBalance(Range range) const {
+    double balance = 0, all = 0;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      balance += std::abs(bends_[i]) * hands_[i];
+      all += std::abs(bends_[i]);
+    }
+    return all > 0 ? balance / all : 0;
+  }
+
+  int perversions(Range range) const {
+    int count = 0;
+    for (std::size_t i = range.begin + 1; i < range.end; ++i) count += hands_[i] != hands_[i - 1] ? 1 : 0;
+    return count;
+  }
+
+  // How much of the bending turns with the helix: 1 on one, near 0 on noise and on flat waves. Taken over
+  // windows of about a turn, so that a curl whose rate drifts along the strand still counts as one.
+  double coherence() const {
+    const double phi = turnOf(all()).phi;
+    std::vector<std::complex<double>> sums{0.0};
+    std::vector<double> sizes{0.0};
+    double phase = 0;
+    for (std::size_t i = 0; i < bends_.size(); ++i) {
+      if (i > 0) phase += phi * hands_[i];
+      sums.push_back(sums.back() + bends_[i] * std::polar(1.0, -phase));
+      sizes.push_back(sizes.back() + std::abs(bends_[i]));
+    }
+    const std::size_t window = std::min(bends_.size(), std::max(kShortestWindow, jointsPerTurn()));
+    double together = 0, apart = 0;
+    for (std::size_t i = 0; i + window < sums.size(); ++i) {
+      together += std::abs(sums[i + window] - sums[i]);
+      apart += sizes[i + window] - sizes[i];
+    }
+    return apart > 0 ? together / apart : 0;
+  }
+
+  // Joints of a turn where the strand is curled.
+  std::size_t jointsPerTurn() const {
+    const Turn turn = turnOf(all());
+    const double count = static_cast<double>(bends_.size());
+    if (!(turn.w > 0)) return bends_.size();
+    return static_cast<std::size_t>(std::clamp(std::round(kTurn / (turn.curledShare * turn.w)), 1.0, count));
+  }
+
+  // Mean bend of a range's joints [rad], and their arc length.
+  double meanBend(Range range) const {
+    double sum = 0;
+    for (std::size_t i = range.begin; i < range.end; ++i) sum += std::abs(bends_[i]);
+    return sum / static_cast<double>(range.end - range.begin);
+  }
+  double arcOf(Range range) const {
+    double sum = 0;
+    for (std::size_t i = range.begin; i < range.end; ++i) sum += (arcs_[i] + arcs_[i + 1]) / 2;
+    return sum;
+  }
+
+ private:
+  // Means over joints, weighted by their bends.
+  struct Turn {
+    double theta = 0, phi = 0, w = 0;  // phi >= 0 by the joints' hands [rad]
+    double chord = 0, arc = 0;         // of an edge [unit]
+    double curledShare = 0;            // 1: all joints bend alike
+  };
+
+  Turn turnOf(Range range) const {
+    double weight = 0, thetaSum = 0, chordSum = 0, arcSum = 0, along = 0, across = 0;
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const double bend = std::abs(bends_[i]);
+      weight += bend;
+      thetaSum += bend * bend;
+      chordSum += bend * (edges_.chords[i] + edges_.chords[i + 1]) / 2;
+      arcSum += bend * (arcs_[i] + arcs_[i + 1]) / 2;
+      if (i == range.begin) continue;
+      const std::complex<double> onwards = bends_[i] * std::conj(bends_[i - 1]);
+      along += onwards.real();
+      across += onwards.imag() * hands_[i];
+    }
+    if (!(thetaSum > 0)) return {};
+    Turn turn{
+        .theta = thetaSum / weight, .phi = std::abs(std::atan2(across, along)), .chord = chordSum / weight};
+    turn.arc = arcSum / weight;
+    turn.curledShare = weight / turn.theta / static_cast<double>(range.end - range.begin);
+    // Two turns about axes at right angles compose to cos(w/2) = cos(theta/2) cos(phi/2).
+    turn.w = 2 * std::acos(std::clamp(std::cos(turn.theta / 2) * std::cos(turn.phi / 2), -1.0, 1.0));
+    return turn;
+  }
+
+  // Each joint's hand: the sign of phi over a window about it; where that is next to nothing, as before it.
+  void readHands(std::size_t wanted) {
+    const std::size_t count = bends_.size();
+    if (hands_.empty()) hands_.assign(count, 1);
+    const double w = turnOf(all()).w;
+    std::vector<double> across(count + 1, 0.0), sizes(count + 1, 0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::complex<double> onwards = i > 0 ? bends_[i] * std::conj(bends_[i - 1]) : 0.0;
+      across[i + 1] = across[i] + onwards.imag();
+      sizes[i + 1] = sizes[i] + std::abs(onwards);
+    }
+    const std::size_t half = std::max<std::size_t>(1, std::max(kShortestWindow, wanted) / 2);
+    int hand = 0;
+    std::vector<int> hands(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t from = i > half ? i - half : 0, to = std::min(count, i + half);
+      const double turned = across[to] - across[from];
+      if (std::abs(turned) > kLeastTwist * w * (sizes[to] - sizes[from])) hand = turned > 0 ? 1 : -1;
+      hands[i] = hand;
+    }
+    // The root's joints before the first that has a hand have that one's.
+    const auto known = std::find_if(hands.begin(), hands.end(), [](int h) { return h != 0; });
+    std::fill(hands.begin(), known, known == hands.end() ? 1 : *known);
+    hands_ = std::move(hands);
+  }
+
+  Edges edges_;
+  std::vector<double> arcs_;                 // of the usable edges [unit]
+  std::vector<std::complex<double>> bends_;  // of each joint
+  std::vector<int> hands_;                   // +1 or -1, of each joint
+};
+
+// Of neither hand is what winds as much one way as the other, to a turn or half of what there is.
+int handOf(double balance, double turns) {
+  if (std::abs(balance) * turns < std::min(1.0, turns / 2)) return 0;
+  return balance > 0 ? 1 : -1;
+}
+
+CurlShape wholeCurl(const Joints& joints) {
+  CurlShape shape = joints.fit(joints.all());
+  if (shape.turns == 0) return {};
+  shape.perversions = joints.perversions(joints.all());
+  if (joints.coherence() < (shape.perversions > 0 ? kLeastCoherenceOfTwoHands : kLeastCoherence)) return {};
+  // There is one edge more than there are joints.
+  shape.turns *= 1 + 1 / static_cast<double>(joints.all().end);
+  // Less than the whole of one turn, with room for rounding.
+  if (shape.turns < kFewestTurns - 1e-9) return {};
+  shape.handedness = handOf(joints.handBalance(joints.all()), shape.turns);
+  return shape;
 }
 
 }  // namespace
 
 CurlShape measureCurl(std::span<const Vec3d> strand) {
   if (strand.size() < 4) return {};
-  const Edges edges = usableEdges(strand);
-  if (edges.directions.size() < 3) return {};
-  const auto edgeCount = static_cast<double>(edges.directions.size());
+  const Joints joints(strand);
+  return joints.areEnough() ? wholeCurl(joints) : CurlShape{};
+}
 
-  std::vector<double> arcs(strand.size() - 1);
-  measureArcs(strand, arcs);
+std::vector<CurlStretch> measureCurlAlong(std::span<const Vec3d> strand) {
+  if (strand.size() < 4) return {};
+  const Joints joints(strand);
+  if (!joints.areEnough() || wholeCurl(joints).turns == 0) return {};
 
-  // Each joint counts by how much it bends: a straight root must not widen the ringlet below it.
-  const std::vector<std::complex<double>> bends = measureBends(edges.directions);
-  double weight = 0, thetaSum = 0, chordSum = 0, arcSum = 0;
-  std::complex<double> phiSum = 0;
-  for (std::size_t i = 0; i < bends.size(); ++i) {
-    const double bend = std::abs(bends[i]);
-    weight += bend;
-    thetaSum += bend * bend;
-    chordSum += bend * (edges.chords[i] + edges.chords[i + 1]) / 2;
-    arcSum += bend * (arcs[edges.indices[i]] + arcs[edges.indices[i + 1]]) / 2;
-    if (i > 0) phiSum += bends[i] * std::conj(bends[i - 1]);
+  const std::size_t count = joints.all().end;
+  const std::size_t stretchCount =
+      std::max<std::size_t>(1, count / std::max(kShortestWindow, joints.jointsPerTurn()));
+  std::vector<CurlStretch> stretches;
+  for (std::size_t k = 0; k < stretchCount; ++k) {
+    const Range range{count * k / stretchCount, count * (k + 1) / stretchCount};
+    if (joints.meanBend(range) < kStraightBendShare * joints.meanBend(joints.all())) continue;
+    CurlShape shape = joints.fit(range);
+    if (shape.turns == 0) continue;
+    shape.handedness = handOf(joints.handBalance(range), shape.turns);
+    shape.perversions = joints.perversions({range.begin > 0 ? range.begin - 1 : 0, range.end});
+    stretches.push_back({.length = joints.arcOf(range), .shape = shape});
   }
-  if (!(thetaSum > 0)) return {};
-  const double theta = thetaSum / weight, chord = chordSum / weight, arc = arcSum / weight;
-  const double phi = std::arg(phiSum);
-  const double curledShare = weight / theta / static_cast<double>(bends.size());  // 1: all joints bend alike
-
-  // w: two turns about axes at right angles compose to cos(w/2) = cos(theta/2) cos(phi/2).
-  const double w = 2 * std::acos(std::clamp(std::cos(theta / 2) * std::cos(phi / 2), -1.0, 1.0));
-  if (!(w > 0) || w > kTurn / kFewestParticlesPerTurn) return {};
-  if (coherence(bends, phi, kTurn / (curledShare * w)) < kLeastCoherence) return {};
-
-  // The axis of that turn meets the edge at a known angle: along it is rise, across it a chord 2 r sin(w/2).
-  const double alongAxis = std::cos(theta / 2) * std::abs(std::sin(phi / 2)) / std::sin(w / 2);
-  const double acrossAxis = std::sqrt(std::max(0.0, 1 - alongAxis * alongAxis));
-
-  CurlShape shape;
-  shape.turns = curledShare * edgeCount * w / kTurn;
-  shape.turnLength = arc * kTurn / w;
-  shape.radius = chord * acrossAxis / (2 * std::sin(w / 2));
-  shape.pitch = chord * alongAxis * kTurn / w;
-  shape.handedness = phi < 0 ? -1 : 1;
-
-  // Less than the whole of one turn, with room for rounding, or too shallow to matter.
-  if (shape.turns < kFewestTurns - 1e-9 || kTurn * shape.radius < kShallowestCurl * shape.pitch) return {};
-  return shape;
+  return stretches;
 }
 
 void measureArcs(std::span<const Vec3d> strand, std::span<double> arcs) {

@@ -34,12 +34,6 @@ constexpr double kLeastWinding = 0.25;
 // A core shorter than this share of the strand is a point (a flat ring): nothing can be a multiple of it.
 constexpr double kShortestCoreShare = 1e-6;
 
-// Halves of a strand are alike with this many turns each, and turns of lengths within this factor: noise is
-// not.
-constexpr double kFewestHalfTurns = 2;
-constexpr std::size_t kFewestHalfParticles = 16;  // below, a few joints of noise agree by chance
-constexpr double kLikeTurnLength = 1.3;
-
 double polylineLength(std::span<const Vec3d> points) {
   double sum = 0;
   for (std::size_t i = 1; i < points.size(); ++i) sum += length(points[i] - points[i - 1]);
@@ -55,23 +49,6 @@ Status checkFinite(std::span<const Vec3d> points) {
     }
   }
   return {};
-}
-
-// The strand's curl. One helix cannot be fitted to a strand that changes hand half way, for its halves
-// cancel; cut coarsely it looks straight. Then its halves are asked: two curls alike are one curl.
-CurlShape curlOf(std::span<const Vec3d> rest) {
-  const CurlShape whole = measureCurl(rest);
-  if (whole.turns > 0 || rest.size() < 2 * kFewestHalfParticles) return whole;
-  const CurlShape a = measureCurl(rest.first(rest.size() / 2 + 1)),
-                  b = measureCurl(rest.subspan(rest.size() / 2));
-  if (std::min(a.turns, b.turns) < kFewestHalfTurns) return whole;
-  if (std::max(a.turnLength, b.turnLength) > kLikeTurnLength * std::min(a.turnLength, b.turnLength))
-    return whole;
-  return {.turns = a.turns + b.turns,
-          .turnLength = (a.turnLength + b.turnLength) / 2,
-          .radius = (a.radius + b.radius) / 2,
-          .pitch = (a.pitch + b.pitch) / 2,
-          .handedness = a.handedness == b.handedness ? a.handedness : 0};
 }
 
 int signOf(double value) { return value > 0 ? 1 : value < 0 ? -1 : 0; }
@@ -95,7 +72,7 @@ Result<StrandRuler> StrandRuler::make(std::span<const Vec3d> rest) {
   if (!(arcLength > 0) || !std::isfinite(arcLength) || !std::isfinite(ruler.restLength_)) {
     return Error{fmt::format("its particles have no finite length between them ({} m)", ruler.restLength_)};
   }
-  ruler.shape_ = curlOf(rest);
+  ruler.shape_ = measureCurl(rest);
   ruler.window_ = coreWindow(ruler.shape_, arcLength);
   ruler.shortestEdge_ = kShortestEdgeShare * ruler.restLength_ / static_cast<double>(rest.size() - 1);
   ruler.restChord_ = length(rest.back() - rest.front());

@@ -54,7 +54,7 @@ class StrandRuler {
 
   /// The rest shape itself, measured.
   const StrandMeasure& rest() const { return rest_; }
-  /// As measureCurl; a strand of two hands has handedness 0 there.
+  /// As measureCurl.
   const CurlShape& shape() const { return shape_; }
   double arcLength() const { return at_.back(); }               // [m]
   std::span<const double> arcPositions() const { return at_; }  // of each particle [m]

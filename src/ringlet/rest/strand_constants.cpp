@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <vector>
 
 namespace ringlet {
 namespace {
@@ -35,6 +36,29 @@ double smoothingLengthOf(const CurlShape& shape, double arcLength) {
   return std::min(longest, shape.turnLength * std::max(0.5, needed));
 }
 
+double smoothingLengthOf(std::span<const Vec3d> points, double arcLength) {
+  constexpr double kShareOfCurl = 0.9;
+  struct Wanted {
+    double smoothingLength = 0, length = 0;
+  };
+  std::vector<Wanted> wanted;
+  double curledLength = 0;
+  for (const CurlStretch& stretch : measureCurlAlong(points)) {
+    if (stretch.shape.perversions > 0) continue;
+    wanted.push_back({smoothingLengthOf(stretch.shape, arcLength), stretch.length});
+    curledLength += stretch.length;
+  }
+  if (wanted.empty()) return smoothingLengthOf(measureCurl(points), arcLength);
+
+  std::ranges::sort(wanted, {}, &Wanted::smoothingLength);
+  double covered = 0;
+  for (const Wanted& stretch : wanted) {
+    covered += stretch.length;
+    if (covered >= kShareOfCurl * curledLength) return stretch.smoothingLength;
+  }
+  return wanted.back().smoothingLength;
+}
+
 StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs,
                                 const Material& material, const Settings& settings) {
   StrandConstants c;
@@ -43,7 +67,7 @@ StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const d
   c.meanEdgeLength /= static_cast<double>(std::max<std::size_t>(1, arcs.size()));
   const double S = c.arcLength, l = c.meanEdgeLength, T = settings.stepSeconds();
 
-  const double fromShape = smoothingLengthOf(measureCurl(points), S);
+  const double fromShape = smoothingLengthOf(points, S);
   c.bendSmoothingLength = material.bendSmoothingLength.value_or(fromShape);
   c.coreSmoothingLength = material.coreSmoothingLength.value_or(fromShape);
   c.bendBeta = smoothingWeight(l, c.bendSmoothingLength);

@@ -26,8 +26,12 @@ struct StrandConstants {
   double longestBendStep = 0;     // longest outer step at which targets held over it cannot feed bending [s]
 };
 
-/// The smoothing length below which bending may feed on itself [unit of the shape].
+/// The smoothing length below which the bending of one helix may feed on itself [unit of the shape].
 double smoothingLengthOf(const CurlShape& shape, double arcLength);
+
+/// The same for a real strand, whose curl varies: enough for nine tenths of its curled length, a turn at a
+/// time and without its perversions, which are flat for half a turn and would ask for any length [unit].
+double smoothingLengthOf(std::span<const Vec3d> points, double arcLength);
 
 /// `points`: the strand at rest [m]; `arcs`: arc length of each edge [m].
 StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs,
