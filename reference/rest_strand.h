@@ -44,6 +44,7 @@ struct RestStrand {
   double arcLength = 0;                                     // S [m]
   double meanEdgeLength = 0;                                // l [m]
   double bendSmoothingLength = 0, coreSmoothingLength = 0;  // alpha_b, alpha_c [m]
+  bool changesHand = false;                                 // the rest curl has a perversion
   bool coreIsCapped = false;  // K_c was lowered, because the step is too long for it
   double preloadShare = 0;    // max |W across| / (k_b l_i) [1]; above 0.5 is too much
 
@@ -105,9 +106,11 @@ inline ContinuumConstants continuumConstants(const Material& material, const Res
       alphaB > 0 ? 2 * alphaB * bend * std::tanh(l / (2 * alphaB)) / l : 2 * ruleLength * bend / l;
   constants.bendDamping = material.bendDampingRatio * strand.arcLength * std::sqrt(bend * lambda);
 
-  // The core is explicit: calm up to T = 4 alpha_c sqrt(lambda / K_c). Beyond it, K_c is lowered.
+  // The core is explicit: calm up to T = 4 alpha_c sqrt(lambda / K_c), 3 where the curl changes hand. Beyond
+  // it, K_c is lowered.
   const double alphaC = strand.coreSmoothingLength > 0 ? strand.coreSmoothingLength : l;
-  const double highestCore = lambda * (4 * alphaC / stepSeconds) * (4 * alphaC / stepSeconds);
+  const double calmSteps = strand.changesHand ? 3 : 4;
+  const double highestCore = lambda * std::pow(calmSteps * alphaC / stepSeconds, 2);
   constants.core = std::min(material.coreStiffness * weight, highestCore);
   constants.coreIsCapped = material.coreStiffness * weight > highestCore;
   constants.coreDamping = 4 * material.coreDampingRatio * alphaC * std::sqrt(constants.core * lambda);
@@ -233,6 +236,7 @@ inline RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double
   if (settings.integrator == Integrator::paper) strand.masses.assign(edgeCount + 1, 1.0);
 
   const double ruleLength = smoothingLengthByRule(curve, strand.arcLength);
+  strand.changesHand = measureCurl(curve).perversions > 0;
   strand.bendSmoothingLength = material.bendSmoothingLength.value_or(ruleLength);
   strand.coreSmoothingLength = material.coreSmoothingLength.value_or(ruleLength);
   strand.bendSmoothingShare = smoothingShare(strand.meanEdgeLength, strand.bendSmoothingLength);
@@ -280,6 +284,7 @@ RestStrand<Real> castRestStrand(const RestStrand<double>& from) {
           .meanEdgeLength = from.meanEdgeLength,
           .bendSmoothingLength = from.bendSmoothingLength,
           .coreSmoothingLength = from.coreSmoothingLength,
+          .changesHand = from.changesHand,
           .coreIsCapped = from.coreIsCapped,
           .preloadShare = from.preloadShare};
 }

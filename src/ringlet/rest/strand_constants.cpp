@@ -89,11 +89,13 @@ StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const d
   c.bendDamping = material.bendDampingRatio * S * std::sqrt(bend * lambda);
 
   // The core is explicit: calm up to T = 4 alpha sqrt(lambda / K_c) (tests/scenes/calm_sweep_test.cpp; at 4.4
-  // a soft curl feeds on itself), capped beyond.
+  // a soft curl feeds on itself), 3 where the curl changes hand (at 3.5 a soft tight one does); capped
+  // beyond.
   const double coreLength = c.coreSmoothingLength > 0 ? c.coreSmoothingLength : l;
+  const double calm = (measureCurl(points).perversions > 0 ? 3 : 4) * coreLength;
   c.coreStiffnessAsked = material.coreStiffness * weight;
-  c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (4 * coreLength / T) * (4 * coreLength / T));
-  c.longestCoreStep = 4 * coreLength * std::sqrt(lambda / std::max(c.coreStiffnessAsked, 1e-300));
+  c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (calm / T) * (calm / T));
+  c.longestCoreStep = calm * std::sqrt(lambda / std::max(c.coreStiffnessAsked, 1e-300));
   c.longestBendStep = 3 * (alpha > 0 ? alpha : l) * std::sqrt(lambda / bend);
   c.coreDamping = 4 * material.coreDampingRatio * coreLength * std::sqrt(c.coreStiffness * lambda);
   return c;
