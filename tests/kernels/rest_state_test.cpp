@@ -9,6 +9,7 @@
 #include "tests/support/parity.h"
 #include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
+#include "tests/support/varying_curls.h"
 
 namespace ringlet::test {
 namespace {
@@ -66,6 +67,13 @@ Settings settingsWith(Integrator integrator, double preload, int steps) {
   settings.gravityPreload = preload;
   settings.stepsPerFrame = steps;
   return settings;
+}
+
+TEST(RestState, AgreesWithTheReferenceOnCurlsThatVary) {
+  for (int steps : {4, 32}) {
+    expectSameRest(varyingGroom(64), settingsWith(Integrator::jacobi, 1, steps));
+    expectSameRest(varyingGroom(200), settingsWith(Integrator::jacobi, 0, steps));
+  }
 }
 
 TEST(RestState, AgreesWithTheReferenceOnGeneratedGrooms) {
