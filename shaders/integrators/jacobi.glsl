@@ -15,12 +15,30 @@ vec3 rightHandSide(int k, vec3 forceBefore) {
   return m * v[k] + stepSeconds() * (force[k] - forceBefore + m * parameters.gravity.xyz);
 }
 
+// What contacts add to particle k: 2 D to its mass, and a momentum. Read where they are used; not kept in registers.
+bool withContacts = false;
+bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
+Symmetric massOf(int k) {
+  Symmetric mass = symmetricDiagonal(restEdge[k].x);
+  if (meetsContacts(k)) {
+    ContactSystem contact = contactSystems[strand.firstParticle + first + k];
+    mass.d += 2.0 * contact.diagonal.xyz;
+    mass.o += 2.0 * contact.offDiagonal.xyz;
+  }
+  return mass;
+}
+vec3 contactMomentum(int k) {
+  return meetsContacts(k) ? contactSystems[strand.firstParticle + first + k].momentum.xyz : vec3(0);
+}
+
 // The same without the springs of the boundary edges: their pull belongs to f, the force across the boundary. Left in,
 // it would make both sides' free ends race apart and be cancelled again by the join, which costs float32 its digits.
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
-  return m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz);
+  vec3 sum = m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz);
+  if (kContacts) sum += contactMomentum(k);
+  return sum;
 }
 
 // H of the boundary edge: A⁻¹. A void one gets any positive value; it is never used.
@@ -37,7 +55,7 @@ void solveStrandBlock(vec3 pinned[3]) {
 
   LaneSystem system;
   system.joined = isEdge(RUN - 1);
-  system.P = symmetricDiagonal(restEdge[RUN - 1].x);
+  system.P = massOf(RUN - 1);
   system.y = rightHandSideOfRun(RUN - 1);
   system.transfer = mat3(1);
   if (kLanes > 1) {
@@ -48,7 +66,7 @@ void solveStrandBlock(vec3 pinned[3]) {
   [[unroll]] for (int k = RUN - 2; k >= 0; --k) {
     ImplicitEdge edge = implicitEdgeOf(k);
     Elimination step = eliminateEdge(edge, system.P, system.y);
-    system.P = addDiagonal(system.P, restEdge[k].x);
+    system.P = kContacts ? add(system.P, massOf(k)) : addDiagonal(system.P, restEdge[k].x);
     system.y += rightHandSideOfRun(k);
     if (isPinned(k + 1)) {  // its velocity is given, whatever pulls
       step.transfer = mat3(0);

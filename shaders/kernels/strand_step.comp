@@ -1,7 +1,8 @@
 // The strand kernel, lanes x run: all outer steps of a dispatch for one strand, in registers; global memory is touched at
 // its start and end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose stages
 // these are, in the same order. Mirrored by reference/kernels/strand_step.h; one thread per strand: strand_step_serial.comp.
-// Compiled with RUN = particles per lane; specialized with the lanes per strand and the integrator.
+// Compiled with RUN = particles per lane; specialized with the lanes per strand and the integrator. With contacts every
+// solve is a dispatch of its own; the last of a step moves the strand and goes on to the next step's first.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -193,7 +194,7 @@ void solveVelocities(uint step) {
   vec3 before[RUN] = v;
   if (kIntegrator == kIntegratorJacobi) solveStrandBlock(pinned);
   if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
-  if (kMeasureResidual && kIntegrator != kIntegratorPaper) measureResidual(before);
+  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kContacts) measureResidual(before);
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
@@ -254,7 +255,41 @@ void storeStrand(uint strandIndex) {
   }
 }
 
+void storeSolved() {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    if (isParticle(k)) solved[strand.firstParticle + first + k].xyz = v[k];
+  }
+}
+
+// The forces of a step, from positions and velocities at its start.
+void computeForces(uint step) {
+  [[unroll]] for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
+  measureEdges();
+  vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge.xyz);
+  vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
+  vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
+  smoothCurves(edgeStart, velocityStart, directionOf(firstEdge));
+  shapeForces(rotationAtStart(step));
+  coreForces();
+}
+
+// One solve with the contacts' systems or, of the step after a move, without them. An idle strand has no particles.
+void solveOnce(uint strandIndex, bool idle) {
+  bool moves = (parameters.phases & kPhaseMove) != 0;
+  for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
+    withContacts = (parameters.phases & kPhaseContacts) != 0 && step == parameters.stepBegin;
+    computeForces(step);
+    solveVelocities(step);
+    if (!withContacts || !moves || parameters.stepEnd == parameters.stepBegin + 1) storeSolved();
+    if (!withContacts || !moves) continue;
+    moveAndLimit(step);
+    measureEdges();  // the step's stretch, for the report
+    if (!idle) storeStrand(strandIndex);
+  }
+}
+
 void main() {
+  if (kContacts && control.isHalted != 0) return;
   findLane();
   uint invocation = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
   uint strandIndex = parameters.strandBegin + invocation / kLanes;
@@ -265,15 +300,12 @@ void main() {
   first = lane * RUN;
   loadStrand();
 
+  if (kContacts) {
+    solveOnce(strandIndex, idle);
+    return;
+  }
   for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
-    [[unroll]] for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
-    measureEdges();
-    vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge.xyz);
-    vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
-    vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
-    smoothCurves(edgeStart, velocityStart, directionOf(firstEdge));
-    shapeForces(rotationAtStart(step));
-    coreForces();
+    computeForces(step);
     solveVelocities(step);
     moveAndLimit(step);
   }

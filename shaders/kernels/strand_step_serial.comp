@@ -49,6 +49,16 @@ vec3 position(uint i) { return positions[strand.firstParticle + i].xyz; }
 vec3 velocity(uint i) { return velocities[strand.firstParticle + i].xyz; }
 void setPosition(uint i, vec3 p) { positions[strand.firstParticle + i] = vec4(p, 0); }
 void setVelocity(uint i, vec3 v) { velocities[strand.firstParticle + i] = vec4(v, 0); }
+// The solve's result: beside the velocities where it is iterated, in their place where it is not.
+vec3 solvedVelocity(uint i) { return kContacts ? solved[strand.firstParticle + i].xyz : velocity(i); }
+void setSolved(uint i, vec3 v) {
+  if (kContacts) {
+    solved[strand.firstParticle + i] = vec4(v, 0);
+  } else {
+    setVelocity(i, v);
+  }
+}
+bool withContacts() { return kContacts && (parameters.phases & kPhaseContacts) != 0; }
 ParticleRest restOf(uint i) { return particles[strand.firstParticle + i]; }
 float edgeScale(uint i) { return edgeScaleOf(particles[strand.firstParticle + i].edgeLength); }
 float mass(uint i) { return particles[strand.firstParticle + i].mass; }
@@ -146,7 +156,19 @@ vec3 forceOn(uint i) {
 }
 vec3 rightHandSide(uint i) {
   float m = mass(i);
-  return m * velocity(i) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
+  vec3 sum = m * velocity(i) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
+  if (withContacts()) sum += contactSystems[strand.firstParticle + i].momentum.xyz;
+  return sum;
+}
+// m + 2 D, as a matrix.
+Symmetric massOf(uint i) {
+  Symmetric m = symmetricDiagonal(mass(i));
+  if (withContacts()) {
+    ContactSystem contact = contactSystems[strand.firstParticle + i];
+    m.d += 2.0 * contact.diagonal.xyz;
+    m.o += 2.0 * contact.offDiagonal.xyz;
+  }
+  return m;
 }
 ImplicitEdge implicitEdgeOf(uint i) {
   float s = edgeScale(i);
@@ -159,13 +181,13 @@ ImplicitEdge implicitEdgeOf(uint i) {
 
 void solveStrandBlock(uint step) {
   uint tip = count - 1;
-  Symmetric P = symmetricDiagonal(mass(tip));
+  Symmetric P = massOf(tip);
   vec3 y = rightHandSide(tip);
   for (uint i = tip; i-- > 0;) {
     Elimination eliminated = eliminateEdge(implicitEdgeOf(i), P, y);
     for (uint c = 0; c < 3; ++c) setScratch(i, kTransfer + c, eliminated.transfer[c]);
     setScratch(i, kOffset, eliminated.offset);
-    P = addDiagonal(P, mass(i));
+    P = add(P, massOf(i));
     y += rightHandSide(i);
   }
   vec3 v = vec3(0);
@@ -176,7 +198,7 @@ void solveStrandBlock(uint step) {
       mat3 M = mat3(scratchOf(i - 1, kTransfer), scratchOf(i - 1, kTransfer + 1), scratchOf(i - 1, kTransfer + 2));
       v = M * v + scratchOf(i - 1, kOffset);
     }
-    setVelocity(i, v);
+    setSolved(i, v);
   }
 }
 
@@ -284,9 +306,10 @@ void moveAndLimit(uint step) {
   vec3 shift = vec3(0);
   vec3 velocityBefore = vec3(0);
   for (uint i = 0; i < count; ++i) {
-    vec3 v = velocity(i);
+    vec3 v = solvedVelocity(i);
     if (isPinned(i)) {
       setPosition(i, rotate(rotationAtEnd(step), strand.pins[i].xyz));
+      if (kContacts) setVelocity(i, v);
     } else {
       vec4 edge = scratch[slot(i - 1, kEdge)];
       vec3 moved = edge.w * edge.xyz + T * (v - velocityBefore);
@@ -336,7 +359,7 @@ void springs(uint step) {
 
 void main() {
   uint strandIndex = parameters.strandBegin + gl_GlobalInvocationID.x;
-  if (strandIndex >= parameters.strandEnd) return;
+  if (strandIndex >= parameters.strandEnd || (kContacts && control.isHalted != 0)) return;
   strand = strands[strandIndex];
   count = strand.particleCount;
   for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
@@ -347,11 +370,11 @@ void main() {
       if (kIntegrator == kIntegratorPaper) loopAsThePaper();
     }
     if ((parameters.phases & kPhaseMove) == 0) continue;
-    if (kMeasureResidual && kIntegrator != kIntegratorPaper) measureResidual();
+    if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kContacts) measureResidual();
 #ifdef RINGLET_TAPS
-    for (uint i = 0; i < count; ++i) RINGLET_TAP(kTapVelocity, i, vec4(velocity(i), 0));
+    for (uint i = 0; i < count; ++i) RINGLET_TAP(kTapVelocity, i, vec4(solvedVelocity(i), 0));
 #endif
     moveAndLimit(step);
   }
-  storeReport(strandIndex);
+  if (!kContacts || (parameters.phases & kPhaseMove) != 0) storeReport(strandIndex);
 }

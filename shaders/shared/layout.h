@@ -23,6 +23,10 @@ RINGLET_CONSTANT uint kBindStrands = 3;     // StrandRest[strands]
 RINGLET_CONSTANT uint kBindReports = 4;     // StrandReport[strands]
 RINGLET_CONSTANT uint kBindScratch = 5;     // serial form: vec4[particles][kScratchPerParticle]; taps: vec4[field][particles]
 RINGLET_CONSTANT uint kBindPoses = 6;       // uniform: StepPose[kMaxStepPoses]
+// And of those that solve with contacts:
+RINGLET_CONSTANT uint kBindSolved = 7;          // vec4[particles]: the solve's last iterate v^k [m/s], 0
+RINGLET_CONSTANT uint kBindContactSystems = 8;  // ContactSystem[particles]
+RINGLET_CONSTANT uint kBindContactControl = 9;  // ContactControl
 
 // Integrators (specialization constant 2).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
@@ -40,6 +44,9 @@ RINGLET_CONSTANT uint kPhaseSprings = 1;
 RINGLET_CONSTANT uint kPhaseSolve = 2;
 RINGLET_CONSTANT uint kPhaseMove = 4;
 RINGLET_CONSTANT uint kPhaseAll = 7;
+// With contacts a step is several dispatches: the solve without contacts, then iterations with them, the last of which moves.
+// This one makes the solve of step stepBegin an iteration with the contacts' systems.
+RINGLET_CONSTANT uint kPhaseContacts = 8;
 
 // Fields the kernels write when compiled with RINGLET_TAPS, each vec4[particles]; an edge's fields stand at its particle i.
 RINGLET_CONSTANT uint kTapSmoothedEdge = 0;  // d_i, smoothed with alpha_b [m]
@@ -118,6 +125,99 @@ struct StepParameters {
   uint phases;         // serial form: which parts of the step to do
   uint loopBegin;      // serial form: which of the solve's iterations (point_jacobi) or force loops (paper) to do
   uint loopEnd;
+};
+
+// Bindings of the contact kernels, all in set 0.
+RINGLET_CONSTANT uint kBindContactPositions = 0;  // vec4[particles]: as above
+RINGLET_CONSTANT uint kBindContactSolved = 1;     // vec4[particles]: v^k
+RINGLET_CONSTANT uint kBindContacts = 2;          // ContactRest[contacts]
+RINGLET_CONSTANT uint kBindNeighbours = 3;        // uint: first neighbour of each strand, one more, then the neighbours
+RINGLET_CONSTANT uint kBindGrid = 4;              // uint: see gridStarts and its like in shared/contact_buffers.glsl
+RINGLET_CONSTANT uint kBindPlaces = 5;            // ContactPlace[contacts]
+RINGLET_CONSTANT uint kBindListCounts = 6;        // uint[contacts][2]: pairs in each of a contact particle's two rows
+RINGLET_CONSTANT uint kBindPairs = 7;             // ContactPair[contacts][2][stride]
+RINGLET_CONSTANT uint kBindLives = 8;             // ContactLife[contacts][2][stride]
+RINGLET_CONSTANT uint kBindNormals = 9;           // vec4[contacts][stride]: n, q_n [kg]
+RINGLET_CONSTANT uint kBindSystems = 10;          // ContactSystem[particles]
+RINGLET_CONSTANT uint kBindControl = 11;          // ContactControl
+RINGLET_CONSTANT uint kContactBindingCount = 12;
+
+// Constant per contact particle; contact particles stand in device order.
+struct ContactRest {
+  vec4 point;  // xyz: at rest [m]; w: radius [m]
+  uint particle;
+  uint strand;
+  float mass;             // m_c [kg]
+  float inverseMassUnit;  // 1 / the strand's mass unit [1/kg]; 0 for a particle that follows the head
+};
+
+// One contact particle's part in one pair. The other has the pair too, with the same numbers.
+struct ContactPair {
+  uint particle;  // the other, device order
+  float restLength;  // r0 [m]
+  float stiffness;   // k [N/m]
+  float damping;     // c [N s/m]
+};
+
+// What a pair remembers from step to step, and a weight of this step's.
+struct ContactLife {
+  float stiffnessShare;  // kappa
+  float dampingShare;    // delta
+  float tangential;      // q_t [kg]
+  float unused;
+};
+
+// What contacts add to a particle's velocity system, (L + 2 D) v = base + momentum, in the strand's mass units.
+struct ContactSystem {
+  vec4 diagonal;     // of D: xx, yy, zz
+  vec4 offDiagonal;  // yz, xz, xy
+  vec4 push;         // xyz: sum of push n [mass unit m/s]
+  vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]
+};
+
+// Where a contact particle was in the grid, and when its list was made.
+struct ContactPlace {
+  vec4 sorted;    // of the place's entry, in cell order: xyz position [m], w the contact particle (as bits)
+  vec4 position;  // of the contact particle, when its list was made [m]
+  vec4 velocity;  // v^0 then [m/s]
+};
+
+// What contact kernels decide among themselves and tell the host.
+struct ContactControl {
+  uint indirectContacts[3];  // workgroups over contact particles of a rebuild, or none
+  uint isListed;             // there are lists
+  uint indirectBuckets[3];   // over blocks of buckets
+  uint parity;               // which of the two rows is in use
+  uint indirectOne[3];       // one workgroup
+  uint isHalted;             // a list is too long: everything stands still until the host has made room
+  uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
+  uint speed;        // the fastest contact particle's [m/s], as bits
+  float cellSize;    // [m]
+  uint longestList;  // pairs a contact particle wanted, at most
+  uint step;         // of the frame, that the lists are for
+  uint rebuilds;     // since the simulation began
+  uint pairTests;    // pairs looked at in this frame
+  uint candidates;   // and found near in the grid, to build lists, in units of 64
+};
+
+struct ContactParameters {
+  uint contactCount;
+  uint bucketCount;  // a power of two
+  uint stride;       // room in a list
+  uint strandCount;
+  uint everyPair;    // any two strands may touch
+  uint step;         // of the frame
+  float seconds;     // T
+  float skin;        // [m]
+  float largestRadius;     // [m]
+  float stiffness;         // k R / m_c [m/s^2]
+  float dampingRatio;
+  float friction;
+  float ramp;              // what a share changes by in a step
+  float stiffnessRelease;
+  float dampingRelease;
+  float breakFactor;
+  float seenAhead;         // a contact is seen ahead from this times r0
 };
 
 #ifdef __cplusplus

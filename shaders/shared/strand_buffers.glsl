@@ -11,6 +11,7 @@ layout(constant_id = 2) const uint kIntegrator = kIntegratorJacobi;
 layout(constant_id = 3) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
 layout(constant_id = 4) const bool kMeasureResidual = false;
 layout(constant_id = 5) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
+layout(constant_id = 6) const bool kContacts = false;    // the solve is iterated with the contacts' systems
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -19,6 +20,9 @@ layout(set = 0, binding = kBindStrands) readonly buffer Strands { StrandRest str
 layout(set = 0, binding = kBindReports) buffer Reports { StrandReport reports[]; };
 layout(set = 0, binding = kBindScratch) buffer Scratch { vec4 scratch[]; };
 layout(set = 0, binding = kBindPoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
+layout(set = 0, binding = kBindSolved) buffer Solved { vec4 solved[]; };
+layout(set = 0, binding = kBindContactSystems) readonly buffer ContactSystems { ContactSystem contactSystems[]; };
+layout(set = 0, binding = kBindContactControl) readonly buffer Control { ContactControl control; };
 layout(push_constant) uniform Parameters { StepParameters parameters; };
 
 StrandRest strand;  // this invocation's

@@ -172,6 +172,27 @@ TEST_F(Recorders, CopiesAndFillsAmongDispatches) {
   EXPECT_EQ(bench->found(), std::vector<std::uint32_t>(100, 7));
 }
 
+// The device reads how much to do when it gets there: here from what was copied just before.
+TEST_F(Recorders, GroupCountsFoundOnTheDevice) {
+  for (std::uint32_t groups : {0u, 1u, 2u}) {
+    auto bench = Bench::create(gpu(), 100, describeKernel(7));
+    auto wanted = Buffer::create(gpu(), 12, BufferKind::stream, "wanted");
+    auto counts = Buffer::create(gpu(), 16, BufferKind::storage, "counts");
+    ASSERT_TRUE(bench && wanted && counts);
+    const std::array<std::uint32_t, 3> size{groups, 1, 1};
+    RINGLET_EXPECT_OK(wanted->upload(std::as_bytes(std::span(size))));
+    RINGLET_EXPECT_OK(bench->values[1].fillZero());
+    RINGLET_EXPECT_OK(bench->recorder.begin());
+    bench->recorder.copyBuffer(*wanted, *counts, 12, 0, 4);
+    bench->recorder.barrier();
+    bench->recorder.dispatchIndirect(bench->kernel, bench->bindings[0], Push{bench->count, 2}, *counts, 4);
+    RINGLET_EXPECT_OK(bench->recorder.submitAndWait());
+    bench->current = 1;
+    const auto found = bench->found();
+    for (std::uint32_t i = 0; i < 100; ++i) ASSERT_EQ(found[i], i < groups * kGroupSize ? 2 * i + 7 : 0) << i;
+  }
+}
+
 TEST_F(Recorders, FullSubgroupsWherePromised) {
   auto bench = Bench::create(gpu(), 1000, describeKernel(2, true));
   ASSERT_TRUE(bench) << bench.error().message;

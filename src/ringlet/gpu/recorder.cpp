@@ -174,15 +174,13 @@ Status Recorder::begin() {
   return {};
 }
 
-void Recorder::dispatch(const Kernel& kernel, const Bindings& bindings,
-                        std::span<const std::byte> pushConstants, std::uint32_t groupCount) {
+// What a dispatch of either kind needs before it.
+void Recorder::bind(const Kernel& kernel, const Bindings& bindings,
+                    std::span<const std::byte> pushConstants) {
   RINGLET_ASSERT(self_->phase == State::Phase::recording, "dispatch outside begin and submit");
   RINGLET_ASSERT(pushConstants.size() == kernel.pushConstantBytes(),
                  "push constants of a size the kernel does not have");
   RINGLET_ASSERT(bindings.kinds() == kernel.bindings(), "bindings made for another list of binding kinds");
-  RINGLET_ASSERT(groupCount <= self_->device->properties().maxGroupCount,
-                 "more workgroups than one dispatch may have");
-  if (groupCount == 0) return;
   const VkDescriptorSet set = bindings.set();
   self_->vk().vkCmdBindPipeline(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
   self_->vk().vkCmdBindDescriptorSets(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
@@ -191,13 +189,31 @@ void Recorder::dispatch(const Kernel& kernel, const Bindings& bindings,
     self_->vk().vkCmdPushConstants(self_->commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                    static_cast<std::uint32_t>(pushConstants.size()), pushConstants.data());
   }
+}
+
+void Recorder::dispatch(const Kernel& kernel, const Bindings& bindings,
+                        std::span<const std::byte> pushConstants, std::uint32_t groupCount) {
+  RINGLET_ASSERT(groupCount <= self_->device->properties().maxGroupCount,
+                 "more workgroups than one dispatch may have");
+  if (groupCount == 0) return;
+  bind(kernel, bindings, pushConstants);
   self_->vk().vkCmdDispatch(self_->commands, groupCount, 1, 1);
+}
+
+void Recorder::dispatchIndirect(const Kernel& kernel, const Bindings& bindings,
+                                std::span<const std::byte> pushConstants, const Buffer& groupCounts,
+                                std::uint64_t offset) {
+  RINGLET_ASSERT(offset % 4 == 0 && offset + 3 * sizeof(std::uint32_t) <= groupCounts.bytes(),
+                 "group counts outside their buffer");
+  bind(kernel, bindings, pushConstants);
+  self_->vk().vkCmdDispatchIndirect(self_->commands, groupCounts.handle(), offset);
 }
 
 // One kind of barrier for everything: on compute work a narrower one gains nothing.
 void Recorder::barrier() {
   RINGLET_ASSERT(self_->phase == State::Phase::recording, "barrier outside begin and submit");
-  self_->memoryBarrier(kReads | kWrites, kWork);
+  self_->memoryBarrier(kReads | kWrites | VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
+                       kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT);
 }
 
 void Recorder::copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t fromOffset,

@@ -49,7 +49,20 @@ class Recorder {
     dispatch(kernel, bindings, std::as_bytes(std::span(&pushConstants, 1)), groupCount);
   }
 
-  /// What was recorded before is finished and visible to what follows: kernels and copies, reads and writes.
+  /// The same, with the three group counts the device finds at `offset` [bytes, a multiple of 4] of
+  /// `groupCounts`: earlier work decides how much is done, and no host waits for it. Each at most
+  /// maxGroupCount.
+  void dispatchIndirect(const Kernel& kernel, const Bindings& bindings,
+                        std::span<const std::byte> pushConstants, const Buffer& groupCounts,
+                        std::uint64_t offset);
+  template <PushConstants T>
+  void dispatchIndirect(const Kernel& kernel, const Bindings& bindings, const T& pushConstants,
+                        const Buffer& groupCounts, std::uint64_t offset) {
+    dispatchIndirect(kernel, bindings, std::as_bytes(std::span(&pushConstants, 1)), groupCounts, offset);
+  }
+
+  /// What was recorded before is finished and visible to what follows: kernels, their group counts, and
+  /// copies, reads and writes.
   /// The validation layer notices a barrier left out only where one of the two kernels declares the
   /// buffer `readonly` (copies are always watched); so declare it wherever it is true.
   void barrier();
@@ -75,6 +88,7 @@ class Recorder {
 
  private:
   struct State;
+  void bind(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> pushConstants);
   explicit Recorder(std::unique_ptr<State>);
   std::unique_ptr<State> self_;
 };

@@ -1,0 +1,63 @@
+// The spring between two contact particles of different strands, and its life. Iben et al. 2012, section 4, describe it; the
+// formulas are ours. Mirrored by reference/equations/contact_spring.h, where they are drawn and explained.
+//
+//   d = |x_a - x_b|, n = (x_a - x_b) / d, u_n = n . (v_a - v_b)
+//   touching: d < r0, or seen ahead: d + T u_n < r0
+//   momentum on a: push n - Q (v_a - v_b),  push = T k kappa (r0 - d),  Q = q_n n nᵀ + q_t (1 - n nᵀ)
+#ifndef RINGLET_CONTACT_SPRING
+#define RINGLET_CONTACT_SPRING
+
+struct ContactMeeting {
+  vec3 normal;       // n, from b to a
+  float distance;    // d [m]
+  float separation;  // u_n: how fast they part [m/s]
+};
+
+/// apart: x_a - x_b [m]; parting: v_a - v_b [m/s]. Particles in one place part along +y for the one of the lower index.
+ContactMeeting contactMeeting(vec3 apart, vec3 parting, bool aIsLower) {
+  ContactMeeting meeting;
+  meeting.distance = length(apart);
+  meeting.normal = meeting.distance < 1e-12 ? vec3(0, aIsLower ? 1.0 : -1.0, 0) : apart / meeting.distance;
+  meeting.separation = dot(meeting.normal, parting);
+  return meeting;
+}
+
+bool isTouching(ContactMeeting meeting, float restLength, float T, float seenAhead) {
+  return meeting.distance < restLength || (meeting.distance < seenAhead * restLength &&
+                                           meeting.distance + T * meeting.separation < restLength);
+}
+
+/// shares: (kappa, delta); changes: what they may change by in a step, (ramp, release of stiffness, release of damping).
+vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, vec3 changes, float breakFactor) {
+  if (touching) return vec2(min(1.0, shares.x + changes.x), 1.0);
+  if (distance > breakFactor * restLength) return vec2(0);
+  if (shares.x > 0.0) return vec2(max(0.0, shares.x - changes.y), shares.y);
+  return vec2(0.0, max(0.0, shares.y - changes.z));
+}
+
+struct ContactWeights {
+  float normal, tangential;  // q_n, q_t [kg]
+  float push;                // along n [kg m/s]
+};
+
+ContactWeights contactWeights(vec2 shares, bool touching, float distance, float restLength, float stiffness, float damping,
+                              float friction, float T) {
+  ContactWeights weights = ContactWeights(0.0, 0.0, 0.0);
+  if (distance < restLength || !touching) {  // no damping before there is a contact
+    weights.normal = T * damping * shares.y;
+    weights.tangential = friction * weights.normal;
+  }
+  if (touching) {
+    float spring = T * stiffness * shares.x;
+    weights.normal += T * spring;
+    weights.push = spring * (restLength - distance);
+  }
+  return weights;
+}
+
+/// Q v
+vec3 contactMultiply(float normalWeight, float tangentialWeight, vec3 normal, vec3 v) {
+  return (normalWeight - tangentialWeight) * dot(normal, v) * normal + tangentialWeight * v;
+}
+
+#endif

@@ -1,0 +1,25 @@
+// Prepares the next iteration of the solve with contacts: pair means of the last one's velocities,
+// sum of Q (v_a + v_b), with the weights contact_life.comp has set. Mirrored by reference/kernels/contact_step.h.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/contact_buffers.glsl"
+#include "equations/contact_spring.glsl"
+
+void main() {
+  if (control.isHalted != 0) return;
+  uint c = gl_GlobalInvocationID.x;
+  if (c >= parameters.contactCount) return;
+  uint row = rowOf(c);
+  uint particle = contacts[c].particle;
+  vec3 v = solved[particle].xyz;
+  uint count = listCounts[row];
+  vec3 momentum = vec3(0);
+  for (uint j = 0; j < count; ++j) {
+    vec4 normal = normals[c * parameters.stride + j];
+    float tangential = parameters.friction > 0.0 ? lives[pairOf(row, j)].tangential : 0.0;
+    if (normal.w == 0.0 && tangential == 0.0) continue;
+    vec3 both = v + solved[pairs[pairOf(row, j)].particle].xyz;
+    momentum += contactMultiply(normal.w, tangential, normal.xyz, both);
+  }
+  systems[particle].momentum.xyz = systems[particle].push.xyz + contacts[c].inverseMassUnit * momentum;
+}

@@ -1,0 +1,17 @@
+// The grid, 5 of 5: the order inside a bucket, by index, so that nothing depends on which thread came first; and positions
+// beside them, in that order, for the query.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/contact_buffers.glsl"
+
+void main() {
+  uint place = gl_GlobalInvocationID.x;
+  if (place >= parameters.contactCount) return;
+  uint c = grid[gridEntry(place)];
+  uint bucket = grid[gridBucketOf(c)];
+  uint start = startOf(bucket);
+  uint end = startOf(bucket + 1);
+  uint before = 0;
+  for (uint other = start; other < end; ++other) before += grid[gridEntry(other)] < c ? 1 : 0;
+  places[start + before].sorted = vec4(positions[contacts[c].particle].xyz, uintBitsToFloat(c));
+}

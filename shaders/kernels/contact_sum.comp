@@ -1,0 +1,25 @@
+// The grid, 3 of 5: where each block of buckets starts; one workgroup.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/contact_buffers.glsl"
+#include "scan/block_sum.glsl"
+
+void main() {
+  uint blockCount = parameters.bucketCount / kBlock;
+  uint each = (blockCount + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x;
+  uint first = min(gl_LocalInvocationID.x * each, blockCount);
+  uint end = min(first + each, blockCount);
+  uint sum = 0;
+  for (uint block = first; block < end; ++block) sum += grid[gridSum(block)];
+  uint before = sumBefore(sum);
+  for (uint block = first; block < end; ++block) {
+    uint count = grid[gridSum(block)];
+    grid[gridSum(block)] = before;
+    before += count;
+  }
+  // The bucket beyond the last starts at the end.
+  if (gl_LocalInvocationID.x == 0) {
+    grid[gridSum(blockCount)] = parameters.contactCount;
+    grid[gridStart(parameters.bucketCount)] = 0;
+  }
+}

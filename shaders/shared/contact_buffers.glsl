@@ -1,0 +1,47 @@
+// The buffers and parameters of the contact kernels (layout.h). A kernel says what it only reads with RINGLET_READS_*, so
+// that the validation layer can see a missing barrier.
+#ifndef RINGLET_CONTACT_BUFFERS
+#define RINGLET_CONTACT_BUFFERS
+
+#include "shared/layout.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = kBindContactPositions) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = kBindContactSolved) readonly buffer Solved { vec4 solved[]; };
+layout(set = 0, binding = kBindContacts) readonly buffer Contacts { ContactRest contacts[]; };
+layout(set = 0, binding = kBindNeighbours) readonly buffer Neighbours { uint neighbours[]; };
+layout(set = 0, binding = kBindGrid) buffer Grid { uint grid[]; };
+layout(set = 0, binding = kBindPlaces) buffer Places { ContactPlace places[]; };
+layout(set = 0, binding = kBindListCounts) buffer ListCounts { uint listCounts[]; };
+layout(set = 0, binding = kBindPairs) buffer Pairs { ContactPair pairs[]; };
+layout(set = 0, binding = kBindLives) buffer Lives { ContactLife lives[]; };
+layout(set = 0, binding = kBindNormals) buffer Normals { vec4 normals[]; };
+layout(set = 0, binding = kBindSystems) buffer Systems { ContactSystem systems[]; };
+layout(set = 0, binding = kBindControl) buffer Control { ContactControl control; };
+layout(push_constant) uniform Parameters { ContactParameters parameters; };
+
+// The grid's buffer, one part after another. Bucket b's contact particles are entries [start of b, start of b + 1).
+const uint kBlock = 1024;  // buckets that are summed together
+uint gridCount(uint bucket) { return bucket; }  // how many are in a bucket; 0 outside a rebuild
+uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }  // within its block; one more than buckets
+uint gridSum(uint block) { return 2 * parameters.bucketCount + 1 + block; }  // before a block; one more than blocks
+uint gridBucketOf(uint c) { return gridSum(parameters.bucketCount / kBlock + 1) + c; }
+uint gridRank(uint c) { return gridBucketOf(parameters.contactCount) + c; }  // among its bucket's, in any order
+uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }  // contact particle, in any order in a bucket
+
+uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBlock)]; }
+
+// Cells of one size, hashed, so that hair may be anywhere. Cells that follow each other along x are in buckets that do, so
+// that three of them are one range. Beyond 2^30 cells all share the last.
+ivec3 cellOf(vec3 x) { return ivec3(clamp(floor(x / control.cellSize), vec3(-1073741824.0), vec3(1073741824.0))); }
+uint bucketOf(ivec3 cell) {
+  uint row = uint(cell.y) * 2654435761u ^ uint(cell.z) * 2246822519u;
+  row = (row ^ (row >> 15)) * 2654435769u;
+  return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
+}
+
+uint rowOf(uint c) { return 2 * c + control.parity; }
+uint pairOf(uint row, uint j) { return row * parameters.stride + j; }
+
+#endif
