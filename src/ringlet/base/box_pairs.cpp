@@ -55,27 +55,35 @@ BoxPairs::BoxPairs(std::span<const Box> boxes)
     Grid& grid = grids_.emplace_back();
     grid.level = level;
     grid.cellSize = std::ldexp(coarsest, -static_cast<int>(level));
-    grid.firstEntry.resize(std::bit_ceil(countOfLevel[level]) + 1);
-    grid.entries.resize(countOfLevel[level]);
+    grid.slots.resize(2 * std::bit_ceil(countOfLevel[level]));
     fill(grid, boxes);
   }
 }
 
-// A counting sort by hash; boxes of one hash stay in order.
+// A counting sort by cell; cells lie in the order in which boxes first use them, which is near where boxes
+// are.
 void BoxPairs::fill(Grid& grid, std::span<const Box> boxes) const {
-  const std::size_t mask = grid.firstEntry.size() - 2;
-  std::vector<std::uint32_t> hashes(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (levels_[i] != grid.level) continue;
-    hashes[i] = static_cast<std::uint32_t>(hashOf(cellOf(boxes[i].centre, grid.cellSize)) & mask);
-    ++grid.firstEntry[hashes[i] + 1];
-  }
-  for (std::size_t h = 0; h <= mask; ++h) grid.firstEntry[h + 1] += grid.firstEntry[h];
-  std::vector<std::uint32_t> next(grid.firstEntry.begin(), grid.firstEntry.end() - 1);
+  std::vector<std::uint32_t> slotsInOrder;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (levels_[i] != grid.level) continue;
     const Cell cell = cellOf(boxes[i].centre, grid.cellSize);
-    grid.entries[next[hashes[i]]++] = {cell, static_cast<std::uint32_t>(i), boxes[i]};
+    Slot& slot = grid.slotOf(cell);
+    if (slot.entryCount++ > 0) continue;
+    slot.cell = cell;
+    slotsInOrder.push_back(static_cast<std::uint32_t>(&slot - grid.slots.data()));
+  }
+  std::vector<std::uint32_t> nextEntry(grid.slots.size());
+  std::uint32_t firstEntry = 0;
+  for (std::uint32_t s : slotsInOrder) {
+    grid.slots[s].firstEntry = nextEntry[s] = firstEntry;
+    firstEntry += grid.slots[s].entryCount;
+  }
+  grid.entries.resize(firstEntry);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (levels_[i] != grid.level) continue;
+    const Slot& slot = grid.slotOf(cellOf(boxes[i].centre, grid.cellSize));
+    grid.entries[nextEntry[static_cast<std::size_t>(&slot - grid.slots.data())]++] = {
+        boxes[i], static_cast<std::uint32_t>(i)};
   }
 }
 

@@ -7,7 +7,6 @@
 //   grid 2  | . | . |   | . |   |   |   |   |     coarser one is then in that cell or one beside it
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -35,31 +34,47 @@ class BoxPairs {
   void visitPartners(std::size_t i, Visit&& visit) const;
 
  private:
-  using Cell = std::array<std::int32_t, 3>;
-  struct Entry {
-    Cell cell;
-    std::uint32_t box;
-    Box bounds;
+  struct Cell {
+    std::int32_t x, y, z;
+    bool operator==(const Cell&) const = default;
   };
-  // One size of boxes: its entries by hash of their cell, and by index within one hash.
+  struct Entry {
+    Box bounds;
+    std::uint32_t box;
+  };
+  // Where the entries of a cell are; a cell without any is in no slot.
+  struct Slot {
+    Cell cell{};
+    std::uint32_t firstEntry = 0, entryCount = 0;
+  };
+  // One size of boxes: a hash table of its cells, and its boxes cell by cell, by index within a cell.
   struct Grid {
     double cellSize = 1;
-    std::uint32_t level = 0;                // 0 holds the largest boxes
-    std::vector<std::uint32_t> firstEntry;  // of each hash, and an end; hashes are a power of two in number
+    std::uint32_t level = 0;  // 0 holds the largest boxes
+    std::vector<Slot> slots;  // a power of two, at most half of them used
     std::vector<Entry> entries;
+
+    Slot& slotOf(Cell cell) { return slots[slotIndex(cell)]; }
+    const Slot& slotOf(Cell cell) const { return slots[slotIndex(cell)]; }
+
+   private:
+    // Teschner et al., "Optimized spatial hashing for collision detection of deformable objects", 2003; the
+    // next free slot where cells share one.
+    std::size_t slotIndex(Cell cell) const {
+      const auto mixed = static_cast<std::uint32_t>(cell.x) * 73856093u ^
+                         static_cast<std::uint32_t>(cell.y) * 19349663u ^
+                         static_cast<std::uint32_t>(cell.z) * 83492791u;
+      std::size_t slot = (mixed ^ mixed >> 16) & (slots.size() - 1);
+      while (slots[slot].entryCount > 0 && slots[slot].cell != cell) slot = (slot + 1) & (slots.size() - 1);
+      return slot;
+    }
   };
 
-  static std::size_t hashOf(Cell cell) {
-    // Teschner et al., "Optimized spatial hashing for collision detection of deformable objects", 2003.
-    const auto mixed = static_cast<std::uint32_t>(cell[0]) * 73856093u ^
-                       static_cast<std::uint32_t>(cell[1]) * 19349663u ^
-                       static_cast<std::uint32_t>(cell[2]) * 83492791u;
-    return mixed ^ mixed >> 16;
-  }
   static bool overlap(const Box& a, const Box& b) {
     // A little generous: a caller's own test of the pair must not be beaten by rounding here.
     const Vec3d gap = a.centre - b.centre, reach = (a.halfSize + b.halfSize) * (1 + 1e-12);
-    return std::abs(gap.x) <= reach.x && std::abs(gap.y) <= reach.y && std::abs(gap.z) <= reach.z;
+    // All three at once: most boxes looked at do not overlap, and a branch that cannot be foretold is dear.
+    return (std::abs(gap.x) <= reach.x) & (std::abs(gap.y) <= reach.y) & (std::abs(gap.z) <= reach.z);
   }
   Cell cellOf(Vec3d p, double cellSize) const {
     return {static_cast<std::int32_t>((p.x - low_.x) / cellSize),
@@ -83,15 +98,14 @@ void BoxPairs::visitPartners(std::size_t i, Visit&& visit) const {
     if (levels_[i] == kNoLevel || grid.level > levels_[i]) break;  // finer boxes look up this one
     const Cell centre = cellOf(box.centre, grid.cellSize);
     const bool own = grid.level == levels_[i];
-    const std::size_t mask = grid.firstEntry.size() - 2;
     // Within a grid each pair of cells is looked at from one side only: 13 of the 26 beside, and itself.
     for (int around = own ? 13 : 0; around < 27; ++around) {
-      const Cell cell{centre[0] + around / 9 - 1, centre[1] + around / 3 % 3 - 1, centre[2] + around % 3 - 1};
+      const Slot& slot =
+          grid.slotOf({centre.x + around / 9 - 1, centre.y + around / 3 % 3 - 1, centre.z + around % 3 - 1});
       const bool itself = own && around == 13;
-      const std::size_t hash = hashOf(cell) & mask;
-      for (std::uint32_t e = grid.firstEntry[hash]; e < grid.firstEntry[hash + 1]; ++e) {
+      for (std::uint32_t e = slot.firstEntry; e < slot.firstEntry + slot.entryCount; ++e) {
         const Entry& entry = grid.entries[e];
-        if (entry.cell != cell || (itself && entry.box <= i)) continue;
+        if (itself && entry.box <= i) continue;
         if (overlap(box, entry.bounds)) visit(static_cast<std::size_t>(entry.box));
       }
     }
