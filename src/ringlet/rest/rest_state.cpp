@@ -217,6 +217,17 @@ std::vector<std::uint32_t> deviceOrder(const Groom& groom) {
   return order;
 }
 
+bool isDeviceOrder(std::span<const std::uint32_t> order, const Groom& groom) {
+  std::vector<bool> named(groom.strandCount(), false);
+  std::size_t longest = 0;
+  for (std::uint32_t index : order) {
+    if (index >= named.size() || named[index] || groom.strand(index).size() < longest) return false;
+    named[index] = true;
+    longest = groom.strand(index).size();
+  }
+  return order.size() == named.size();
+}
+
 std::vector<Vec3f> inMetres(std::span<const Vec3f> strand, double metresPerUnit) {
   std::vector<Vec3f> points;
   for (Vec3f p : strand) points.push_back(static_cast<Vec3f>(static_cast<Vec3d>(p) * metresPerUnit));
@@ -243,7 +254,8 @@ Status checkStrand(std::span<const Vec3f> strand, std::size_t index) {
 
 }  // namespace
 
-Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings) {
+Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
+                                 std::span<const std::uint32_t> order) {
   if (Status status = checkSettings(settings, material); !status) return status.error();
   if (groom.strandCount() == 0) return Error{"the groom has no strands; simulating needs at least one"};
   if (!(groom.metresPerUnit > 0) || !std::isfinite(groom.metresPerUnit)) {
@@ -251,7 +263,10 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   }
   RestState state;
   Extremes extremes;
-  for (std::uint32_t index : deviceOrder(groom)) {
+  std::vector<std::uint32_t> groomOrder;
+  if (order.empty()) order = groomOrder = deviceOrder(groom);
+  RINGLET_ASSERT(isDeviceOrder(order, groom), "the order names every strand once, by rising particle count");
+  for (std::uint32_t index : order) {
     const auto strand = inMetres(groom.strand(index), groom.metresPerUnit);
     if (Status status = checkStrand(strand, index); !status) return status.error();
     appendStrand(state, extremes, strand, index, materialOfStrand(material, index), settings);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,8 @@
 
 namespace ringlet {
 
-/// Arrays in device order: strands by rising particle count, groom order among equals, so that strands of one
-/// length class lie together and short ones do not pay for long ones.
+/// Arrays in device order: strands by rising particle count, so that strands of one length class lie together
+/// and short ones do not pay for long ones; among equals groom order, or that asked for.
 struct RestState {
   std::vector<layout::StrandRest> strands;
   std::vector<layout::ParticleRest> particles;
@@ -28,8 +29,10 @@ struct RestState {
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite, strands of no length.
-/// Cost: one pass over the groom, in double.
-Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings);
+/// Cost: one pass over the groom, in double. `order`: the groom's index of each strand, by rising particle
+/// count (rest/strand_order.h makes some); empty: groom order among equals.
+Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
+                                 std::span<const std::uint32_t> order = {});
 
 /// The fewest outer steps per frame that resolve the motion (1/192 s each; `paper` 1/720 s, its own) and need
 /// no warning: the core spring in full, bending calm. At most four times what the motion needs; a groom that

@@ -1,0 +1,48 @@
+// Implements measure/contact_quality.h.
+#include "ringlet/measure/contact_quality.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/base/box_pairs.h"
+
+namespace ringlet {
+
+ContactQuality measureContacts(const RestState& rest, const ContactParticles& particles,
+                               const ContactGraph& graph, std::span<const Vec3f> positions) {
+  RINGLET_ASSERT(positions.size() == rest.points.size(), "one position per particle");
+  std::vector<Box> boxes;
+  std::vector<Vec3d> restPoints;
+  for (std::size_t i = 0; i < particles.particles.size(); ++i) {
+    const std::uint32_t strand = particles.strands[i], particle = particles.particles[i];
+    const std::uint32_t inGroom = rest.firstInGroom[strand] + particle - rest.strands[strand].firstParticle;
+    const double radius = particles.radii[strand];
+    boxes.push_back({static_cast<Vec3d>(positions[inGroom]), {radius, radius, radius}});
+    restPoints.push_back(static_cast<Vec3d>(rest.points[particle]));
+  }
+
+  ContactQuality quality;
+  std::uint64_t allowed = 0;
+  const BoxPairs pairs(boxes);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    pairs.visitPartners(i, [&](std::size_t j) {
+      const std::uint32_t a = particles.strands[i], b = particles.strands[j];
+      const double R = double{particles.radii[a]} + double{particles.radii[b]};
+      const double d = length(boxes[i].centre - boxes[j].centre);
+      if (a == b || !(d < R)) return;
+      ++quality.overlapping;
+      allowed += graph.allows(a, b);
+      const double restLength = std::min(R, length(restPoints[i] - restPoints[j]));
+      const double overlap = std::max(0.0, restLength - d) / R;
+      quality.overlapBeyondRestSum += overlap;
+      quality.deepestOverlap = std::max(quality.deepestOverlap, overlap);
+    });
+  }
+  if (quality.overlapping > 0) {
+    quality.rawRecall = static_cast<double>(allowed) / static_cast<double>(quality.overlapping);
+  }
+  return quality;
+}
+
+}  // namespace ringlet

@@ -1,0 +1,30 @@
+// ContactQuality: how deep hairs are in each other, and what pruning misses: from positions alone, over all
+// pairs of contact particles, whatever the solver knew of them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "ringlet/base/vec3.h"
+#include "ringlet/rest/contact_graph.h"
+#include "ringlet/rest/contact_particles.h"
+#include "ringlet/rest/rest_state.h"
+
+namespace ringlet {
+
+/// Over all pairs of contact particles of different strands that are nearer than R, the sum of their radii. A
+/// contact's rest length r0 is R, or their distance at rest where that is less: what overlaps at rest may.
+/// The overlap beyond rest is max(0, r0 - distance) / R.
+struct ContactQuality {
+  std::uint64_t overlapping = 0;    // how many are nearer than R
+  double rawRecall = 1;             // share of them whose strands may touch; 1 where there are none
+  double overlapBeyondRestSum = 0;  // of all of them, allowed or not
+  double deepestOverlap = 0;        // largest of all; 1: two centres in one place
+};
+
+/// positions [m]: groom order, as Simulation::positions returns them. Particles that are not finite overlap
+/// nothing. Cost: linear in contact particles and overlaps.
+ContactQuality measureContacts(const RestState& rest, const ContactParticles& particles,
+                               const ContactGraph& graph, std::span<const Vec3f> positions);
+
+}  // namespace ringlet

@@ -1,0 +1,167 @@
+// Implements rest/contact_graph.h.
+#include "ringlet/rest/contact_graph.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "ringlet/base/box_pairs.h"
+#include "ringlet/groom/seeded_random.h"
+
+namespace ringlet {
+namespace {
+
+// The overlaps of one strand, counted by the other: a counter per strand, of which only those used are
+// cleared.
+class OverlapRow {
+ public:
+  explicit OverlapRow(std::size_t strandCount) : counts_(strandCount, 0) {}
+
+  void add(std::uint32_t other) {
+    if (counts_[other]++ == 0) touched_.push_back(other);
+  }
+  void moveTo(std::vector<StrandOverlap>& overlaps, std::uint32_t strand) {
+    for (std::uint32_t other : touched_) {
+      overlaps.push_back({std::min(strand, other), std::max(strand, other), counts_[other]});
+      counts_[other] = 0;
+    }
+    touched_.clear();
+  }
+
+ private:
+  std::vector<std::uint32_t> counts_, touched_;
+};
+
+void sortAndMerge(std::vector<StrandOverlap>& overlaps) {
+  std::sort(overlaps.begin(), overlaps.end(), [](const StrandOverlap& x, const StrandOverlap& y) {
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  std::size_t merged = 0;
+  for (const StrandOverlap& o : overlaps) {
+    if (merged > 0 && overlaps[merged - 1].a == o.a && overlaps[merged - 1].b == o.b) {
+      overlaps[merged - 1].count += o.count;
+    } else {
+      overlaps[merged++] = o;
+    }
+  }
+  overlaps.resize(merged);
+}
+
+void dropWeak(std::vector<StrandOverlap>& overlaps, int minOverlaps) {
+  std::erase_if(overlaps,
+                [&](const StrandOverlap& o) { return o.count < static_cast<std::uint32_t>(minOverlaps); });
+}
+
+// A strand's neighbours from strongest to weakest; what is beyond the bound marks its pair.
+void keepStrongest(std::vector<StrandOverlap>& overlaps, const RestState& rest, int maxNeighbours) {
+  struct End {
+    std::uint32_t strand, count, otherInGroom, overlap;
+  };
+  std::vector<End> ends;
+  for (std::uint32_t k = 0; k < overlaps.size(); ++k) {
+    const StrandOverlap& o = overlaps[k];
+    ends.push_back({o.a, o.count, rest.strandInGroom[o.b], k});
+    ends.push_back({o.b, o.count, rest.strandInGroom[o.a], k});
+  }
+  std::sort(ends.begin(), ends.end(), [](const End& x, const End& y) {
+    if (x.strand != y.strand) return x.strand < y.strand;
+    return x.count != y.count ? x.count > y.count : x.otherInGroom < y.otherInGroom;
+  });
+  int rank = 0;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    rank = e > 0 && ends[e].strand == ends[e - 1].strand ? rank + 1 : 0;
+    if (rank >= maxNeighbours) overlaps[ends[e].overlap].count = 0;
+  }
+  dropWeak(overlaps, 1);
+}
+
+void dropAtRandom(std::vector<StrandOverlap>& overlaps, const RestState& rest, double share,
+                  std::uint32_t seed) {
+  std::erase_if(overlaps, [&](const StrandOverlap& o) {
+    const auto [low, high] = std::minmax(rest.strandInGroom[o.a], rest.strandInGroom[o.b]);
+    return SeededRandom(seed, std::uint64_t{low} << 32 | high).uniform() < share;
+  });
+}
+
+std::uint64_t sumOfCounts(std::span<const StrandOverlap> overlaps) {
+  return std::accumulate(overlaps.begin(), overlaps.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const StrandOverlap& o) { return sum + o.count; });
+}
+
+// Overlaps come by a, then b: a strand meets first those below it, then those above, each ascending.
+void connect(ContactGraph& graph, std::span<const StrandOverlap> overlaps, std::size_t strandCount) {
+  graph.firstNeighbour.assign(strandCount + 1, 0);
+  for (const StrandOverlap& o : overlaps) ++graph.firstNeighbour[o.a + 1], ++graph.firstNeighbour[o.b + 1];
+  std::partial_sum(graph.firstNeighbour.begin(), graph.firstNeighbour.end(), graph.firstNeighbour.begin());
+  graph.neighbours.resize(2 * overlaps.size());
+  std::vector<std::uint32_t> next(graph.firstNeighbour.begin(), graph.firstNeighbour.end() - 1);
+  for (const StrandOverlap& o : overlaps) graph.neighbours[next[o.b]++] = o.a;
+  for (const StrandOverlap& o : overlaps) graph.neighbours[next[o.a]++] = o.b;
+}
+
+}  // namespace
+
+bool ContactGraph::allows(std::uint32_t a, std::uint32_t b) const {
+  if (everyPair) return a != b;
+  const auto begin = neighbours.begin();
+  return std::binary_search(begin + firstNeighbour[a], begin + firstNeighbour[a + 1], b);
+}
+
+std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactParticles& particles,
+                                         double enlargement) {
+  const std::size_t strandCount = particles.strandCount();
+  std::vector<Box> boxes;
+  boxes.reserve(particles.particles.size());
+  for (std::size_t i = 0; i < particles.particles.size(); ++i) {
+    const double reach = enlargement * particles.radii[particles.strands[i]];
+    boxes.push_back({static_cast<Vec3d>(rest.points[particles.particles[i]]), {reach, reach, reach}});
+  }
+  const BoxPairs pairs(boxes);
+
+  std::vector<StrandOverlap> overlaps;
+  OverlapRow row(strandCount);
+  for (std::uint32_t a = 0; a < strandCount; ++a) {
+    for (std::uint32_t i = particles.firstOfStrand[a]; i < particles.firstOfStrand[a + 1]; ++i) {
+      pairs.visitPartners(i, [&](std::size_t j) {
+        const std::uint32_t b = particles.strands[j];
+        if (b == a) return;
+        const double reach = enlargement * (double{particles.radii[a]} + double{particles.radii[b]});
+        if (length(boxes[i].centre - boxes[j].centre) < reach) row.add(b);
+      });
+    }
+    row.moveTo(overlaps, a);
+  }
+  // A pair is met from either end, so it may have two rows.
+  sortAndMerge(overlaps);
+  return overlaps;
+}
+
+ContactGraph pruneStrandPairs(std::span<const StrandOverlap> overlaps, const RestState& rest,
+                              const ContactSettings& settings) {
+  ContactGraph graph;
+  graph.everyPair = !settings.prunePairs;
+  graph.pairsUnpruned = overlaps.size();
+  graph.overlapsUnpruned = sumOfCounts(overlaps);
+  if (graph.everyPair) {
+    graph.pairs = graph.pairsUnpruned;
+    graph.overlaps = graph.overlapsUnpruned;
+    return graph;
+  }
+  std::vector<StrandOverlap> left(overlaps.begin(), overlaps.end());
+  dropWeak(left, settings.minOverlaps);
+  if (settings.maxNeighbours > 0) keepStrongest(left, rest, settings.maxNeighbours);
+  if (settings.dropShare > 0) dropAtRandom(left, rest, settings.dropShare, settings.seed);
+  graph.pairs = left.size();
+  graph.overlaps = sumOfCounts(left);
+  connect(graph, left, rest.strands.size());
+  if (graph.pairs == 0 && rest.strands.size() > 1) {
+    graph.warnings.push_back(fmt::format(
+        "no two of {} strands may touch: of {} pairs that overlap at rest none is left after pruning; "
+        "prune less, or not at all where strands that are apart at rest shall meet",
+        rest.strands.size(), graph.pairsUnpruned));
+  }
+  return graph;
+}
+
+}  // namespace ringlet

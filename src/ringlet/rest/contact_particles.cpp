@@ -1,0 +1,123 @@
+// Implements rest/contact_particles.h.
+#include "ringlet/rest/contact_particles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "ringlet/rest/root_spacing.h"
+
+namespace ringlet {
+namespace {
+
+// Roots closer than this on average [m] stand in one place: no radius is smaller.
+constexpr double kSmallestRadius = 1e-6;
+
+std::span<const Vec3f> pointsOf(const RestState& rest, std::size_t strand) {
+  const layout::StrandRest& s = rest.strands[strand];
+  return std::span(rest.points).subspan(s.firstParticle, s.particleCount);
+}
+
+double distance(Vec3f a, Vec3f b) { return length(static_cast<Vec3d>(a) - static_cast<Vec3d>(b)); }
+
+double meanEdgeLength(const RestState& rest) {
+  double sum = 0;
+  std::size_t edgeCount = 0;
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    const auto points = pointsOf(rest, s);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) sum += distance(points[i], points[i + 1]);
+    edgeCount += points.size() - 1;
+  }
+  return sum / static_cast<double>(edgeCount);
+}
+
+double chooseBaseRadius(const RestState& rest, const ContactSettings& settings) {
+  if (settings.radius) return *settings.radius;
+  std::vector<Vec3d> roots;
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    roots.push_back(static_cast<Vec3d>(pointsOf(rest, s)[0]));
+  }
+  const double half = meanNearestDistance(roots) / 2;
+  return std::max(half >= kSmallestRadius ? half : meanEdgeLength(rest) / 2, kSmallestRadius);
+}
+
+// The particles that stay, and the largest distance of two of them in a row [m].
+struct Pruned {
+  std::vector<std::uint32_t> kept;
+  double widestGap = 0;
+};
+
+Pruned pruneAlong(std::span<const Vec3f> points, double radius, double spacing) {
+  const double R = 2 * radius;
+  Pruned result{{0}, 0};
+  const auto keep = [&](std::size_t j) {
+    result.widestGap = std::max(result.widestGap, distance(points[result.kept.back()], points[j]));
+    result.kept.push_back(static_cast<std::uint32_t>(j));
+  };
+  for (std::size_t j = 1; j < points.size(); ++j) {
+    const std::size_t last = result.kept.back();
+    const double apart = distance(points[last], points[j]);
+    if (apart < spacing * R) continue;
+    if (apart > R && j - 1 > last) {
+      keep(j - 1);
+      --j;  // and see how far j is from there
+    } else {
+      keep(j);
+    }
+  }
+  return result;
+}
+
+float roundedUp(double x) {
+  const auto f = static_cast<float>(x);
+  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
+}
+
+double massOf(const RestState& rest, std::size_t strand) {
+  const layout::StrandRest& s = rest.strands[strand];
+  double units = 0;
+  for (std::uint32_t i = 0; i < s.particleCount; ++i) units += rest.particles[s.firstParticle + i].mass;
+  return units * s.firstEdge.w;
+}
+
+}  // namespace
+
+ContactParticles chooseContactParticles(const RestState& rest, const ContactSettings& settings) {
+  ContactParticles contacts;
+  contacts.baseRadius = chooseBaseRadius(rest, settings);
+  contacts.firstOfStrand.push_back(0);
+  std::size_t raisedCount = 0, coarsest = 0;
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    const auto points = pointsOf(rest, s);
+    float radius = roundedUp(contacts.baseRadius);
+    Pruned pruned = pruneAlong(points, radius, settings.spacing);
+    const bool raised = pruned.widestGap > 2.0 * radius;
+    // Every turn raises the radius to half of another edge: they end, and after one or two as a rule.
+    while (pruned.widestGap > 2.0 * radius) {
+      radius = roundedUp(pruned.widestGap / 2);
+      pruned = pruneAlong(points, radius, settings.spacing);
+    }
+    if (raised && (raisedCount++ == 0 || radius > contacts.radii[coarsest])) coarsest = s;
+    for (std::uint32_t i : pruned.kept) {
+      contacts.particles.push_back(rest.strands[s].firstParticle + i);
+      contacts.strands.push_back(static_cast<std::uint32_t>(s));
+    }
+    contacts.firstOfStrand.push_back(static_cast<std::uint32_t>(contacts.particles.size()));
+    contacts.radii.push_back(radius);
+    contacts.masses.push_back(static_cast<float>(massOf(rest, s) / static_cast<double>(pruned.kept.size())));
+  }
+  if (raisedCount > 0) {
+    contacts.warnings.push_back(fmt::format(
+        "the contact radius of {} of {} strands is raised from {:.3g} mm, to {:.3g} mm at most (strand {}), "
+        "because their particles stand further apart than twice the radius; cut them finer, or set a "
+        "larger radius",
+        raisedCount, rest.strands.size(), 1000 * contacts.baseRadius, 1000 * contacts.radii[coarsest],
+        rest.strandInGroom[coarsest]));
+  }
+  return contacts;
+}
+
+}  // namespace ringlet

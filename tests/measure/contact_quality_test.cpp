@@ -1,0 +1,142 @@
+// measure/contact_quality.h: closed forms, and all pairs of particles.
+#include "ringlet/measure/contact_quality.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "tests/rest/contact_samples.h"
+
+namespace ringlet {
+namespace {
+
+using namespace test;
+
+struct Prepared {
+  RestState rest;
+  ContactParticles particles;
+  ContactGraph graph;
+
+  explicit Prepared(const Groom& groom, const ContactSettings& settings = {})
+      : rest(restOf(groom)),
+        particles(chooseContactParticles(rest, settings)),
+        graph(pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings)) {}
+  ContactQuality at(std::span<const Vec3f> positions) const {
+    return measureContacts(rest, particles, graph, positions);
+  }
+};
+
+// Two parallel lines of 20 contact particles of radius 2.5 mm, 4 mm apart along and `apart` across.
+Groom twoLines(double apart) {
+  Groom groom = metres();
+  groom.addStrand(line({}, {0, -0.076, 0}, 20));
+  groom.addStrand(line({apart, 0, 0}, {apart, -0.076, 0}, 20));
+  return groom;
+}
+ContactSettings radius(double r) {
+  ContactSettings settings;
+  settings.radius = r;
+  return settings;
+}
+
+TEST(ContactQuality, OfTwoLinesPressedTogether) {
+  // Apart at rest, then the spheres that face each other 3 mm from each other, 20 pairs; next ones 5 mm:
+  // beyond R.
+  const Prepared p(twoLines(0.02), radius(0.0025));
+  EXPECT_EQ(p.at(twoLines(0.02).points).overlapping, 0u);
+  EXPECT_EQ(p.at(twoLines(0.02).points).rawRecall, 1);
+  const ContactQuality pressed = p.at(twoLines(0.0035).points);
+  EXPECT_EQ(pressed.overlapping, 20u);
+  EXPECT_NEAR(pressed.deepestOverlap, 0.3, 1e-6);
+  EXPECT_NEAR(pressed.overlapBeyondRestSum, 20 * 0.3, 1e-5);
+  EXPECT_EQ(pressed.rawRecall, 0) << "apart at rest, their pair is pruned";
+  ContactSettings all = radius(0.0025);
+  all.prunePairs = false;
+  EXPECT_EQ(Prepared(twoLines(0.02), all).at(twoLines(0.0035).points).rawRecall, 1);
+}
+
+TEST(ContactQuality, WhatOverlapsAtRestMay) {
+  // At rest 4 mm apart, R is 5 mm: nothing is beyond rest until they are nearer than 4.
+  const Prepared p(twoLines(0.004), radius(0.0025));
+  const ContactQuality atRest = p.at(twoLines(0.004).points);
+  EXPECT_EQ(atRest.overlapping, 20u);
+  EXPECT_EQ(atRest.overlapBeyondRestSum, 0);
+  EXPECT_EQ(atRest.deepestOverlap, 0);
+  EXPECT_EQ(atRest.rawRecall, 1);
+  const ContactQuality pressed = p.at(twoLines(0.0035).points);
+  EXPECT_NEAR(pressed.deepestOverlap, 0.1, 1e-6);
+}
+
+TEST(ContactQuality, RecallCountsPairsOfSpheres) {
+  // Two pairs of lines: one pair beside each other at rest and still, the other brought together.
+  Groom groom = twoLines(0.004), later = groom;
+  for (double x : {1.0, 1.02}) groom.addStrand(line({x, 0, 0}, {x, -0.076, 0}, 20));
+  for (double x : {1.0, 1.0035}) later.addStrand(line({x, 0, 0}, {x, -0.076, 0}, 20));
+  const ContactQuality quality = Prepared(groom, radius(0.0025)).at(later.points);
+  EXPECT_EQ(quality.overlapping, 40u);
+  EXPECT_EQ(quality.rawRecall, 0.5);
+}
+
+// Every pair of contact particles, strand by strand of the groom.
+ContactQuality byAllPairs(const Prepared& p, std::span<const Vec3f> positions) {
+  ContactQuality quality;
+  double allowed = 0;
+  const auto now = [&](std::size_t i) {
+    const std::uint32_t s = p.particles.strands[i];
+    return static_cast<Vec3d>(
+        positions[p.rest.firstInGroom[s] + (p.particles.particles[i] - p.rest.strands[s].firstParticle)]);
+  };
+  const auto before = [&](std::size_t i) {
+    return static_cast<Vec3d>(p.rest.points[p.particles.particles[i]]);
+  };
+  for (std::size_t i = 0; i < p.particles.particles.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::uint32_t a = p.particles.strands[i], b = p.particles.strands[j];
+      const double R = double{p.particles.radii[a]} + double{p.particles.radii[b]};
+      const double d = length(now(i) - now(j)), rest = length(before(i) - before(j));
+      if (a == b || d >= R) continue;
+      ++quality.overlapping;
+      allowed += p.graph.allows(a, b) ? 1 : 0;
+      const double overlap = rest < R ? (rest - d) / R : (R - d) / R;
+      if (overlap <= 0) continue;
+      quality.overlapBeyondRestSum += overlap;
+      quality.deepestOverlap = std::max(quality.deepestOverlap, overlap);
+    }
+  }
+  if (quality.overlapping > 0) quality.rawRecall = allowed / static_cast<double>(quality.overlapping);
+  return quality;
+}
+
+TEST(ContactQuality, IsThatOfAllPairs) {
+  for (const ContactSample& sample : contactSamples()) {
+    const Prepared p(sample.groom);
+    std::mt19937 random(51);
+    std::normal_distribution<double> noise(0, 1.5 * p.particles.baseRadius);
+    std::vector<Vec3f> moved = sample.groom.points;
+    for (Vec3f& x : moved) x += static_cast<Vec3f>(Vec3d{noise(random), noise(random), noise(random)});
+    for (const auto& positions : {sample.groom.points, moved}) {
+      const ContactQuality found = p.at(positions), expected = byAllPairs(p, positions);
+      EXPECT_EQ(found.overlapping, expected.overlapping) << sample.name;
+      EXPECT_EQ(found.rawRecall, expected.rawRecall) << sample.name;
+      EXPECT_EQ(found.deepestOverlap, expected.deepestOverlap) << sample.name;
+      EXPECT_NEAR(found.overlapBeyondRestSum, expected.overlapBeyondRestSum,
+                  1e-12 * expected.overlapBeyondRestSum)
+          << sample.name;
+    }
+    EXPECT_EQ(p.at(sample.groom.points).overlapBeyondRestSum, 0) << sample.name << " at rest";
+  }
+}
+
+TEST(ContactQuality, WhatIsNotFiniteOverlapsNothing) {
+  const Prepared p(twoLines(0.02), radius(0.0025));
+  std::vector<Vec3f> positions = twoLines(0.0035).points;
+  positions[3].y = std::numeric_limits<float>::quiet_NaN();
+  positions[24].x = std::numeric_limits<float>::infinity();
+  const ContactQuality quality = p.at(positions);
+  EXPECT_EQ(quality.overlapping, 18u);
+  EXPECT_NEAR(quality.overlapBeyondRestSum, 18 * 0.3, 1e-5);
+}
+
+}  // namespace
+}  // namespace ringlet
