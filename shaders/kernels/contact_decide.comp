@@ -23,6 +23,7 @@ void main() {
     dispatchRebuild(false);
     return;
   }
+  control.pairTests += control.listed;  // of the step before
   bool isGood = control.isListed != 0 && 2.0 * uintBitsToFloat(control.motion) <= parameters.skin;
   dispatchRebuild(!isGood);
   control.step = parameters.step;
@@ -34,6 +35,7 @@ void main() {
                                parameters.skin);
     control.parity ^= 1;
     control.isListed = 1;
+    control.listed = 0;
     ++control.rebuilds;
   }
   control.motion = 0;

@@ -196,8 +196,8 @@ struct ContactControl {
   uint longestList;  // pairs a contact particle wanted, at most
   uint step;         // of the frame, that the lists are for
   uint rebuilds;     // since the simulation began
-  uint pairTests;    // pairs looked at in this frame
-  uint candidates;   // and found near in the grid, to build lists, in units of 64
+  uint listed;       // pairs in all lists, both sides counted
+  uint pairTests;    // pairs looked at, a step behind, since the host last took the number
 };
 
 struct ContactParameters {

@@ -27,7 +27,7 @@ Result<Buffer> createZero(gpu::Device& device, std::uint64_t bytes, const std::s
 }  // namespace
 
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
-                                        std::uint64_t scratchRecords) {
+                                        std::uint64_t scratchRecords, bool withContacts) {
   const std::uint64_t stateBytes = rest.points.size() * sizeof(layout::vec4);
   auto positions = createZero(device, stateBytes, "positions");
   if (!positions) return positions.error();
@@ -44,9 +44,18 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
   auto poses =
       Buffer::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), BufferKind::stream, "poses");
   if (!poses) return poses.error();
+  const std::uint64_t contactParticles = withContacts ? rest.points.size() : 0;
+  auto solved = createZero(device, contactParticles * sizeof(layout::vec4), "solved velocities");
+  if (!solved) return solved.error();
+  auto systems = createZero(device, contactParticles * sizeof(layout::ContactSystem), "contact systems");
+  if (!systems) return systems.error();
+  auto control = Buffer::create(device, withContacts ? sizeof(layout::ContactControl) : 0, BufferKind::stream,
+                                "contact control");
+  if (!control) return control.error();
   return DeviceGroom{std::move(*positions), std::move(*velocities), std::move(*particles),
                      std::move(*strands),   std::move(*reports),    std::move(*scratch),
-                     std::move(*poses)};
+                     std::move(*poses),     std::move(*solved),     std::move(*systems),
+                     std::move(*control)};
 }
 
 std::span<layout::StepPose> DeviceGroom::mappedPoses() const {

@@ -17,13 +17,16 @@ namespace ringlet {
 
 struct DeviceGroom {
   gpu::Buffer positions, velocities, particles, strands, reports, scratch, poses;
+  gpu::Buffer solved, contactSystems, contactControl;  // empty without contacts
 
   /// `scratchRecords`: vec4s of scratch (serial form) and taps.
-  static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest, std::uint64_t scratchRecords);
+  static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest, std::uint64_t scratchRecords,
+                                    bool withContacts);
 
   /// The buffers in binding order (layout.h).
   std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
-    return {positions, velocities, particles, strands, reports, scratch, poses};
+    return {positions, velocities, particles, strands,        reports,
+            scratch,   poses,      solved,    contactSystems, contactControl};
   }
   std::span<layout::StepPose> mappedPoses() const;
 };

@@ -40,6 +40,17 @@ LoopCost loopCost(const StrandRange& range, const Settings& settings) {
   return cost;
 }
 
+Error tooLong(const StrandRange& range, const Settings& settings, std::uint64_t turns, std::uint64_t budget) {
+  const char* remedy = !range.shape.serial() ? "ask for the serial kernel form, or fewer iterations"
+                       : settings.integrator == Integrator::jacobi
+                           ? "cut the strand into fewer particles, or use a GPU or the reference"
+                           : "use the jacobi integrator, fewer iterations or the reference";
+  return Error{fmt::format(
+      "a strand of {} particles needs {} loop turns for one step of this integrator, and this device makes "
+      "{} in a dispatch at most; {}",
+      range.longest, turns, budget, remedy)};
+}
+
 // Cuts a frame's steps for one range into pieces within the budget: several steps a dispatch where they fit,
 // else one, else (serial form only) one step in several.
 Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits,
@@ -61,14 +72,7 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
     return pieces;
   }
   if (!range.shape.serial() || cost.step > budget || cost.perSolveLoop > budget) {
-    const char* remedy = !range.shape.serial() ? "ask for the serial kernel form, or fewer iterations"
-                         : settings.integrator == Integrator::jacobi
-                             ? "cut the strand into fewer particles, or use a GPU or the reference"
-                             : "use the jacobi integrator, fewer iterations or the reference";
-    return Error{fmt::format(
-        "a strand of {} particles needs {} loop turns for one step of this integrator, and this device makes "
-        "{} in a dispatch at most; {}",
-        range.longest, whole, budget, remedy)};
+    return tooLong(range, settings, whole, budget);
   }
   const std::uint32_t loopsAtOnce =
       static_cast<std::uint32_t>(budget / std::max<std::uint64_t>(1, cost.perSolveLoop));
@@ -84,6 +88,39 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
     pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseMove});
   }
   return pieces;
+}
+
+// A lane keeps nothing from solve to solve, and computes forces anew; the serial form finds them in its
+// scratch.
+std::vector<PlannedDispatch> piecesOf(const StrandShape& shape, const SolvePass& pass) {
+  const std::uint32_t solve = layout::kPhaseSolve | (pass.withContacts ? layout::kPhaseContacts : 0u) |
+                              (pass.moves ? layout::kPhaseMove : 0u);
+  if (!shape.serial()) {
+    return {{.stepBegin = pass.step, .stepEnd = pass.step + (pass.goesOn ? 2 : 1), .phases = solve}};
+  }
+  std::vector<PlannedDispatch> pieces;
+  const std::uint32_t first = layout::kPhaseSprings | layout::kPhaseSolve;
+  pieces.push_back(
+      {.stepBegin = pass.step, .stepEnd = pass.step + 1, .phases = pass.withContacts ? solve : first});
+  if (pass.goesOn) pieces.push_back({.stepBegin = pass.step + 1, .stepEnd = pass.step + 2, .phases = first});
+  return pieces;
+}
+
+// A range's pieces for as many strands at once as the device takes groups.
+void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& range, std::uint32_t index,
+                      const DeviceLimits& limits, std::uint32_t groupSize,
+                      std::span<const PlannedDispatch> pieces) {
+  const std::uint32_t strandsPerGroup = groupSize / std::max(1u, range.shape.lanes);
+  const std::uint64_t strandsAtOnce = std::uint64_t{strandsPerGroup} * limits.maxGroupCount;
+  for (std::uint64_t begin = range.begin; begin < range.end; begin += strandsAtOnce) {
+    for (PlannedDispatch piece : pieces) {
+      piece.range = index;
+      piece.strandBegin = static_cast<std::uint32_t>(begin);
+      piece.strandEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
+      piece.groupCount = (piece.strandEnd - piece.strandBegin + strandsPerGroup - 1) / strandsPerGroup;
+      plan.push_back(piece);
+    }
+  }
 }
 
 }  // namespace
@@ -131,26 +168,27 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
   return ranges;
 }
 
+Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
+                                              const Settings& settings, std::uint32_t groupSize,
+                                              const SolvePass& pass) {
+  std::vector<PlannedDispatch> plan;
+  for (std::uint32_t r = 0; r < ranges.size(); ++r) {
+    // In lanes a pass may go on to a second step; the serial form does that in a dispatch of its own.
+    const std::uint64_t turns = (ranges[r].shape.serial() ? 1 : 2) * loopCost(ranges[r], settings).step;
+    if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
+    spreadOverGroups(plan, ranges[r], r, limits, groupSize, piecesOf(ranges[r].shape, pass));
+  }
+  return plan;
+}
+
 Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
                                                const DeviceLimits& limits, const Settings& settings,
                                                std::uint32_t groupSize) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
-    const StrandRange& range = ranges[r];
-    auto steps = planSteps(range, limits, settings);
+    auto steps = planSteps(ranges[r], limits, settings);
     if (!steps) return steps.error();
-    const std::uint32_t strandsPerGroup = groupSize / std::max(1u, range.shape.lanes);
-    const std::uint64_t strandsAtOnce = std::uint64_t{strandsPerGroup} * limits.maxGroupCount;
-    for (std::uint64_t begin = range.begin; begin < range.end; begin += strandsAtOnce) {
-      for (PlannedDispatch piece : *steps) {
-        piece.range = r;
-        piece.strandBegin = static_cast<std::uint32_t>(begin);
-        piece.strandEnd =
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
-        piece.groupCount = (piece.strandEnd - piece.strandBegin + strandsPerGroup - 1) / strandsPerGroup;
-        plan.push_back(piece);
-      }
-    }
+    spreadOverGroups(plan, ranges[r], r, limits, groupSize, *steps);
   }
   return plan;
 }

@@ -56,6 +56,20 @@ StrandShape chooseShape(std::uint32_t particleCount, const DeviceLimits& limits,
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice);
 
+/// One solve with contacts on: which step, what it does, and whether it goes on to the next step's first
+/// solve.
+struct SolvePass {
+  std::uint32_t step = 0;
+  bool withContacts = false;  // else the first solve, without
+  bool moves = false;         // it is the step's last
+  bool goesOn = false;        // and the first of the step after follows
+};
+
+/// The dispatches of one pass, in order, as for planFrame. Fails where a step is too long for the device.
+Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
+                                              const Settings& settings, std::uint32_t groupSize,
+                                              const SolvePass& pass);
+
 /// The dispatches of one frame, in order; those of one range depend on each other, those of different ranges
 /// do not. Fails where a step cannot be cut small enough for the device.
 Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,

@@ -9,7 +9,10 @@
 
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
+#include "ringlet/rest/contact_graph.h"
+#include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/strand_kernels.h"
@@ -64,11 +67,20 @@ struct Simulation::Implementation {
   std::vector<gpu::Bindings> bindings;
   std::optional<gpu::Recorder> frame;
 
+  std::optional<ContactStage> contacts;
+  ContactReport contactReport;  // what is known of the rest pose, and sums
+  bool isWholeFrame = true;     // the recording is the whole frame, not the rest of one
+
   std::uint64_t stepsDone = 0;
   std::map<std::string, double> stageMilliseconds;
 
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
   Status recordFrame();
+  Status recordContactFrame(std::uint32_t firstStep, bool predictFirst);
+  Status recordPass(const SolvePass& pass);
+  void dispatchAll(std::span<const PlannedDispatch> dispatches);
+  Status runFrame();
+  Status addContacts();
   void writePoses(std::span<const HeadPose> stepPoses);
   Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
   Status placeAtRest();
@@ -93,7 +105,8 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
       std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
   const std::uint64_t scratchPerParticle =
       (anySerial ? layout::kScratchPerParticle : 0) + (choice.taps ? layout::kTapCount : 0);
-  auto buffers = DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle);
+  auto buffers = DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle,
+                                     settings.contacts.on);
   if (!buffers) return buffers.error();
 
   std::unique_ptr<Implementation> self(new Implementation{device,
@@ -108,6 +121,9 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           {},
                                                           {},
                                                           {},
+                                                          {},
+                                                          {},
+                                                          true,
                                                           0,
                                                           {}});
   const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
@@ -115,9 +131,9 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   for (const StrandRange& range : self->ranges) {
-    auto kernel =
-        createStrandKernel(device.gpu(), range.shape,
-                           {settings.integrator, oneSmoothing, bendVaries, choice.taps, choice.residual});
+    auto kernel = createStrandKernel(
+        device.gpu(), range.shape,
+        {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on, choice.residual});
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
     if (!bindings) return bindings.error();
@@ -125,6 +141,9 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
     self->bindings.push_back(std::move(*bindings));
   }
   if (Status status = self->placeAtRest(); !status) return status.error();
+  if (settings.contacts.on) {
+    if (Status status = self->addContacts(); !status) return status.error();
+  }
   if (Status status = self->recordFrame(); !status) return status.error();
   return Simulation(std::move(self));
 }
@@ -153,22 +172,96 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   return p;
 }
 
+Status Simulation::Implementation::addContacts() {
+  const ContactParticles particles = chooseContactParticles(rest, settings.contacts);
+  const auto overlaps = countOverlaps(rest, particles, settings.contacts.enlargement);
+  const ContactGraph graph = pruneStrandPairs(overlaps, rest, settings.contacts);
+  rest.warnings.insert(rest.warnings.end(), particles.warnings.begin(), particles.warnings.end());
+  rest.warnings.insert(rest.warnings.end(), graph.warnings.begin(), graph.warnings.end());
+  auto stage = ContactStage::create(device.gpu(), rest, settings, particles, graph, buffers);
+  if (!stage) return stage.error();
+  contacts = std::move(*stage);
+  contactReport = {.contactParticles = particles.particles.size(),
+                   .pairsUnpruned = graph.pairsUnpruned,
+                   .pairs = graph.pairs};
+  return {};
+}
+
+void Simulation::Implementation::dispatchAll(std::span<const PlannedDispatch> dispatches) {
+  frame->beginStage("strand_step");
+  for (std::size_t d = 0; d < dispatches.size(); ++d) {
+    const PlannedDispatch& now = dispatches[d];
+    // Only dispatches on the same strands depend on each other.
+    if (d > 0 && now.range == dispatches[d - 1].range && now.strandBegin == dispatches[d - 1].strandBegin)
+      frame->barrier();
+    frame->dispatch(kernels[now.range], bindings[now.range], parametersOf(now), now.groupCount);
+  }
+  frame->endStage();
+}
+
 // The whole frame, once: what changes from frame to frame is in the poses buffer.
 Status Simulation::Implementation::recordFrame() {
-  auto recorder = gpu::Recorder::create(device.gpu(), "frame");
-  if (!recorder) return recorder.error();
-  if (Status status = recorder->begin(); !status) return status;
-  recorder->beginStage("strand_step");
-  for (std::size_t d = 0; d < plan.size(); ++d) {
-    // Only dispatches on the same strands depend on each other.
-    if (d > 0 && plan[d].range == plan[d - 1].range && plan[d].strandBegin == plan[d - 1].strandBegin)
-      recorder->barrier();
-    recorder->dispatch(kernels[plan[d].range], bindings[plan[d].range], parametersOf(plan[d]),
-                       plan[d].groupCount);
+  if (!frame) {
+    auto recorder = gpu::Recorder::create(device.gpu(), "frame");
+    if (!recorder) return recorder.error();
+    frame = std::move(*recorder);
   }
-  recorder->endStage();
-  frame = std::move(*recorder);
+  if (contacts) return recordContactFrame(0, true);
+  if (Status status = frame->begin(); !status) return status;
+  dispatchAll(plan);
   return {};
+}
+
+Status Simulation::Implementation::recordPass(const SolvePass& pass) {
+  const auto dispatches = planPass(ranges, limitsOf(device.gpu()), settings, kStrandGroupSize, pass);
+  if (!dispatches) return dispatches.error();
+  dispatchAll(*dispatches);
+  frame->barrier();
+  return {};
+}
+
+// The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h).
+Status Simulation::Implementation::recordContactFrame(std::uint32_t firstStep, bool predictFirst) {
+  if (Status status = frame->begin(); !status) return status;
+  if (predictFirst) {
+    if (Status status = recordPass({.step = firstStep}); !status) return status;
+  }
+  const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
+  for (std::uint32_t step = firstStep; step < steps; ++step) {
+    contacts->recordLists(*frame, step);
+    frame->barrier();
+    contacts->recordLife(*frame);
+    frame->barrier();
+    for (int iteration = 1; iteration <= settings.contacts.iterations; ++iteration) {
+      const bool isLast = iteration == settings.contacts.iterations;
+      const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
+      if (Status status = recordPass(pass); !status) return status;
+      if (isLast) continue;
+      contacts->recordGather(*frame);
+      frame->barrier();
+    }
+  }
+  isWholeFrame = firstStep == 0 && predictFirst;
+  return {};
+}
+
+// A frame that stopped because a list was too long goes on from its step with longer ones: no pair is
+// dropped.
+Status Simulation::Implementation::runFrame() {
+  if (!isWholeFrame) {
+    if (Status status = recordFrame(); !status) return status;
+  }
+  while (true) {
+    if (Status status = frame->submitAndWait(); !status) return status;
+    for (const auto& [stage, milliseconds] : frame->stageMilliseconds())
+      stageMilliseconds[stage] += milliseconds;
+    if (!contacts) return {};
+    contactReport.pairTests += contacts->takePairTests();
+    if (!contacts->isHalted()) return {};
+    if (Status status = contacts->makeRoom(buffers); !status) return status;
+    if (Status status = recordContactFrame(contacts->haltedStep(), false); !status) return status;
+    isWholeFrame = false;
+  }
 }
 
 void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses) {
@@ -210,9 +303,7 @@ Status Simulation::stepFrame(std::span<const HeadPose> stepPoses) {
   RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame),
                  "stepFrame takes one pose per outer step");
   self_->writePoses(stepPoses);
-  if (Status status = self_->frame->submitAndWait(); !status) return status;
-  for (const auto& [stage, milliseconds] : self_->frame->stageMilliseconds())
-    self_->stageMilliseconds[stage] += milliseconds;
+  if (Status status = self_->runFrame(); !status) return status;
   self_->stepsDone += stepPoses.size();
   return {};
 }
@@ -244,6 +335,9 @@ Status Simulation::setState(const HairState& state) {
   const std::size_t count = self_->rest.points.size();
   RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count,
                  "a state has one position and velocity a particle");
+  if (self_->contacts) {
+    if (Status status = self_->contacts->forget(); !status) return status;
+  }
   const auto pack = [](Vec3f v) { return packed(v); };
   return self_->uploadState(inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.positions, pack),
                             inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.velocities, pack));
@@ -274,6 +368,28 @@ Result<SimulationReport> Simulation::report() const {
   const double edgeSteps = static_cast<double>(edges) * static_cast<double>(self_->stepsDone);
   total.limitedShare = edgeSteps > 0 ? static_cast<double>(limited) / edgeSteps : 0;
   return total;
+}
+
+Result<ContactReport> Simulation::contactReport() const {
+  ContactReport report = self_->contactReport;
+  if (!self_->contacts) return report;
+  auto listed = self_->contacts->listed(self_->rest);
+  if (!listed) return listed.error();
+  report.listed = listed->size();
+  report.contacts =
+      static_cast<std::uint64_t>(std::count_if(listed->begin(), listed->end(), [](const ListedContact& c) {
+        return c.stiffnessShare > 0 || c.dampingShare > 0;
+      }));
+  report.rebuilds = self_->contacts->rebuilds();
+  auto error = self_->contacts->momentumError(self_->rest, self_->buffers);
+  if (!error) return error.error();
+  report.momentumError = *error;
+  return report;
+}
+
+Result<std::vector<ListedContact>> Simulation::listedContacts() const {
+  if (!self_->contacts) return std::vector<ListedContact>{};
+  return self_->contacts->listed(self_->rest);
 }
 
 const std::vector<std::string>& Simulation::warnings() const { return self_->rest.warnings; }

@@ -28,9 +28,21 @@ struct SimulationReport {
   std::uint64_t nonfinite = 0;             // particles whose position or velocity is not finite now
   std::int64_t firstNonfiniteStrand = -1;  // strand (groom order) and particle of the first of them, or -1
   std::int64_t firstNonfiniteParticle = -1;
-  double velocityResidual =
-      0;  // |r - L v| of the velocity solve over |r| and a step's gravity; worst strand and step; 0 if not measured
+  double velocityResidual = 0;  // |r - L v| of the velocity solve over |r| and a step's gravity; worst strand
+                                // and step; 0 if not measured
   std::uint64_t degenerateEdges = 0;  // edges (times steps) that had no direction
+};
+
+/// What contacts did. Without contacts all is 0.
+struct ContactReport {
+  std::uint64_t contactParticles = 0;
+  std::uint64_t pairsUnpruned = 0;  // of strands, that overlap at rest when enlarged
+  std::uint64_t pairs = 0;          // of those, that may touch
+  std::uint64_t listed = 0;         // pairs of particles in the lists now
+  std::uint64_t contacts = 0;       // and of these, that touch or have not quite parted
+  std::uint64_t pairTests = 0;      // pairs of particles looked at since the simulation began, in all steps
+  std::uint64_t rebuilds = 0;       // of the lists
+  double momentumError = 0;         // of the last step: |sum of contact momenta| over the sum of their sizes
 };
 
 /// Particles' positions and velocities, in groom order, relative to the head's origin and its translation,
@@ -38,6 +50,12 @@ struct SimulationReport {
 struct HairState {
   std::vector<Vec3f> positions;   // [m]
   std::vector<Vec3f> velocities;  // [m/s]
+};
+
+/// A pair of contact particles in a list, by groom order, and what it remembers (ContactSettings).
+struct ListedContact {
+  std::uint32_t a = 0, b = 0;  // a < b
+  float stiffnessShare = 0, dampingShare = 0;
 };
 
 /// How the strand kernel is laid over the device; the defaults choose by device and strand length.
@@ -79,6 +97,10 @@ class Simulation {
 
   const HeadPose& head() const;
   Result<SimulationReport> report() const;
+  Result<ContactReport> contactReport() const;
+  /// The pairs of particles (groom order, a < b, sorted) the lists hold now, for tests. Empty without
+  /// contacts.
+  Result<std::vector<ListedContact>> listedContacts() const;
   /// Things the user should know of (a core spring capped for this step, gravity preload too large), a
   /// sentence each.
   const std::vector<std::string>& warnings() const;

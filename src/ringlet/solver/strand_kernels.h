@@ -20,6 +20,7 @@ struct StrandKernelOptions {
   bool oneSmoothing = false;  // alpha_b and alpha_c are equal in every strand
   bool bendVaries = false;    // along some strand
   bool taps = false;
+  bool contacts = false;  // the solve is iterated with the contacts' systems
   bool residual = false;  // measure the residual of the velocity solve
 };
 

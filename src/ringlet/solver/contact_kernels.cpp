@@ -1,0 +1,49 @@
+// Implements solver/contact_kernels.h.
+#include "ringlet/solver/contact_kernels.h"
+
+#include <span>
+
+#include "ringlet_shaders/contact_count_plain.h"
+#include "ringlet_shaders/contact_decide_plain.h"
+#include "ringlet_shaders/contact_gather_plain.h"
+#include "ringlet_shaders/contact_life_plain.h"
+#include "ringlet_shaders/contact_motion_plain.h"
+#include "ringlet_shaders/contact_order_plain.h"
+#include "ringlet_shaders/contact_query_plain.h"
+#include "ringlet_shaders/contact_scan_plain.h"
+#include "ringlet_shaders/contact_scatter_plain.h"
+#include "ringlet_shaders/contact_sum_plain.h"
+#include "shared/layout.h"
+
+namespace ringlet {
+namespace {
+
+struct Compiled {
+  const char* name;
+  std::span<const std::uint32_t> spirv;
+};
+
+// As ContactKernel counts them.
+const Compiled kCompiled[kContactKernelCount] = {
+    {"contact_motion", k_contact_motion_plain}, {"contact_decide", k_contact_decide_plain},
+    {"contact_count", k_contact_count_plain},   {"contact_scan", k_contact_scan_plain},
+    {"contact_sum", k_contact_sum_plain},       {"contact_scatter", k_contact_scatter_plain},
+    {"contact_order", k_contact_order_plain},   {"contact_query", k_contact_query_plain},
+    {"contact_life", k_contact_life_plain},     {"contact_gather", k_contact_gather_plain},
+};
+
+}  // namespace
+
+Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize) {
+  const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
+  gpu::KernelDescription description;
+  description.name = compiled.name;
+  description.spirv = compiled.spirv;
+  description.bindings.assign(layout::kContactBindingCount, gpu::BindingKind::storage);
+  description.pushConstantBytes = sizeof(layout::ContactParameters);
+  description.constants = {{0, groupSize}};
+  description.groupSize = groupSize;
+  return gpu::Kernel::create(device, description);
+}
+
+}  // namespace ringlet

@@ -1,0 +1,19 @@
+// The compiled contact kernels (shaders/kernels/contact_*.comp), by their place in a step.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
+
+namespace ringlet {
+
+/// In the order of a step: contact_motion.comp and so on.
+enum class ContactKernel { motion, decide, count, scan, sum, scatter, order, query, life, gather };
+inline constexpr std::size_t kContactKernelCount = 10;
+
+Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize);
+
+}  // namespace ringlet

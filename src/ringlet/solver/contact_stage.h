@@ -1,0 +1,88 @@
+// ContactStage: the contacts of one groom on one device, between the strand kernel's solves. Model: Iben et
+// al. 2012, section 4; which strands may touch is decided in rest/. Mirrored by
+// reference/kernels/contact_step.h.
+//
+//   v^0 of all strands ->  lists: moved too far? then grid and query          (the device decides)
+//                      ->  life: every pair one step on, weights, momentum    -> solve -> v^1
+//                      ->  gather: pair means of v^1                          -> solve -> v^2 ... -> move
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/rest/contact_graph.h"
+#include "ringlet/rest/contact_particles.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/solver/contact_kernels.h"
+#include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/simulation.h"
+
+namespace ringlet {
+
+class ContactStage {
+ public:
+  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom`'s
+  /// buffers must live as long and may be moved.
+  static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                     const ContactParticles& particles, const ContactGraph& graph,
+                                     const DeviceGroom& groom);
+
+  /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
+  /// say.
+  void recordLists(gpu::Recorder& recorder, std::uint32_t step) const;
+  void recordLife(gpu::Recorder& recorder) const;
+  void recordGather(gpu::Recorder& recorder) const;
+
+  /// After a frame: whether it stopped for want of room, and at which step.
+  bool isHalted() const { return control().isHalted != 0; }
+  std::uint32_t haltedStep() const { return control().step; }
+  /// Makes longer lists, keeping what pairs remember; recordings made before are no longer good.
+  Status makeRoom(const DeviceGroom& groom);
+
+  /// Pairs looked at in the frame that ended, both sides counted; and starts counting anew.
+  std::uint64_t takePairTests();
+  std::uint64_t rebuilds() const { return control().rebuilds; }
+  std::uint32_t stride() const { return stride_; }
+  /// Forgets lists and lives: the hair was put somewhere else.
+  Status forget();
+
+  /// All listed pairs, a < b, each once, sorted.
+  Result<std::vector<ListedContact>> listed(const RestState& rest) const;
+  /// |sum of contact momenta| over the sum of their sizes, of the last step.
+  Result<double> momentumError(const RestState& rest, const DeviceGroom& groom) const;
+
+ private:
+  ContactStage() = default;
+  Status createLists(gpu::Device& device);
+  Status bindAll(const DeviceGroom& groom);
+  layout::ContactParameters parameters(std::uint32_t step) const;
+  void dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
+                std::uint32_t groupCount) const;
+  void dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
+                        std::uint64_t offset) const;
+  std::uint32_t contactGroups() const;
+  layout::ContactControl& control() const;
+
+  gpu::Device* device_ = nullptr;
+  std::vector<gpu::Kernel> kernels_;     // by ContactKernel
+  std::vector<gpu::Bindings> bindings_;  // one, for all kernels have the same list
+  std::vector<gpu::Buffer> constant_;    // contacts, neighbours
+  std::vector<gpu::Buffer> working_;     // grid, places
+  std::vector<gpu::Buffer> lists_;       // counts, pairs, lives, normals
+  const DeviceGroom* groom_ = nullptr;
+  gpu::Buffer const* control_ = nullptr;
+  ContactSettings settings_;
+  std::vector<std::uint32_t> particles_;  // device index of each contact particle
+  double stepSeconds_ = 0;
+  std::uint32_t strandCount_ = 0, bucketCount_ = 0, stride_ = 0;
+  float largestRadius_ = 0;
+  bool everyPair_ = false;
+};
+
+}  // namespace ringlet
