@@ -21,14 +21,14 @@ bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
 Symmetric massOf(int k) {
   Symmetric mass = symmetricDiagonal(restEdge[k].x);
   if (meetsContacts(k)) {
-    ContactSystem contact = contactSystems[strand.firstParticle + first + k];
+    ContactSystem contact = contactSystemOf(strand.firstParticle + first + k);
     mass.d += 2.0 * contact.diagonal.xyz;
     mass.o += 2.0 * contact.offDiagonal.xyz;
   }
   return mass;
 }
 vec3 contactMomentum(int k) {
-  return meetsContacts(k) ? contactSystems[strand.firstParticle + first + k].momentum.xyz : vec3(0);
+  return meetsContacts(k) ? contactSystemOf(strand.firstParticle + first + k).momentum.xyz : vec3(0);
 }
 
 // The same without the springs of the boundary edges: their pull belongs to f, the force across the boundary. Left in,

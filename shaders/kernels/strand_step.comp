@@ -58,9 +58,9 @@ void loadStrand() {
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     bool real = isParticle(k);
     uint i = strand.firstParticle + (real ? first + k : 0);
-    p[k] = real ? positions[i].xyz : vec3(0);
-    v[k] = real ? velocities[i].xyz : vec3(0);
-    ParticleRest rest = particles[i];
+    p[k] = real ? positionAtStart(i) : vec3(0);
+    v[k] = real ? velocityAtStart(i) : vec3(0);
+    ParticleRest rest = particleRest(i);
     restTarget[k] = rest.target;
     bool edge = isEdge(k);
     restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? parameters.maxStretch * rest.edgeLength : 1e30,
@@ -231,8 +231,8 @@ void storeStrand(uint strandIndex) {
   [[unroll]] for (int k = RUN - 1; k >= 0; --k) {
     if (!isParticle(k)) continue;
     uint i = strand.firstParticle + first + k;
-    positions[i].xyz = p[k];
-    velocities[i].xyz = v[k];
+    positions[i] = vec4(p[k], 0);  // whole records: parts of one cost lavapipe more
+    velocities[i] = vec4(v[k], 0);
     if (!isFiniteVec3(p[k]) || !isFiniteVec3(v[k])) {
       ++nonfinite;
       firstNonfinite = first + k;
@@ -257,7 +257,7 @@ void storeStrand(uint strandIndex) {
 
 void storeSolved() {
   [[unroll]] for (int k = 0; k < RUN; ++k) {
-    if (isParticle(k)) solved[strand.firstParticle + first + k].xyz = v[k];
+    if (isParticle(k)) solved[strand.firstParticle + first + k] = vec4(v[k], 0);
   }
 }
 
@@ -295,7 +295,7 @@ void main() {
   uint strandIndex = parameters.strandBegin + invocation / kLanes;
   // No early return: the lanes of an idle strand repeat the last one and store nothing, so that every shuffle is whole.
   bool idle = strandIndex >= parameters.strandEnd;
-  strand = strands[min(strandIndex, parameters.strandEnd - 1)];
+  strand = strandRest(min(strandIndex, parameters.strandEnd - 1));
   if (idle) strand.particleCount = 0;
   first = lane * RUN;
   loadStrand();

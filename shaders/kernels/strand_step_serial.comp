@@ -3,6 +3,7 @@
 // check. Mirrored by reference/kernels/strand_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "shared/strand_buffers.glsl"
 #include "equations/bend_spring.glsl"
@@ -59,10 +60,10 @@ void setSolved(uint i, vec3 v) {
   }
 }
 bool withContacts() { return kContacts && (parameters.phases & kPhaseContacts) != 0; }
-ParticleRest restOf(uint i) { return particles[strand.firstParticle + i]; }
-float edgeScale(uint i) { return edgeScaleOf(particles[strand.firstParticle + i].edgeLength); }
-float mass(uint i) { return particles[strand.firstParticle + i].mass; }
-float longestEdge(uint i) { return parameters.maxStretch * particles[strand.firstParticle + i].edgeLength; }
+ParticleRest restOf(uint i) { return particleRest(strand.firstParticle + i); }
+float edgeScale(uint i) { return edgeScaleOf(restOf(i).edgeLength); }
+float mass(uint i) { return restOf(i).mass; }
+float longestEdge(uint i) { return parameters.maxStretch * restOf(i).edgeLength; }
 
 // What one dispatch of a step hands to the next: the paper's core blend, or Chebyshev's weight. The tip has no edge, so
 // its place is free.
@@ -157,14 +158,14 @@ vec3 forceOn(uint i) {
 vec3 rightHandSide(uint i) {
   float m = mass(i);
   vec3 sum = m * velocity(i) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
-  if (withContacts()) sum += contactSystems[strand.firstParticle + i].momentum.xyz;
+  if (withContacts()) sum += contactSystemOf(strand.firstParticle + i).momentum.xyz;
   return sum;
 }
 // m + 2 D, as a matrix.
 Symmetric massOf(uint i) {
   Symmetric m = symmetricDiagonal(mass(i));
   if (withContacts()) {
-    ContactSystem contact = contactSystems[strand.firstParticle + i];
+    ContactSystem contact = contactSystemOf(strand.firstParticle + i);
     m.d += 2.0 * contact.diagonal.xyz;
     m.o += 2.0 * contact.offDiagonal.xyz;
   }
@@ -360,7 +361,7 @@ void springs(uint step) {
 void main() {
   uint strandIndex = parameters.strandBegin + gl_GlobalInvocationID.x;
   if (strandIndex >= parameters.strandEnd || (kContacts && control.isHalted != 0)) return;
-  strand = strands[strandIndex];
+  strand = strandRest(strandIndex);
   count = strand.particleCount;
   for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
     if ((parameters.phases & kPhaseSprings) != 0) springs(step);

@@ -27,6 +27,12 @@ RINGLET_CONSTANT uint kBindPoses = 6;       // uniform: StepPose[kMaxStepPoses]
 RINGLET_CONSTANT uint kBindSolved = 7;          // vec4[particles]: the solve's last iterate v^k [m/s], 0
 RINGLET_CONSTANT uint kBindContactSystems = 8;  // ContactSystem[particles]
 RINGLET_CONSTANT uint kBindContactControl = 9;  // ContactControl
+// The same buffers as texels (shared/texels.glsl):
+RINGLET_CONSTANT uint kBindPositionTexels = 10;
+RINGLET_CONSTANT uint kBindVelocityTexels = 11;
+RINGLET_CONSTANT uint kBindParticleTexels = 12;  // 2 a particle
+RINGLET_CONSTANT uint kBindStrandTexels = 13;    // 7 a strand
+RINGLET_CONSTANT uint kBindContactSystemTexels = 14;  // 4 a particle
 
 // Integrators (specialization constant 2).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;

@@ -5,6 +5,7 @@
 
 #include "maths/quaternion.glsl"
 #include "shared/layout.h"
+#include "shared/texels.glsl"
 
 layout(local_size_x_id = 0) in;
 layout(constant_id = 2) const uint kIntegrator = kIntegratorJacobi;
@@ -23,7 +24,36 @@ layout(set = 0, binding = kBindPoses) uniform Poses { StepPose poses[kMaxStepPos
 layout(set = 0, binding = kBindSolved) buffer Solved { vec4 solved[]; };
 layout(set = 0, binding = kBindContactSystems) readonly buffer ContactSystems { ContactSystem contactSystems[]; };
 layout(set = 0, binding = kBindContactControl) readonly buffer Control { ContactControl control; };
+layout(set = 0, binding = kBindPositionTexels) uniform usamplerBuffer positionTexels;
+layout(set = 0, binding = kBindVelocityTexels) uniform usamplerBuffer velocityTexels;
+layout(set = 0, binding = kBindParticleTexels) uniform usamplerBuffer particleTexels;
+layout(set = 0, binding = kBindStrandTexels) uniform usamplerBuffer strandTexels;
+layout(set = 0, binding = kBindContactSystemTexels) uniform usamplerBuffer contactSystemTexels;
 layout(push_constant) uniform Parameters { StepParameters parameters; };
+
+// Positions and velocities as they were when the dispatch began.
+vec3 positionAtStart(uint i) { return kTexels ? vectorAt(positionTexels, i).xyz : positions[i].xyz; }
+vec3 velocityAtStart(uint i) { return kTexels ? vectorAt(velocityTexels, i).xyz : velocities[i].xyz; }
+ParticleRest particleRest(uint i) {
+  if (!kTexels) return particles[i];
+  vec4 rest = vectorAt(particleTexels, 2 * i + 1);
+  return ParticleRest(vectorAt(particleTexels, 2 * i), rest.x, rest.y, rest.z, rest.w);
+}
+StrandRest strandRest(uint s) {
+  if (!kTexels) return strands[s];
+  uvec4 a = recordAt(strandTexels, 7 * s);
+  vec4 b = vectorAt(strandTexels, 7 * s + 1);
+  vec4 c = vectorAt(strandTexels, 7 * s + 2);
+  vec4 pins[kMaxRootCount];
+  [[unroll]] for (uint k = 0; k < kMaxRootCount; ++k) pins[k] = vectorAt(strandTexels, 7 * s + 4 + k);
+  return StrandRest(a.x, a.y, uintBitsToFloat(a.z), uintBitsToFloat(a.w), b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w,
+                    vectorAt(strandTexels, 7 * s + 3), pins);
+}
+ContactSystem contactSystemOf(uint i) {
+  if (!kTexels) return contactSystems[i];
+  return ContactSystem(vectorAt(contactSystemTexels, 4 * i), vectorAt(contactSystemTexels, 4 * i + 1),
+                       vectorAt(contactSystemTexels, 4 * i + 2), vectorAt(contactSystemTexels, 4 * i + 3));
+}
 
 StrandRest strand;  // this invocation's
 

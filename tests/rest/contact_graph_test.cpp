@@ -156,7 +156,7 @@ TEST(ContactGraph, BoundsNeighboursAndKeepsTheStrongest) {
 
 TEST(ContactGraph, DropsAtRandomByTheSeed) {
   Groom groom = metres();
-  addWandering(groom, 400, 40, {}, {0.2, 0, 0.2}, 0.005, 21);
+  addWandering(groom, 500, 40, {}, {0.2, 0, 0.2}, 0.005, 21);
   const Prepared p(groom);
   const GroomPairs all = pairsOf(p.pruned(settingsWith(2)), p.rest);
   ASSERT_GT(all.size(), 1000u);

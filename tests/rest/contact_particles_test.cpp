@@ -17,6 +17,7 @@ double apart(Vec3f a, Vec3f b) { return length(static_cast<Vec3d>(a) - static_ca
 ContactSettings withRadius(double radius) {
   ContactSettings settings;
   settings.radius = radius;
+  settings.fillGaps = true;
   return settings;
 }
 
@@ -65,6 +66,19 @@ TEST(ContactParticles, CoarseStrandsHaveLargerRadii) {
   EXPECT_TRUE(chosenAlong(every(1, 22), 3).warnings.empty());
 }
 
+TEST(ContactParticles, GapsAreToldOfWhereTheyStay) {
+  Groom groom = metres();
+  groom.addStrand(line({0, 0, 0}, {0, -0.03, 0}, 4));  // edges of 10 mm
+  ContactSettings settings;
+  settings.radius = 0.003;
+  const ContactParticles contacts = chooseContactParticles(restOf(groom), settings);
+  EXPECT_FLOAT_EQ(contacts.radii[0], 0.003f);
+  EXPECT_EQ(contacts.particles, (Kept{0, 1, 2, 3}));
+  ASSERT_EQ(contacts.warnings.size(), 1u);
+  EXPECT_NE(contacts.warnings[0].find("1 of 1 strands stand further apart (to 10 mm)"), std::string::npos)
+      << contacts.warnings[0];
+}
+
 TEST(ContactParticles, TheBaseRadiusIsHalfTheSpacingOfRoots) {
   Groom swatch = metres();
   for (int i = 0; i < 12; ++i)
@@ -109,7 +123,8 @@ Kept byTheLaw(std::span<const Vec3f> p, double radius, double spacing) {
 TEST(ContactParticles, FollowTheLawAndLeaveNoGap) {
   for (const ContactSample& sample : contactSamples()) {
     const RestState rest = restOf(sample.groom);
-    for (const ContactSettings& settings : {ContactSettings{}, withRadius(0.002), withRadius(0.03)}) {
+    for (const ContactSettings& settings :
+         {ContactSettings{.fillGaps = true}, withRadius(0.002), withRadius(0.03)}) {
       const ContactParticles contacts = chooseContactParticles(rest, settings);
       ASSERT_EQ(contacts.firstOfStrand.size(), rest.strands.size() + 1);
       ASSERT_EQ(contacts.firstOfStrand.back(), contacts.particles.size());

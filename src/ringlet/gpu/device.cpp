@@ -114,6 +114,7 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.driver = "driver version " + versionText(basic.driverVersion);
   p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
   p.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
+  p.maxTexelRecords = basic.limits.maxTexelBufferElements;
   p.maxUniformBufferRange = basic.limits.maxUniformBufferRange;
   p.maxStorageBuffers = basic.limits.maxPerStageDescriptorStorageBuffers;
   p.maxGroupCount = basic.limits.maxComputeWorkGroupCount[0];

@@ -17,7 +17,7 @@ namespace ringlet::gpu {
 // What the solver needs, checked when a device is opened. Vulkan promises 4 storage buffers a stage; nearly
 // every driver has 8 and more.
 inline constexpr std::uint32_t kNeededApiVersion = VK_API_VERSION_1_1;
-inline constexpr std::uint32_t kNeededStorageBuffers = 12;     // bound to one kernel
+inline constexpr std::uint32_t kNeededStorageBuffers = 12;    // bound to one kernel
 inline constexpr std::uint32_t kNeededGroupInvocations = 64;  // invocations of a workgroup
 inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
 
@@ -33,6 +33,7 @@ struct DeviceProperties {
   std::uint32_t maxFullSubgroups = 0;  // of a workgroup that insists on them
   std::uint64_t maxStorageBufferRange = 0;  // [bytes] largest buffer a kernel can see
   std::uint64_t maxUniformBufferRange = 0;  // [bytes]
+  std::uint64_t maxTexelRecords = 0;        // 16-byte records a kernel can see as texels
   std::uint64_t maxAllocationBytes = 0;     // [bytes] largest single piece of memory
   std::uint32_t maxStorageBuffers = 0;      // bound to one kernel
   std::uint32_t maxGroupCount = 0;          // workgroups of one dispatch, along x

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,11 +15,31 @@ namespace ringlet::gpu {
 namespace {
 
 VkDescriptorType descriptorType(BindingKind kind) {
-  return kind == BindingKind::uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+  switch (kind) {
+    case BindingKind::storage:
+      return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    case BindingKind::uniform:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BindingKind::texels:
+      return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+  }
+  return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
 std::uint32_t countOf(const std::vector<BindingKind>& bindings, BindingKind kind) {
   return static_cast<std::uint32_t>(std::count(bindings.begin(), bindings.end(), kind));
+}
+
+// The buffer's records as texels, as many as the device sees.
+std::pair<VkResult, OwnedBufferView> viewOf(Device& device, const Buffer& buffer) {
+  constexpr std::uint64_t kRecordBytes = 16;
+  auto info = zeroed<VkBufferViewCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO);
+  info.buffer = buffer.handle();
+  info.format = VK_FORMAT_R32G32B32A32_UINT;
+  info.range = std::min(buffer.capacity(), device.properties().maxTexelRecords * kRecordBytes);
+  VkBufferView view = VK_NULL_HANDLE;
+  const VkResult result = device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &view);
+  return {result, OwnedBufferView(device.shared_from_this(), view)};
 }
 
 }  // namespace
@@ -148,7 +169,7 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
 
   // A pool for this one set; Vulkan wants no empty entries.
   std::vector<VkDescriptorPoolSize> sizes;
-  for (BindingKind kind : {BindingKind::storage, BindingKind::uniform}) {
+  for (BindingKind kind : {BindingKind::storage, BindingKind::uniform, BindingKind::texels}) {
     if (const std::uint32_t count = countOf(self.kinds_, kind))
       sizes.push_back({descriptorType(kind), count});
   }
@@ -168,6 +189,7 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
   RINGLET_VK_CHECK(device.vk().vkAllocateDescriptorSets(device.handle(), &setInfo, &self.set_), attempt());
 
   std::vector<VkDescriptorBufferInfo> infos(buffers.size());
+  std::vector<VkBufferView> views(buffers.size());
   std::vector<VkWriteDescriptorSet> writes;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const Buffer& buffer = buffers[i];
@@ -181,6 +203,12 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
                         attempt(), buffer.name(), buffer.bytes(), limit)};
       }
     }
+    if (self.kinds_[i] == BindingKind::texels) {
+      auto view = viewOf(device, buffer);
+      if (view.first != VK_SUCCESS) return vulkanError("vkCreateBufferView", view.first, attempt());
+      views[i] = view.second.get();
+      self.views_.push_back(std::move(view.second));
+    }
     infos[i].buffer = buffer.handle();
     infos[i].range = buffer.capacity();
     auto write = zeroed<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
@@ -189,6 +217,7 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
     write.descriptorCount = 1;
     write.descriptorType = descriptorType(self.kinds_[i]);
     write.pBufferInfo = &infos[i];
+    write.pTexelBufferView = &views[i];
     writes.push_back(write);
   }
   device.vk().vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()),

@@ -89,18 +89,20 @@ ContactParticles chooseContactParticles(const RestState& rest, const ContactSett
   ContactParticles contacts;
   contacts.baseRadius = chooseBaseRadius(rest, settings);
   contacts.firstOfStrand.push_back(0);
-  std::size_t raisedCount = 0, coarsest = 0;
+  std::size_t gappyCount = 0, coarsest = 0;
+  double widestGap = 0;
   for (std::size_t s = 0; s < rest.strands.size(); ++s) {
     const auto points = pointsOf(rest, s);
     float radius = roundedUp(contacts.baseRadius);
     Pruned pruned = pruneAlong(points, radius, settings.spacing);
-    const bool raised = pruned.widestGap > 2.0 * radius;
+    const bool hasGaps = pruned.widestGap > 2.0 * radius;
+    widestGap = std::max(widestGap, pruned.widestGap);
     // Every turn raises the radius to half of another edge: they end, and after one or two as a rule.
-    while (pruned.widestGap > 2.0 * radius) {
+    while (settings.fillGaps && pruned.widestGap > 2.0 * radius) {
       radius = roundedUp(pruned.widestGap / 2);
       pruned = pruneAlong(points, radius, settings.spacing);
     }
-    if (raised && (raisedCount++ == 0 || radius > contacts.radii[coarsest])) coarsest = s;
+    if (hasGaps && (gappyCount++ == 0 || radius > contacts.radii[coarsest])) coarsest = s;
     for (std::uint32_t i : pruned.kept) {
       contacts.particles.push_back(rest.strands[s].firstParticle + i);
       contacts.strands.push_back(static_cast<std::uint32_t>(s));
@@ -109,12 +111,19 @@ ContactParticles chooseContactParticles(const RestState& rest, const ContactSett
     contacts.radii.push_back(radius);
     contacts.masses.push_back(static_cast<float>(massOf(rest, s) / static_cast<double>(pruned.kept.size())));
   }
-  if (raisedCount > 0) {
+  if (gappyCount > 0 && !settings.fillGaps) {
+    contacts.warnings.push_back(
+        fmt::format("the particles of {} of {} strands stand further apart (to {:.3g} mm) than twice the "
+                    "contact radius of "
+                    "{:.3g} mm: hair may slip through between them; cut it finer, set a larger radius, or "
+                    "have gaps filled",
+                    gappyCount, rest.strands.size(), 1000 * widestGap, 1000 * contacts.baseRadius));
+  } else if (gappyCount > 0) {
     contacts.warnings.push_back(fmt::format(
         "the contact radius of {} of {} strands is raised from {:.3g} mm, to {:.3g} mm at most (strand {}), "
         "because their particles stand further apart than twice the radius; cut them finer, or set a "
         "larger radius",
-        raisedCount, rest.strands.size(), 1000 * contacts.baseRadius, 1000 * contacts.radii[coarsest],
+        gappyCount, rest.strands.size(), 1000 * contacts.baseRadius, 1000 * contacts.radii[coarsest],
         rest.strandInGroom[coarsest]));
   }
   return contacts;

@@ -23,7 +23,7 @@ struct ContactParticles {
   std::vector<float> radii;                  // of each strand [m]
   std::vector<float> masses;                 // m_c of each strand: its mass over its contact particles [kg]
   double baseRadius = 0;                     // what strands have that are cut finely enough [m]
-  std::vector<std::string> warnings;         // for the user: raised radii, with numbers
+  std::vector<std::string> warnings;         // for the user: gaps, or raised radii, with numbers
 
   std::size_t strandCount() const { return radii.size(); }
 };
@@ -33,8 +33,9 @@ struct ContactParticles {
 ///
 /// Then strand by strand: the root is a contact particle, and from contact particle i the first j > i with
 /// |p_i - p_j| >= s R, or the one before j where j is further than R and not i's neighbour. Hair can slip
-/// between two that are further apart than R: where edges are, the strand's radius is raised to half the
-/// longest such edge. Cost: n log n in strands, linear in particles.
+/// between two that are further apart than R, as on strands with longer edges: settings.fillGaps raises such
+/// a strand's radius to half its longest; else a warning says so. (Raised radii on a dense head: 64 partners
+/// a particle instead of 14.) Cost: n log n in strands, linear in particles.
 ContactParticles chooseContactParticles(const RestState& rest, const ContactSettings& settings);
 
 }  // namespace ringlet

@@ -14,8 +14,9 @@ struct ContactSettings {
 
   // Spheres.
   /// Of every particle [m], 1e-6 to 1; unset: half the mean distance from a root to its nearest other root.
-  /// Strands cut coarser than R get a larger one.
   std::optional<double> radius;
+  bool fillGaps = false;  // strands cut coarser than R get a larger radius, so that nothing slips between
+                          // their particles; in a dense groom that multiplies the contacts
   double spacing = 0.75;  // contact particles stand this times R apart along a strand, 0.01 to 1: less
                           // keeps more of them, finer and slower
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace ringlet {
 namespace {
 
@@ -56,6 +58,11 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
                      std::move(*strands),   std::move(*reports),    std::move(*scratch),
                      std::move(*poses),     std::move(*solved),     std::move(*systems),
                      std::move(*control)};
+}
+
+bool DeviceGroom::fitsTexels(const gpu::Device& device) const {
+  const std::uint64_t bytes = device.properties().maxTexelRecords * sizeof(layout::vec4);
+  return std::max({positions.bytes(), particles.bytes(), strands.bytes(), contactSystems.bytes()}) <= bytes;
 }
 
 std::span<layout::StepPose> DeviceGroom::mappedPoses() const {

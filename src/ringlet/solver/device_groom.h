@@ -25,10 +25,12 @@ struct DeviceGroom {
 
   /// The buffers in binding order (layout.h).
   std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
-    return {positions, velocities, particles, strands,        reports,
-            scratch,   poses,      solved,    contactSystems, contactControl};
+    return {positions,      velocities,     particles, strands,    reports,   scratch, poses,         solved,
+            contactSystems, contactControl, positions, velocities, particles, strands, contactSystems};
   }
   std::span<layout::StepPose> mappedPoses() const;
+  /// Whether the device sees all of them as texels.
+  bool fitsTexels(const gpu::Device& device) const;
 };
 
 /// From device order to groom order and back, a value per particle.

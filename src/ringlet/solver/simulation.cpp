@@ -131,9 +131,10 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   for (const StrandRange& range : self->ranges) {
-    auto kernel = createStrandKernel(
-        device.gpu(), range.shape,
-        {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on, choice.residual});
+    auto kernel =
+        createStrandKernel(device.gpu(), range.shape,
+                           {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on,
+                            self->buffers.fitsTexels(device.gpu()), choice.residual});
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
     if (!bindings) return bindings.error();
@@ -191,9 +192,9 @@ void Simulation::Implementation::dispatchAll(std::span<const PlannedDispatch> di
   frame->beginStage("strand_step");
   for (std::size_t d = 0; d < dispatches.size(); ++d) {
     const PlannedDispatch& now = dispatches[d];
-    // Only dispatches on the same strands depend on each other.
-    if (d > 0 && now.range == dispatches[d - 1].range && now.strandBegin == dispatches[d - 1].strandBegin)
-      frame->barrier();
+    // Only dispatches on the same strands depend on each other; but the validation layer sees whole buffers,
+    // and takes those on other strands for hazards.
+    if (d > 0) frame->barrier();
     frame->dispatch(kernels[now.range], bindings[now.range], parametersOf(now), now.groupCount);
   }
   frame->endStage();

@@ -21,6 +21,7 @@ struct StrandKernelOptions {
   bool bendVaries = false;    // along some strand
   bool taps = false;
   bool contacts = false;  // the solve is iterated with the contacts' systems
+  bool texels = false;    // records are read as texels (gpu::BindingKind)
   bool residual = false;  // measure the residual of the velocity solve
 };
 
