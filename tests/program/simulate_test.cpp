@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
-#include "tests/output/usd_reader.h"
 #include "tests/program/run_program.h"
+#include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
