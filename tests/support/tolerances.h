@@ -27,6 +27,11 @@ inline constexpr double kOneSecond = 1e-5;
 // 1e-12.
 inline constexpr double kCalmEnergyRatio = 1e-8;
 
+// The turn of a smoothed strand's frame from step to step, the device's in float against double, in degrees:
+// positions are rounded to 3e-8 of the strand, edges of a 256th of it to 1e-5 and their directions as much;
+// smoothing averages a few, and a chain of 256 turns adds up as their root: 1e-4 radians.
+inline constexpr double kFrameTurnDegrees = 0.01;
+
 // Lying still: how far a particle may wander in 10 s, share of the arc length.
 inline constexpr double kAtRest = 1e-5;
 
