@@ -52,9 +52,10 @@ TEST(Measure, AGroomAlone) {
   const auto folder = scratchFolder("measure_groom");
   ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
   const json found = measureJson(folder, {"rest.obj"});
-  for (const char* key : {"strands", "particles", "frames", "droop_mm", "core_elongation", "turns",
-                          "mean_radius_mm", "handedness_kept", "arc_drift", "max_edge_stretch",
-                          "tip_rotation_deg", "bounce_hz", "settle_s", "energy_ratio"})
+  for (const char* key :
+       {"strands", "particles", "frames", "droop_mm", "core_elongation", "turns", "mean_radius_mm",
+        "handedness_kept", "arc_drift", "max_edge_stretch", "tip_rotation_deg", "bounce_hz", "settle_s",
+        "energy_ratio", "limited_share", "velocity_residual"})
     EXPECT_TRUE(found.contains(key)) << key;
   EXPECT_EQ(found["strands"], 2);
   EXPECT_EQ(found["particles"], 128);
