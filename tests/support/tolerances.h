@@ -45,4 +45,8 @@ inline constexpr double kStiffSolveMetres = 1e-5;
 // of the curve. A hundredth is what strand_measure.h promises.
 inline constexpr double kSampling = 0.01;
 
+// What is measured on a run's files against what was measured as it ran, share: positions are the same bits,
+// but the head's rotation is fitted to roots in float, which are right to 6e-8 of a few centimetres apart.
+inline constexpr double kMeasuredAgain = 1e-6;
+
 }  // namespace ringlet::test
