@@ -163,11 +163,21 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   return measured;
 }
 
+bool isAnimation(const std::filesystem::path& path) {
+  return path.extension() == ".usda" || path.extension() == ".partial";
+}
+
 // What OTHER is: a folder stands for the animation in it.
 Result<Measured> measure(const Typed& typed) {
   namespace fs = std::filesystem;
   fs::path path = typed.other;
   std::error_code code;
+  if (fs::is_directory(typed.rest, code) || isAnimation(typed.rest)) {
+    return Error{
+        fmt::format("{} is what became of a groom, which it does not hold; name the groom first, as in "
+                    "`ringlet measure groom.obj {}`",
+                    typed.rest.string(), typed.rest.string())};
+  }
   if (fs::is_directory(path, code)) {
     path = typed.other / "hair.usda";
     if (!fs::exists(path, code)) path += ".partial";
@@ -175,8 +185,7 @@ Result<Measured> measure(const Typed& typed) {
       return Error{fmt::format("{} holds no hair.usda; is it a folder that `ringlet simulate` wrote?",
                                typed.other.string())};
   }
-  const bool isAnimation = path.extension() == ".usda" || path.extension() == ".partial";
-  return isAnimation ? measureAnimation(typed, path) : measureGroom(typed);
+  return isAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed);
 }
 
 nlohmann::json orNull(std::optional<double> value) {
@@ -311,8 +320,8 @@ std::string summaryText(const Measured& measured) {
 
 std::string strandsText(const Measured& measured) {
   std::string text = fmt::format("\n{:>7}{:>10}", "strand", "particles");
-  const char* headings[] = {"droop mm", "%",      "core x", "chord x", "core mm", "chord mm", "turns",
-                            "winding",  "radius", "hand %", "drift %", "edge x",  "tip deg"};
+  const char* headings[] = {"droop mm", "%",         "core x", "chord x", "core mm", "chord mm", "turns",
+                            "winding",  "radius mm", "hand %", "drift %", "edge x",  "tip deg"};
   static_assert(std::size(headings) == std::size(kRows));
   for (std::size_t k = 0; k < std::size(kRows); ++k) {
     if (!kRows[k].onlyInPoses || measured.isPose) text += fmt::format("{:>10}", headings[k]);

@@ -138,6 +138,8 @@ TEST(Measure, SaysWhatIsWrong) {
         Case{{"rest.obj", "shorter.obj"}, 1, "strand 1 has 64 particles"},
         Case{{"fewer.obj", "out"}, 1, "1 and 2 strands"},
         Case{{"rest.obj", "empty"}, 1, "holds no hair.usda"},
+        Case{{"out"}, 1, "name the groom first, as in `ringlet measure groom.obj out`"},
+        Case{{"out/hair.usda", "rest.obj"}, 1, "name the groom first"},
         Case{{"rest.obj", "out", "--unit", "1"}, 1, "--unit 1 does not fit"}, Case{{}, 2, "REST"},
         Case{{"rest.obj", "--up", "X"}, 2, "X"}, Case{{"rest.obj", "--unit", "-1"}, 2, "-1"}}) {
     auto arguments = c.arguments;
