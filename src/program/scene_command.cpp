@@ -45,7 +45,8 @@ constexpr const char* kExample =
     "them: scene seconds preload core frames_on frame_turn_deg (twist_jump: the largest turn of a strand "
     "frame "
     "in one\n"
-    "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name and summary.\n"
+    "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
+    "seconds preload.\n"
     "\n"
     "Exit status: as for simulate.";
 
@@ -69,8 +70,11 @@ struct SceneNumbers {
 void printList(bool asJson) {
   nlohmann::ordered_json scenes = nlohmann::json::array();
   for (const std::string& name : sceneNames()) {
-    if (!asJson) fmt::print("{:<14}{}\n", name, sceneSummary(name));
-    scenes.push_back({{"name", name}, {"summary", sceneSummary(name)}});
+    const BuiltinScene scene = *makeScene(name);
+    const double preload = scene.settings.gravityPreload;
+    if (!asJson) fmt::print("{:<14}{} ({} s, preload {})\n", name, scene.summary, scene.seconds, preload);
+    scenes.push_back(
+        {{"name", name}, {"summary", scene.summary}, {"seconds", scene.seconds}, {"preload", preload}});
   }
   if (asJson) printJson({{"scenes", scenes}});
 }

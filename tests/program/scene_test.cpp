@@ -51,6 +51,8 @@ TEST(Scene, ListsEveryScene) {
     const std::string name = sceneNames()[i];
     EXPECT_EQ(out["scenes"][i]["name"], name);
     EXPECT_EQ(out["scenes"][i]["summary"], sceneSummary(name));
+    EXPECT_EQ(out["scenes"][i]["seconds"], makeScene(name)->seconds);
+    EXPECT_EQ(out["scenes"][i]["preload"], makeScene(name)->settings.gravityPreload);
     expectContains(text.out, name);
     expectContains(text.out, sceneSummary(name));
   }
