@@ -36,6 +36,8 @@ int write(const char* command, const Typed& typed, const Result<Groom>& groom) {
     fmt::print(stderr, "{}: {}\n", command, written.error().message);
     return kExitFailed;
   }
+  if (const auto warning = coarseCurlWarning(typed.curl))
+    fmt::print(stderr, "{}: warning: {}\n", command, *warning);
   if (!typed.quiet) {
     fmt::print("{} strand{}, {} particles: {}\n", groom->strandCount(), groom->strandCount() == 1 ? "" : "s",
                groom->points.size(), typed.file.string());

@@ -28,9 +28,19 @@ constexpr const char* kExample =
     "  ringlet material ringlet -o soft.toml    (then edit soft.toml)\n"
     "  ringlet simulate head.obj --material soft.toml --hold 0.5 -o out\n"
     "\n"
-    "Numbers with unit w are multiples of a strand's own weight, so that they mean the same for every "
-    "strand.\n"
-    "A file may name a preset and change some of its numbers: preset = \"coil\", then bend_stiffness = 20.\n"
+    "--list says of every parameter its unit, its effect, and its usual and allowed range. Numbers with unit "
+    "w are\n"
+    "multiples of a strand's own weight, so that they mean the same for every strand.\n"
+    "\n"
+    "A file may name a preset and change some of its numbers:\n"
+    "  preset = \"coil\"\n"
+    "  bend_stiffness = 20\n"
+    "  [dials]\n"
+    "  hold = 1.5\n"
+    "  [variation]             # from strand to strand\n"
+    "  bend_stiffness = 0.2\n"
+    "  [profile]               # from root to tip: points [share of the arc length, factor]\n"
+    "  bend_stiffness = [[0, 1], [1, 0.5]]\n"
     "\n"
     "--json keys: name summary parameters dials variation profile warnings outputs; of a parameter: key unit "
     "effect\n"
@@ -191,6 +201,15 @@ CLI::Validator materialName() {
       "");
 }
 
+// The dials, those of the command line turned.
+MaterialDials turned(const MaterialChoice& choice, MaterialDials dials) {
+  dials.hold = choice.hold.value_or(dials.hold);
+  dials.bounce = choice.bounce.value_or(dials.bounce);
+  dials.springBack = choice.springBack.value_or(dials.springBack);
+  dials.curlKeep = choice.curlKeep.value_or(dials.curlKeep);
+  return dials;
+}
+
 const Parameter<MaterialDials>& dialNamed(std::string_view key) {
   const auto dials = dialParameters();
   return *std::find_if(dials.begin(), dials.end(), [&](const auto& dial) { return dial.key == key; });
@@ -237,7 +256,9 @@ void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::st
     const Parameter<MaterialDials>& dial = dialNamed(key);
     command
         ->add_option(option, value,
-                     fmt::format("{} (default {}, or the file's)", dial.effect, *dial.defaultValue()))
+                     fmt::format("{} A number {}, usual {} (default {}, or the file's)", dial.effect,
+                                 rangeText(dial.allowed, dial.unit), rangeText(dial.usual, dial.unit),
+                                 *dial.defaultValue()))
         ->check(between(dial.allowed.low, dial.allowed.high))
         ->type_name("X")
         ->group(group);
@@ -248,7 +269,8 @@ void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::st
   addDial("--curl-keep", "curl_keep", choice.curlKeep);
   command
       ->add_option("--max-stretch", choice.maxStretch,
-                   "Longest an edge may become, as a multiple of the groom's edge: 1 + bounce (default 1.1)")
+                   "Longest an edge may become, as a multiple of the groom's edge, 1 to 100: 1 + bounce "
+                   "(default 1.1)")
       ->check(between(1, 100))
       ->type_name("S")
       ->group(group);
@@ -283,13 +305,16 @@ Result<Material> chooseMaterial(const MaterialChoice& choice, Settings& settings
   }
   for (const std::string& warning : loaded.warnings) warnings.push_back(warning);
 
+  // The command line's dials in place of the file's, of which its reader has told what is unusual.
   MaterialDials& dials = loaded.dials;
-  dials.hold = choice.hold.value_or(dials.hold);
-  dials.bounce = choice.bounce.value_or(dials.bounce);
-  dials.springBack = choice.springBack.value_or(dials.springBack);
-  dials.curlKeep = choice.curlKeep.value_or(dials.curlKeep);
+  dials = turned(choice, dials);
+  for (const std::string& sentence : unusualNumbers({}, turned(choice, {}))) warnings.push_back(sentence);
   if (const auto warning = applyDials(dials, loaded.material, settings)) warnings.push_back(*warning);
   settings.maxStretch = choice.maxStretch.value_or(settings.maxStretch);
+  if (Status checked = checkMaterial(loaded.material); !checked) {
+    return Error{fmt::format("{}, with the dials hold {}, spring_back {}, curl_keep {} worked in",
+                             checked.error().message, dials.hold, dials.springBack, dials.curlKeep)};
+  }
   return loaded.material;
 }
 

@@ -40,7 +40,8 @@ constexpr const char* kExample =
     "tip_rotation_deg: the largest; over all frames, the largest: arc_drift max_edge_stretch worst\n"
     "{droop_mm core_elongation tip_rotation_deg}; of the motion: bounce_hz sway_hz (means) settle_s (the\n"
     "last to settle) energy_ratio (last second over peak); spread {KEY: [mean, min, max]} of the last\n"
-    "frame; per_strand with --strands. null: nothing to measure.\n"
+    "frame; per_strand with --strands. null: nothing to measure; so are limited_share and\n"
+    "velocity_residual, which only a run knows (`ringlet simulate --json`, `ringlet scene --json`).\n"
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
 
@@ -162,11 +163,21 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   return measured;
 }
 
+bool isAnimation(const std::filesystem::path& path) {
+  return path.extension() == ".usda" || path.extension() == ".partial";
+}
+
 // What OTHER is: a folder stands for the animation in it.
 Result<Measured> measure(const Typed& typed) {
   namespace fs = std::filesystem;
   fs::path path = typed.other;
   std::error_code code;
+  if (fs::is_directory(typed.rest, code) || isAnimation(typed.rest)) {
+    return Error{
+        fmt::format("{} is what became of a groom, which it does not hold; name the groom first, as in "
+                    "`ringlet measure groom.obj {}`",
+                    typed.rest.string(), typed.rest.string())};
+  }
   if (fs::is_directory(path, code)) {
     path = typed.other / "hair.usda";
     if (!fs::exists(path, code)) path += ".partial";
@@ -174,8 +185,7 @@ Result<Measured> measure(const Typed& typed) {
       return Error{fmt::format("{} holds no hair.usda; is it a folder that `ringlet simulate` wrote?",
                                typed.other.string())};
   }
-  const bool isAnimation = path.extension() == ".usda" || path.extension() == ".partial";
-  return isAnimation ? measureAnimation(typed, path) : measureGroom(typed);
+  return isAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed);
 }
 
 nlohmann::json orNull(std::optional<double> value) {
@@ -222,6 +232,7 @@ nlohmann::ordered_json asJson(const Typed& typed, const Measured& measured) {
   json["particles"] = measured.numbers.particleCount;
   json["frames"] = measured.numbers.frameCount;
   addCurlKeys(json, measured.numbers);
+  for (const char* key : {"limited_share", "velocity_residual"}) json[key] = nullptr;  // of a run's steps
   for (const Row& row : kRows) {
     const Spread spread = spreadOf(valuesOf(measured.strands, row, jsonScale(row)));
     json["spread"][row.key] = {spread.mean, spread.min, spread.max};
@@ -253,20 +264,15 @@ std::string count(std::size_t number, const char* noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
-// A number of the table; never "-0.00".
-std::string shown(double value, int digits) {
-  const double unit = std::pow(10, -digits);
-  return fmt::format("{:.{}f}", std::abs(value) < unit / 2 ? 0.0 : value, digits);
-}
-std::string shown(std::optional<double> value, int digits) { return value ? shown(*value, digits) : "-"; }
-
 std::string summaryText(const Measured& measured) {
   const GroomMeasure groom = measured.ruler.summarize(measured.strands);
   const CurlNumbers& numbers = measured.numbers;
-  std::string text =
-      fmt::format("{}, {} particles: {} curled ({} right-handed, {} left-handed), {} straight\n",
-                  count(groom.strandCount, "strand"), groom.particleCount, groom.curledCount,
-                  groom.rightHandedCount, groom.leftHandedCount, groom.strandCount - groom.curledCount);
+  const std::size_t bothHands = groom.curledCount - groom.rightHandedCount - groom.leftHandedCount;
+  std::string text = fmt::format(
+      "{}, {} particles: {} curled ({} right-handed, {} left-handed{}), {} straight\n",
+      count(groom.strandCount, "strand"), groom.particleCount, groom.curledCount, groom.rightHandedCount,
+      groom.leftHandedCount, bothHands > 0 ? fmt::format(", {} of both hands", bothHands) : "",
+      groom.strandCount - groom.curledCount);
   if (!measured.motions.empty()) {
     text += fmt::format("{}, {:.2f} s{}; the table shows the last\n", count(numbers.frameCount, "frame"),
                         measured.seconds, measured.isUnfinished ? " (not finished)" : "");
@@ -296,12 +302,16 @@ std::string summaryText(const Measured& measured) {
       "  at the worst  droop {} mm, core elongation {}, longest edge {} x, tip rotation {} degrees\n",
       shown(1000 * numbers.worstDroop, 3), shown(numbers.worstCoreElongation, 4),
       shown(numbers.maxEdgeStretch, 4), shown(numbers.worstTipRotation, 2));
-  text += fmt::format("  bounce        {} Hz, sway {} Hz\n", shown(numbers.bounceHz, 3),
-                      shown(numbers.swayHz, 3));
-  text += fmt::format("  settled       {} s\n", shown(numbers.settleSeconds, 2));
+  text += fmt::format("  bounce        {}{}, sway {}{}\n", shown(numbers.bounceHz, 3),
+                      numbers.bounceHz ? " Hz" : "", shown(numbers.swayHz, 3), numbers.swayHz ? " Hz" : "");
+  text += fmt::format("  settled       {}\n", numbers.settleSeconds
+                                                  ? fmt::format("after {} s", shown(numbers.settleSeconds, 2))
+                                                  : "not yet");
   text += numbers.energyRatio ? fmt::format("  energy        {:.3g} of its peak left\n", *numbers.energyRatio)
                               : "";
-  if (measured.freeSeconds > 0) {
+  if (measured.freeSeconds >= measured.seconds) {
+    text += "  the head drove the hair to the last frame; bounce and settling show after it stops\n";
+  } else if (measured.freeSeconds > 0) {
     text += fmt::format("  bounce and settling are those after the head last drove the hair, at {:.2f} s\n",
                         measured.freeSeconds);
   }
@@ -310,8 +320,8 @@ std::string summaryText(const Measured& measured) {
 
 std::string strandsText(const Measured& measured) {
   std::string text = fmt::format("\n{:>7}{:>10}", "strand", "particles");
-  const char* headings[] = {"droop mm", "%",      "core x", "chord x", "core mm", "chord mm", "turns",
-                            "winding",  "radius", "hand %", "drift %", "edge x",  "tip deg"};
+  const char* headings[] = {"droop mm", "%",         "core x", "chord x", "core mm", "chord mm", "turns",
+                            "winding",  "radius mm", "hand %", "drift %", "edge x",  "tip deg"};
   static_assert(std::size(headings) == std::size(kRows));
   for (std::size_t k = 0; k < std::size(kRows); ++k) {
     if (!kRows[k].onlyInPoses || measured.isPose) text += fmt::format("{:>10}", headings[k]);
@@ -351,6 +361,12 @@ int run(const Typed& typed) {
 }
 
 }  // namespace
+
+std::string shown(std::optional<double> value, int digits) {
+  if (!value) return "-";
+  const double unit = std::pow(10, -digits);
+  return fmt::format("{:.{}f}", std::abs(*value) < unit / 2 ? 0.0 : *value, digits);
+}
 
 void addCurlKeys(nlohmann::ordered_json& json, const CurlNumbers& numbers) {
   json["droop_mm"] = 1000 * numbers.droop;

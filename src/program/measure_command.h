@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "ringlet/measure/motion_measure.h"
 
@@ -16,5 +18,8 @@ void addMeasureCommand(CLI::App& app, int& exitCode);
 /// nothing to measure, and worst {droop_mm core_elongation tip_rotation_deg}. What each stands for:
 /// CurlNumbers.
 void addCurlKeys(nlohmann::ordered_json& json, const CurlNumbers& numbers);
+
+/// A number as tables show it, with so many digits and never "-0.00"; "-" for none.
+std::string shown(std::optional<double> value, int digits);
 
 }  // namespace ringlet::program

@@ -27,6 +27,8 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["max_edge_stretch"] = outcome.report.maxEdgeStretch;  // null where it is not finite
   json["limited_share"] = outcome.report.limitedShare;
   json["nonfinite"] = outcome.report.nonfinite;
+  json["velocity_residual"] =
+      outcome.velocityResidual ? nlohmann::ordered_json(*outcome.velocityResidual) : nlohmann::ordered_json();
   json["device"] = outcome.device;
   json["driver"] = outcome.driver;
   json["kernel"] = outcome.kernel;
@@ -48,8 +50,9 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
                                  outcome.frameCount == 1 ? "" : "s", outcome.strandCount,
                                  outcome.strandCount == 1 ? "" : "s", outcome.particleCount,
                                  outcome.interrupted ? " (interrupted)" : "");
-  text += fmt::format("  stepped by    {}, {} steps a frame, on {} ({})\n", names.integrator,
-                      settings.stepsPerFrame, outcome.device, outcome.kernel);
+  text += fmt::format("  stepped by    {}, {} step{} a frame, on {} ({})\n", names.integrator,
+                      settings.stepsPerFrame, settings.stepsPerFrame == 1 ? "" : "s", outcome.device,
+                      outcome.kernel);
   text +=
       fmt::format("  a frame took  {:.2f} ms to step, {:.2f} ms to read back, {:.2f} ms to write\n",
                   outcome.millisecondsPerFrame, outcome.stages.at("readback"), outcome.stages.at("write"));

@@ -16,6 +16,7 @@
 #include "program/run_report.h"
 #include "program/simulate_run.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/measure/frame_turn.h"
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/scenes/builtin_scene.h"
 
@@ -27,16 +28,25 @@ constexpr const char* kExample =
     "  ringlet scene --list\n"
     "  ringlet scene hanging_curl --preload 0 --particles 128\n"
     "  ringlet scene walk_cycle --frames-on raw --json -o out\n"
+    "  ringlet measure out/groom.obj out            measures what was written once more\n"
     "\n"
-    "Every frame is measured, the groom at rest counting as the one before the first. --json prints the keys "
-    "of\n"
-    "`simulate` and of `measure` together; max_edge_stretch is that of every step. Beside them: scene, "
-    "preload, "
-    "core,\n"
-    "frames_on, seconds, velocity_residual (of the velocity solve, worst strand and step; null where it is "
-    "not "
-    "measured:\n"
-    "paper, reference). DIR receives groom.obj, hair.usda, last.obj and sheet.png, in centimetres, Y up.\n"
+    "Every frame is measured, the groom at rest counting as the one before the first. A scene is stepped as "
+    "often as\n"
+    "it says, however many steps its hair wants; a warning says if that is more.\n"
+    "\n"
+    "DIR receives groom.obj (the groom at rest), hair.usda, last.obj and sheet.png, in centimetres, Y up. Of "
+    "these\n"
+    "`ringlet measure` finds the same numbers, but for what files do not hold: steps between frames, and the "
+    "turning\n"
+    "of a head with one strand (walk_cycle).\n"
+    "\n"
+    "--json prints the keys of `simulate` and of `measure` together; max_edge_stretch is that of every step. "
+    "Beside\n"
+    "them: scene seconds preload core frames_on frame_turn_deg (twist_jump: the largest turn of a strand "
+    "frame "
+    "in one\n"
+    "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
+    "seconds preload.\n"
     "\n"
     "Exit status: as for simulate.";
 
@@ -50,28 +60,50 @@ struct Typed {
   bool list = false, json = false, quiet = false;
 };
 
-void printList() {
-  for (const std::string& name : sceneNames()) fmt::print("{:<14}{}\n", name, sceneSummary(name));
+// What a scene measures beside the run's own numbers.
+struct SceneNumbers {
+  CurlNumbers curl;
+  std::optional<double> residual;   // of the velocity solve
+  std::optional<double> frameTurn;  // the largest in one step [degrees]
+};
+
+void printList(bool asJson) {
+  nlohmann::ordered_json scenes = nlohmann::json::array();
+  for (const std::string& name : sceneNames()) {
+    const BuiltinScene scene = *makeScene(name);
+    const double preload = scene.settings.gravityPreload;
+    if (!asJson) fmt::print("{:<14}{} ({} s, preload {})\n", name, scene.summary, scene.seconds, preload);
+    scenes.push_back(
+        {{"name", name}, {"summary", scene.summary}, {"seconds", scene.seconds}, {"preload", preload}});
+  }
+  if (asJson) printJson({{"scenes", scenes}});
 }
 
-std::string orDash(std::optional<double> value, const char* unit) {
-  return value ? fmt::format("{:.3g} {}", *value, unit) : "-";
-}
-
-std::string measureText(const CurlNumbers& numbers, std::optional<double> residual) {
-  std::string text = fmt::format("  droop         {:.4f} mm at the end, {:.4f} mm at the worst frame\n",
-                                 1000 * numbers.droop, 1000 * numbers.worstDroop);
-  text += fmt::format("  core          {:.4f} x its length at rest, {:.4f} x at the worst frame\n",
-                      numbers.coreElongation, numbers.worstCoreElongation);
-  text += fmt::format("  curl          {:.3f} turns of radius {:.3f} mm, hand {}, arc drift {:.2e}\n",
-                      numbers.turns, 1000 * numbers.meanRadius, numbers.handednessKept ? "kept" : "not kept",
-                      numbers.arcDrift);
-  text += fmt::format("  tip           turned by {:.2f} degrees, {:.2f} at the worst frame\n",
-                      numbers.tipRotation, numbers.worstTipRotation);
-  text += fmt::format("  bounce        {}, settled after {}, energy left of its peak {}\n",
-                      orDash(numbers.bounceHz, "Hz"), orDash(numbers.settleSeconds, "s"),
-                      orDash(numbers.energyRatio, ""));
-  if (residual) text += fmt::format("  residual      {:.2e} of the velocity solve\n", *residual);
+// What was measured, a line a subject, below the lines of the run.
+std::string measureText(const SceneNumbers& numbers, const Settings& settings) {
+  const CurlNumbers& curl = numbers.curl;
+  std::string text = fmt::format("  droop         {} mm at the end, {} mm at the worst frame\n",
+                                 shown(1000 * curl.droop, 4), shown(1000 * curl.worstDroop, 4));
+  text += fmt::format("  core          {} x its length at rest, {} x at the worst frame\n",
+                      shown(curl.coreElongation, 4), shown(curl.worstCoreElongation, 4));
+  text += curl.meanRadius == 0
+              ? fmt::format("  curl          none at rest, arc drift {:.2e}\n", curl.arcDrift)
+              : fmt::format("  curl          {} turns of radius {} mm, hand {}, arc drift {:.2e}\n",
+                            shown(curl.turns, 3), shown(1000 * curl.meanRadius, 3),
+                            curl.handednessKept ? "kept" : "not kept", curl.arcDrift);
+  text += fmt::format("  tip           turned by {} degrees, {} at the worst frame\n",
+                      shown(curl.tipRotation, 2), shown(curl.worstTipRotation, 2));
+  text += fmt::format(
+      "  bounce        {}, {}, energy left of its peak {:.3g}\n",
+      curl.bounceHz ? fmt::format("{} Hz", shown(curl.bounceHz, 2)) : "none measured",
+      curl.settleSeconds ? fmt::format("settled after {} s", shown(curl.settleSeconds, 2)) : "not settled",
+      curl.energyRatio.value_or(0));
+  if (numbers.residual)
+    text += fmt::format("  residual      {:.2e} of the velocity solve\n", *numbers.residual);
+  if (numbers.frameTurn) {
+    text += fmt::format("  frames        turned by at most {} degrees in a step of 1/{:.6g} s\n",
+                        shown(numbers.frameTurn, 2), 1 / settings.stepSeconds());
+  }
   return text;
 }
 
@@ -88,14 +120,52 @@ Status writeGroom(const BuiltinScene& scene, const RunOptions& options, Simulate
   return {};
 }
 
+// The largest turn of a strand frame in one outer step: the scene once more, with every step a frame of its
+// own. The steps are the same. Nothing if Ctrl-C ended it.
+Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOptions options) {
+  Settings settings = scene.settings;
+  settings.framesPerSecond *= settings.stepsPerFrame;
+  options.frameCount *= settings.stepsPerFrame;
+  settings.stepsPerFrame = 1;
+  options.folder.clear();
+  options.kernel.residual = false;
+
+  FrameTurn turn(scene.groom, scene.material);
+  turn.look(scene.groom.points, scene.groom.metresPerUnit);
+  const auto look = [&](std::span<const Vec3f> points, const HeadPose& head) -> Status {
+    turn.look(points, scene.groom.metresPerUnit, head.rotation);
+    return {};
+  };
+  const auto outcome = runHair({scene.groom, scene.material, settings, scene.motion}, options, look);
+  if (!outcome) return outcome.error();
+  return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
+}
+
+nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, const SimulateOutcome& outcome,
+                              const SceneNumbers& numbers) {
+  nlohmann::ordered_json json{{"scene", scene.name},
+                              {"seconds", outcome.frameCount / scene.settings.framesPerSecond},
+                              {"preload", scene.settings.gravityPreload},
+                              {"core", typed.scene.core},
+                              {"frames_on", typed.framesOn}};
+  json.update(runJson(typed.names, scene.settings, outcome));
+  // Where both know a number, the run's is that of every step.
+  nlohmann::ordered_json curl;
+  addCurlKeys(curl, numbers.curl);
+  curl.erase("max_edge_stretch");
+  json.update(curl);
+  json["frame_turn_deg"] =
+      numbers.frameTurn ? nlohmann::ordered_json(*numbers.frameTurn) : nlohmann::ordered_json();
+  return json;
+}
+
 Result<int> runScene(Typed& typed) {
   auto scene = makeScene(typed.name, typed.scene);
   if (!scene) return scene.error();
   RunOptions& options = typed.run;
   options.frameCount = scene->frameCount();
+  options.kernel.residual = true;
   const Settings& settings = scene->settings;
-  const bool hasResidual = settings.integrator != Integrator::paper && !options.onReference;
-  options.kernel.residual = hasResidual;
 
   // Measured from the groom itself on.
   const double unit = scene->groom.metresPerUnit;
@@ -109,37 +179,30 @@ Result<int> runScene(Typed& typed) {
     return inScene(typed, seen.error());
   auto outcome = runHair({scene->groom, scene->material, settings, scene->motion}, options, look);
   if (!outcome) return inScene(typed, outcome.error());
+  outcome->warnings.insert(outcome->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
   if (Status written = writeGroom(*scene, options, *outcome); !written)
     return inScene(typed, written.error());
 
-  const CurlNumbers numbers = curlNumbers(measure->ruler(), measure->report());
-  std::optional<double> residual;
-  if (hasResidual) residual = outcome->report.velocityResidual;
+  SceneNumbers numbers{curlNumbers(measure->ruler(), measure->report()), outcome->velocityResidual, {}};
+  if (scene->showsFrames && !outcome->interrupted && outcome->report.nonfinite == 0) {
+    auto turn = measureFrameTurn(*scene, options);
+    if (!turn) return inScene(typed, turn.error());
+    numbers.frameTurn = *turn;
+    outcome->interrupted = !numbers.frameTurn;
+  }
   const int exitCode = tellTroubles("scene", *outcome, options.frameCount);
   if (typed.json) {
-    nlohmann::ordered_json json{{"scene", scene->name},
-                                {"seconds", outcome->frameCount / settings.framesPerSecond},
-                                {"preload", settings.gravityPreload},
-                                {"core", typed.scene.core},
-                                {"frames_on", typed.framesOn}};
-    json.update(runJson(typed.names, settings, *outcome));
-    // Where both know a number, the run's is that of every step.
-    nlohmann::ordered_json curl;
-    addCurlKeys(curl, numbers);
-    curl.erase("max_edge_stretch");
-    json.update(curl);
-    json["velocity_residual"] = residual ? nlohmann::ordered_json(*residual) : nlohmann::ordered_json();
-    printJson(json);
+    printJson(asJson(typed, *scene, *outcome, numbers));
   } else if (!typed.quiet) {
     fmt::print("{}: {}\n{}{}", scene->name, scene->summary, runText(typed.names, settings, *outcome),
-               measureText(numbers, residual));
+               measureText(numbers, settings));
   }
   return exitCode;
 }
 
 int run(Typed& typed) {
   if (typed.list) {
-    printList();
+    printList(typed.json);
     return kExitFine;
   }
   auto exitCode = runScene(typed);
@@ -148,13 +211,35 @@ int run(Typed& typed) {
   return kExitFailed;
 }
 
+// Throws CLI11's error for what makes no sense with --list: everything but --json.
+void checkList(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "--list" && name != "--json")
+      throw CLI::ValidationError(name, "--list only says which scenes there are; leave this out");
+  }
+}
+
+// The same for --integrator paper, whose springs, frames and loads are as printed.
+void checkPaper(const Typed& typed) {
+  const char* option = !typed.scene.core                     ? "--core"
+                       : !typed.scene.smoothedFrames         ? "--frames-on"
+                       : typed.scene.preload.value_or(0) > 0 ? "--preload"
+                                                             : nullptr;
+  if (option) {
+    throw CLI::ValidationError(option,
+                               "--integrator paper takes its springs as printed: with a core, smoothed "
+                               "frames and no preload; leave this out");
+  }
+}
+
 // What one option means for another. Throws CLI11's error for what makes no sense together.
 void resolve(Typed& typed) {
-  if (typed.list) return;
   if (typed.name.empty()) throw CLI::RequiredError("NAME (or --list)");
   typed.scene.core = typed.core == "on";
   typed.scene.smoothedFrames = typed.framesOn == "smoothed";
   typed.scene.integrator = integratorByName(typed.names.integrator);
+  if (typed.scene.integrator == Integrator::paper) checkPaper(typed);
   typed.run.onReference = typed.names.backend == "reference";
   if (typed.run.onReference && !typed.run.device.empty())
     throw CLI::ValidationError("--device", "only --backend gpu has a device");
@@ -209,8 +294,8 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->group(solver);
   command
       ->add_option("--steps-per-frame", typed->scene.stepsPerFrame,
-                   "Outer steps a frame of 1/24 s (default 8; 30 for paper)")
-      ->check(wholeBetween(1, 10'000))
+                   "Outer steps a frame of 1/24 s, 1 to 340 (default 8; 30 for paper)")
+      ->check(wholeBetween(1, 340))
       ->type_name("N")
       ->group(solver);
   command->add_option("--seconds", typed->scene.seconds, "Length of the scene (default: its own)")
@@ -232,8 +317,8 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");
   command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");
 
-  command->callback([typed, &exitCode] {
-    resolve(*typed);
+  command->callback([typed, command, &exitCode] {
+    typed->list ? checkList(*command) : resolve(*typed);
     exitCode = run(*typed);
   });
 }

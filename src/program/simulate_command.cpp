@@ -32,8 +32,12 @@ constexpr const char* kExample =
     "\n"
     "--json keys: frames strands particles ms_per_frame (wall time of stepping alone, without reading back "
     "and writing)\n"
-    "stages_ms (per frame, by stage) max_edge_stretch limited_share nonfinite device driver kernel backend\n"
-    "positions_hash integrator material steps_per_frame fps interrupted warnings outputs.\n"
+    "stages_ms (per frame, by stage) max_edge_stretch limited_share nonfinite velocity_residual (of the "
+    "velocity solve,\n"
+    "worst strand and step; measuring it takes a few per cent of the step's time; null for paper and for "
+    "reference)\n"
+    "device driver kernel backend positions_hash integrator material steps_per_frame fps interrupted "
+    "warnings outputs.\n"
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
     "Ctrl-C.";
@@ -79,6 +83,7 @@ void resolve(Typed& typed) {
                                "only --backend gpu has a device and kernels");
   }
   using Form = KernelChoice::Form;
+  options.kernel.residual = typed.json;
   options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
                         : typed.kernel == "serial" ? Form::serial
                                                    : Form::automatic;

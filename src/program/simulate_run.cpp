@@ -57,11 +57,18 @@ std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head
   return points;
 }
 
+// The paper's loops solve no system, and the reference does not measure.
+bool measuresResidual(const RunInput& input, const RunOptions& options) {
+  return options.kernel.residual && !options.onReference && input.settings.integrator != Integrator::paper;
+}
+
 Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOptions& options) {
   const BackendInput start{input.groom, input.material, input.settings, input.motion.poseAt(0),
                            input.motion.poseAt(-input.settings.stepSeconds())};
   if (options.onReference) return makeReferenceBackend(start);
-  return makeGpuBackend(start, options.device, options.kernel);
+  KernelChoice kernel = options.kernel;
+  kernel.residual = measuresResidual(input, options);
+  return makeGpuBackend(start, options.device, kernel);
 }
 
 // A failure in the middle of a run, with what it leaves.
@@ -176,6 +183,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   if (!report) return report.error();
   outcome.report = *report;
   outcome.report.nonfinite = std::max<std::uint64_t>(report->nonfinite, mostReplaced);
+  if (measuresResidual(input, options)) outcome.velocityResidual = report->velocityResidual;
   outcome.positionsHash = positionsHash(positions);
   outcome.device = (*backend)->device();
   outcome.driver = (*backend)->driver();

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct RunOptions {
   double width = 0.0005;     // diameter of strands in hair.usda [m]
   bool onReference = false;  // rather than on the GPU
   std::string device;
-  KernelChoice kernel;
+  KernelChoice kernel;  // its residual: measured where the integrator has one, on the GPU
   bool showProgress = true;
 };
 
@@ -48,6 +49,7 @@ struct SimulateOutcome {
   std::map<std::string, double>
       stages;  // by the device's own clock where it has one; readback, write by the wall
   SimulationReport report;
+  std::optional<double> velocityResidual;  // the report's, where it was measured
   std::string device, driver, kernel;
   std::string positionsHash;  // of the last frame
   bool interrupted = false;

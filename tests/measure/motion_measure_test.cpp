@@ -148,6 +148,21 @@ TEST(MotionMeasure, CountsFromWhereTheHeadStops) {
   EXPECT_EQ(gliding.report().strands[0].settleSeconds, 0);
 }
 
+TEST(MotionMeasure, RoundingIsNoEnergy) {
+  // Of a curl that trembles by a millionth of its length nothing is left, of one by a thousandth everything.
+  const Strand rest = cut({}, 64);
+  for (const auto& [by, left] : {std::pair{1e-6, 0.0}, std::pair{1e-3, 1.0}}) {
+    MotionMeasure motion = motionOf(groomOf({rest, moved(rest, {}, {0.1, 0, 0})}));
+    for (int k = 0; k < 48; ++k) {
+      const Strand now = stretched(rest, 1 + by * (k % 2));
+      ASSERT_TRUE(motion.addFrame(groomOf({now, moved(now, {}, {0.1, 0, 0})}).points, 1, Quatd{}));
+    }
+    EXPECT_NEAR(motion.report().energyRatio, left, 1e-2) << by;
+    EXPECT_NEAR(motion.report().strands[1].energyRatio, left, 1e-2) << by;
+    EXPECT_NEAR(*curlNumbers(motion.ruler(), motion.report()).energyRatio, left, 1e-2) << by;
+  }
+}
+
 TEST(MotionMeasure, RefusesAFrameThatIsNotFiniteAndGoesOn) {
   const Strand rest = cut({}, 64);
   MotionMeasure motion = motionOf(groomOf({rest}));

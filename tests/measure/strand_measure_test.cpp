@@ -8,6 +8,7 @@
 #include <random>
 
 #include "tests/measure/strand_samples.h"
+#include "tests/support/tolerances.h"
 
 namespace ringlet {
 namespace {

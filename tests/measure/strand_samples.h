@@ -13,10 +13,6 @@ namespace ringlet::test {
 using Strand = std::vector<Vec3d>;
 inline constexpr double kPi = std::numbers::pi;
 
-// However a curl is cut, down to 4 particles a turn, its measures are those of the curve: a hundredth is what
-// users are promised.
-inline constexpr double kSampling = 0.01;
-
 /// A helix that hangs from the origin along -Y [m].
 struct Helix {
   double radius = 0.01, turns = 8, length = 0.25;

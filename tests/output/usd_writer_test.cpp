@@ -10,7 +10,7 @@
 #include <locale>
 #include <random>
 
-#include "tests/output/usd_reader.h"
+#include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {

@@ -19,9 +19,10 @@ TEST(Make, WritesEveryKindInBothFormats) {
   };
   for (const std::string file : {"groom.obj", "groom.hair"}) {
     for (const Case& c :
-         {Case{{"make", "curl", "--particles", "20"}, 1, 20},
-          Case{{"make", "swatch", "--columns", "3", "--rows", "2", "--particles", "9"}, 6, 54},
-          Case{{"make", "head", "--strands", "25", "--particles", "16"}, 25, 400}}) {
+         {Case{{"make", "curl", "--turns", "2", "--particles", "20"}, 1, 20},
+          Case{
+              {"make", "swatch", "--columns", "3", "--rows", "2", "--turns", "2", "--particles", "9"}, 6, 54},
+          Case{{"make", "head", "--strands", "25", "--turns", "0", "--particles", "16"}, 25, 400}}) {
       auto arguments = c.arguments;
       arguments.insert(arguments.end(), {"-o", file});
       const auto result = runProgram(folder, arguments);
@@ -43,6 +44,17 @@ TEST(Make, UnitScalesTheFile) {
   ASSERT_TRUE(millimetres && metres);
   EXPECT_NEAR(millimetres->groom.points.back().y, -250, 1e-3) << "a curl is 0.25 m long by default";
   EXPECT_NEAR(metres->groom.points.back().y, -0.25, 1e-6);
+}
+
+TEST(Make, WarnsOfCurlsCutTooCoarsely) {
+  const auto folder = scratchFolder("make_coarse");
+  for (const char* kind : {"curl", "swatch", "head"}) {
+    const auto result = runProgram(folder, {"make", kind, "--particles", "30", "-o", "coarse.obj"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.err, std::string("ringlet make ") + kind +
+                              ": warning: 30 particles are 3.75 for each of the 8 turns; a curl holds its "
+                              "shape from 4, 32 in all\n");
+  }
 }
 
 TEST(Make, SaysWhereItCannotWrite) {

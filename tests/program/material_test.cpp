@@ -105,6 +105,7 @@ TEST(MaterialCommand, WritesAFileThatReadsBackTheSame) {
 TEST(MaterialCommand, MistakesAreOneSentence) {
   const auto folder = scratchFolder("material_mistakes");
   std::ofstream(folder / "broken.toml") << "preset = 'ringlet'\nbend_stifness = 5\n";
+  std::ofstream(folder / "tail.toml") << "[profile]\nbend_stiffness = []\ncore_stiffness = 5\n";
   std::ofstream(folder / "odd.toml") << "bend_damping_ratio = 0.01\n";
   struct Case {
     std::vector<std::string> arguments;
@@ -123,6 +124,10 @@ TEST(MaterialCommand, MistakesAreOneSentence) {
                 "broken.toml: line 2: found the unknown key 'bend_stifness'; "
                 "did you mean bend_stiffness?"},
            Case{{"material", "coil", "-o", "none/x.toml"}, 1, "none/x.toml"},
+           Case{{"material", "tail.toml"},
+                1,
+                "line 3: found the unknown key 'core_stiffness' in [profile]; "
+                "did you mean core_stiffness, which stands above all tables?"},
            Case{{"simulate", "curl.obj", "-o", "out", "--material", "curly"},
                 2,
                 "there is no material 'curly'"},
@@ -212,12 +217,38 @@ TEST(SimulateMaterial, WarningsAreSaid) {
   expectContains(paper["warnings"][0], "the paper's integrator has spring constants of its own");
 }
 
+TEST(SimulateMaterial, DialsAreHeldToTheirRangesAsInAFile) {
+  const auto folder = scratchFolder("simulate_dial_ranges");
+  writeCurl(folder);
+  const json unusual = simulate(folder, {"--hold", "20"});
+  ASSERT_EQ(unusual["warnings"].size(), 1u);
+  expectContains(unusual["warnings"][0], "dials.hold is 20; usual is from 0.1 to 10");
+
+  // Of a file's own dial its reader has told already, by the file's name.
+  std::ofstream(folder / "far.toml") << "[dials]\nhold = 20\n";
+  const json file = simulate(folder, {"--material", "far.toml"});
+  ASSERT_EQ(file["warnings"].size(), 1u);
+  expectContains(file["warnings"][0], "far.toml: dials.hold is 20");
+
+  // What becomes of a number is told with the dial that made it.
+  const auto result = runProgram(folder, {"simulate", "curl.obj", "-o", "none", "--spring-back", "1000"});
+  EXPECT_EQ(result.exitCode, 1);
+  expectContains(result.err,
+                 "bend_damping_ratio is 150; it must be from 0 to 100, with the dials hold 1, "
+                 "spring_back 1000, curl_keep 1 worked in");
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
 TEST(SimulateMaterial, HelpNamesTheOptions) {
   const auto folder = scratchFolder("material_help");
   const std::string help = runProgram(folder, {"simulate", "--help"}).out;
   for (const char* part :
        {"--material", "--hold", "--bounce", "--spring-back", "--curl-keep", "--max-stretch"})
     expectContains(help, part);
+  for (const auto& dial : dialParameters()) {
+    expectContains(help, dial.effect);
+    expectContains(help, rangeText(dial.allowed, dial.unit) + ", usual " + rangeText(dial.usual, dial.unit));
+  }
   expectContains(runProgram(folder, {"material", "--help"}).out, "Example:");
 }
 

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
-#include "tests/output/usd_reader.h"
 #include "tests/program/run_program.h"
+#include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
@@ -109,6 +109,12 @@ TEST_P(Backends, EveryIntegratorRuns) {
     EXPECT_EQ(out["integrator"], integrator);
     EXPECT_GE(out["steps_per_frame"].get<int>(), integrator == std::string("paper") ? 30 : 8);
     EXPECT_EQ(out["nonfinite"], 0) << integrator;
+    const bool measured = GetParam() == std::string("gpu") && integrator != std::string("paper");
+    ASSERT_TRUE(out.contains("velocity_residual"));
+    EXPECT_EQ(out["velocity_residual"].is_number(), measured) << integrator;
+    if (measured) {
+      EXPECT_LT(out["velocity_residual"].get<double>(), 1e-2) << integrator;
+    }
   }
 }
 

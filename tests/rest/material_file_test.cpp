@@ -72,7 +72,8 @@ TEST(MaterialFile, MistakesAreNamedWithLineAndRemedy) {
       {"bendStiffness = 5", "line 1: found the unknown key 'bendStiffness'; did you mean bend_stiffness?"},
       {"hold = 2", "line 1: found the unknown key 'hold'; did you mean dials.hold?"},
       {"[dials]\n\nbend_stiffness = 2",
-       "line 3: found the unknown key 'bend_stiffness' in [dials]; did you mean bend_stiffness?"},
+       "line 3: found the unknown key 'bend_stiffness' in [dials]; did you mean bend_stiffness, which stands "
+       "above all tables? [dials] takes hold, bounce, spring_back, curl_keep"},
       {"[variation]\nsead = 2",
        "line 2: found the unknown key 'sead' in [variation]; did you mean variation.seed?"},
       {"[profile]\nxyz = 2",

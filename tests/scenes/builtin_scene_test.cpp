@@ -82,6 +82,17 @@ TEST(BuiltinScene, TakesItsOptions) {
   EXPECT_EQ(paper->settings.gravityPreload, 0);
 }
 
+TEST(BuiltinScene, WarnsOfCurlsCutTooCoarsely) {
+  for (const std::string& name : sceneNames()) {
+    const auto enough = makeScene(name, {.particles = 32}), few = makeScene(name, {.particles = 31});
+    ASSERT_TRUE(enough && few) << name;
+    EXPECT_EQ(enough->warnings.size(), 0u) << name;
+    EXPECT_EQ(few->warnings.size(), name == "twist_jump" ? 0u : 1u) << "only this one has no curl: " << name;
+  }
+  EXPECT_EQ(makeScene("release", {.particles = 16})->warnings.at(0),
+            "16 particles are 2 for each of the 8 turns; a curl holds its shape from 4, 32 in all");
+}
+
 TEST(BuiltinScene, SaysWhatIsWrong) {
   expectError("walk", {}, "there are hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release");
   expectError("hanging_curl", {.particles = 1}, "particle");

@@ -5,15 +5,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "ringlet/measure/frame_turn.h"
 #include "shared/layout.h"
 #include "tests/scenes/scene_runs.h"
+#include "tests/support/tolerances.h"
 
 namespace ringlet::test {
 namespace {
 
 class TwistJump : public SceneTest {
  protected:
-  // Largest angle any frame of the strand turns by in one step [degrees].
+  // Largest angle any frame of the strand turns by in one step, by the device's own frames [degrees]. Those
+  // that FrameTurn finds from the positions turn as far, or jump as well: how far is in the last digits.
   double largestTurn(bool smoothed, int particles, int steps) {
     auto made =
         makeScene("twist_jump",
@@ -25,17 +28,25 @@ class TwistJump : public SceneTest {
     EXPECT_TRUE(simulation) << simulation.error().message;
     double smallestCosine = 1;
     std::vector<std::array<float, 4>> before;
+    FrameTurn measured(scene.groom, scene.material);
     for (int step = 0; step < scene.frameCount(); ++step) {
+      measured.look(*simulation->positions(), 1);  // a step's frames are those of its start
       EXPECT_TRUE(simulation->stepFrame(posesOfFrame(scene, step)));
       const auto frames = *simulation->tap(layout::kTapFrame);
-      for (std::size_t i = 0; i + 1 < before.size(); ++i) {  // the last particle has no edge
+      for (std::size_t i = 0; i + 2 < before.size(); ++i) {  // the last edge's frame holds none
         double cosine = 0;
         for (std::size_t k = 0; k < 4; ++k) cosine += double(before[i][k]) * frames[i][k];
         smallestCosine = std::min(smallestCosine, std::abs(cosine));
       }
       before = frames;
     }
-    return 2 * std::acos(std::min(1.0, smallestCosine)) * 180 / std::numbers::pi;
+    const double turn = 2 * std::acos(std::min(1.0, smallestCosine)) * 180 / std::numbers::pi;
+    if (smoothed) {
+      EXPECT_NEAR(measured.largest(), turn, kFrameTurnDegrees) << particles << " particles, " << steps;
+    } else {
+      EXPECT_GE(measured.largest(), 45) << particles << " particles, " << steps;
+    }
+    return turn;
   }
 
   std::vector<double> table(bool smoothed, int steps) {

@@ -1,6 +1,8 @@
 // Implements makeCurl and makeSwatch of groom/generate.h; makeHead is in generate_head.cpp.
 #include "ringlet/groom/generate.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -26,6 +28,16 @@ void addCurl(Groom& groom, Vec3d top, const CurlParameters& curl) {
 }
 
 }  // namespace
+
+std::optional<std::string> coarseCurlWarning(const CurlParameters& parameters) {
+  constexpr double kParticlesPerTurn = 4;
+  const double wanted = std::ceil(kParticlesPerTurn * parameters.turns);
+  if (parameters.particleCount >= wanted) return std::nullopt;
+  return fmt::format(
+      "{} particles are {:.3g} for each of the {} turns; a curl holds its shape from {}, {} in all",
+      parameters.particleCount, parameters.particleCount / parameters.turns, parameters.turns,
+      kParticlesPerTurn, wanted);
+}
 
 Result<Groom> makeCurl(const CurlParameters& parameters) {
   if (Status status = checkParameters(parameters); !status) return status.error();

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
@@ -57,6 +59,9 @@ struct HeadParameters {
       0.025;  // how far along a strand it turns from the scalp's normal to hanging [m], in (0, 10]
   double rampShare = 0.2;  // share of its length over which the curl's radius grows from 0, in (0, 1]
 };
+
+/// A sentence for the user where a curl is cut too coarsely to hold its shape.
+std::optional<std::string> coarseCurlWarning(const CurlParameters& parameters);
 
 /// One curl. Its root is at (radius cos(phase), 0, radius sin(phase)) and its core hangs from the origin to
 /// (0, -length, 0). Errors: a parameter outside its range.

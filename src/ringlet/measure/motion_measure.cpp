@@ -34,13 +34,18 @@ struct Energy {
   double peak = 0, ratio = 0;
 };
 
-Energy energyOf(std::span<const double> energies, double framesPerSecond) {
+// Whether the path leaves its start by more than `smallest`: else its speeds are rounding too.
+bool hasMoved(std::span<const Vec3d> path, double smallest) {
+  return std::ranges::any_of(path, [&](Vec3d p) { return length(p - path.front()) > smallest; });
+}
+
+Energy energyOf(std::span<const double> energies, double framesPerSecond, bool moved) {
   if (energies.empty()) return {};
   const std::size_t closing = closingFrameCount(energies.size(), framesPerSecond);
   double sum = 0;
   for (double energy : energies.last(closing)) sum += energy;
   const double peak = std::ranges::max(energies);
-  return {peak, peak > 0 ? sum / static_cast<double>(closing) / peak : 0};
+  return {peak, moved && peak > 0 ? sum / static_cast<double>(closing) / peak : 0};
 }
 
 }  // namespace
@@ -131,12 +136,15 @@ MotionReport MotionMeasure::report() const {
 
   std::vector<StrandMeasure> last;
   std::vector<double> total;
+  bool anyMoved = false;
   for (std::size_t s = 0; s < strands_.size(); ++s) {
     const StrandHistory& history = strands_[s];
     const double smallest = kSmallestShare * ruler_.strand(s).arcLength();
     const std::span<const Vec3d> tips = history.tips;
     const std::span<const double> coreLengths = history.coreLengths;
-    const Energy energy = energyOf(history.energies, fps);
+    const bool moved = hasMoved(tips, smallest);
+    anyMoved = anyMoved || moved;
+    const Energy energy = energyOf(history.energies, fps, moved);
     report.strands.push_back({.last = history.last,
                               .worst = history.worst,
                               .bounceHz = bounceFrequency(coreLengths.subspan(freeFrame_), fps, smallest),
@@ -149,7 +157,7 @@ MotionReport MotionMeasure::report() const {
     for (std::size_t k = 0; k < total.size(); ++k) total[k] += history.energies[k];
   }
   report.last = ruler_.summarize(last);
-  const Energy energy = energyOf(total, fps);
+  const Energy energy = energyOf(total, fps, anyMoved);
   report.peakEnergy = energy.peak;
   report.energyRatio = energy.ratio;
   return report;

@@ -34,7 +34,7 @@ struct StrandMotion {
   std::optional<double> bounceHz, swayHz;  // while the head does not drive it (tip_motion.h)
   std::optional<double> settleSeconds;     // since the head stopped driving it; nothing: not settled
   double peakEnergy = 0;                   // kinetic, seen from the root [J]
-  double energyRatio = 0;                  // mean over the closing frames / peak; 0 if it never moved
+  double energyRatio = 0;  // mean over the closing frames / peak; 0 if its tip never moved, but for rounding
 };
 
 struct MotionReport {

@@ -56,9 +56,13 @@ std::string adviceOnKey(std::string_view word, const std::string& table) {
   std::vector<std::string> names;
   for (const KnownKey& key : keys) names.push_back(key.key);
   const std::size_t nearest = nearestName(word, names);
-  if (nearest < keys.size()) return fmt::format("did you mean {}?", keys[nearest].fullName());
   names.resize(static_cast<std::size_t>(others - keys.begin()));
-  return fmt::format("expected {}", fmt::join(names, ", "));
+  if (nearest == keys.size()) return fmt::format("expected {}", fmt::join(names, ", "));
+  const KnownKey& meant = keys[nearest];
+  if (table.empty() || !meant.table.empty()) return fmt::format("did you mean {}?", meant.fullName());
+  // What follows a table's heading belongs to it, also at the end of a file.
+  return fmt::format("did you mean {}, which stands above all tables? [{}] takes {}", meant.key, table,
+                     fmt::join(names, ", "));
 }
 
 // "straight, wavy, ...; did you mean NAME?"

@@ -117,6 +117,7 @@ struct Recipe {
   Material (*material)();
   Motion motion;
   double preload, seconds;
+  bool showsFrames = false;
 };
 
 const std::vector<Recipe>& recipes() {
@@ -151,7 +152,8 @@ const std::vector<Recipe>& recipes() {
        softMaterial,
        {.kind = MotionKind::shake, .axis = forward, .amplitude = 0.1, .frequency = 2},
        1,
-       2},
+       2,
+       true},
       {"release",
        "A swatch of curls that stands out from a wall, let go under gravity.",
        horizontalSwatch,
@@ -217,13 +219,17 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
   auto groom = recipe->groom(options);
   if (!groom) return groom.error();
 
-  BuiltinScene scene{recipe->name,
-                     recipe->summary,
-                     std::move(*groom),
-                     recipe->material(),
-                     {},
-                     recipe->motion,
-                     options.seconds.value_or(recipe->seconds)};
+  BuiltinScene scene{.name = recipe->name,
+                     .summary = recipe->summary,
+                     .groom = std::move(*groom),
+                     .material = recipe->material(),
+                     .settings = {},
+                     .motion = recipe->motion,
+                     .seconds = options.seconds.value_or(recipe->seconds),
+                     .showsFrames = recipe->showsFrames,
+                     .warnings = {}};
+  const auto coarse = coarseCurlWarning(curlOf(options.particles.value_or(kParticles)));
+  if (coarse && recipe->groom != foldedStrand) scene.warnings.push_back(*coarse);
   if (!options.core) scene.material.coreStiffness = 0;
   if (!options.smoothedFrames) scene.material.bendSmoothingLength = 0;
 

@@ -35,6 +35,8 @@ struct BuiltinScene {
   Settings settings;
   Motion motion;
   double seconds = 0;
+  bool showsFrames = false;           // what it shows is how strand frames turn (measure/frame_turn.h)
+  std::vector<std::string> warnings;  // for the user: what the options spoil, a sentence each
 
   int frameCount() const;  // whole frames, at least one
 };

@@ -52,9 +52,10 @@ TEST(Measure, AGroomAlone) {
   const auto folder = scratchFolder("measure_groom");
   ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
   const json found = measureJson(folder, {"rest.obj"});
-  for (const char* key : {"strands", "particles", "frames", "droop_mm", "core_elongation", "turns",
-                          "mean_radius_mm", "handedness_kept", "arc_drift", "max_edge_stretch",
-                          "tip_rotation_deg", "bounce_hz", "settle_s", "energy_ratio"})
+  for (const char* key :
+       {"strands", "particles", "frames", "droop_mm", "core_elongation", "turns", "mean_radius_mm",
+        "handedness_kept", "arc_drift", "max_edge_stretch", "tip_rotation_deg", "bounce_hz", "settle_s",
+        "energy_ratio", "limited_share", "velocity_residual"})
     EXPECT_TRUE(found.contains(key)) << key;
   EXPECT_EQ(found["strands"], 2);
   EXPECT_EQ(found["particles"], 128);
@@ -137,6 +138,8 @@ TEST(Measure, SaysWhatIsWrong) {
         Case{{"rest.obj", "shorter.obj"}, 1, "strand 1 has 64 particles"},
         Case{{"fewer.obj", "out"}, 1, "1 and 2 strands"},
         Case{{"rest.obj", "empty"}, 1, "holds no hair.usda"},
+        Case{{"out"}, 1, "name the groom first, as in `ringlet measure groom.obj out`"},
+        Case{{"out/hair.usda", "rest.obj"}, 1, "name the groom first"},
         Case{{"rest.obj", "out", "--unit", "1"}, 1, "--unit 1 does not fit"}, Case{{}, 2, "REST"},
         Case{{"rest.obj", "--up", "X"}, 2, "X"}, Case{{"rest.obj", "--unit", "-1"}, 2, "-1"}}) {
     auto arguments = c.arguments;

@@ -24,9 +24,9 @@ struct UsdFile {
   std::map<double, std::vector<Vec3f>> points, extent;  // by time code
 };
 
-class UsdReader {
+class StrictUsdReader {
  public:
-  explicit UsdReader(const std::filesystem::path& path) {
+  explicit StrictUsdReader(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw std::runtime_error("cannot open " + path.string());
     text_.assign(std::istreambuf_iterator<char>(file), {});
@@ -182,6 +182,6 @@ class UsdReader {
   std::size_t at_ = 0;
 };
 
-inline UsdFile readUsd(const std::filesystem::path& path) { return UsdReader(path).read(); }
+inline UsdFile readUsd(const std::filesystem::path& path) { return StrictUsdReader(path).read(); }
 
 }  // namespace ringlet::test
