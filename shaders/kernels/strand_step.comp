@@ -50,7 +50,6 @@ bool isParticle(int k) { return first + k < strand.particleCount; }
 bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
 bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
-vec3 pin(int k) { return strand.pins[min(k, int(kMaxRootCount) - 1)].xyz; }  // pins lie in lane 0: RUN >= kMaxRootCount
 
 // What lies beyond the tip is void: its springs are zero (edge scale), its edges of any length, so nothing reaches back
 // from it and no stage needs to ask.
@@ -189,7 +188,7 @@ vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN -
 void solveVelocities(uint step) {
   vec3 pinned[3];
   [[unroll]] for (int k = 0; k < 3; ++k) {
-    pinned[k] = turningVelocity(step, rotate(rotationAtStart(step), pin(k)));
+    pinned[k] = pinnedVelocity(step, k);
   }
   vec3 before[RUN] = v;
   if (kIntegrator == kIntegratorJacobi) solveStrandBlock(pinned);
@@ -205,7 +204,7 @@ void solveVelocities(uint step) {
 void moveAndLimit(uint step) {
   float T = stepSeconds();
   [[unroll]] for (int k = 0; k < RUN; ++k) {
-    p[k] = isPinned(k) ? rotate(rotationAtEnd(step), pin(k)) : p[k] + T * v[k];
+    p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
   }
   // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
   vec3 vNext = fromTipward(v[0], 1);

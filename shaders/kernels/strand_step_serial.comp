@@ -71,9 +71,6 @@ void carry(float x) { scratch[slot(count - 1, kEdge)] = vec4(x, 0, 0, 0); }
 float loadCarried() { return scratch[slot(count - 1, kEdge)].x; }
 
 bool isPinned(uint i) { return i < parameters.rootCount; }
-vec3 pinnedVelocity(uint i, uint step) {
-  return turningVelocity(step, rotate(rotationAtStart(step), strand.pins[i].xyz));
-}
 
 vec4 measuredEdge(uint i) {
   vec3 e = position(i + 1) - position(i);
@@ -194,7 +191,7 @@ void solveStrandBlock(uint step) {
   vec3 v = vec3(0);
   for (uint i = 0; i < count; ++i) {
     if (isPinned(i)) {
-      v = pinnedVelocity(i, step);
+      v = pinnedVelocity(step, i);
     } else {
       mat3 M = mat3(scratchOf(i - 1, kTransfer), scratchOf(i - 1, kTransfer + 1), scratchOf(i - 1, kTransfer + 2));
       v = M * v + scratchOf(i - 1, kOffset);
@@ -217,7 +214,7 @@ void beginPointJacobi(uint step) {
     setScratch(i, kRightHandSide, rightHandSide(i));
   }
   for (uint i = 0; i < count; ++i) {
-    if (isPinned(i)) setVelocity(i, pinnedVelocity(i, step));
+    if (isPinned(i)) setVelocity(i, pinnedVelocity(step, i));
     setScratch(i, kChange, vec3(0));
   }
 }
@@ -309,7 +306,7 @@ void moveAndLimit(uint step) {
   for (uint i = 0; i < count; ++i) {
     vec3 v = solvedVelocity(i);
     if (isPinned(i)) {
-      setPosition(i, rotate(rotationAtEnd(step), strand.pins[i].xyz));
+      setPosition(i, pinAt(step + 1, i));
       if (kContacts) setVelocity(i, v);
     } else {
       vec4 edge = scratch[slot(i - 1, kEdge)];
@@ -353,7 +350,7 @@ void springs(uint step) {
     carry(1.0);
   }
   if (kIntegrator == kIntegratorPaper) {
-    for (uint i = 0; i < min(count, parameters.rootCount); ++i) setVelocity(i, pinnedVelocity(i, step));
+    for (uint i = 0; i < min(count, parameters.rootCount); ++i) setVelocity(i, pinnedVelocity(step, i));
     carry(coreScale);
   }
 }

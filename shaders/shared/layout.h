@@ -91,7 +91,8 @@ struct StrandRest {
   float restCoreLength;  // sum of |b_i| at rest [m]
   float jacobiGap;       // 1 - mu^2, mu a bound on the spectral radius of the point Jacobi iteration: the gap keeps its digits
   vec4 firstEdge;        // xyz: e_0 at rest [m]; w: mass unit [kg]
-  vec4 pins[kMaxRootCount];  // xyz: rest positions of the first particles, which the head carries [m]
+  vec4 pins[kMaxRootCount];  // xyz: rest positions of the first particles, which the head carries [m]; the three w: the
+                             // strand's shift beside the head, x, y and z [m]
 };
 
 // What the numbers did, per strand; the first three and the last since the simulation began.
@@ -109,7 +110,8 @@ struct StepPose {
   vec4 rotation;        // quaternion (x, y, z, w)
   vec4 turn;            // quaternion that takes the pose one step before to this; as the difference of two rotations it
                         // would have lost its digits
-  vec4 velocityChange;  // xyz: how much faster the head travels in this step than in the one before [m/s]
+  vec4 velocityChange;  // xyz: how much faster the head travels in this step than in the one before [m/s]; w: share of
+                        // their shift that shifted roots have gone
 };
 
 struct StepParameters {

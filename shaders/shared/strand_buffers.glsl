@@ -69,6 +69,15 @@ vec3 turningVelocity(uint step, vec3 x) { return displacement(poses[step + 1].tu
 /// And in the step before.
 vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(poses[step].turn), x) / stepSeconds(); }
 
+// Pinned particle k of the strand: the head carries it, and its shift beside.
+vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
+float shiftedShare(uint step) { return poses[step].velocityChange.w; }
+vec3 pinAt(uint pose, uint k) { return rotate(poses[pose].rotation, strand.pins[k].xyz + shiftedShare(pose) * rootShift()); }
+vec3 pinnedVelocity(uint step, uint k) {
+  float rate = (shiftedShare(step + 1) - shiftedShare(step)) / stepSeconds();
+  return turningVelocity(step, pinAt(step, k)) + rotate(rotationAtEnd(step), rate * rootShift());
+}
+
 // The strand's constants times this are the edge's.
 float edgeScaleOf(float edgeLength) { return kIntegrator == kIntegratorPaper ? 1.0 : 1.0 / edgeLength; }
 

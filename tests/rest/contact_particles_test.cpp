@@ -14,7 +14,7 @@ using namespace test;
 
 double apart(Vec3f a, Vec3f b) { return length(static_cast<Vec3d>(a) - static_cast<Vec3d>(b)); }
 
-ContactSettings withRadius(double radius) {
+ContactSettings withRadius(std::optional<double> radius) {
   ContactSettings settings;
   settings.radius = radius;
   settings.fillGaps = true;
@@ -123,8 +123,7 @@ Kept byTheLaw(std::span<const Vec3f> p, double radius, double spacing) {
 TEST(ContactParticles, FollowTheLawAndLeaveNoGap) {
   for (const ContactSample& sample : contactSamples()) {
     const RestState rest = restOf(sample.groom);
-    for (const ContactSettings& settings :
-         {ContactSettings{.fillGaps = true}, withRadius(0.002), withRadius(0.03)}) {
+    for (const ContactSettings& settings : {withRadius({}), withRadius(0.002), withRadius(0.03)}) {
       const ContactParticles contacts = chooseContactParticles(rest, settings);
       ASSERT_EQ(contacts.firstOfStrand.size(), rest.strands.size() + 1);
       ASSERT_EQ(contacts.firstOfStrand.back(), contacts.particles.size());

@@ -268,12 +268,13 @@ Status Simulation::Implementation::runFrame() {
 void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses) {
   const double T = settings.stepSeconds();
   const auto poses = buffers.mappedPoses();
-  poses[0] = {packed(head.now.rotation), packed(head.turn()), {}};
+  poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const Vec3d before = head.velocity(T);
     head = {head.now, stepPoses[k]};
     head.now.rotation = normalized(head.now.rotation);
     poses[1 + k] = {packed(head.now.rotation), packed(head.turn()), packed(head.velocity(T) - before)};
+    poses[1 + k].velocityChange.w = static_cast<float>(head.now.shift);
   }
 }
 
@@ -342,6 +343,16 @@ Status Simulation::setState(const HairState& state) {
   const auto pack = [](Vec3f v) { return packed(v); };
   return self_->uploadState(inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.positions, pack),
                             inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.velocities, pack));
+}
+
+Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {
+  std::vector<layout::StrandRest>& strands = self_->rest.strands;
+  RINGLET_ASSERT(shifts.size() == strands.size(), "every strand has a root shift");
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    const Vec3f shift = static_cast<Vec3f>(shifts[self_->rest.strandInGroom[s]]);
+    strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
+  }
+  return self_->buffers.strands.upload(std::as_bytes(std::span(strands)));
 }
 
 const HeadPose& Simulation::head() const { return self_->head.now; }

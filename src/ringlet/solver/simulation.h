@@ -95,6 +95,11 @@ class Simulation {
   Result<HairState> state() const;
   Status setState(const HairState& state);
 
+  /// How far each strand's root (groom order) moves beside the head, when the head's pose has `shift` 1: in
+  /// the groom's axes [m]. For scenes that bring hair together which is apart at rest. Before the first
+  /// frame.
+  Status setRootShifts(std::span<const Vec3d> shifts);
+
   const HeadPose& head() const;
   Result<SimulationReport> report() const;
   Result<ContactReport> contactReport() const;
