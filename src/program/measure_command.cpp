@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/shape_distance.h"
 #include "ringlet/output/usd_reader.h"
 
 namespace ringlet::program {
@@ -28,26 +30,34 @@ constexpr const char* kExample =
     "  ringlet measure groom.obj                     the curls of a groom\n"
     "  ringlet measure groom.obj settled.obj         what is left of them in another pose\n"
     "  ringlet measure groom.obj out --json          and in what `ringlet simulate` wrote\n"
+    "  ringlet measure groom.obj out --against settled.obj\n"
+    "                                                and how far that is from one more pose\n"
     "\n"
     "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or its hair.usda.\n"
-    "Against an animation the groom counts as the frame before the first; tables show the last frame.\n"
+    "In an animation the groom counts as the frame before the first; tables show the last frame.\n"
     "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
     "root, or roots on a line, cannot show every turn; the head then turns as little as they allow).\n"
     "Bounce (of the core's length), sway and settling are those after the head last drove the hair.\n"
+    "--against compares that pose, or the last frame, with one more pose, in REST's unit. With their roots\n"
+    "put together it says how far particles and cores (root mean square) and tips are apart, the angle\n"
+    "between the cores' chords, and by how much turns and mean radius are more.\n"
     "\n"
     "--json keys: strands particles frames; over strands of the last frame, means: droop_mm\n"
     "core_elongation, and of the curled: turns mean_radius_mm; handedness_kept: by all;\n"
     "tip_rotation_deg: the largest; over all frames, the largest: arc_drift max_edge_stretch worst\n"
     "{droop_mm core_elongation tip_rotation_deg}; of the motion: bounce_hz sway_hz (means) settle_s (the\n"
     "last to settle) energy_ratio (last second over peak); spread {KEY: [mean, min, max]} of the last\n"
-    "frame; per_strand with --strands. null: nothing to measure; so are limited_share and\n"
-    "velocity_residual, which only a run knows (`ringlet simulate --json`, `ringlet scene --json`).\n"
+    "frame; against {KEY: [mean, min, max]} with --against: particles tip core (shares of the arc length)\n"
+    "direction_deg turns radius (shares of those at rest); per_strand with --strands. null: nothing to\n"
+    "measure; so are limited_share and velocity_residual, which only a run knows (`ringlet simulate "
+    "--json`,\n"
+    "`ringlet scene --json`).\n"
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
 
 // The command line as typed.
 struct Typed {
-  std::filesystem::path rest, other;
+  std::filesystem::path rest, other, against;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
   bool json = false, strands = false;
@@ -56,8 +66,9 @@ struct Typed {
 // What was measured: a groom alone, another pose of it, or a motion. Only the last has frames.
 struct Measured {
   GroomRuler ruler;
-  std::vector<StrandMeasure> strands;  // of the pose, or of the last frame
-  std::vector<StrandMotion> motions;   // one a strand, or none
+  std::vector<StrandMeasure> strands;    // of the pose, or of the last frame
+  std::vector<StrandMotion> motions;     // one a strand, or none
+  std::vector<ShapeDistance> distances;  // from --against, one a strand, or none
   CurlNumbers numbers;
   double seconds = 0, freeSeconds = 0;
   bool isPose = false;        // against another pose or a motion
@@ -74,9 +85,10 @@ Result<Groom> read(const std::filesystem::path& path, double metresPerUnit) {
   return std::move(loaded->groom);
 }
 
-// Whether two files hold the same strands, particle for particle.
-Status checkSameStrands(const Groom& rest, const std::vector<std::uint32_t>& counts, const Typed& typed) {
-  const std::string files = fmt::format("{} and {}", typed.rest.string(), typed.other.string());
+// Whether the file `path` holds the same strands as REST, particle for particle.
+Status checkSameStrands(const Groom& rest, const std::vector<std::uint32_t>& counts, const Typed& typed,
+                        const std::filesystem::path& path) {
+  const std::string files = fmt::format("{} and {}", typed.rest.string(), path.string());
   if (counts.size() != rest.strandCount()) {
     return Error{fmt::format("{} hold {} and {} strands; only the same strands can be compared", files,
                              rest.strandCount(), counts.size())};
@@ -85,9 +97,31 @@ Status checkSameStrands(const Groom& rest, const std::vector<std::uint32_t>& cou
     if (counts[s] == rest.strand(s).size()) continue;
     return Error{
         fmt::format("strand {} has {} particles in {} and {} in {}; only the same strands can be compared", s,
-                    rest.strand(s).size(), typed.rest.string(), counts[s], typed.other.string())};
+                    rest.strand(s).size(), typed.rest.string(), counts[s], path.string())};
   }
   return {};
+}
+
+// Another pose of REST's strands.
+Result<Groom> readPose(const Groom& rest, const Typed& typed, const std::filesystem::path& path) {
+  auto pose = read(path, rest.metresPerUnit);
+  if (!pose) return pose.error();
+  std::vector<std::uint32_t> counts;
+  for (std::size_t s = 0; s < pose->strandCount(); ++s)
+    counts.push_back(static_cast<std::uint32_t>(pose->strand(s).size()));
+  if (Status same = checkSameStrands(rest, counts, typed, path); !same) return same.error();
+  return pose;
+}
+
+// How far `points`, in REST's unit, are from the pose of --against, if there is one.
+Result<std::vector<ShapeDistance>> measureAgainst(const GroomRuler& ruler, const Groom& rest,
+                                                  std::span<const Vec3f> points, const Typed& typed) {
+  if (typed.against.empty()) return std::vector<ShapeDistance>{};
+  auto pose = readPose(rest, typed, typed.against);
+  if (!pose) return pose.error();
+  auto distances = shapeDistances(ruler, points, pose->points, rest.metresPerUnit);
+  if (!distances) return Error{fmt::format("{}: {}", typed.against.string(), distances.error().message)};
+  return distances;
 }
 
 Vec3d upOf(const Typed& typed, UpAxis otherwise) {
@@ -104,21 +138,25 @@ Result<Measured> measureGroom(const Typed& typed) {
   std::vector<StrandMeasure> strands = ruler->rest();
 
   // The same strands elsewhere.
+  std::vector<Vec3f> points = rest->points;
   if (!typed.other.empty()) {
-    auto other = read(typed.other, unit);
+    auto other = readPose(*rest, typed, typed.other);
     if (!other) return other.error();
-    std::vector<std::uint32_t> counts;
-    for (std::size_t s = 0; s < other->strandCount(); ++s)
-      counts.push_back(static_cast<std::uint32_t>(other->strand(s).size()));
-    if (Status same = checkSameStrands(*rest, counts, typed); !same) return same.error();
     auto measured = ruler->measure(other->points, unit, upOf(typed, UpAxis::y),
                                    ruler->headRotationOf(other->points, unit));
     if (!measured) return Error{fmt::format("{}: {}", typed.other.string(), measured.error().message)};
     strands = std::move(*measured);
+    points = std::move(other->points);
   }
+  auto distances = measureAgainst(*ruler, *rest, points, typed);
+  if (!distances) return distances.error();
+
   const CurlNumbers numbers = curlNumbers(*ruler, strands);
-  Measured measured{
-      .ruler = std::move(*ruler), .strands = std::move(strands), .motions = {}, .numbers = numbers};
+  Measured measured{.ruler = std::move(*ruler),
+                    .strands = std::move(strands),
+                    .motions = {},
+                    .distances = std::move(*distances),
+                    .numbers = numbers};
   measured.isPose = !typed.other.empty();
   return measured;
 }
@@ -133,7 +171,8 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   }
   auto rest = read(typed.rest, unit);
   if (!rest) return rest.error();
-  if (Status same = checkSameStrands(*rest, reader->particleCounts(), typed); !same) return same.error();
+  if (Status same = checkSameStrands(*rest, reader->particleCounts(), typed, typed.other); !same)
+    return same.error();
 
   // Frame by frame, from the groom itself on.
   auto motion = MotionMeasure::make(
@@ -150,8 +189,15 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   }
   if (motion->frameCount() < 2) return Error{fmt::format("{} holds no frame", path.string())};
 
+  auto distances = measureAgainst(motion->ruler(), *rest, points, typed);
+  if (!distances) return distances.error();
+
   MotionReport report = motion->report();
-  Measured measured{.ruler = motion->ruler(), .strands = {}, .motions = {}, .numbers = {}};
+  Measured measured{.ruler = motion->ruler(),
+                    .strands = {},
+                    .motions = {},
+                    .distances = std::move(*distances),
+                    .numbers = {}};
   measured.numbers = curlNumbers(motion->ruler(), report);
   --measured.numbers.frameCount;  // the groom itself is none of the file's
   for (const StrandMotion& strand : report.strands) measured.strands.push_back(strand.last);
@@ -217,12 +263,34 @@ constexpr Row kRows[] = {
     {"tip rotation [deg]", "tip_rotation_deg", &StrandMeasure::tipRotation, 1, 2, true},
 };
 
-// JSON has shares where the table has per cent.
-double jsonScale(const Row& row) { return row.scale == 100 ? 1 : row.scale; }
+// The same of the distances from --against.
+struct DistanceRow {
+  const char* label;
+  const char* heading;  // of a column
+  const char* key;
+  double ShapeDistance::*member;
+  double scale;
+  int digits;
+};
+constexpr DistanceRow kDistanceRows[] = {
+    {"particles [% length]", "apart %", "particles", &ShapeDistance::particles, 100, 4},
+    {"tip [% length]", "tip %", "tip", &ShapeDistance::tip, 100, 4},
+    {"core [% length]", "core %", "core", &ShapeDistance::core, 100, 4},
+    {"direction [deg]", "dir deg", "direction_deg", &ShapeDistance::direction, 1, 2},
+    {"turns [%]", "turns %", "turns", &ShapeDistance::turns, 100, 3},
+    {"radius [%]", "radius %", "radius", &ShapeDistance::radius, 100, 3},
+};
 
-std::vector<double> valuesOf(const std::vector<StrandMeasure>& strands, const Row& row, double scale) {
+// JSON has shares where the table has per cent.
+template <class AnyRow>
+double jsonScale(const AnyRow& row) {
+  return row.scale == 100 ? 1 : row.scale;
+}
+
+template <class Strand, class AnyRow>
+std::vector<double> valuesOf(const std::vector<Strand>& strands, const AnyRow& row, double scale) {
   std::vector<double> values;
-  for (const StrandMeasure& strand : strands) values.push_back(strand.*row.member * scale);
+  for (const Strand& strand : strands) values.push_back(strand.*row.member * scale);
   return values;
 }
 
@@ -236,6 +304,12 @@ nlohmann::ordered_json asJson(const Typed& typed, const Measured& measured) {
   for (const Row& row : kRows) {
     const Spread spread = spreadOf(valuesOf(measured.strands, row, jsonScale(row)));
     json["spread"][row.key] = {spread.mean, spread.min, spread.max};
+  }
+  if (!measured.distances.empty()) {
+    for (const DistanceRow& row : kDistanceRows) {
+      const Spread spread = spreadOf(valuesOf(measured.distances, row, jsonScale(row)));
+      json["against"][row.key] = {spread.mean, spread.min, spread.max};
+    }
   }
   if (!typed.strands) return json;
 
@@ -255,6 +329,10 @@ nlohmann::ordered_json asJson(const Typed& typed, const Measured& measured) {
       entry["settle_s"] = orNull(motion.settleSeconds);
       entry["energy_ratio"] = motion.energyRatio;
     }
+    if (!measured.distances.empty()) {
+      for (const DistanceRow& row : kDistanceRows)
+        entry["against"][row.key] = measured.distances[s].*row.member * jsonScale(row);
+    }
     json["per_strand"].push_back(std::move(entry));
   }
   return json;
@@ -264,7 +342,7 @@ std::string count(std::size_t number, const char* noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
-std::string summaryText(const Measured& measured) {
+std::string summaryText(const Typed& typed, const Measured& measured) {
   const GroomMeasure groom = measured.ruler.summarize(measured.strands);
   const CurlNumbers& numbers = measured.numbers;
   const std::size_t bothHands = groom.curledCount - groom.rightHandedCount - groom.leftHandedCount;
@@ -291,6 +369,11 @@ std::string summaryText(const Measured& measured) {
       const Spread& rest = groom.meanRadiusAtRest;
       line("  at rest [mm]", {1000 * rest.mean, 1000 * rest.min, 1000 * rest.max}, row.digits);
     }
+  }
+  if (!measured.distances.empty()) {
+    text += fmt::format("\n  against {}\n", typed.against.string());
+    for (const DistanceRow& row : kDistanceRows)
+      line(row.label, spreadOf(valuesOf(measured.distances, row, row.scale)), row.digits);
   }
   if (measured.isPose)
     text +=
@@ -328,6 +411,9 @@ std::string strandsText(const Measured& measured) {
   }
   if (!measured.motions.empty())
     text += fmt::format("{:>10}{:>10}{:>10}{:>10}", "bounce Hz", "sway Hz", "settle s", "energy");
+  if (!measured.distances.empty()) {
+    for (const DistanceRow& row : kDistanceRows) text += fmt::format("{:>10}", row.heading);
+  }
   text += "\n";
   for (std::size_t s = 0; s < measured.strands.size(); ++s) {
     text += fmt::format("{:>7}{:>10}", s, measured.ruler.strand(s).particleCount());
@@ -339,6 +425,10 @@ std::string strandsText(const Measured& measured) {
       const StrandMotion& motion = measured.motions[s];
       text += fmt::format("{:>10}{:>10}{:>10}{:>10.2g}", shown(motion.bounceHz, 3), shown(motion.swayHz, 3),
                           shown(motion.settleSeconds, 2), motion.energyRatio);
+    }
+    if (!measured.distances.empty()) {
+      for (const DistanceRow& row : kDistanceRows)
+        text += fmt::format("{:>10}", shown(measured.distances[s].*row.member * row.scale, row.digits));
     }
     text += "\n";
   }
@@ -355,7 +445,7 @@ int run(const Typed& typed) {
   if (typed.json) {
     fmt::print("{}\n", asJson(typed, *measured).dump(2));
   } else {
-    fmt::print("{}{}", summaryText(*measured), typed.strands ? strandsText(*measured) : "");
+    fmt::print("{}{}", summaryText(typed, *measured), typed.strands ? strandsText(*measured) : "");
   }
   return kExitFine;
 }
@@ -404,6 +494,10 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
   command->add_option("--up", typed->up, "The files' up axis, Y or Z (default: the animation's, else Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
+  command
+      ->add_option("--against", typed->against,
+                   "Another pose of these strands (.hair, .obj), to compare with")
+      ->type_name("FILE");
   command->add_flag("--strands", typed->strands, "Every strand by itself too");
   command->add_flag("--json", typed->json, "Print one JSON object instead of tables");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });

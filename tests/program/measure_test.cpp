@@ -116,6 +116,42 @@ TEST(Measure, AnAnimation) {
   EXPECT_NE(cut.err.find("not finished"), std::string::npos) << cut.err;
 }
 
+TEST(Measure, AgainstAThirdPose) {
+  const auto folder = scratchFolder("measure_against");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  ASSERT_TRUE(writeGroom(folder / "longer.obj", twoCurls(1.1)));
+  ASSERT_TRUE(writeGroom(folder / "shorter.hair", twoCurls(0.9)));
+  writeAnimation(folder / "out");
+  // Tips of curls 25 cm long, as shares of their arc.
+  const double length = 0.25 / std::hypot(2 * kPi * 0.01 * 8, 0.25);
+  struct Case {
+    std::vector<std::string> arguments;
+    double tip;
+  };
+  for (const Case& c : {Case{{"rest.obj", "--against", "longer.obj"}, 0.1},
+                        Case{{"rest.obj", "rest.obj", "--against", "longer.obj"}, 0.1},
+                        Case{{"rest.obj", "longer.obj", "--against", "shorter.hair"}, 0.2},
+                        Case{{"rest.obj", "longer.obj", "--against", "longer.obj"}, 0},
+                        Case{{"rest.obj", "out", "--against", "shorter.hair"}, 0.1}}) {
+    const json found = measureJson(folder, c.arguments);
+    const json& against = found["against"];
+    for (const char* key : {"particles", "tip", "core", "direction_deg", "turns", "radius"})
+      ASSERT_EQ(against[key].size(), 3u) << key;
+    EXPECT_NEAR(against["tip"][0].get<double>(), c.tip * length, 1e-3 * length);
+    EXPECT_NEAR(against["particles"][2].get<double>(), c.tip * length / std::sqrt(3), 1e-3 * length);
+    EXPECT_NEAR(against["turns"][1].get<double>(), 0, 1e-3);
+  }
+  EXPECT_FALSE(measureJson(folder, {"rest.obj", "longer.obj"}).contains("against"));
+  const json strands = measureJson(folder, {"rest.obj", "--against", "longer.obj", "--strands"});
+  EXPECT_NEAR(strands["per_strand"][1]["against"]["tip"].get<double>(), 0.1 * length, 1e-3 * length);
+
+  const ProgramResult text =
+      runProgram(folder, {"measure", "rest.obj", "out", "--against", "longer.obj", "--strands"});
+  EXPECT_EQ(text.exitCode, 0) << text.err;
+  for (const char* part : {"against longer.obj", "particles [% length]", "direction [deg]", "apart %"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+}
+
 TEST(Measure, SaysWhatIsWrong) {
   const auto folder = scratchFolder("measure_wrong");
   ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
@@ -137,6 +173,9 @@ TEST(Measure, SaysWhatIsWrong) {
         Case{{"rest.obj", "fewer.obj"}, 1, "2 and 1 strands"},
         Case{{"rest.obj", "shorter.obj"}, 1, "strand 1 has 64 particles"},
         Case{{"fewer.obj", "out"}, 1, "1 and 2 strands"},
+        Case{{"rest.obj", "--against", "fewer.obj"}, 1, "rest.obj and fewer.obj hold 2 and 1 strands"},
+        Case{{"rest.obj", "out", "--against", "shorter.obj"}, 1, "63 in shorter.obj"},
+        Case{{"rest.obj", "--against", "missing.obj"}, 1, "missing.obj"},
         Case{{"rest.obj", "empty"}, 1, "holds no hair.usda"},
         Case{{"out"}, 1, "name the groom first, as in `ringlet measure groom.obj out`"},
         Case{{"out/hair.usda", "rest.obj"}, 1, "name the groom first"},

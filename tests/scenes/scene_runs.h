@@ -25,6 +25,7 @@ struct SceneRun {
   CurlNumbers numbers;
   SimulationReport report;
   std::vector<std::vector<Vec3d>> tips;  // of each strand, frame by frame, the start first
+  std::vector<Vec3f> last;               // positions after the last frame, in groom order
 };
 
 inline std::vector<Vec3d> tipsOf(const Groom& groom, std::span<const Vec3f> positions) {
@@ -79,6 +80,7 @@ class SceneTest : public GpuTest {
       ASSERT_TRUE(positions) << positions.error().message;
       const std::vector<Vec3d> tips = tipsOf(scene.groom, *positions);
       for (std::size_t s = 0; s < tips.size(); ++s) run.tips[s].push_back(tips[s]);
+      run.last = *positions;
       for (Vec3f& p : *positions) p += Vec3f(head.position);
       const Status added = measure->addFrame(*positions, 1, head.rotation);
       ASSERT_TRUE(added) << added.error().message;
