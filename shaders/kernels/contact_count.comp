@@ -6,7 +6,7 @@
 void main() {
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  uint bucket = bucketOf(cellOf(positions[contacts[c].particle].xyz));
+  uint bucket = bucketOf(cellOf(positionOf(contactOf(c).particle)));
   grid[gridBucketOf(c)] = bucket;
   grid[gridRank(c)] = atomicAdd(grid[gridCount(bucket)], 1);
 }

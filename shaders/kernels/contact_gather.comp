@@ -10,16 +10,16 @@ void main() {
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
   uint row = rowOf(c);
-  uint particle = contacts[c].particle;
-  vec3 v = solved[particle].xyz;
+  ContactRest rest = contactOf(c);
+  vec3 v = velocityOf(rest.particle);
   uint count = listCounts[row];
   vec3 momentum = vec3(0);
   for (uint j = 0; j < count; ++j) {
-    vec4 normal = normals[c * parameters.stride + j];
-    float tangential = parameters.friction > 0.0 ? lives[pairOf(row, j)].tangential : 0.0;
+    vec4 normal = normalAt(c * parameters.stride + j);
+    float tangential = parameters.friction > 0.0 ? lifeAt(pairOf(row, j)).tangential : 0.0;
     if (normal.w == 0.0 && tangential == 0.0) continue;
-    vec3 both = v + solved[pairs[pairOf(row, j)].particle].xyz;
+    vec3 both = v + velocityOf(pairAt(pairOf(row, j)).particle);
     momentum += contactMultiply(normal.w, tangential, normal.xyz, both);
   }
-  systems[particle].momentum.xyz = systems[particle].push.xyz + contacts[c].inverseMassUnit * momentum;
+  systems[rest.particle].momentum = systems[rest.particle].push + vec4(rest.inverseMassUnit * momentum, 0);
 }

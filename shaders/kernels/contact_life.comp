@@ -11,9 +11,9 @@ void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  ContactRest rest = contacts[c];
-  vec3 x = positions[rest.particle].xyz;
-  vec3 v = solved[rest.particle].xyz;
+  ContactRest rest = contactOf(c);
+  vec3 x = positionOf(rest.particle);
+  vec3 v = velocityOf(rest.particle);
   float T = parameters.seconds;
   vec3 changes = vec3(parameters.ramp, parameters.stiffnessRelease, parameters.dampingRelease);
   uint row = rowOf(c);
@@ -22,12 +22,17 @@ void main() {
   vec3 push = vec3(0);
   vec3 momentum = vec3(0);
   for (uint j = 0; j < count; ++j) {
-    ContactPair pair = pairs[pairOf(row, j)];
-    vec3 otherVelocity = solved[pair.particle].xyz;
+    ContactPair pair = pairAt(pairOf(row, j));
+    vec3 otherVelocity = velocityOf(pair.particle);
     ContactMeeting meeting =
-        contactMeeting(x - positions[pair.particle].xyz, v - otherVelocity, rest.particle < pair.particle);
+        contactMeeting(x - positionOf(pair.particle), v - otherVelocity, rest.particle < pair.particle);
     bool touching = isTouching(meeting, pair.restLength, T, parameters.seenAhead);
-    ContactLife old = lives[pairOf(row, j)];
+    ContactLife old = lifeAt(pairOf(row, j));
+    // Most pairs are only near each other.
+    if (!touching && old.stiffnessShare == 0.0 && old.dampingShare == 0.0) {
+      normals[c * parameters.stride + j] = vec4(0);
+      continue;
+    }
     vec2 life = nextLife(vec2(old.stiffnessShare, old.dampingShare), touching, meeting.distance, pair.restLength, changes,
                          parameters.breakFactor);
     ContactWeights weights = contactWeights(life, touching, meeting.distance, pair.restLength, pair.stiffness,

@@ -7,10 +7,10 @@
 void main() {
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  uint particle = contacts[c].particle;
-  vec3 x = positions[particle].xyz;
-  vec3 v = solved[particle].xyz;
-  float motion = length(x - places[c].position.xyz) + parameters.seconds * length(v - places[c].velocity.xyz);
+  uint particle = contactOf(c).particle;
+  vec3 x = positionOf(particle);
+  vec3 v = velocityOf(particle);
+  float motion = length(x - listedPosition(c)) + parameters.seconds * length(v - listedVelocity(c));
   float speed = length(v);
   // Numbers that are lost must not pass for small ones.
   if (!(motion < 1e30)) motion = 1e30;

@@ -13,5 +13,5 @@ void main() {
   uint end = startOf(bucket + 1);
   uint before = 0;
   for (uint other = start; other < end; ++other) before += grid[gridEntry(other)] < c ? 1 : 0;
-  places[start + before].sorted = vec4(positions[contacts[c].particle].xyz, uintBitsToFloat(c));
+  places[start + before].sorted = vec4(positionOf(contactOf(c).particle), uintBitsToFloat(c));
 }

@@ -23,13 +23,15 @@ bool mayTouch(uint a, uint b) {
   return false;
 }
 
-// The pair's life so far, from the row that was in use.
-vec2 lifeOf(uint c, uint particle) {
-  uint row = 2 * c + (control.parity ^ 1);
-  uint count = listCounts[row];
-  for (uint j = 0; j < count; ++j) {
-    if (pairs[pairOf(row, j)].particle == particle) {
-      ContactLife life = lives[pairOf(row, j)];
+// The pair's life so far, from the row that was in use. Cells come in the same order as last time, mostly, so it is looked
+// for where the last one was found, and onwards.
+uint lastFound = 0;
+vec2 lifeOf(uint row, uint count, uint particle) {
+  for (uint tried = 0; tried < count; ++tried) {
+    uint j = lastFound + tried < count ? lastFound + tried : lastFound + tried - count;
+    if (pairAt(pairOf(row, j)).particle == particle) {
+      lastFound = j + 1;
+      ContactLife life = lifeAt(pairOf(row, j));
       return vec2(life.stiffnessShare, life.dampingShare);
     }
   }
@@ -39,17 +41,21 @@ vec2 lifeOf(uint c, uint particle) {
 void main() {
   uint place = gl_GlobalInvocationID.x;
   if (place >= parameters.contactCount) return;
-  vec4 self = places[place].sorted;
+  vec4 self = sortedAt(place);
   uint c = floatBitsToUint(self.w);
-  ContactRest rest = contacts[c];
+  ContactRest rest = contactOf(c);
   precise vec3 x = self.xyz;
-  vec3 v = solved[rest.particle].xyz;
+  vec3 v = velocityOf(rest.particle);
   float T = parameters.seconds;
   float seenAhead = max(parameters.seenAhead, parameters.breakFactor);
-  precise float farthest = seenAhead * (rest.point.w + parameters.largestRadius) + parameters.skin;
+  // No pair's reach is larger: by the radii, and by the fastest there is.
+  float mostR = rest.point.w + parameters.largestRadius;
+  precise float farthest = min(seenAhead * mostR + parameters.skin, control.cellSize);
   ivec3 cell = cellOf(x);
   uint row = rowOf(c);
-  uint count = 0;
+  uint oldRow = row ^ 1;
+  uint oldCount = listCounts[oldRow];
+  uint count = 0;  // pairs in the list
   for (int z = cell.z - 1; z <= cell.z + 1; ++z) {
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
       // Three cells along x: a range of entries, which may go on from the last bucket to the first.
@@ -58,42 +64,50 @@ void main() {
       uint entry = startOf(first);
       uint entries = startOf(min(end, parameters.bucketCount)) - entry;
       if (end > parameters.bucketCount) entries += startOf(end - parameters.bucketCount);
-      for (; entries > 0; --entries, ++entry) {
-        if (entry == parameters.contactCount) entry = 0;
-        vec4 near = places[entry].sorted;
-        precise vec3 apart = x - near.xyz;
-        precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
-        if (!(squared < farthest * farthest)) continue;
-        uint b = floatBitsToUint(near.w);
-        if (b == c) continue;
-        // Other cells may share a bucket, and a bucket may come by twice.
-        ivec3 nearCell = cellOf(near.xyz);
-        if (nearCell.y != y || nearCell.z != z || abs(nearCell.x - cell.x) > 1) continue;
-        ContactRest other = contacts[b];
-        if (rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0) continue;
-        if (!mayTouch(rest.strand, other.strand)) continue;
-
-        float R = rest.point.w + other.point.w;
-        float r0 = min(R, distance(rest.point.xyz, other.point.xyz));
-        float ahead = T * length(v - solved[other.particle].xyz);
-        precise float reach = min(parameters.breakFactor * r0 + ahead, seenAhead * r0) + parameters.skin;
-        if (!(squared < reach * reach)) continue;
-        if (count < parameters.stride) {
+      while (entries > 0) {
+        // Near ones are noted behind the list, while there is room.
+        uint queued = count;
+        for (; entries > 0 && queued < parameters.stride; --entries, ++entry) {
+          if (entry == parameters.contactCount) entry = 0;
+          vec4 near = sortedAt(entry);
+          precise vec3 apart = x - near.xyz;
+          precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
+          if (!(squared < farthest * farthest)) continue;
+          // Other cells may share a bucket, and a bucket may come by twice.
+          ivec3 nearCell = cellOf(near.xyz);
+          if (nearCell.y != y || nearCell.z != z || abs(nearCell.x - cell.x) > 1) continue;
+          pairs[pairOf(row, queued)] = ContactPair(floatBitsToUint(near.w), squared, 0.0, 0.0);
+          ++queued;
+        }
+        // All invocations look at what they have found together; a driver that runs them in step would else do it for one
+        // after the other.
+        for (uint j = count; j < queued; ++j) {
+          uint b = pairs[pairOf(row, j)].particle;
+          float squared = pairs[pairOf(row, j)].restLength;
+          ContactRest other = contactOf(b);
+          if (b == c || (rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0)) continue;
+          float R = rest.point.w + other.point.w;
+          float r0 = min(R, distance(rest.point.xyz, other.point.xyz));
+          float ahead = T * length(v - velocityOf(other.particle));
+          float reach = min(parameters.breakFactor * r0 + ahead, seenAhead * r0) + parameters.skin;
+          if (!(squared < reach * reach) || !mayTouch(rest.strand, other.strand)) continue;
           float mass = 0.5 * (rest.mass + other.mass);
           float k = parameters.stiffness * mass / R;
-          pairs[pairOf(row, count)] =
-              ContactPair(other.particle, r0, k, 2.0 * parameters.dampingRatio * sqrt(k * mass));
-          vec2 life = lifeOf(c, other.particle);
+          vec2 life = lifeOf(oldRow, oldCount, other.particle);
+          pairs[pairOf(row, count)] = ContactPair(other.particle, r0, k, 2.0 * parameters.dampingRatio * sqrt(k * mass));
           lives[pairOf(row, count)] = ContactLife(life.x, life.y, 0.0, 0.0);
+          ++count;
         }
-        ++count;
+        if (count == parameters.stride) {  // full; whether there are more does not matter
+          atomicMax(control.longestList, count);
+          control.isHalted = 1;
+          entries = 0;
+        }
       }
     }
   }
-  listCounts[row] = min(count, parameters.stride);
+  listCounts[row] = count;
   places[c].position = vec4(x, 0);
   places[c].velocity = vec4(v, 0);
   atomicAdd(control.listed, count);
-  if (count > control.longestList) atomicMax(control.longestList, count);
-  if (count > parameters.stride) control.isHalted = 1;
 }

@@ -1,9 +1,9 @@
-// The buffers and parameters of the contact kernels (layout.h). A kernel says what it only reads with RINGLET_READS_*, so
-// that the validation layer can see a missing barrier.
+// The buffers and parameters of the contact kernels (layout.h).
 #ifndef RINGLET_CONTACT_BUFFERS
 #define RINGLET_CONTACT_BUFFERS
 
 #include "shared/layout.h"
+#include "shared/texels.glsl"
 
 layout(local_size_x_id = 0) in;
 
@@ -19,7 +19,37 @@ layout(set = 0, binding = kBindLives) buffer Lives { ContactLife lives[]; };
 layout(set = 0, binding = kBindNormals) buffer Normals { vec4 normals[]; };
 layout(set = 0, binding = kBindSystems) buffer Systems { ContactSystem systems[]; };
 layout(set = 0, binding = kBindControl) buffer Control { ContactControl control; };
+layout(set = 0, binding = kBindContactPositionTexels) uniform usamplerBuffer positionTexels;
+layout(set = 0, binding = kBindContactSolvedTexels) uniform usamplerBuffer solvedTexels;
+layout(set = 0, binding = kBindContactTexels) uniform usamplerBuffer contactTexels;
+layout(set = 0, binding = kBindPlaceTexels) uniform usamplerBuffer placeTexels;
+layout(set = 0, binding = kBindPairTexels) uniform usamplerBuffer pairTexels;
+layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
+layout(set = 0, binding = kBindNormalTexels) uniform usamplerBuffer normalTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
+
+// Records as they were when the dispatch began.
+vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
+vec3 velocityOf(uint particle) { return kTexels ? vectorAt(solvedTexels, particle).xyz : solved[particle].xyz; }
+ContactRest contactOf(uint c) {
+  if (!kTexels) return contacts[c];
+  uvec4 b = recordAt(contactTexels, 2 * c + 1);
+  return ContactRest(vectorAt(contactTexels, 2 * c), b.x, b.y, uintBitsToFloat(b.z), uintBitsToFloat(b.w));
+}
+vec4 sortedAt(uint place) { return kTexels ? vectorAt(placeTexels, 3 * place) : places[place].sorted; }
+vec3 listedPosition(uint c) { return kTexels ? vectorAt(placeTexels, 3 * c + 1).xyz : places[c].position.xyz; }
+vec3 listedVelocity(uint c) { return kTexels ? vectorAt(placeTexels, 3 * c + 2).xyz : places[c].velocity.xyz; }
+ContactPair pairAt(uint entry) {
+  if (!kTexels) return pairs[entry];
+  uvec4 pair = recordAt(pairTexels, entry);
+  return ContactPair(pair.x, uintBitsToFloat(pair.y), uintBitsToFloat(pair.z), uintBitsToFloat(pair.w));
+}
+ContactLife lifeAt(uint entry) {
+  if (!kTexels) return lives[entry];
+  vec4 life = vectorAt(lifeTexels, entry);
+  return ContactLife(life.x, life.y, life.z, life.w);
+}
+vec4 normalAt(uint entry) { return kTexels ? vectorAt(normalTexels, entry) : normals[entry]; }
 
 // The grid's buffer, one part after another. Bucket b's contact particles are entries [start of b, start of b + 1).
 const uint kBlock = 1024;  // buckets that are summed together

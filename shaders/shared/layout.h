@@ -149,6 +149,15 @@ RINGLET_CONSTANT uint kBindNormals = 9;           // vec4[contacts][stride]: n, 
 RINGLET_CONSTANT uint kBindSystems = 10;          // ContactSystem[particles]
 RINGLET_CONSTANT uint kBindControl = 11;          // ContactControl
 RINGLET_CONSTANT uint kContactBindingCount = 12;
+// And as texels (shared/texels.glsl):
+RINGLET_CONSTANT uint kBindContactPositionTexels = 12;
+RINGLET_CONSTANT uint kBindContactSolvedTexels = 13;
+RINGLET_CONSTANT uint kBindContactTexels = 14;  // 2 a contact particle
+RINGLET_CONSTANT uint kBindPlaceTexels = 15;    // 3 a contact particle
+RINGLET_CONSTANT uint kBindPairTexels = 16;
+RINGLET_CONSTANT uint kBindLifeTexels = 17;
+RINGLET_CONSTANT uint kBindNormalTexels = 18;
+RINGLET_CONSTANT uint kContactTexelBindingCount = 7;
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
@@ -201,7 +210,7 @@ struct ContactControl {
   uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
   uint speed;        // the fastest contact particle's [m/s], as bits
   float cellSize;    // [m]
-  uint longestList;  // pairs a contact particle wanted, at most
+  uint longestList;  // the longest list, where one is full
   uint step;         // of the frame, that the lists are for
   uint rebuilds;     // since the simulation began
   uint listed;       // pairs in all lists, both sides counted

@@ -34,14 +34,17 @@ const Compiled kCompiled[kContactKernelCount] = {
 
 }  // namespace
 
-Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize) {
+Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize,
+                                        bool texels) {
   const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
   gpu::KernelDescription description;
   description.name = compiled.name;
   description.spirv = compiled.spirv;
   description.bindings.assign(layout::kContactBindingCount, gpu::BindingKind::storage);
   description.pushConstantBytes = sizeof(layout::ContactParameters);
-  description.constants = {{0, groupSize}};
+  description.bindings.insert(description.bindings.end(), layout::kContactTexelBindingCount,
+                              gpu::BindingKind::texels);
+  description.constants = {{0, groupSize}, {7, texels ? 1u : 0u}};
   description.groupSize = groupSize;
   return gpu::Kernel::create(device, description);
 }

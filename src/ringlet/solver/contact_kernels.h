@@ -14,6 +14,8 @@ namespace ringlet {
 enum class ContactKernel { motion, decide, count, scan, sum, scatter, order, query, life, gather };
 inline constexpr std::size_t kContactKernelCount = 10;
 
-Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize);
+/// texels: records are read as texels (gpu::BindingKind).
+Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize,
+                                        bool texels);
 
 }  // namespace ringlet

@@ -18,10 +18,11 @@ using gpu::Buffer;
 using gpu::BufferKind;
 
 constexpr std::uint32_t kGroupSize = 64;
-constexpr std::uint32_t kBlock = 1024;      // buckets summed together, as in contact_buffers.glsl
+constexpr std::uint32_t kBlock = 1024;  // buckets summed together, as in contact_buffers.glsl
+constexpr std::uint64_t kMostTexelBytes = 2ull << 30;
 constexpr std::uint32_t kFirstStride = 16;  // room in a list to begin with
-constexpr double kSkinShare = 0.5;          // of R: what may come closer before lists are made anew
-constexpr float kSeenAhead = 3;             // times r0: from where a contact is seen ahead
+constexpr double kSkinShare = 0.25;         // of R: what may come closer before lists are made anew
+constexpr float kSeenAhead = 2;             // times r0: from where a contact is seen ahead
 
 // What a share of a contact changes by in a step.
 float changeIn(double seconds, double stepSeconds) {
@@ -86,8 +87,11 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
         count, std::uint64_t{device.properties().maxGroupCount} * kGroupSize)};
   }
   self.bucketCount_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::uint64_t>(2 * count, kBlock)));
+  // The lists are the longest; they never exceed maxStorageBufferRange.
+  const bool texels = device.properties().maxTexelRecords * sizeof(layout::vec4) >=
+                      std::min(device.properties().maxStorageBufferRange, kMostTexelBytes);
   for (std::size_t k = 0; k < kContactKernelCount; ++k) {
-    auto kernel = createContactKernel(device, static_cast<ContactKernel>(k), kGroupSize);
+    auto kernel = createContactKernel(device, static_cast<ContactKernel>(k), kGroupSize, texels);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
   }
@@ -123,6 +127,12 @@ layout::ContactControl& ContactStage::control() const {
   return *reinterpret_cast<layout::ContactControl*>(control_->mapped().data());
 }
 
+// The longest lists the device has room for.
+std::uint32_t ContactStage::mostStride() const {
+  return static_cast<std::uint32_t>(device_->properties().maxStorageBufferRange /
+                                    (2 * particles_.size() * sizeof(layout::ContactPair)));
+}
+
 // Counts, pairs, lives, normals: for `stride_` pairs a contact particle, two rows each but for the normals.
 Status ContactStage::createLists(gpu::Device& device) {
   const std::uint64_t rows = 2 * particles_.size(), entries = rows * stride_;
@@ -153,8 +163,10 @@ Status ContactStage::bindAll(const DeviceGroom& groom) {
   control_ = &groom.contactControl;
   bindings_.clear();
   auto bindings = gpu::Bindings::create(
-      kernels_[0], {groom.positions, groom.solved, constant_[0], constant_[1], working_[0], working_[1],
-                    lists_[0], lists_[1], lists_[2], lists_[3], groom.contactSystems, groom.contactControl});
+      kernels_[0],
+      {groom.positions, groom.solved, constant_[0], constant_[1], working_[0], working_[1], lists_[0],
+       lists_[1], lists_[2], lists_[3], groom.contactSystems, groom.contactControl, groom.positions,
+       groom.solved, constant_[0], working_[1], lists_[1], lists_[2], lists_[3]});
   if (!bindings) return bindings.error();
   bindings_.push_back(std::move(*bindings));
   return {};
@@ -239,7 +251,8 @@ Status ContactStage::makeRoom(const DeviceGroom& groom) {
   auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * count * before);
   if (!lives) return lives.error();
 
-  stride_ = std::max(control().longestList + control().longestList / 4, before + 8);
+  stride_ = before + std::max(before / 4, 8u);
+  if (before < mostStride()) stride_ = std::min(stride_, mostStride());
   if (Status status = createLists(*device_); !status) return status;
   std::vector<layout::ContactPair> newPairs(2 * count * stride_);
   std::vector<layout::ContactLife> newLives(2 * count * stride_);

@@ -67,6 +67,7 @@ class ContactStage {
   void dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
   std::uint32_t contactGroups() const;
+  std::uint32_t mostStride() const;
   layout::ContactControl& control() const;
 
   gpu::Device* device_ = nullptr;
