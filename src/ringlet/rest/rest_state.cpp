@@ -292,11 +292,30 @@ Status checkSettings(const Settings& s, const Material& material) {
       {"pointIterations", double(s.pointIterations), 1, 60000},
       {"forceLoops", double(s.forceLoops), 1, 1000},
       {"dampingLoops", double(s.dampingLoops), 1, 1000},
+      {"contacts.radius", s.contacts.radius.value_or(1), 1e-6, 1},
+      {"contacts.spacing", s.contacts.spacing, 0.01, 1},
+      {"contacts.enlargement", s.contacts.enlargement, 1, 100},
+      {"contacts.minOverlaps", double(s.contacts.minOverlaps), 1, 1e6},
+      {"contacts.maxNeighbours", double(s.contacts.maxNeighbours), 0, 1e6},
+      {"contacts.dropShare", s.contacts.dropShare, 0, 1},
+      {"contacts.stiffness", s.contacts.stiffness, 0, 1e7},
+      {"contacts.dampingRatio", s.contacts.dampingRatio, 0, 100},
+      {"contacts.friction", s.contacts.friction, 0, 10},
+      {"contacts.rampSeconds", s.contacts.rampSeconds, 0, 10},
+      {"contacts.stiffnessReleaseSeconds", s.contacts.stiffnessReleaseSeconds, 0, 10},
+      {"contacts.dampingReleaseSeconds", s.contacts.dampingReleaseSeconds, 0, 10},
+      {"contacts.breakFactor", s.contacts.breakFactor, 1, 10},
+      {"contacts.iterations", double(s.contacts.iterations), 1, 1000},
   };
   for (const Range& r : ranges) {
     if (!(r.value >= r.low && r.value <= r.high)) {
       return Error{fmt::format("{} is {}; it must be from {} to {}", r.name, r.value, r.low, r.high)};
     }
+  }
+  if (s.contacts.on && s.integrator != Integrator::jacobi) {
+    return Error{fmt::format(
+        "contacts are on with the integrator {}; contacts need jacobi: choose it, or turn contacts off",
+        s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
   }
   return checkMaterial(material);
 }

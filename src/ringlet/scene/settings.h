@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ringlet/base/vec3.h"
+#include "ringlet/scene/contact_settings.h"
 
 namespace ringlet {
 
@@ -26,6 +27,7 @@ struct Settings {
   bool chebyshev = true;      // pointJacobi: Chebyshev-accelerated rather than plain
   int forceLoops = 15;        // paper: force loops per outer step
   int dampingLoops = 10;      // paper: damping loops per force loop
+  ContactSettings contacts;   // between strands; jacobi only
 
   double stepSeconds() const { return 1 / (framesPerSecond * stepsPerFrame); }
 };
