@@ -38,6 +38,7 @@ class Simulation {
       rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit,
                                            materialOfStrand(material, s), paper, settings));
     }
+    systems_.resize(groom.strandCount());
     taps_.resize(groom.strandCount());
     placeAtRest();
   }
@@ -90,7 +91,12 @@ class Simulation {
   void stepOnce(const HeadPose& next) {
     const HeadStep<Real> head = headStep(next);
     for (std::size_t s = 0; s < rest_.size(); ++s) {
-      stepStrand(rest_[s], settings_, head, strandOf(positions_, s), strandOf(velocities_, s), scratch_,
+      const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
+      prepareStrand(rest_[s], settings_, head, positions, velocities, scratch_, taps_[s], systems_[s]);
+      solveVelocities(rest_[s], settings_, head, systems_[s], scratch_, taps_[s], velocities);
+    }
+    for (std::size_t s = 0; s < rest_.size(); ++s) {
+      moveStrand(rest_[s], settings_, head, strandOf(positions_, s), strandOf(velocities_, s), scratch_,
                  taps_[s]);
       record(rest_[s], taps_[s]);
     }
@@ -123,6 +129,7 @@ class Simulation {
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;
+  std::vector<StrandSystem> systems_;  // of the current step
   std::vector<StrandTaps<Real>> taps_;
   StepScratch<Real> scratch_;
   Report report_;

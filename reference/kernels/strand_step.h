@@ -1,4 +1,5 @@
-// One outer step of one strand, all three integrators. Mirrors shaders/kernels/strand_step.comp.
+// One outer step of one strand, all three integrators, in three stages: prepareStrand, solveVelocities,
+// moveStrand. Between the last two strands may meet. Mirrors shaders/kernels/strand_step.comp.
 // Positions are relative to the head's origin, along world axes; velocities relative to the head's
 // translation. Iben et al. 2012, section 5; the implicit solve is ours.
 #pragma once
@@ -67,7 +68,6 @@ struct StepScratch {
   Field<Real> movedEdges;                                        // e_i after p += T v [m]
   Field<Real> velocityDifferences, smoothedVelocityDifferences;  // dv_i, nu_i [m/s]
   Field<Real> edgeForces;  // per edge, before they go to the particles [N]
-  StrandSystem system;
   SolveScratch solve;
   Field<double> solved;  // velocities in the solve's double [m/s]
 };
@@ -215,24 +215,48 @@ void runPaperLoops(const RestStrand<Real>& rest, const Settings& settings, const
   }
 }
 
+/// All that a step needs before velocities are sought: the new frame of reference, the strand's shape, its
+/// forces, the velocities of pinned particles and, but for the paper's loops, the system.
+template <class Real>
+void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
+                   FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
+                   StrandTaps<Real>& taps, StrandSystem& system) {
+  const bool isPaper = settings.integrator == Integrator::paper;
+
+  // The head's new translation is the new frame of reference.
+  for (Vector3<Real>& v : velocities) v -= head.velocityChange;
+
+  if (rest.edgeCount() > 0) {
+    measureShape(rest, isPaper, head, positions, velocities, scratch, taps);
+    computeForces(rest, isPaper, scratch, taps);
+  }
+
+  // Pinned particles turn with the head; all others follow from forces.
+  for (std::size_t i = 0; i < rest.pinnedCount(); ++i) {
+    velocities[i] = head.carriedVelocity(rest.points[i]);
+  }
+  if (!isPaper) {
+    assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(),
+                   velocities, system);
+  }
+}
+
 /// The new velocities of the free particles; the pinned ones are already there.
 template <class Real>
 void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                     StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> velocities) {
+                     const StrandSystem& system, StepScratch<Real>& scratch, const StrandTaps<Real>& taps,
+                     FieldView<Real> velocities) {
   if (rest.particleCount() <= rest.rootCount) return;
   if (settings.integrator == Integrator::paper) {
     runPaperLoops(rest, settings, head, scratch, taps, velocities);
     return;
   }
-  assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(),
-                 velocities, scratch.system);
   scratch.solved.resize(velocities.size());
   for (std::size_t i = 0; i < velocities.size(); ++i)
     scratch.solved[i] = velocities[i].template cast<double>();
-  if (settings.integrator == Integrator::jacobi) solveStrand(scratch.system, scratch.solve, scratch.solved);
+  if (settings.integrator == Integrator::jacobi) solveStrand(system, scratch.solve, scratch.solved);
   if (settings.integrator == Integrator::pointJacobi) {
-    iteratePoints(scratch.system, settings.pointIterations, settings.chebyshev, scratch.solve,
-                  scratch.solved);
+    iteratePoints(system, settings.pointIterations, settings.chebyshev, scratch.solve, scratch.solved);
   }
   for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = scratch.solved[i].template cast<Real>();
 }
@@ -247,36 +271,23 @@ Real measureStretch(const RestStrand<Real>& rest, FieldView<Real> positions) {
   return stretch;
 }
 
-/// Takes a strand's positions [m] and velocities [m/s] from step n to n + 1.
+/// p += T v with the new velocities, then the stretch limit.
 template <class Real>
-void stepStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
+void moveStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
                 FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
                 StrandTaps<Real>& taps) {
-  const bool isPaper = settings.integrator == Integrator::paper;
-  const std::size_t pinnedCount = std::min(rest.rootCount, rest.particleCount());
-
-  // The head's new translation is the new frame of reference.
-  for (Vector3<Real>& v : velocities) v -= head.velocityChange;
-
-  if (rest.edgeCount() > 0) {
-    measureShape(rest, isPaper, head, positions, velocities, scratch, taps);
-    computeForces(rest, isPaper, scratch, taps);
-  }
-
-  // Pinned particles turn with the head; all others follow from forces.
-  for (std::size_t i = 0; i < pinnedCount; ++i) {
-    velocities[i] = head.carriedVelocity(rest.points[i]);
-  }
-  solveVelocities(rest, settings, head, scratch, taps, velocities);
   taps.solvedVelocities.assign(velocities.begin(), velocities.end());
-
-  for (std::size_t i = 0; i < pinnedCount; ++i)
-    positions[i] = head.next.template cast<Real>() * rest.points[i];
-  for (std::size_t i = pinnedCount; i < positions.size(); ++i) positions[i] += head.seconds * velocities[i];
-
-  scratch.movedEdges = scratch.edges;
+  differences(positions, scratch.movedEdges);
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
     scratch.movedEdges[i] += head.seconds * (velocities[i + 1] - velocities[i]);
+  }
+
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (i < rest.rootCount) {
+      positions[i] = head.next.template cast<Real>() * rest.points[i];
+    } else {
+      positions[i] += head.seconds * velocities[i];
+    }
   }
   taps.limitedCount = limitStretch(rest.rootCount, static_cast<Real>(settings.maxStretch), head.seconds,
                                    rest.edgeLengths, scratch.movedEdges, positions, velocities);
