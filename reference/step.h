@@ -38,6 +38,7 @@ class Simulation {
       rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit,
                                            materialOfStrand(material, s), paper, settings));
     }
+    shiftsNow_ = shiftsNext_ = Field<double>(groom.strandCount(), Vector3<double>::Zero());
     systems_.resize(groom.strandCount());
     taps_.resize(groom.strandCount());
     placeAtRest();
@@ -60,6 +61,13 @@ class Simulation {
     RINGLET_ASSERT(velocities.size() == velocities_.size(), "setState needs a velocity for every particle");
     positions_ = positions;
     velocities_ = velocities;
+  }
+
+  /// Where each strand's roots are from the end of the next step on, beside where the head carries them: in
+  /// the groom's axes [m]. For scenes in which strands are brought together.
+  void shiftRoots(const Field<double>& shifts) {
+    RINGLET_ASSERT(shifts.size() == rest_.size(), "shiftRoots needs a shift for every strand");
+    shiftsNext_ = shifts;
   }
 
   const HeadPose& head() const { return head_; }
@@ -89,28 +97,34 @@ class Simulation {
   }
 
   void stepOnce(const HeadPose& next) {
-    const HeadStep<Real> head = headStep(next);
     for (std::size_t s = 0; s < rest_.size(); ++s) {
+      const HeadStep<Real> head = headStep(next, s);
       const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
       prepareStrand(rest_[s], settings_, head, positions, velocities, scratch_, taps_[s], systems_[s]);
       solveVelocities(rest_[s], settings_, head, systems_[s], scratch_, taps_[s], velocities);
     }
     for (std::size_t s = 0; s < rest_.size(); ++s) {
-      moveStrand(rest_[s], settings_, head, strandOf(positions_, s), strandOf(velocities_, s), scratch_,
-                 taps_[s]);
+      moveStrand(rest_[s], settings_, headStep(next, s), strandOf(positions_, s), strandOf(velocities_, s),
+                 scratch_, taps_[s]);
       record(rest_[s], taps_[s]);
     }
     previousHead_ = head_;
     head_ = next;
+    shiftsNow_ = shiftsNext_;
   }
 
-  // In double: the head's velocity is a small difference of positions that may be large.
-  HeadStep<Real> headStep(const HeadPose& next) const {
+  // For strand s. In double: the head's velocity is a small difference of positions that may be large.
+  HeadStep<Real> headStep(const HeadPose& next, std::size_t s) const {
     const double T = settings_.stepSeconds();
     const Vec3d velocityNow = (head_.position - previousHead_.position) / T;
     const Vec3d velocityNext = (next.position - head_.position) / T;
-    return {toEigen<double>(previousHead_.rotation), toEigen<double>(head_.rotation),
-            toEigen<double>(next.rotation), toEigen<Real>(velocityNext - velocityNow), static_cast<Real>(T)};
+    return {.before = toEigen<double>(previousHead_.rotation),
+            .now = toEigen<double>(head_.rotation),
+            .next = toEigen<double>(next.rotation),
+            .velocityChange = toEigen<Real>(velocityNext - velocityNow),
+            .seconds = static_cast<Real>(T),
+            .shiftNow = shiftsNow_[s],
+            .shiftNext = shiftsNext_[s]};
   }
 
   std::span<Vector3<Real>> strandOf(Field<Real>& field, std::size_t s) const {
@@ -126,6 +140,7 @@ class Simulation {
 
   Settings settings_;
   HeadPose previousHead_, head_;           // poses n - 1 and n
+  Field<double> shiftsNow_, shiftsNext_;   // of roots, poses n and n + 1 [m]
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;

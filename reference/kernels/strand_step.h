@@ -26,19 +26,26 @@ struct HeadStep {
       next;  // rotations of poses n - 1, n, n + 1: their differences over T need the digits
   Vector3<Real> velocityChange;  // of its translation: V_{n+1} - V_n [m/s]
   Real seconds = 0;              // T
+  // The strand's roots beside where the head carries them, poses n and n + 1, the groom's axes [m].
+  Vector3<double> shiftNow = Vector3<double>::Zero(), shiftNext = Vector3<double>::Zero();
 
   Rotation<Real> rotation() const { return now.template cast<Real>(); }
-  /// Velocity of a point x of the groom that the head carries, in the step from n - 1 to n, and from n to n +
-  /// 1 [m/s].
-  Vector3<Real> carriedVelocityBefore(const Vector3<Real>& x) const {
-    return carriedVelocity(before, now, x);
+  /// Velocity of an edge x of the groom that the head carries, in the step from n - 1 to n [m/s].
+  Vector3<Real> carriedEdgeVelocityBefore(const Vector3<Real>& x) const {
+    return velocityBetween(before * x.template cast<double>(), now * x.template cast<double>());
   }
-  Vector3<Real> carriedVelocity(const Vector3<Real>& x) const { return carriedVelocity(now, next, x); }
+  /// Where the head and the shift carry a pinned particle x of the groom to [m], and how fast [m/s].
+  Vector3<Real> carriedPlace(const Vector3<Real>& x) const {
+    return next.template cast<Real>() * Vector3<Real>(x + shiftNext.template cast<Real>());
+  }
+  Vector3<Real> carriedVelocity(const Vector3<Real>& x) const {
+    return velocityBetween(now * (x.template cast<double>() + shiftNow),
+                           next * (x.template cast<double>() + shiftNext));
+  }
 
-  Vector3<Real> carriedVelocity(const Rotation<double>& from, const Rotation<double>& to,
-                                const Vector3<Real>& x) const {
-    const Vector3<double> place = x.template cast<double>();
-    return ((to * place - from * place) / static_cast<double>(seconds)).template cast<Real>();
+ private:
+  Vector3<Real> velocityBetween(const Vector3<double>& from, const Vector3<double>& to) const {
+    return ((to - from) / static_cast<double>(seconds)).template cast<Real>();
   }
 };
 
@@ -96,7 +103,7 @@ void measureShape(const RestStrand<Real>& rest, bool isPaper, const HeadStep<Rea
   // The filters start from the rest first edge as the head carries it, and from that edge's velocity; the
   // paper's from the strand's own first edge.
   const Vector3<Real> carried = head.rotation() * rest.edges[0];
-  Vector3<Real> edgeStart = carried, velocityStart = head.carriedVelocityBefore(rest.edges[0]);
+  Vector3<Real> edgeStart = carried, velocityStart = head.carriedEdgeVelocityBefore(rest.edges[0]);
   if (isPaper) {
     edgeStart = scratch.edges[0];
     velocityStart = scratch.velocityDifferences[0];
@@ -284,7 +291,7 @@ void moveStrand(const RestStrand<Real>& rest, const Settings& settings, const He
 
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (i < rest.rootCount) {
-      positions[i] = head.next.template cast<Real>() * rest.points[i];
+      positions[i] = head.carriedPlace(rest.points[i]);
     } else {
       positions[i] += head.seconds * velocities[i];
     }
