@@ -17,11 +17,11 @@ namespace ringlet::reference {
 
 /// One entry a strand, groom order.
 struct RestContacts {
-  std::vector<double> radii;                           // of all its particles [m]
-  std::vector<double> masses;                          // m_c: its mass over its contact particles [kg]
-  std::vector<std::vector<std::uint32_t>> particles;   // that take part in contacts, ascending, 0 the root
-  bool prunesPairs = true;                             // false: every pair of strands may touch
-  std::vector<std::vector<std::uint32_t>> neighbours;  // strands it may touch, ascending; if prunesPairs
+  std::vector<double> radii{};                           // of all its particles [m]
+  std::vector<double> masses{};                          // m_c: its mass over its contact particles [kg]
+  std::vector<std::vector<std::uint32_t>> particles{};   // that take part in contacts, ascending, 0 the root
+  bool prunesPairs = true;                               // false: every pair of strands may touch
+  std::vector<std::vector<std::uint32_t>> neighbours{};  // strands it may touch, ascending; if prunesPairs
 
   bool mayTouch(std::uint32_t s, std::uint32_t t) const {
     if (!prunesPairs) return s != t;

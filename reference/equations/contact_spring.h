@@ -34,15 +34,21 @@ struct ContactConstants {
   Real damping = 0;     // c [N s/m]
 };
 
+// Spheres that overlap at rest touch when they are nearer than that by this share of R, some ten times what a
+// float position is rounded by. At exactly the rest distance rounding would decide which of them touch, and
+// their damping would carry that into the motion.
+inline constexpr double kContactSlack = 1e-4;
+
 /// For two strands' mean contact particle of `mass` m_c [kg], `radiusSum` R [m], and the particles'
 /// `restDistance` [m]:
-///     r0 = min(R, rest distance), so that the rest pose has no force
+///     r0 = min(R, rest distance - slack), not below 0, so that there is no contact at rest
 ///     k = stiffness m_c g / R,   c = 2 dampingRatio sqrt(k m_c)
 template <class Real>
 ContactConstants<Real> contactConstants(const ContactSettings& settings, double mass, double radiusSum,
                                         double restDistance) {
   const double stiffness = settings.stiffness * mass * kStandardGravity / radiusSum;
-  return {.restLength = static_cast<Real>(std::min(radiusSum, restDistance)),
+  const double restLength = std::min(radiusSum, restDistance - kContactSlack * radiusSum);
+  return {.restLength = static_cast<Real>(std::max(0.0, restLength)),
           .stiffness = static_cast<Real>(stiffness),
           .damping = static_cast<Real>(2 * settings.dampingRatio * std::sqrt(stiffness * mass))};
 }
