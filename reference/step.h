@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "reference/kernels/contact_step.h"
 #include "reference/kernels/strand_step.h"
 #include "ringlet/base/assert.h"
 #include "ringlet/groom/groom.h"
@@ -20,6 +21,8 @@ struct Report {
   std::uint64_t edgeSteps = 0;        // all edges, times steps
   std::uint64_t degenerateEdges = 0;  // edges, times steps, that had no direction
   std::uint64_t nonfinite = 0;        // particles whose position or velocity is not finite now
+  std::uint64_t contacts = 0;         // pairs that touch or have not yet broken, now
+  double momentumError = 0;           // of the last step's contacts: |sum| over sum of magnitudes [1]
 
   double limitedShare() const {
     return edgeSteps > 0 ? static_cast<double>(limitedEdges) / static_cast<double>(edgeSteps) : 0;
@@ -41,6 +44,10 @@ class Simulation {
     shiftsNow_ = shiftsNext_ = Field<double>(groom.strandCount(), Vector3<double>::Zero());
     systems_.resize(groom.strandCount());
     taps_.resize(groom.strandCount());
+    if (settings.contacts.on) {
+      RINGLET_ASSERT(settings.integrator == Integrator::jacobi, "contacts need the integrator jacobi");
+      contacts_ = makeContacts(rest_, firstPoint_, settings.contacts);
+    }
     placeAtRest();
   }
   Simulation(const Groom& groom, const Material& material, const Settings& settings,
@@ -73,11 +80,15 @@ class Simulation {
   const HeadPose& head() const { return head_; }
   const Settings& settings() const { return settings_; }
   const std::vector<RestStrand<Real>>& restStrands() const { return rest_; }
+  /// Between strands, with what the last outer step found; empty unless settings.contacts.on.
+  const Contacts<Real>& contacts() const { return contacts_; }
   /// Intermediates of the last outer step, one entry per strand.
   const std::vector<StrandTaps<Real>>& taps() const { return taps_; }
 
   Report report() const {
     Report report = report_;
+    report.contacts = contacts_.live.size();
+    report.momentumError = contacts_.momentumError;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       if (!positions_[i].allFinite() || !velocities_[i].allFinite()) ++report.nonfinite;
     }
@@ -102,6 +113,12 @@ class Simulation {
       const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
       prepareStrand(rest_[s], settings_, head, positions, velocities, scratch_, taps_[s], systems_[s]);
       solveVelocities(rest_[s], settings_, head, systems_[s], scratch_, taps_[s], velocities);
+    }
+    if (settings_.contacts.on) {
+      updateContacts(settings_.contacts, static_cast<Real>(settings_.stepSeconds()), positions_, velocities_,
+                     contacts_);
+      solveContacts(settings_.contacts.iterations, firstPoint_, systems_, scratch_.solve, contacts_,
+                    velocities_);
     }
     for (std::size_t s = 0; s < rest_.size(); ++s) {
       moveStrand(rest_[s], settings_, headStep(next, s), strandOf(positions_, s), strandOf(velocities_, s),
@@ -146,6 +163,7 @@ class Simulation {
   Field<Real> positions_, velocities_;
   std::vector<StrandSystem> systems_;  // of the current step
   std::vector<StrandTaps<Real>> taps_;
+  Contacts<Real> contacts_;
   StepScratch<Real> scratch_;
   Report report_;
 };

@@ -166,6 +166,8 @@ void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, 
                     const Vector3<double>& gravity, double T, FieldView<Real> velocities,
                     StrandSystem& system) {
   system.rootCount = rest.rootCount;
+  system.contactWeights.clear();
+  system.contactMomenta.clear();
   system.masses.assign(rest.masses.begin(), rest.masses.end());
   system.momenta.resize(rest.particleCount());
   system.across.resize(rest.edgeCount());
