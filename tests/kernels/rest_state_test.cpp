@@ -144,9 +144,11 @@ TEST(RestState, RefusesWhatItCannotHold) {
   settings.contacts.spacing = 1.5;  // strands would slip between the spheres
   EXPECT_NE(errorOf(good, settings).find("contacts.spacing is 1.5; it must be from 0.01 to 1"),
             std::string::npos);
-  settings.contacts = {.radius = -0.01};
+  settings.contacts = {};
+  settings.contacts.radius = -0.01;
   EXPECT_NE(errorOf(good, settings).find("contacts.radius is -0.01"), std::string::npos);
-  settings.contacts = {.on = true};
+  settings.contacts = {};
+  settings.contacts.on = true;
   EXPECT_EQ(errorOf(good, settings), "");
   settings.integrator = Integrator::pointJacobi;
   EXPECT_NE(errorOf(good, settings).find("point_jacobi; contacts need jacobi"), std::string::npos);
