@@ -50,6 +50,7 @@ struct RestStrand {
 
   std::size_t particleCount() const { return points.size(); }
   std::size_t edgeCount() const { return edges.size(); }
+  std::size_t pinnedCount() const { return std::min(rootCount, particleCount()); }
 };
 
 /// alpha by the rule of section 4: half a turn, more for a tightly wound curl; a tenth of a straight strand.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "reference/kernels/contact_step.h"
 #include "reference/kernels/strand_step.h"
 #include "ringlet/base/assert.h"
 #include "ringlet/groom/groom.h"
@@ -20,6 +21,8 @@ struct Report {
   std::uint64_t edgeSteps = 0;        // all edges, times steps
   std::uint64_t degenerateEdges = 0;  // edges, times steps, that had no direction
   std::uint64_t nonfinite = 0;        // particles whose position or velocity is not finite now
+  std::uint64_t contacts = 0;         // pairs that touch or have not yet broken, now
+  double momentumError = 0;           // of the last step's contacts: |sum| over sum of magnitudes [1]
 
   double limitedShare() const {
     return edgeSteps > 0 ? static_cast<double>(limitedEdges) / static_cast<double>(edgeSteps) : 0;
@@ -38,7 +41,13 @@ class Simulation {
       rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit,
                                            materialOfStrand(material, s), paper, settings));
     }
+    shiftsNow_ = shiftsNext_ = Field<double>(groom.strandCount(), Vector3<double>::Zero());
+    systems_.resize(groom.strandCount());
     taps_.resize(groom.strandCount());
+    if (settings.contacts.on) {
+      RINGLET_ASSERT(settings.integrator == Integrator::jacobi, "contacts need the integrator jacobi");
+      contacts_ = makeContacts(rest_, firstPoint_, settings.contacts);
+    }
     placeAtRest();
   }
   Simulation(const Groom& groom, const Material& material, const Settings& settings,
@@ -61,14 +70,25 @@ class Simulation {
     velocities_ = velocities;
   }
 
+  /// Where each strand's roots are from the end of the next step on, beside where the head carries them: in
+  /// the groom's axes [m]. For scenes in which strands are brought together.
+  void shiftRoots(const Field<double>& shifts) {
+    RINGLET_ASSERT(shifts.size() == rest_.size(), "shiftRoots needs a shift for every strand");
+    shiftsNext_ = shifts;
+  }
+
   const HeadPose& head() const { return head_; }
   const Settings& settings() const { return settings_; }
   const std::vector<RestStrand<Real>>& restStrands() const { return rest_; }
+  /// Between strands, with what the last outer step found; empty unless settings.contacts.on.
+  const Contacts<Real>& contacts() const { return contacts_; }
   /// Intermediates of the last outer step, one entry per strand.
   const std::vector<StrandTaps<Real>>& taps() const { return taps_; }
 
   Report report() const {
     Report report = report_;
+    report.contacts = contacts_.live.size();
+    report.momentumError = contacts_.momentumError;
     for (std::size_t i = 0; i < positions_.size(); ++i) {
       if (!positions_[i].allFinite() || !velocities_[i].allFinite()) ++report.nonfinite;
     }
@@ -88,23 +108,40 @@ class Simulation {
   }
 
   void stepOnce(const HeadPose& next) {
-    const HeadStep<Real> head = headStep(next);
     for (std::size_t s = 0; s < rest_.size(); ++s) {
-      stepStrand(rest_[s], settings_, head, strandOf(positions_, s), strandOf(velocities_, s), scratch_,
-                 taps_[s]);
+      const HeadStep<Real> head = headStep(next, s);
+      const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
+      prepareStrand(rest_[s], settings_, head, positions, velocities, scratch_, taps_[s], systems_[s]);
+      solveVelocities(rest_[s], settings_, head, systems_[s], scratch_, taps_[s], velocities);
+    }
+    if (settings_.contacts.on) {
+      updateContacts(settings_.contacts, static_cast<Real>(settings_.stepSeconds()), positions_, velocities_,
+                     contacts_);
+      solveContacts(settings_.contacts.iterations, firstPoint_, systems_, scratch_.solve, contacts_,
+                    velocities_);
+    }
+    for (std::size_t s = 0; s < rest_.size(); ++s) {
+      moveStrand(rest_[s], settings_, headStep(next, s), strandOf(positions_, s), strandOf(velocities_, s),
+                 scratch_, taps_[s]);
       record(rest_[s], taps_[s]);
     }
     previousHead_ = head_;
     head_ = next;
+    shiftsNow_ = shiftsNext_;
   }
 
-  // In double: the head's velocity is a small difference of positions that may be large.
-  HeadStep<Real> headStep(const HeadPose& next) const {
+  // For strand s. In double: the head's velocity is a small difference of positions that may be large.
+  HeadStep<Real> headStep(const HeadPose& next, std::size_t s) const {
     const double T = settings_.stepSeconds();
     const Vec3d velocityNow = (head_.position - previousHead_.position) / T;
     const Vec3d velocityNext = (next.position - head_.position) / T;
-    return {toEigen<double>(previousHead_.rotation), toEigen<double>(head_.rotation),
-            toEigen<double>(next.rotation), toEigen<Real>(velocityNext - velocityNow), static_cast<Real>(T)};
+    return {.before = toEigen<double>(previousHead_.rotation),
+            .now = toEigen<double>(head_.rotation),
+            .next = toEigen<double>(next.rotation),
+            .velocityChange = toEigen<Real>(velocityNext - velocityNow),
+            .seconds = static_cast<Real>(T),
+            .shiftNow = shiftsNow_[s],
+            .shiftNext = shiftsNext_[s]};
   }
 
   std::span<Vector3<Real>> strandOf(Field<Real>& field, std::size_t s) const {
@@ -120,10 +157,13 @@ class Simulation {
 
   Settings settings_;
   HeadPose previousHead_, head_;           // poses n - 1 and n
+  Field<double> shiftsNow_, shiftsNext_;   // of roots, poses n and n + 1 [m]
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;
+  std::vector<StrandSystem> systems_;  // of the current step
   std::vector<StrandTaps<Real>> taps_;
+  Contacts<Real> contacts_;
   StepScratch<Real> scratch_;
   Report report_;
 };

@@ -6,6 +6,7 @@
 //     m_i v_i + A_i (v_i - v_{i+1}) + A_{i-1} (v_i - v_{i-1}) = r_i       free i;  no edge beyond the tip
 //     A_i = a_b I + a_s e^ e^T                                            a_b, a_s [kg]
 //
+// Where strands meet, m_i I and r_i have what contacts add; see kernels/contact_step.h.
 // Only neighbours couple: block tridiagonal, 3x3 blocks, symmetric positive definite. Pinned particles are
 // known and stand on the right hand side.
 #pragma once
@@ -29,13 +30,24 @@ struct StrandSystem {
   Field<double> directions;       // e^_i [1]
   Field<double> momenta;          // r_i [kg m/s]
 
+  // What contacts add to m_i I [kg] and to r_i [kg m/s]; empty without.
+  std::vector<Matrix3<double>> contactWeights;
+  Field<double> contactMomenta;
+
   std::size_t particleCount() const { return masses.size(); }
+  Matrix3<double> massBlock(std::size_t i) const {
+    const Matrix3<double> block = masses[i] * Matrix3<double>::Identity();
+    return contactWeights.empty() ? block : Matrix3<double>(block + contactWeights[i]);
+  }
+  Vector3<double> rightSide(std::size_t i) const {
+    return contactMomenta.empty() ? momenta[i] : Vector3<double>(momenta[i] + contactMomenta[i]);
+  }
   Matrix3<double> edgeBlock(std::size_t i) const {
     return across[i] * Matrix3<double>::Identity() + along[i] * directions[i] * directions[i].transpose();
   }
   /// m_i I + A_i + A_{i-1}, for a free particle.
   Matrix3<double> particleBlock(std::size_t i) const {
-    Matrix3<double> block = masses[i] * Matrix3<double>::Identity() + edgeBlock(i - 1);
+    Matrix3<double> block = massBlock(i) + edgeBlock(i - 1);
     if (i + 1 < particleCount()) block += edgeBlock(i);
     return block;
   }
@@ -51,7 +63,7 @@ struct SolveScratch {
 ///     S_i = D_i - A_{i-1} S_{i-1}^-1 A_{i-1},   y_i = r_i + A_{i-1} S_{i-1}^-1 y_{i-1},
 ///     then v_i = S_i^-1 (y_i + A_i v_{i+1})
 /// velocities: pinned ones given, free ones found [m/s].
-inline void solveStrand(const StrandSystem& system, SolveScratch& scratch, Field<double>& velocities) {
+inline void solveStrand(const StrandSystem& system, SolveScratch& scratch, FieldView<double> velocities) {
   const std::size_t n = system.particleCount(), first = system.rootCount;
   if (n <= first) return;
   scratch.blocks.resize(n, Eigen::LLT<Matrix3<double>>(Matrix3<double>::Identity()));
@@ -62,7 +74,7 @@ inline void solveStrand(const StrandSystem& system, SolveScratch& scratch, Field
   for (std::size_t i = first; i < n; ++i) {
     const Matrix3<double> above = system.edgeBlock(i - 1);
     Matrix3<double> pivot = system.particleBlock(i);
-    y[i] = system.momenta[i];
+    y[i] = system.rightSide(i);
     if (i == first) {
       y[i] += above * velocities[i - 1];
     } else {
@@ -108,7 +120,7 @@ inline void iteratePoints(const StrandSystem& system, int iterationCount, bool c
     if (chebyshev && k > 2) omega = 4 / (4 - mu * mu * omega);
     for (std::size_t i = first; i < n; ++i) {
       const Vector3<double>& v = velocities[i];
-      Vector3<double> residual = system.momenta[i] - system.masses[i] * v;
+      Vector3<double> residual = system.rightSide(i) - system.massBlock(i) * v;
       residual += system.edgeBlock(i - 1) * (velocities[i - 1] - v);
       if (i + 1 < n) residual += system.edgeBlock(i) * (velocities[i + 1] - v);
       const Vector3<double> plain = v + scratch.blocks[i].solve(residual);

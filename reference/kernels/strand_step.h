@@ -1,4 +1,5 @@
-// One outer step of one strand, all three integrators. Mirrors shaders/kernels/strand_step.comp.
+// One outer step of one strand, all three integrators, in three stages: prepareStrand, solveVelocities,
+// moveStrand. Between the last two strands may meet. Mirrors shaders/kernels/strand_step.comp.
 // Positions are relative to the head's origin, along world axes; velocities relative to the head's
 // translation. Iben et al. 2012, section 5; the implicit solve is ours.
 #pragma once
@@ -25,19 +26,26 @@ struct HeadStep {
       next;  // rotations of poses n - 1, n, n + 1: their differences over T need the digits
   Vector3<Real> velocityChange;  // of its translation: V_{n+1} - V_n [m/s]
   Real seconds = 0;              // T
+  // The strand's roots beside where the head carries them, poses n and n + 1, the groom's axes [m].
+  Vector3<double> shiftNow = Vector3<double>::Zero(), shiftNext = Vector3<double>::Zero();
 
   Rotation<Real> rotation() const { return now.template cast<Real>(); }
-  /// Velocity of a point x of the groom that the head carries, in the step from n - 1 to n, and from n to n +
-  /// 1 [m/s].
-  Vector3<Real> carriedVelocityBefore(const Vector3<Real>& x) const {
-    return carriedVelocity(before, now, x);
+  /// Velocity of an edge x of the groom that the head carries, in the step from n - 1 to n [m/s].
+  Vector3<Real> carriedEdgeVelocityBefore(const Vector3<Real>& x) const {
+    return velocityBetween(before * x.template cast<double>(), now * x.template cast<double>());
   }
-  Vector3<Real> carriedVelocity(const Vector3<Real>& x) const { return carriedVelocity(now, next, x); }
+  /// Where the head and the shift carry a pinned particle x of the groom to [m], and how fast [m/s].
+  Vector3<Real> carriedPlace(const Vector3<Real>& x) const {
+    return next.template cast<Real>() * Vector3<Real>(x + shiftNext.template cast<Real>());
+  }
+  Vector3<Real> carriedVelocity(const Vector3<Real>& x) const {
+    return velocityBetween(now * (x.template cast<double>() + shiftNow),
+                           next * (x.template cast<double>() + shiftNext));
+  }
 
-  Vector3<Real> carriedVelocity(const Rotation<double>& from, const Rotation<double>& to,
-                                const Vector3<Real>& x) const {
-    const Vector3<double> place = x.template cast<double>();
-    return ((to * place - from * place) / static_cast<double>(seconds)).template cast<Real>();
+ private:
+  Vector3<Real> velocityBetween(const Vector3<double>& from, const Vector3<double>& to) const {
+    return ((to - from) / static_cast<double>(seconds)).template cast<Real>();
   }
 };
 
@@ -67,7 +75,6 @@ struct StepScratch {
   Field<Real> movedEdges;                                        // e_i after p += T v [m]
   Field<Real> velocityDifferences, smoothedVelocityDifferences;  // dv_i, nu_i [m/s]
   Field<Real> edgeForces;  // per edge, before they go to the particles [N]
-  StrandSystem system;
   SolveScratch solve;
   Field<double> solved;  // velocities in the solve's double [m/s]
 };
@@ -96,7 +103,7 @@ void measureShape(const RestStrand<Real>& rest, bool isPaper, const HeadStep<Rea
   // The filters start from the rest first edge as the head carries it, and from that edge's velocity; the
   // paper's from the strand's own first edge.
   const Vector3<Real> carried = head.rotation() * rest.edges[0];
-  Vector3<Real> edgeStart = carried, velocityStart = head.carriedVelocityBefore(rest.edges[0]);
+  Vector3<Real> edgeStart = carried, velocityStart = head.carriedEdgeVelocityBefore(rest.edges[0]);
   if (isPaper) {
     edgeStart = scratch.edges[0];
     velocityStart = scratch.velocityDifferences[0];
@@ -159,6 +166,8 @@ void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, 
                     const Vector3<double>& gravity, double T, FieldView<Real> velocities,
                     StrandSystem& system) {
   system.rootCount = rest.rootCount;
+  system.contactWeights.clear();
+  system.contactMomenta.clear();
   system.masses.assign(rest.masses.begin(), rest.masses.end());
   system.momenta.resize(rest.particleCount());
   system.across.resize(rest.edgeCount());
@@ -215,24 +224,48 @@ void runPaperLoops(const RestStrand<Real>& rest, const Settings& settings, const
   }
 }
 
+/// All that a step needs before velocities are sought: the new frame of reference, the strand's shape, its
+/// forces, the velocities of pinned particles and, but for the paper's loops, the system.
+template <class Real>
+void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
+                   FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
+                   StrandTaps<Real>& taps, StrandSystem& system) {
+  const bool isPaper = settings.integrator == Integrator::paper;
+
+  // The head's new translation is the new frame of reference.
+  for (Vector3<Real>& v : velocities) v -= head.velocityChange;
+
+  if (rest.edgeCount() > 0) {
+    measureShape(rest, isPaper, head, positions, velocities, scratch, taps);
+    computeForces(rest, isPaper, scratch, taps);
+  }
+
+  // Pinned particles turn with the head; all others follow from forces.
+  for (std::size_t i = 0; i < rest.pinnedCount(); ++i) {
+    velocities[i] = head.carriedVelocity(rest.points[i]);
+  }
+  if (!isPaper) {
+    assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(),
+                   velocities, system);
+  }
+}
+
 /// The new velocities of the free particles; the pinned ones are already there.
 template <class Real>
 void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                     StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> velocities) {
+                     const StrandSystem& system, StepScratch<Real>& scratch, const StrandTaps<Real>& taps,
+                     FieldView<Real> velocities) {
   if (rest.particleCount() <= rest.rootCount) return;
   if (settings.integrator == Integrator::paper) {
     runPaperLoops(rest, settings, head, scratch, taps, velocities);
     return;
   }
-  assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(),
-                 velocities, scratch.system);
   scratch.solved.resize(velocities.size());
   for (std::size_t i = 0; i < velocities.size(); ++i)
     scratch.solved[i] = velocities[i].template cast<double>();
-  if (settings.integrator == Integrator::jacobi) solveStrand(scratch.system, scratch.solve, scratch.solved);
+  if (settings.integrator == Integrator::jacobi) solveStrand(system, scratch.solve, scratch.solved);
   if (settings.integrator == Integrator::pointJacobi) {
-    iteratePoints(scratch.system, settings.pointIterations, settings.chebyshev, scratch.solve,
-                  scratch.solved);
+    iteratePoints(system, settings.pointIterations, settings.chebyshev, scratch.solve, scratch.solved);
   }
   for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] = scratch.solved[i].template cast<Real>();
 }
@@ -247,36 +280,23 @@ Real measureStretch(const RestStrand<Real>& rest, FieldView<Real> positions) {
   return stretch;
 }
 
-/// Takes a strand's positions [m] and velocities [m/s] from step n to n + 1.
+/// p += T v with the new velocities, then the stretch limit.
 template <class Real>
-void stepStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
+void moveStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
                 FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
                 StrandTaps<Real>& taps) {
-  const bool isPaper = settings.integrator == Integrator::paper;
-  const std::size_t pinnedCount = std::min(rest.rootCount, rest.particleCount());
-
-  // The head's new translation is the new frame of reference.
-  for (Vector3<Real>& v : velocities) v -= head.velocityChange;
-
-  if (rest.edgeCount() > 0) {
-    measureShape(rest, isPaper, head, positions, velocities, scratch, taps);
-    computeForces(rest, isPaper, scratch, taps);
-  }
-
-  // Pinned particles turn with the head; all others follow from forces.
-  for (std::size_t i = 0; i < pinnedCount; ++i) {
-    velocities[i] = head.carriedVelocity(rest.points[i]);
-  }
-  solveVelocities(rest, settings, head, scratch, taps, velocities);
   taps.solvedVelocities.assign(velocities.begin(), velocities.end());
-
-  for (std::size_t i = 0; i < pinnedCount; ++i)
-    positions[i] = head.next.template cast<Real>() * rest.points[i];
-  for (std::size_t i = pinnedCount; i < positions.size(); ++i) positions[i] += head.seconds * velocities[i];
-
-  scratch.movedEdges = scratch.edges;
+  differences(positions, scratch.movedEdges);
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
     scratch.movedEdges[i] += head.seconds * (velocities[i + 1] - velocities[i]);
+  }
+
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (i < rest.rootCount) {
+      positions[i] = head.carriedPlace(rest.points[i]);
+    } else {
+      positions[i] += head.seconds * velocities[i];
+    }
   }
   taps.limitedCount = limitStretch(rest.rootCount, static_cast<Real>(settings.maxStretch), head.seconds,
                                    rest.edgeLengths, scratch.movedEdges, positions, velocities);

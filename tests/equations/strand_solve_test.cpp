@@ -25,6 +25,16 @@ StrandSystem randomSystem(std::size_t particleCount, std::size_t rootCount, doub
   return system;
 }
 
+// Contacts at every third particle, along random normals, up to 1,000 times the mass.
+void addContacts(StrandSystem& system) {
+  std::mt19937 random(12);
+  for (std::size_t i = 0; i < system.particleCount(); ++i) {
+    const Vector3<double> normal = randomVector(random, 1).normalized();
+    system.contactWeights.push_back((i % 3 == 0 ? 1000.0 : 0.0) * normal * normal.transpose());
+    system.contactMomenta.push_back(system.contactWeights.back() * randomVector(random, 1));
+  }
+}
+
 // The system of the free particles as one dense matrix, with what the pinned ones add to its right hand side.
 struct DenseSystem {
   Eigen::MatrixXd matrix;
@@ -38,6 +48,9 @@ DenseSystem densify(const StrandSystem& system, const Field<double>& velocities)
     const auto row = static_cast<Eigen::Index>(3 * (i - first));
     dense.matrix.block<3, 3>(row, row) += system.masses[i] * Matrix3<double>::Identity();
     dense.right.segment<3>(row) = system.momenta[i];
+    if (system.contactWeights.empty()) continue;
+    dense.matrix.block<3, 3>(row, row) += system.contactWeights[i];
+    dense.right.segment<3>(row) += system.contactMomenta[i];
   }
   for (std::size_t i = first - 1; i + 1 < n; ++i) {
     const Matrix3<double> a = system.edgeBlock(i);
@@ -62,23 +75,28 @@ Eigen::VectorXd flatten(const Field<double>& velocities, std::size_t first) {
   return flat;
 }
 
+void expectDenseSolution(const StrandSystem& system, Field<double> velocities, double stiffness) {
+  const DenseSystem dense = densify(system, velocities);
+  SolveScratch scratch;
+  solveStrand(system, scratch, velocities);
+  const Eigen::VectorXd found = flatten(velocities, system.rootCount),
+                        expected = dense.matrix.llt().solve(dense.right);
+  // Both solves lose the condition number times rounding.
+  EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_LT((dense.matrix * found - dense.right).norm(), 1e-13 * (1 + stiffness) * expected.norm() + 1e-12);
+}
+
 TEST(StrandSolve, MatchesTheDenseSolve) {
   std::mt19937 random(5);
   for (const std::size_t particleCount : {2u, 3u, 40u}) {
     for (const std::size_t rootCount : {1u, 2u}) {
       if (particleCount <= rootCount) continue;
       for (const double stiffness : {0.0, 10.0, 1e5}) {
-        const StrandSystem system = randomSystem(particleCount, rootCount, stiffness);
-        Field<double> velocities = randomField(random, particleCount, 1);
-        const DenseSystem dense = densify(system, velocities);
-        SolveScratch scratch;
-        solveStrand(system, scratch, velocities);
-        const Eigen::VectorXd found = flatten(velocities, rootCount),
-                              expected = dense.matrix.llt().solve(dense.right);
-        // Both solves lose the condition number times rounding.
-        EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
-        EXPECT_LT((dense.matrix * found - dense.right).norm(),
-                  1e-13 * (1 + stiffness) * expected.norm() + 1e-12);
+        StrandSystem system = randomSystem(particleCount, rootCount, stiffness);
+        const Field<double> velocities = randomField(random, particleCount, 1);
+        expectDenseSolution(system, velocities, stiffness);
+        addContacts(system);
+        expectDenseSolution(system, velocities, 1000 + stiffness);
       }
     }
   }
@@ -114,7 +132,8 @@ TEST(StrandSolve, TheIterationBoundIsOne) {
 
 TEST(StrandSolve, PointIterationsConvergeToTheExactSolution) {
   std::mt19937 random(6);
-  const StrandSystem system = randomSystem(30, 2, 20);
+  StrandSystem system = randomSystem(30, 2, 20);
+  addContacts(system);
   const Field<double> start = randomField(random, 30, 1);
   SolveScratch scratch;
   Field<double> exact = start;

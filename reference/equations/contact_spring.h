@@ -1,0 +1,141 @@
+// The spring between two contact particles of different strands, and its life. Mirrors
+// shaders/equations/contact_spring.glsl. Iben et al. 2012, section 4, describe it; the formulas are ours.
+//
+//     d = |x_a - x_b|,   n = (x_a - x_b) / d,   u_n = n . (v_a - v_b)        v: of the step without contacts
+//     touching:  d < r0  or  d + T u_n < r0           the second: before the end of the step, seen ahead
+//
+//     kappa (stiffness)   0 __/--------\____ 0          engaging: kappa grows, delta is 1 at once
+//     delta (damping)     0 |------------\__ 0          breaking: kappa falls to 0, then delta
+//                           touching | breaking         gone: beyond the break distance, or delta is 0
+//
+// The step's impulse on a is push n - Q (v_a - v_b), on b its negative, with
+//
+//     push = T k kappa (r0 - d)            Q = q_n n n^T + q_t (I - n n^T)
+//     q_n = T c delta + T^2 k kappa,   q_t = friction T c delta
+//
+// The spring (k) acts only while touching, and then in both directions: seen ahead, d > r0 and push is
+// negative, which is what lets the pair come to r0 unhindered. The damper (c) acts only while d < r0 or
+// breaking: no damping before there is a contact.
+#pragma once
+
+#include <algorithm>
+
+#include "reference/fields.h"
+#include "ringlet/rest/material.h"
+#include "ringlet/scene/contact_settings.h"
+
+namespace ringlet::reference {
+
+/// What stays of a pair.
+template <class Real>
+struct ContactConstants {
+  Real restLength = 0;  // r0 [m]
+  Real stiffness = 0;   // k [N/m]
+  Real damping = 0;     // c [N s/m]
+};
+
+// Spheres that overlap at rest touch when they are nearer than that by this share of R, some ten times what a
+// float position is rounded by. At exactly the rest distance rounding would decide which of them touch, and
+// their damping would carry that into the motion.
+inline constexpr double kContactSlack = 1e-4;
+
+/// For two strands' mean contact particle of `mass` m_c [kg], `radiusSum` R [m], and the particles'
+/// `restDistance` [m]:
+///     r0 = min(R, rest distance - slack), not below 0, so that there is no contact at rest
+///     k = stiffness m_c g / R,   c = 2 dampingRatio sqrt(k m_c)
+template <class Real>
+ContactConstants<Real> contactConstants(const ContactSettings& settings, double mass, double radiusSum,
+                                        double restDistance) {
+  const double stiffness = settings.stiffness * mass * kStandardGravity / radiusSum;
+  const double restLength = std::min(radiusSum, restDistance - kContactSlack * radiusSum);
+  return {.restLength = static_cast<Real>(std::max(0.0, restLength)),
+          .stiffness = static_cast<Real>(stiffness),
+          .damping = static_cast<Real>(2 * settings.dampingRatio * std::sqrt(stiffness * mass))};
+}
+
+/// Where two particles are to each other, seen from a.
+template <class Real>
+struct ContactPlace {
+  Vector3<Real> normal;  // n, from b to a [1]
+  Real distance = 0;     // d [m]
+  Real separation = 0;   // u_n: how fast they part [m/s]
+};
+
+/// `apart` = x_a - x_b [m], `parting` = v_a - v_b [m/s]. Particles in one place part along +y for the one of
+/// the lower index in the groom, which is a if `aIsLower`.
+template <class Real>
+ContactPlace<Real> contactPlace(const Vector3<Real>& apart, const Vector3<Real>& parting, bool aIsLower) {
+  const Real shortest = Real(1e-12);  // [m]
+  ContactPlace<Real> place;
+  place.distance = apart.norm();
+  place.normal = place.distance < shortest ? Vector3<Real>(0, aIsLower ? 1 : -1, 0)
+                                           : Vector3<Real>(apart / place.distance);
+  place.separation = place.normal.dot(parting);
+  return place;
+}
+
+template <class Real>
+bool isTouching(const ContactPlace<Real>& place, Real restLength, Real stepSeconds) {
+  return place.distance < restLength || place.distance + stepSeconds * place.separation < restLength;
+}
+
+/// What a pair remembers from step to step.
+template <class Real>
+struct ContactLife {
+  Real stiffnessShare = 0;  // kappa [1]
+  Real dampingShare = 0;    // delta [1]
+
+  bool isOver() const { return !(stiffnessShare > 0 || dampingShare > 0); }
+};
+
+/// The life after a step of T [s] that begins at `place`.
+template <class Real>
+ContactLife<Real> nextLife(const ContactSettings& settings, ContactLife<Real> life, bool touching,
+                           Real distance, Real restLength, Real stepSeconds) {
+  const auto changeIn = [&](double seconds) {  // a share's change within the step
+    return seconds > 0 ? stepSeconds / static_cast<Real>(seconds) : Real(1);
+  };
+  if (touching) {
+    return {std::min(Real(1), life.stiffnessShare + changeIn(settings.rampSeconds)), Real(1)};
+  }
+  if (distance > static_cast<Real>(settings.breakFactor) * restLength) return {};
+  if (life.stiffnessShare > 0) {
+    life.stiffnessShare = std::max(Real(0), life.stiffnessShare - changeIn(settings.stiffnessReleaseSeconds));
+  } else {
+    life.dampingShare = std::max(Real(0), life.dampingShare - changeIn(settings.dampingReleaseSeconds));
+  }
+  return life;
+}
+
+/// A step's weights [kg] and momentum [kg m/s].
+template <class Real>
+struct ContactWeights {
+  Real normal = 0, tangential = 0;  // q_n, q_t
+  Real push = 0;                    // along n
+};
+
+template <class Real>
+ContactWeights<Real> contactWeights(const ContactSettings& settings, const ContactConstants<Real>& constants,
+                                    const ContactLife<Real>& life, bool touching, Real distance,
+                                    Real stepSeconds) {
+  ContactWeights<Real> weights;
+  if (distance < constants.restLength || !touching) {
+    weights.normal = stepSeconds * constants.damping * life.dampingShare;
+    weights.tangential = static_cast<Real>(settings.friction) * weights.normal;
+  }
+  if (touching) {
+    const Real spring = stepSeconds * constants.stiffness * life.stiffnessShare;
+    weights.normal += stepSeconds * spring;
+    weights.push = spring * (constants.restLength - distance);
+  }
+  return weights;
+}
+
+/// Q [kg].
+template <class Real>
+Matrix3<Real> contactMatrix(const ContactWeights<Real>& weights, const Vector3<Real>& normal) {
+  return (weights.normal - weights.tangential) * normal * normal.transpose() +
+         weights.tangential * Matrix3<Real>::Identity();
+}
+
+}  // namespace ringlet::reference

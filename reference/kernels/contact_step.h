@@ -1,0 +1,165 @@
+// The contacts of one outer step, between the strands' own solves and their move, in two stages:
+// updateContacts gives every pair its life and weights, solveContacts the velocities that follow. Mirrors the
+// contact kernels. Iben et al. 2012, section 4, for the springs and their life; the solve is ours:
+//
+//     (L + 2 D) v^{k+1} = base + sum push n + sum Q (v_a^k + v_b^k)         D = sum Q of the particle
+//
+// all strands at once, from v^0, the solve without contacts. A pair's mean velocity, and not the other's
+// velocity, is what the iteration holds: its eigenvalues are then in [0, 1) whatever the stiffness and the
+// number of contacts, and a symmetric hit is right after one iteration. Its fixed point is
+// L v = base + sum (push n - Q (v_a - v_b)).
+#pragma once
+
+#include "reference/equations/contact_spring.h"
+#include "reference/kernels/contact_pairs.h"
+#include "reference/strand_solve.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet::reference {
+
+/// A pair that touches, or touched and has not broken.
+template <class Real>
+struct Contact {
+  ContactPair pair;  // places in Contacts::particles
+  ContactLife<Real> life{};
+  Vector3<Real> normal = Vector3<Real>::Zero();  // from b to a, start of the step [1]
+  ContactWeights<Real> weights{};
+};
+
+/// Contacts of all strands, from step to step, with what the last step found; fields in groom order.
+template <class Real>
+struct Contacts {
+  RestContacts rest;
+  std::vector<ContactParticle> particles;
+  std::vector<Contact<Real>> live;  // ascending by pair
+
+  Field<Real> freeVelocities;            // v^0 [m/s]
+  Field<double> pushes;                  // sum of push n [kg m/s]
+  std::vector<Matrix3<double>> weights;  // D [kg]
+  double momentumError = 0;              // |sum J| over sum |J|, J the momentum a particle got [1]
+};
+
+template <class Real>
+Contacts<Real> makeContacts(const std::vector<RestStrand<Real>>& strands,
+                            std::span<const std::uint32_t> firstPoint, const ContactSettings& settings) {
+  Contacts<Real> contacts;
+  contacts.rest = makeRestContacts(strands, settings);
+  contacts.particles = listContactParticles(contacts.rest, strands, firstPoint);
+  return contacts;
+}
+
+/// Lives and weights of a step of T [s], from positions [m] at its start and the velocities of the step
+/// without contacts [m/s].
+template <class Real>
+void updateContacts(const ContactSettings& settings, Real stepSeconds, const Field<Real>& positions,
+                    const Field<Real>& velocities, Contacts<Real>& contacts) {
+  // Far enough for every pair that may touch within the step, and for every one that is not yet broken.
+  Field<double> places;
+  Scalars<double> reaches;
+  for (const ContactParticle& particle : contacts.particles) {
+    places.push_back(positions[particle.index].template cast<double>());
+    reaches.push_back(settings.breakFactor * particle.radius +
+                      static_cast<double>(stepSeconds * velocities[particle.index].norm()));
+  }
+
+  std::vector<Contact<Real>> live;
+  auto before = contacts.live.begin();  // both lists ascend
+  for (const ContactPair& pair : nearPairs(contacts.rest, contacts.particles, places, reaches)) {
+    const ContactParticle &a = contacts.particles[pair.a], &b = contacts.particles[pair.b];
+    const auto constants = contactConstants<Real>(settings, (a.mass + b.mass) / 2, a.radius + b.radius,
+                                                  (a.restPlace - b.restPlace).norm());
+    const ContactPlace<Real> place =
+        contactPlace<Real>(positions[a.index] - positions[b.index], velocities[a.index] - velocities[b.index],
+                           a.index < b.index);
+    const bool touching = isTouching(place, constants.restLength, stepSeconds);
+
+    while (before != contacts.live.end() && before->pair < pair) ++before;
+    const bool isKnown = before != contacts.live.end() && before->pair == pair;
+    const ContactLife<Real> life = nextLife(settings, isKnown ? before->life : ContactLife<Real>{}, touching,
+                                            place.distance, constants.restLength, stepSeconds);
+    if (life.isOver()) continue;
+    live.push_back({pair, life, place.normal,
+                    contactWeights(settings, constants, life, touching, place.distance, stepSeconds)});
+  }
+  contacts.live = std::move(live);
+}
+
+/// D and the sums of push n.
+template <class Real>
+void gatherContacts(std::size_t particleCount, Contacts<Real>& contacts) {
+  contacts.weights.assign(particleCount, Matrix3<double>::Zero());
+  contacts.pushes.assign(particleCount, Vector3<double>::Zero());
+  for (const Contact<Real>& contact : contacts.live) {
+    const std::uint32_t a = contacts.particles[contact.pair.a].index;
+    const std::uint32_t b = contacts.particles[contact.pair.b].index;
+    const Matrix3<double> weight = contactMatrix(contact.weights, contact.normal).template cast<double>();
+    const Vector3<double> push = (contact.weights.push * contact.normal).template cast<double>();
+    contacts.weights[a] += weight;
+    contacts.weights[b] += weight;
+    contacts.pushes[a] += push;
+    contacts.pushes[b] -= push;
+  }
+}
+
+/// sum push n + sum Q (v_a + v_b) of every particle [kg m/s].
+template <class Real>
+Field<double> pairMomenta(const Contacts<Real>& contacts, const Field<double>& velocities) {
+  Field<double> momenta = contacts.pushes;
+  for (const Contact<Real>& contact : contacts.live) {
+    const std::uint32_t a = contacts.particles[contact.pair.a].index;
+    const std::uint32_t b = contacts.particles[contact.pair.b].index;
+    const Vector3<double> momentum = contactMatrix(contact.weights, contact.normal).template cast<double>() *
+                                     (velocities[a] + velocities[b]);
+    momenta[a] += momentum;
+    momenta[b] += momentum;
+  }
+  return momenta;
+}
+
+/// J = sum push n + sum Q (w_a + w_b) - 2 D v of each particle, w the iterate before v: the momentum contacts
+/// gave it. Pairs cancel once w = v. Returns |sum J| / sum |J|.
+template <class Real>
+double contactMomentumError(const Contacts<Real>& contacts, const Field<double>& momenta,
+                            const Field<double>& velocities) {
+  Vector3<double> sum = Vector3<double>::Zero();
+  double size = 0;
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    const Vector3<double> given = momenta[i] - 2 * contacts.weights[i] * velocities[i];
+    sum += given;
+    size += given.norm();
+  }
+  return size > 0 ? sum.norm() / size : 0;
+}
+
+/// Strand-block Jacobi from v^0. `systems` are those of the solve without contacts; what contacts add to them
+/// is written beside it. velocities [m/s]: v^0 in, the last iterate out.
+template <class Real>
+void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,
+                   std::vector<StrandSystem>& systems, SolveScratch& scratch, Contacts<Real>& contacts,
+                   Field<Real>& velocities) {
+  contacts.freeVelocities = velocities;
+  gatherContacts(velocities.size(), contacts);
+  contacts.momentumError = 0;
+  if (contacts.live.empty()) return;
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    for (std::uint32_t i = firstPoint[s]; i < firstPoint[s + 1]; ++i) {
+      systems[s].contactWeights.push_back(2 * contacts.weights[i]);
+    }
+  }
+
+  Field<double> solved, momenta;
+  for (const Vector3<Real>& v : velocities) solved.push_back(v.template cast<double>());
+  for (int iteration = 0; iteration < iterationCount; ++iteration) {
+    momenta = pairMomenta(contacts, solved);
+    for (std::size_t s = 0; s < systems.size(); ++s) {
+      const std::size_t first = firstPoint[s], count = firstPoint[s + 1] - first;
+      const auto strandMomenta = std::span(momenta).subspan(first, count);
+      systems[s].contactMomenta.assign(strandMomenta.begin(), strandMomenta.end());
+      solveStrand(systems[s], scratch, std::span(solved).subspan(first, count));
+    }
+  }
+  contacts.momentumError = contactMomentumError(contacts, momenta, solved);
+  for (std::size_t i = 0; i < solved.size(); ++i) velocities[i] = solved[i].template cast<Real>();
+}
+
+}  // namespace ringlet::reference
