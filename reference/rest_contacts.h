@@ -71,7 +71,7 @@ inline std::vector<std::uint32_t> contactParticles(const Field<double>& points, 
   return kept;
 }
 
-/// The strand's radius: raised until its spheres leave no gap, where an edge is longer than R.
+/// With fillGaps, the strand's radius: raised until its spheres leave no gap, where an edge is longer than R.
 inline double closedRadius(const Field<double>& points, double radius, double spacing) {
   for (;;) {
     const std::vector<std::uint32_t> kept = contactParticles(points, radius, spacing);
@@ -144,7 +144,7 @@ RestContacts makeRestContacts(const std::vector<RestStrand<Real>>& strands, cons
   RestContacts rest;
   const double base = baseRadius(points, settings);
   for (std::size_t s = 0; s < strands.size(); ++s) {
-    rest.radii.push_back(closedRadius(points[s], base, settings.spacing));
+    rest.radii.push_back(settings.fillGaps ? closedRadius(points[s], base, settings.spacing) : base);
     rest.particles.push_back(contactParticles(points[s], rest.radii[s], settings.spacing));
     const double mass = std::accumulate(strands[s].masses.begin(), strands[s].masses.end(), 0.0);
     rest.masses.push_back(mass / static_cast<double>(std::max<std::size_t>(1, rest.particles[s].size())));

@@ -2,7 +2,7 @@
 // shaders/equations/contact_spring.glsl. Iben et al. 2012, section 4, describe it; the formulas are ours.
 //
 //     d = |x_a - x_b|,   n = (x_a - x_b) / d,   u_n = n . (v_a - v_b)        v: of the step without contacts
-//     touching:  d < r0  or  d + T u_n < r0           the second: before the end of the step, seen ahead
+//     touching:  d < r0, or seen ahead: d < 2 r0 and d + T u_n < r0       before the end of the step
 //
 //     kappa (stiffness)   0 __/--------\____ 0          engaging: kappa grows, delta is 1 at once
 //     delta (damping)     0 |------------\__ 0          breaking: kappa falls to 0, then delta
@@ -76,7 +76,9 @@ ContactPlace<Real> contactPlace(const Vector3<Real>& apart, const Vector3<Real>&
 
 template <class Real>
 bool isTouching(const ContactPlace<Real>& place, Real restLength, Real stepSeconds) {
-  return place.distance < restLength || place.distance + stepSeconds * place.separation < restLength;
+  if (place.distance < restLength) return true;
+  return place.distance < static_cast<Real>(kContactSeenAhead) * restLength &&
+         place.distance + stepSeconds * place.separation < restLength;
 }
 
 /// What a pair remembers from step to step.

@@ -7,6 +7,9 @@
 #ifndef RINGLET_CONTACT_SPRING
 #define RINGLET_CONTACT_SPRING
 
+/// r0: R, or a little less than the distance at rest, so that rounding does not decide what touches there.
+float contactRestLength(float R, float restDistance) { return max(0.0, min(R, restDistance - 1e-4 * R)); }
+
 struct ContactMeeting {
   vec3 normal;       // n, from b to a
   float distance;    // d [m]
@@ -26,6 +29,10 @@ bool isTouching(ContactMeeting meeting, float restLength, float T, float seenAhe
   return meeting.distance < restLength || (meeting.distance < seenAhead * restLength &&
                                            meeting.distance + T * meeting.separation < restLength);
 }
+
+/// (kappa, delta) of a life and back (layout.h).
+vec2 sharesOf(float life) { return life < 0.0 ? vec2(-life, 1.0) : vec2(0.0, life); }
+float lifeOfShares(vec2 shares) { return shares.x > 0.0 ? -shares.x : shares.y; }
 
 /// shares: (kappa, delta); changes: what they may change by in a step, (ramp, release of stiffness, release of damping).
 vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, vec3 changes, float breakFactor) {
@@ -55,9 +62,10 @@ ContactWeights contactWeights(vec2 shares, bool touching, float distance, float 
   return weights;
 }
 
-/// Q v
-vec3 contactMultiply(float normalWeight, float tangentialWeight, vec3 normal, vec3 v) {
-  return (normalWeight - tangentialWeight) * dot(normal, v) * normal + tangentialWeight * v;
+/// Q as (n sqrt(q_n - q_t), q_t); friction is at most 1, so q_t is never larger.
+vec4 contactMatrix(ContactWeights weights, vec3 normal) {
+  return vec4(sqrt(max(0.0, weights.normal - weights.tangential)) * normal, weights.tangential);
 }
+vec3 contactMultiply(vec4 Q, vec3 v) { return dot(Q.xyz, v) * Q.xyz + Q.w * v; }
 
 #endif

@@ -9,17 +9,14 @@ void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  uint row = rowOf(c);
   ContactRest rest = contactOf(c);
   vec3 v = velocityOf(rest.particle);
-  uint count = listCounts[row];
+  uint count = listCounts[rowOf(c)];
   vec3 momentum = vec3(0);
   for (uint j = 0; j < count; ++j) {
-    vec4 normal = normalAt(c * parameters.stride + j);
-    float tangential = parameters.friction > 0.0 ? lifeAt(pairOf(row, j)).tangential : 0.0;
-    if (normal.w == 0.0 && tangential == 0.0) continue;
-    vec3 both = v + velocityOf(pairAt(pairOf(row, j)).particle);
-    momentum += contactMultiply(normal.w, tangential, normal.xyz, both);
+    vec4 Q = normalAt(pairOf(c, j));
+    if (Q == vec4(0)) continue;
+    momentum += contactMultiply(Q, v + velocityOf(pairAt(pairOf(c, j)).particle));
   }
   systems[rest.particle].momentum = systems[rest.particle].push + vec4(rest.inverseMassUnit * momentum, 0);
 }

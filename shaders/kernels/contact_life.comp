@@ -22,26 +22,26 @@ void main() {
   vec3 push = vec3(0);
   vec3 momentum = vec3(0);
   for (uint j = 0; j < count; ++j) {
-    ContactPair pair = pairAt(pairOf(row, j));
+    ContactPair pair = pairAt(pairOf(c, j));
     vec3 otherVelocity = velocityOf(pair.particle);
     ContactMeeting meeting =
         contactMeeting(x - positionOf(pair.particle), v - otherVelocity, rest.particle < pair.particle);
     bool touching = isTouching(meeting, pair.restLength, T, parameters.seenAhead);
-    ContactLife old = lifeAt(pairOf(row, j));
-    // Most pairs are only near each other.
-    if (!touching && old.stiffnessShare == 0.0 && old.dampingShare == 0.0) {
-      normals[c * parameters.stride + j] = vec4(0);
+    float old = lifeAt(lifeOf(row, j)).shares;
+    if (!touching && old == 0.0) {  // most pairs are only near each other
+      normals[pairOf(c, j)] = vec4(0);
       continue;
     }
-    vec2 life = nextLife(vec2(old.stiffnessShare, old.dampingShare), touching, meeting.distance, pair.restLength, changes,
-                         parameters.breakFactor);
-    ContactWeights weights = contactWeights(life, touching, meeting.distance, pair.restLength, pair.stiffness,
+    vec2 shares =
+        nextLife(sharesOf(old), touching, meeting.distance, pair.restLength, changes, parameters.breakFactor);
+    ContactWeights weights = contactWeights(shares, touching, meeting.distance, pair.restLength, pair.stiffness,
                                             pair.damping, parameters.friction, T);
-    lives[pairOf(row, j)] = ContactLife(life.x, life.y, weights.tangential, 0.0);
-    normals[c * parameters.stride + j] = vec4(meeting.normal, weights.normal);
-    D = addOuter(addDiagonal(D, weights.tangential), weights.normal - weights.tangential, meeting.normal);
+    vec4 Q = contactMatrix(weights, meeting.normal);
+    lives[lifeOf(row, j)].shares = lifeOfShares(shares);
+    normals[pairOf(c, j)] = Q;
+    D = addOuter(addDiagonal(D, Q.w), 1.0, Q.xyz);
     push += weights.push * meeting.normal;
-    momentum += contactMultiply(weights.normal, weights.tangential, meeting.normal, v + otherVelocity);
+    momentum += contactMultiply(Q, v + otherVelocity);
   }
   float unit = rest.inverseMassUnit;
   systems[rest.particle] = ContactSystem(vec4(unit * D.d, 0), vec4(unit * D.o, 0), vec4(unit * push, 0),

@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
+#include "equations/contact_spring.glsl"
 
 bool mayTouch(uint a, uint b) {
   if (a == b) return false;
@@ -26,16 +27,16 @@ bool mayTouch(uint a, uint b) {
 // The pair's life so far, from the row that was in use. Cells come in the same order as last time, mostly, so it is looked
 // for where the last one was found, and onwards.
 uint lastFound = 0;
-vec2 lifeOf(uint row, uint count, uint particle) {
+float sharesBefore(uint row, uint count, uint particle) {
   for (uint tried = 0; tried < count; ++tried) {
     uint j = lastFound + tried < count ? lastFound + tried : lastFound + tried - count;
-    if (pairAt(pairOf(row, j)).particle == particle) {
+    ContactLife life = lifeAt(lifeOf(row, j));
+    if (life.particle == particle) {
       lastFound = j + 1;
-      ContactLife life = lifeAt(pairOf(row, j));
-      return vec2(life.stiffnessShare, life.dampingShare);
+      return life.shares;
     }
   }
-  return vec2(0);
+  return 0.0;
 }
 
 void main() {
@@ -76,26 +77,31 @@ void main() {
           // Other cells may share a bucket, and a bucket may come by twice.
           ivec3 nearCell = cellOf(near.xyz);
           if (nearCell.y != y || nearCell.z != z || abs(nearCell.x - cell.x) > 1) continue;
-          pairs[pairOf(row, queued)] = ContactPair(floatBitsToUint(near.w), squared, 0.0, 0.0);
+          pairs[pairOf(c, queued)] = ContactPair(floatBitsToUint(near.w), squared, 0.0, 0.0);
           ++queued;
         }
         // All invocations look at what they have found together; a driver that runs them in step would else do it for one
         // after the other.
         for (uint j = count; j < queued; ++j) {
-          uint b = pairs[pairOf(row, j)].particle;
-          float squared = pairs[pairOf(row, j)].restLength;
+          uint b = pairs[pairOf(c, j)].particle;
+          float squared = pairs[pairOf(c, j)].restLength;
           ContactRest other = contactOf(b);
           if (b == c || (rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0)) continue;
           float R = rest.point.w + other.point.w;
-          float r0 = min(R, distance(rest.point.xyz, other.point.xyz));
+          float r0 = contactRestLength(R, distance(rest.point.xyz, other.point.xyz));
           float ahead = T * length(v - velocityOf(other.particle));
-          float reach = min(parameters.breakFactor * r0 + ahead, seenAhead * r0) + parameters.skin;
-          if (!(squared < reach * reach) || !mayTouch(rest.strand, other.strand)) continue;
+          // Near enough to touch while the list is good; or to be a contact that has not broken.
+          float reach = min(r0 + ahead, parameters.seenAhead * r0) + parameters.skin;
+          float lastReach = parameters.breakFactor * r0 + parameters.skin;
+          bool mayBegin = squared < reach * reach;
+          if (!mayBegin && !(squared < lastReach * lastReach)) continue;
+          if (!mayTouch(rest.strand, other.strand)) continue;
+          float shares = sharesBefore(oldRow, oldCount, other.particle);
+          if (!mayBegin && shares == 0.0) continue;
           float mass = 0.5 * (rest.mass + other.mass);
           float k = parameters.stiffness * mass / R;
-          vec2 life = lifeOf(oldRow, oldCount, other.particle);
-          pairs[pairOf(row, count)] = ContactPair(other.particle, r0, k, 2.0 * parameters.dampingRatio * sqrt(k * mass));
-          lives[pairOf(row, count)] = ContactLife(life.x, life.y, 0.0, 0.0);
+          pairs[pairOf(c, count)] = ContactPair(other.particle, r0, k, 2.0 * parameters.dampingRatio * sqrt(k * mass));
+          lives[lifeOf(row, count)] = ContactLife(shares, other.particle);
           ++count;
         }
         if (count == parameters.stride) {  // full; whether there are more does not matter

@@ -46,8 +46,8 @@ ContactPair pairAt(uint entry) {
 }
 ContactLife lifeAt(uint entry) {
   if (!kTexels) return lives[entry];
-  vec4 life = vectorAt(lifeTexels, entry);
-  return ContactLife(life.x, life.y, life.z, life.w);
+  uvec4 two = recordAt(lifeTexels, entry / 2);
+  return entry % 2 == 0 ? ContactLife(uintBitsToFloat(two.x), two.y) : ContactLife(uintBitsToFloat(two.z), two.w);
 }
 vec4 normalAt(uint entry) { return kTexels ? vectorAt(normalTexels, entry) : normals[entry]; }
 
@@ -71,7 +71,9 @@ uint bucketOf(ivec3 cell) {
   return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
 }
 
+// A contact particle's list, and its two rows of lives.
+uint pairOf(uint c, uint j) { return c * parameters.stride + j; }
 uint rowOf(uint c) { return 2 * c + control.parity; }
-uint pairOf(uint row, uint j) { return row * parameters.stride + j; }
+uint lifeOf(uint row, uint j) { return row * parameters.stride + j; }
 
 #endif

@@ -143,9 +143,9 @@ RINGLET_CONSTANT uint kBindNeighbours = 3;        // uint: first neighbour of ea
 RINGLET_CONSTANT uint kBindGrid = 4;              // uint: see gridStarts and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPlaces = 5;            // ContactPlace[contacts]
 RINGLET_CONSTANT uint kBindListCounts = 6;        // uint[contacts][2]: pairs in each of a contact particle's two rows
-RINGLET_CONSTANT uint kBindPairs = 7;             // ContactPair[contacts][2][stride]
+RINGLET_CONSTANT uint kBindPairs = 7;             // ContactPair[contacts][stride]
 RINGLET_CONSTANT uint kBindLives = 8;             // ContactLife[contacts][2][stride]
-RINGLET_CONSTANT uint kBindNormals = 9;           // vec4[contacts][stride]: n, q_n [kg]
+RINGLET_CONSTANT uint kBindNormals = 9;           // vec4[contacts][stride]: n sqrt(q_n - q_t), q_t [kg]
 RINGLET_CONSTANT uint kBindSystems = 10;          // ContactSystem[particles]
 RINGLET_CONSTANT uint kBindControl = 11;          // ContactControl
 RINGLET_CONSTANT uint kContactBindingCount = 12;
@@ -155,7 +155,7 @@ RINGLET_CONSTANT uint kBindContactSolvedTexels = 13;
 RINGLET_CONSTANT uint kBindContactTexels = 14;  // 2 a contact particle
 RINGLET_CONSTANT uint kBindPlaceTexels = 15;    // 3 a contact particle
 RINGLET_CONSTANT uint kBindPairTexels = 16;
-RINGLET_CONSTANT uint kBindLifeTexels = 17;
+RINGLET_CONSTANT uint kBindLifeTexels = 17;     // of 2 lives
 RINGLET_CONSTANT uint kBindNormalTexels = 18;
 RINGLET_CONSTANT uint kContactTexelBindingCount = 7;
 
@@ -176,12 +176,11 @@ struct ContactPair {
   float damping;     // c [N s/m]
 };
 
-// What a pair remembers from step to step, and a weight of this step's.
+// What a pair remembers from step to step, in two rows: lists are made anew from the row before. The shares are one number,
+// for the damping's is 1 while the stiffness's is not 0: -kappa, or delta where kappa is 0.
 struct ContactLife {
-  float stiffnessShare;  // kappa
-  float dampingShare;    // delta
-  float tangential;      // q_t [kg]
-  float unused;
+  float shares;
+  uint particle;  // the other, device order
 };
 
 // What contacts add to a particle's velocity system, (L + 2 D) v = base + momentum, in the strand's mass units.

@@ -64,6 +64,7 @@ TEST(RestContacts, NeverSkipsFurtherThanR) {
 TEST(RestContacts, CoarseStrandsGetALargerRadius) {
   ContactSettings settings;
   settings.radius = 0.002;
+  settings.fillGaps = true;
   auto strands = hanging(row(2, 0.05), 0.006, 20);
   strands[1] = hanging(row(1, 0), 0.003, 20)[0];
   const RestContacts rest = makeRestContacts(strands, settings);
@@ -82,6 +83,7 @@ TEST(RestContacts, SpheresLeaveNoGap) {
         p += Vec3f(Vec3d{randomVector(random, 0.003).x(), 0, randomVector(random, 0.003).x()});
       ContactSettings settings;
       settings.radius = radius;
+      settings.fillGaps = true;
       settings.spacing = spacing;
       const RestStrand<double> strand = restOf(points);
       const RestContacts rest = makeRestContacts(std::vector{strand}, settings);

@@ -315,7 +315,7 @@ Status checkSettings(const Settings& s, const Material& material) {
       {"contacts.dropShare", s.contacts.dropShare, 0, 1},
       {"contacts.stiffness", s.contacts.stiffness, 0, 1e7},
       {"contacts.dampingRatio", s.contacts.dampingRatio, 0, 100},
-      {"contacts.friction", s.contacts.friction, 0, 10},
+      {"contacts.friction", s.contacts.friction, 0, 1},
       {"contacts.rampSeconds", s.contacts.rampSeconds, 0, 10},
       {"contacts.stiffnessReleaseSeconds", s.contacts.stiffnessReleaseSeconds, 0, 10},
       {"contacts.dampingReleaseSeconds", s.contacts.dampingReleaseSeconds, 0, 10},

@@ -7,6 +7,10 @@
 
 namespace ringlet {
 
+/// A contact is seen ahead, by how fast two particles near each other, once they are nearer than this times
+/// its rest length: further off, what will meet is anybody's guess, and looking costs its cube.
+inline constexpr double kContactSeenAhead = 2;
+
 /// checkSettings (rest/rest_state.h) holds the ranges. `w` below is what a contact particle weighs: its mass
 /// m_c, the strand's over its number of contact particles, times 9.81 m/s^2. R is the sum of two radii [m].
 struct ContactSettings {
@@ -33,7 +37,7 @@ struct ContactSettings {
   // The spring between two spheres that touch. It has no force at rest: spheres that overlap there may.
   double stiffness = 1000;    // in w / R, 0 to 1e7: a tenth of the default is felt as soft
   double dampingRatio = 1;    // along the contact's normal; 1 is critical, 0 to 100
-  double friction = 0;        // tangential damping, as a multiple of the normal one, 0 to 10
+  double friction = 0;        // tangential damping, as a share of the normal one, 0 to 1
   double rampSeconds = 0.02;  // from first touch to full stiffness [s], 0 to 10; damping is full at once
   double stiffnessReleaseSeconds = 0.02;  // from parting until stiffness has faded [s], 0 to 10
   double dampingReleaseSeconds = 0.02;    // and then damping [s], 0 to 10

@@ -21,8 +21,7 @@ constexpr std::uint32_t kGroupSize = 64;
 constexpr std::uint32_t kBlock = 1024;  // buckets summed together, as in contact_buffers.glsl
 constexpr std::uint64_t kMostTexelBytes = 2ull << 30;
 constexpr std::uint32_t kFirstStride = 16;  // room in a list to begin with
-constexpr double kSkinShare = 0.25;         // of R: what may come closer before lists are made anew
-constexpr float kSeenAhead = 2;             // times r0: from where a contact is seen ahead
+constexpr double kSkinShare = 0.15;         // of R: what may come closer before lists are made anew
 
 // What a share of a contact changes by in a step.
 float changeIn(double seconds, double stepSeconds) {
@@ -130,26 +129,26 @@ layout::ContactControl& ContactStage::control() const {
 // The longest lists the device has room for.
 std::uint32_t ContactStage::mostStride() const {
   return static_cast<std::uint32_t>(device_->properties().maxStorageBufferRange /
-                                    (2 * particles_.size() * sizeof(layout::ContactPair)));
+                                    (particles_.size() * sizeof(layout::ContactPair))) &
+         ~1u;  // even: two lives are a texel
 }
 
-// Counts, pairs, lives, normals: for `stride_` pairs a contact particle, two rows each but for the normals.
+// Counts, pairs, lives, normals: for `stride_` pairs a contact particle; two rows of counts and lives.
 Status ContactStage::createLists(gpu::Device& device) {
-  const std::uint64_t rows = 2 * particles_.size(), entries = rows * stride_;
+  const std::uint64_t rows = 2 * particles_.size(), entries = particles_.size() * stride_;
   lists_.clear();
   const std::uint64_t largest = entries * sizeof(layout::ContactPair);
   if (largest > device.properties().maxStorageBufferRange) {
     return Error{fmt::format(
-        "lists of up to {} contacts for each of {} contact particles need a buffer of {} MiB, and this "
-        "device's are {} MiB "
-        "at most; use a smaller contact radius, or prune more",
+        "lists of up to {} contacts for each of {} contact particles need a buffer of {} MiB, and "
+        "this device's are {} MiB at most; use a smaller contact radius, or prune more",
         stride_, particles_.size(), largest >> 20, device.properties().maxStorageBufferRange >> 20)};
   }
   const std::pair<const char*, std::uint64_t> buffers[] = {
       {"contact counts", rows * sizeof(std::uint32_t)},
       {"contact pairs", largest},
-      {"contact lives", entries * sizeof(layout::ContactLife)},
-      {"contact normals", entries / 2 * sizeof(layout::vec4)},
+      {"contact lives", 2 * entries * sizeof(layout::ContactLife)},
+      {"contact normals", entries * sizeof(layout::vec4)},
   };
   for (const auto& [name, bytes] : buffers) {
     auto buffer = createZero(device, bytes, name);
@@ -189,7 +188,7 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
           .stiffnessRelease = changeIn(settings_.stiffnessReleaseSeconds, stepSeconds_),
           .dampingRelease = changeIn(settings_.dampingReleaseSeconds, stepSeconds_),
           .breakFactor = static_cast<float>(settings_.breakFactor),
-          .seenAhead = kSeenAhead};
+          .seenAhead = static_cast<float>(kContactSeenAhead)};
 }
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
@@ -240,32 +239,27 @@ void ContactStage::recordGather(gpu::Recorder& recorder) const {
   recorder.endStage();
 }
 
-// The row in use before the lists were made that did not fit is copied to its place in longer ones.
+// The lives of the row in use before the lists were made that did not fit go to their places in longer ones;
+// the pairs are found anew.
 Status ContactStage::makeRoom(const DeviceGroom& groom) {
   const std::uint32_t before = stride_, row = control().parity ^ 1;
   const std::size_t count = particles_.size();
   auto counts = downloadAll<std::uint32_t>(lists_[0], 2 * count);
   if (!counts) return counts.error();
-  auto pairs = downloadAll<layout::ContactPair>(lists_[1], 2 * count * before);
-  if (!pairs) return pairs.error();
   auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * count * before);
   if (!lives) return lives.error();
 
-  stride_ = before + std::max(before / 4, 8u);
+  stride_ = (before + std::max(before / 4, 8u)) & ~1u;
   if (before < mostStride()) stride_ = std::min(stride_, mostStride());
   if (Status status = createLists(*device_); !status) return status;
-  std::vector<layout::ContactPair> newPairs(2 * count * stride_);
-  std::vector<layout::ContactLife> newLives(2 * count * stride_);
+  std::vector<layout::ContactLife> longer(2 * count * stride_);
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t from = (2 * c + row) * before, to = (2 * c + row) * stride_;
-    for (std::uint32_t j = 0; j < (*counts)[2 * c + row]; ++j) {
-      newPairs[to + j] = (*pairs)[from + j];
-      newLives[to + j] = (*lives)[from + j];
-    }
+    std::copy_n(lives->begin() + static_cast<std::ptrdiff_t>(from), (*counts)[2 * c + row],
+                longer.begin() + static_cast<std::ptrdiff_t>(to));
   }
   if (Status status = lists_[0].upload(std::as_bytes(std::span(*counts))); !status) return status;
-  if (Status status = lists_[1].upload(std::as_bytes(std::span(newPairs))); !status) return status;
-  if (Status status = lists_[2].upload(std::as_bytes(std::span(newLives))); !status) return status;
+  if (Status status = lists_[2].upload(std::as_bytes(std::span(longer))); !status) return status;
 
   layout::ContactControl& c = control();
   c.parity = row;
@@ -289,8 +283,6 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
   const std::size_t count = particles_.size();
   auto counts = downloadAll<std::uint32_t>(lists_[0], 2 * count);
   if (!counts) return counts.error();
-  auto pairs = downloadAll<layout::ContactPair>(lists_[1], 2 * count * stride_);
-  if (!pairs) return pairs.error();
   auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * count * stride_);
   if (!lives) return lives.error();
 
@@ -303,9 +295,9 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t row = 2 * c + control().parity;
     for (std::uint32_t j = 0; j < (*counts)[row]; ++j) {
-      const std::size_t at = row * stride_ + j;
-      const std::uint32_t a = inGroom[particles_[c]], b = inGroom[(*pairs)[at].particle];
-      if (a < b) contacts.push_back({a, b, (*lives)[at].stiffnessShare, (*lives)[at].dampingShare});
+      const auto& [shares, particle] = (*lives)[row * stride_ + j];
+      const std::uint32_t a = inGroom[particles_[c]], b = inGroom[particle];
+      if (a < b) contacts.push_back({a, b, std::max(0.0f, -shares), shares < 0 ? 1.0f : shares});
     }
   }
   std::sort(contacts.begin(), contacts.end(), [](const ListedContact& x, const ListedContact& y) {
