@@ -36,6 +36,8 @@ void main() {
     control.parity ^= 1;
     control.isListed = 1;
     control.listed = 0;
+    control.blocks = 0;
+    control.longestList = 0;
     ++control.rebuilds;
   }
   control.motion = 0;

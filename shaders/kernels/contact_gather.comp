@@ -11,12 +11,15 @@ void main() {
   if (c >= parameters.contactCount) return;
   ContactRest rest = contactOf(c);
   vec3 v = velocityOf(rest.particle);
-  uint count = listCounts[rowOf(c)];
+  uint list = listOf(c, control.parity);
+  uint count = lists[list];
+  uint entry = 0;
   vec3 momentum = vec3(0);
   for (uint j = 0; j < count; ++j) {
-    vec4 Q = normalAt(pairOf(c, j));
+    entry = nextEntry(list, j, entry);
+    vec4 Q = normalAt(entry);
     if (Q == vec4(0)) continue;
-    momentum += contactMultiply(Q, v + velocityOf(pairAt(pairOf(c, j)).particle));
+    momentum += contactMultiply(Q, v + velocityOf(pairAt(entry).particle));
   }
   systems[rest.particle].momentum = systems[rest.particle].push + vec4(rest.inverseMassUnit * momentum, 0);
 }

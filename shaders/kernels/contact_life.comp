@@ -16,20 +16,23 @@ void main() {
   vec3 v = velocityOf(rest.particle);
   float T = parameters.seconds;
   vec3 changes = vec3(parameters.ramp, parameters.stiffnessRelease, parameters.dampingRelease);
-  uint row = rowOf(c);
-  uint count = listCounts[row];
+  uint list = listOf(c, control.parity);
+  uint count = lists[list];
+  uint entry = 0;
   Symmetric D = symmetricDiagonal(0.0);
   vec3 push = vec3(0);
   vec3 momentum = vec3(0);
   for (uint j = 0; j < count; ++j) {
-    ContactPair pair = pairAt(pairOf(c, j));
+    entry = nextEntry(list, j, entry);
+    uint ownLife = lifeOf(control.parity, entry);
+    ContactPair pair = pairAt(entry);
     vec3 otherVelocity = velocityOf(pair.particle);
     ContactMeeting meeting =
         contactMeeting(x - positionOf(pair.particle), v - otherVelocity, rest.particle < pair.particle);
     bool touching = isTouching(meeting, pair.restLength, T, parameters.seenAhead);
-    float old = lifeAt(lifeOf(row, j)).shares;
+    float old = lifeAt(ownLife).shares;
     if (!touching && old == 0.0) {  // most pairs are only near each other
-      normals[pairOf(c, j)] = vec4(0);
+      normals[entry] = vec4(0);
       continue;
     }
     vec2 shares =
@@ -37,8 +40,8 @@ void main() {
     ContactWeights weights = contactWeights(shares, touching, meeting.distance, pair.restLength, pair.stiffness,
                                             pair.damping, parameters.friction, T);
     vec4 Q = contactMatrix(weights, meeting.normal);
-    lives[lifeOf(row, j)].shares = lifeOfShares(shares);
-    normals[pairOf(c, j)] = Q;
+    lives[ownLife].shares = lifeOfShares(shares);
+    normals[entry] = Q;
     D = addOuter(addDiagonal(D, Q.w), 1.0, Q.xyz);
     push += weights.push * meeting.normal;
     momentum += contactMultiply(Q, v + otherVelocity);

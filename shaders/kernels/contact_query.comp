@@ -1,6 +1,6 @@
 // Lists: every contact particle's pairs, from the 27 cells about it, in the order of cells and of contact particles inside
-// one. Pairs of strands that may not touch are left out; a pair that was listed before keeps its life. A list that is too
-// long stops the frame, and the host makes room.
+// one. Pairs of strands that may not touch are left out; a pair that was listed before keeps its life. Where there is no room the
+// frame stops (contact_check.comp), and the host makes some.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -27,10 +27,10 @@ bool mayTouch(uint a, uint b) {
 // The pair's life so far, from the row that was in use. Cells come in the same order as last time, mostly, so it is looked
 // for where the last one was found, and onwards.
 uint lastFound = 0;
-float sharesBefore(uint row, uint count, uint particle) {
+float sharesBefore(uint list, uint count, uint particle) {
   for (uint tried = 0; tried < count; ++tried) {
     uint j = lastFound + tried < count ? lastFound + tried : lastFound + tried - count;
-    ContactLife life = lifeAt(lifeOf(row, j));
+    ContactLife life = lifeAt(lifeOf(control.parity ^ 1, entryOf(list, j)));
     if (life.particle == particle) {
       lastFound = j + 1;
       return life.shares;
@@ -53,10 +53,11 @@ void main() {
   float mostR = rest.point.w + parameters.largestRadius;
   precise float farthest = min(seenAhead * mostR + parameters.skin, control.cellSize);
   ivec3 cell = cellOf(x);
-  uint row = rowOf(c);
-  uint oldRow = row ^ 1;
-  uint oldCount = listCounts[oldRow];
+  uint list = listOf(c, control.parity);
+  uint oldList = listOf(c, control.parity ^ 1);
+  uint oldCount = lists[oldList];
   uint count = 0;  // pairs in the list
+  uint block = 0;  // its last
   for (int z = cell.z - 1; z <= cell.z + 1; ++z) {
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
       // Three cells along x: a range of entries, which may go on from the last bucket to the first.
@@ -66,9 +67,8 @@ void main() {
       uint entries = startOf(min(end, parameters.bucketCount)) - entry;
       if (end > parameters.bucketCount) entries += startOf(end - parameters.bucketCount);
       while (entries > 0) {
-        // Near ones are noted behind the list, while there is room.
-        uint queued = count;
-        for (; entries > 0 && queued < parameters.stride; --entries, ++entry) {
+        uint queued = 0;
+        for (; entries > 0 && queued < kQueue; --entries, ++entry) {
           if (entry == parameters.contactCount) entry = 0;
           vec4 near = sortedAt(entry);
           precise vec3 apart = x - near.xyz;
@@ -77,14 +77,15 @@ void main() {
           // Other cells may share a bucket, and a bucket may come by twice.
           ivec3 nearCell = cellOf(near.xyz);
           if (nearCell.y != y || nearCell.z != z || abs(nearCell.x - cell.x) > 1) continue;
-          pairs[pairOf(c, queued)] = ContactPair(floatBitsToUint(near.w), squared, 0.0, 0.0);
+          queues[c * kQueue + queued] = vec2(near.w, squared);
           ++queued;
         }
         // All invocations look at what they have found together; a driver that runs them in step would else do it for one
         // after the other.
-        for (uint j = count; j < queued; ++j) {
-          uint b = pairs[pairOf(c, j)].particle;
-          float squared = pairs[pairOf(c, j)].restLength;
+        for (uint j = 0; j < queued; ++j) {
+          vec2 near = queues[c * kQueue + j];
+          uint b = floatBitsToUint(near.x);
+          float squared = near.y;
           ContactRest other = contactOf(b);
           if (b == c || (rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0)) continue;
           float R = rest.point.w + other.point.w;
@@ -96,23 +97,27 @@ void main() {
           bool mayBegin = squared < reach * reach;
           if (!mayBegin && !(squared < lastReach * lastReach)) continue;
           if (!mayTouch(rest.strand, other.strand)) continue;
-          float shares = sharesBefore(oldRow, oldCount, other.particle);
+          float shares = sharesBefore(oldList, oldCount, other.particle);
           if (!mayBegin && shares == 0.0) continue;
           float mass = 0.5 * (rest.mass + other.mass);
           float k = parameters.stiffness * mass / R;
-          pairs[pairOf(c, count)] = ContactPair(other.particle, r0, k, 2.0 * parameters.dampingRatio * sqrt(k * mass));
-          lives[lifeOf(row, count)] = ContactLife(shares, other.particle);
+          if (count % kListBlock == 0) {
+            block = atomicAdd(control.blocks, 1);
+            if (count / kListBlock < parameters.mostBlocks) lists[list + 1 + count / kListBlock] = block;
+          }
+          // Without room, what is wanted is still counted.
+          if (block < parameters.blockCount) {
+            uint own = block * kListBlock + count % kListBlock;
+            pairs[own] = ContactPair(other.particle, r0, k, 2.0 * parameters.dampingRatio * sqrt(k * mass));
+            lives[lifeOf(control.parity, own)] = ContactLife(shares, other.particle);
+          }
           ++count;
-        }
-        if (count == parameters.stride) {  // full; whether there are more does not matter
-          atomicMax(control.longestList, count);
-          control.isHalted = 1;
-          entries = 0;
         }
       }
     }
   }
-  listCounts[row] = count;
+  lists[list] = count;
+  if (count > control.longestList) atomicMax(control.longestList, count);
   places[c].position = vec4(x, 0);
   places[c].velocity = vec4(v, 0);
   atomicAdd(control.listed, count);

@@ -13,11 +13,12 @@ layout(set = 0, binding = kBindContacts) readonly buffer Contacts { ContactRest 
 layout(set = 0, binding = kBindNeighbours) readonly buffer Neighbours { uint neighbours[]; };
 layout(set = 0, binding = kBindGrid) buffer Grid { uint grid[]; };
 layout(set = 0, binding = kBindPlaces) buffer Places { ContactPlace places[]; };
-layout(set = 0, binding = kBindListCounts) buffer ListCounts { uint listCounts[]; };
+layout(set = 0, binding = kBindLists) buffer Lists { uint lists[]; };
 layout(set = 0, binding = kBindPairs) buffer Pairs { ContactPair pairs[]; };
 layout(set = 0, binding = kBindLives) buffer Lives { ContactLife lives[]; };
 layout(set = 0, binding = kBindNormals) buffer Normals { vec4 normals[]; };
 layout(set = 0, binding = kBindSystems) buffer Systems { ContactSystem systems[]; };
+layout(set = 0, binding = kBindQueue) buffer Queues { vec2 queues[]; };
 layout(set = 0, binding = kBindControl) buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindContactPositionTexels) uniform usamplerBuffer positionTexels;
 layout(set = 0, binding = kBindContactSolvedTexels) uniform usamplerBuffer solvedTexels;
@@ -71,9 +72,13 @@ uint bucketOf(ivec3 cell) {
   return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
 }
 
-// A contact particle's list, and its two rows of lives.
-uint pairOf(uint c, uint j) { return c * parameters.stride + j; }
-uint rowOf(uint c) { return 2 * c + control.parity; }
-uint lifeOf(uint row, uint j) { return row * parameters.stride + j; }
+// A contact particle has two lists: that in use, and the one before, from which lives are taken over. Where one starts;
+// there its length stands.
+uint listOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostBlocks); }
+/// Where pair j of a list is.
+uint entryOf(uint list, uint j) { return lists[list + 1 + j / kListBlock] * kListBlock + j % kListBlock; }
+/// The same, pair after pair: a block is looked up once.
+uint nextEntry(uint list, uint j, uint entry) { return j % kListBlock == 0 ? entryOf(list, j) : entry + 1; }
+uint lifeOf(uint parity, uint entry) { return parity * parameters.blockCount * kListBlock + entry; }
 
 #endif

@@ -142,22 +142,28 @@ RINGLET_CONSTANT uint kBindContacts = 2;          // ContactRest[contacts]
 RINGLET_CONSTANT uint kBindNeighbours = 3;        // uint: first neighbour of each strand, one more, then the neighbours
 RINGLET_CONSTANT uint kBindGrid = 4;              // uint: see gridStarts and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPlaces = 5;            // ContactPlace[contacts]
-RINGLET_CONSTANT uint kBindListCounts = 6;        // uint[contacts][2]: pairs in each of a contact particle's two rows
-RINGLET_CONSTANT uint kBindPairs = 7;             // ContactPair[contacts][stride]
-RINGLET_CONSTANT uint kBindLives = 8;             // ContactLife[contacts][2][stride]
-RINGLET_CONSTANT uint kBindNormals = 9;           // vec4[contacts][stride]: n sqrt(q_n - q_t), q_t [kg]
+RINGLET_CONSTANT uint kBindLists = 6;             // uint[contacts][2][1 + mostBlocks]: pairs in the list, and its blocks
+RINGLET_CONSTANT uint kBindPairs = 7;             // ContactPair[blocks][kListBlock]
+RINGLET_CONSTANT uint kBindLives = 8;             // ContactLife[2][blocks][kListBlock]
+RINGLET_CONSTANT uint kBindNormals = 9;           // vec4[blocks][kListBlock]: n sqrt(q_n - q_t), q_t [kg]
 RINGLET_CONSTANT uint kBindSystems = 10;          // ContactSystem[particles]
 RINGLET_CONSTANT uint kBindControl = 11;          // ContactControl
-RINGLET_CONSTANT uint kContactBindingCount = 12;
+RINGLET_CONSTANT uint kBindQueue = 12;            // vec2[contacts][kQueue]: near ones (index as bits, squared distance)
+RINGLET_CONSTANT uint kContactBindingCount = 13;
 // And as texels (shared/texels.glsl):
-RINGLET_CONSTANT uint kBindContactPositionTexels = 12;
-RINGLET_CONSTANT uint kBindContactSolvedTexels = 13;
-RINGLET_CONSTANT uint kBindContactTexels = 14;  // 2 a contact particle
-RINGLET_CONSTANT uint kBindPlaceTexels = 15;    // 3 a contact particle
-RINGLET_CONSTANT uint kBindPairTexels = 16;
-RINGLET_CONSTANT uint kBindLifeTexels = 17;     // of 2 lives
-RINGLET_CONSTANT uint kBindNormalTexels = 18;
+RINGLET_CONSTANT uint kBindContactPositionTexels = 13;
+RINGLET_CONSTANT uint kBindContactSolvedTexels = 14;
+RINGLET_CONSTANT uint kBindContactTexels = 15;  // 2 a contact particle
+RINGLET_CONSTANT uint kBindPlaceTexels = 16;    // 3 a contact particle
+RINGLET_CONSTANT uint kBindPairTexels = 17;
+RINGLET_CONSTANT uint kBindLifeTexels = 18;     // of 2 lives
+RINGLET_CONSTANT uint kBindNormalTexels = 19;
 RINGLET_CONSTANT uint kContactTexelBindingCount = 7;
+
+// Lists are as long as they must be, in blocks of this many pairs that are given out as they are asked for. Which block
+// went where depends on threads; what is in a list, and its order, does not.
+RINGLET_CONSTANT uint kListBlock = 8;
+RINGLET_CONSTANT uint kQueue = 16;
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
@@ -209,7 +215,8 @@ struct ContactControl {
   uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
   uint speed;        // the fastest contact particle's [m/s], as bits
   float cellSize;    // [m]
-  uint longestList;  // the longest list, where one is full
+  uint longestList;  // pairs of the longest list
+  uint blocks;       // that lists have asked for
   uint step;         // of the frame, that the lists are for
   uint rebuilds;     // since the simulation began
   uint listed;       // pairs in all lists, both sides counted
@@ -219,7 +226,8 @@ struct ContactControl {
 struct ContactParameters {
   uint contactCount;
   uint bucketCount;  // a power of two
-  uint stride;       // room in a list
+  uint blockCount;   // there are
+  uint mostBlocks;   // of a list
   uint strandCount;
   uint everyPair;    // any two strands may touch
   uint step;         // of the frame

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "ringlet_shaders/contact_check_plain.h"
 #include "ringlet_shaders/contact_count_plain.h"
 #include "ringlet_shaders/contact_decide_plain.h"
 #include "ringlet_shaders/contact_gather_plain.h"
@@ -29,7 +30,8 @@ const Compiled kCompiled[kContactKernelCount] = {
     {"contact_count", k_contact_count_plain},   {"contact_scan", k_contact_scan_plain},
     {"contact_sum", k_contact_sum_plain},       {"contact_scatter", k_contact_scatter_plain},
     {"contact_order", k_contact_order_plain},   {"contact_query", k_contact_query_plain},
-    {"contact_life", k_contact_life_plain},     {"contact_gather", k_contact_gather_plain},
+    {"contact_check", k_contact_check_plain},   {"contact_life", k_contact_life_plain},
+    {"contact_gather", k_contact_gather_plain},
 };
 
 }  // namespace

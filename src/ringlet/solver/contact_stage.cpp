@@ -20,8 +20,9 @@ using gpu::BufferKind;
 constexpr std::uint32_t kGroupSize = 64;
 constexpr std::uint32_t kBlock = 1024;  // buckets summed together, as in contact_buffers.glsl
 constexpr std::uint64_t kMostTexelBytes = 2ull << 30;
-constexpr std::uint32_t kFirstStride = 16;  // room in a list to begin with
-constexpr double kSkinShare = 0.15;         // of R: what may come closer before lists are made anew
+constexpr std::uint32_t kFirstBlocks = 1,
+                        kFirstMostBlocks = 8;  // of a contact particle's list, to begin with
+constexpr double kSkinShare = 0.15;            // of R: what may come closer before lists are made anew
 
 // What a share of a contact changes by in a step.
 float changeIn(double seconds, double stepSeconds) {
@@ -111,8 +112,12 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.working_.push_back(std::move(*grid));
   self.working_.push_back(std::move(*places));
 
-  self.stride_ = kFirstStride;
-  if (Status status = self.createLists(device); !status) return status.error();
+  auto queue = createZero(device, count * layout::kQueue * 2 * sizeof(float), "contact queue");
+  if (!queue) return queue.error();
+  self.working_.push_back(std::move(*queue));
+  self.blockCount_ = static_cast<std::uint32_t>(kFirstBlocks * count);
+  self.mostBlocks_ = kFirstMostBlocks;
+  if (Status status = self.createLists(); !status) return status.error();
   if (Status status = self.bindAll(groom); !status) return status.error();
   self.control() = {};
   return self;
@@ -126,32 +131,26 @@ layout::ContactControl& ContactStage::control() const {
   return *reinterpret_cast<layout::ContactControl*>(control_->mapped().data());
 }
 
-// The longest lists the device has room for.
-std::uint32_t ContactStage::mostStride() const {
-  return static_cast<std::uint32_t>(device_->properties().maxStorageBufferRange /
-                                    (particles_.size() * sizeof(layout::ContactPair))) &
-         ~1u;  // even: two lives are a texel
-}
-
-// Counts, pairs, lives, normals: for `stride_` pairs a contact particle; two rows of counts and lives.
-Status ContactStage::createLists(gpu::Device& device) {
-  const std::uint64_t rows = 2 * particles_.size(), entries = particles_.size() * stride_;
-  lists_.clear();
-  const std::uint64_t largest = entries * sizeof(layout::ContactPair);
-  if (largest > device.properties().maxStorageBufferRange) {
-    return Error{fmt::format(
-        "lists of up to {} contacts for each of {} contact particles need a buffer of {} MiB, and "
-        "this device's are {} MiB at most; use a smaller contact radius, or prune more",
-        stride_, particles_.size(), largest >> 20, device.properties().maxStorageBufferRange >> 20)};
-  }
+// Lists' heads, pairs, lives (of two lists) and normals, for `blockCount_` blocks and `mostBlocks_` of a
+// list.
+Status ContactStage::createLists() {
+  const std::uint64_t entries = std::uint64_t{blockCount_} * layout::kListBlock;
   const std::pair<const char*, std::uint64_t> buffers[] = {
-      {"contact counts", rows * sizeof(std::uint32_t)},
-      {"contact pairs", largest},
+      {"contact lists", 2 * particles_.size() * (1 + mostBlocks_) * sizeof(std::uint32_t)},
+      {"contact pairs", entries * sizeof(layout::ContactPair)},
       {"contact lives", 2 * entries * sizeof(layout::ContactLife)},
       {"contact normals", entries * sizeof(layout::vec4)},
   };
+  lists_.clear();
   for (const auto& [name, bytes] : buffers) {
-    auto buffer = createZero(device, bytes, name);
+    if (bytes > device_->properties().maxStorageBufferRange) {
+      return Error{fmt::format(
+          "the lists of {} contact particles, {} pairs in all and up to {} for one, need a buffer "
+          "of {} MiB, and this device's are {} MiB at most; use a smaller contact radius, or prune more",
+          particles_.size(), entries, mostBlocks_ * layout::kListBlock, bytes >> 20,
+          device_->properties().maxStorageBufferRange >> 20)};
+    }
+    auto buffer = createZero(*device_, bytes, name);
     if (!buffer) return buffer.error();
     lists_.push_back(std::move(*buffer));
   }
@@ -161,11 +160,26 @@ Status ContactStage::createLists(gpu::Device& device) {
 Status ContactStage::bindAll(const DeviceGroom& groom) {
   control_ = &groom.contactControl;
   bindings_.clear();
-  auto bindings = gpu::Bindings::create(
-      kernels_[0],
-      {groom.positions, groom.solved, constant_[0], constant_[1], working_[0], working_[1], lists_[0],
-       lists_[1], lists_[2], lists_[3], groom.contactSystems, groom.contactControl, groom.positions,
-       groom.solved, constant_[0], working_[1], lists_[1], lists_[2], lists_[3]});
+  auto bindings = gpu::Bindings::create(kernels_[0], {groom.positions,
+                                                      groom.solved,
+                                                      constant_[0],
+                                                      constant_[1],
+                                                      working_[0],
+                                                      working_[1],
+                                                      lists_[0],
+                                                      lists_[1],
+                                                      lists_[2],
+                                                      lists_[3],
+                                                      groom.contactSystems,
+                                                      groom.contactControl,
+                                                      working_[2],
+                                                      groom.positions,
+                                                      groom.solved,
+                                                      constant_[0],
+                                                      working_[1],
+                                                      lists_[1],
+                                                      lists_[2],
+                                                      lists_[3]});
   if (!bindings) return bindings.error();
   bindings_.push_back(std::move(*bindings));
   return {};
@@ -174,7 +188,8 @@ Status ContactStage::bindAll(const DeviceGroom& groom) {
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
   return {.contactCount = static_cast<std::uint32_t>(particles_.size()),
           .bucketCount = bucketCount_,
-          .stride = stride_,
+          .blockCount = blockCount_,
+          .mostBlocks = mostBlocks_,
           .strandCount = strandCount_,
           .everyPair = everyPair_ ? 1u : 0u,
           .step = step,
@@ -224,6 +239,8 @@ void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) cons
 
   recorder.beginStage("contact_query");
   dispatchIndirect(recorder, ContactKernel::query, step, perContact);
+  recorder.barrier();
+  dispatch(recorder, ContactKernel::check, step, 1);
   recorder.endStage();
 }
 
@@ -239,31 +256,40 @@ void ContactStage::recordGather(gpu::Recorder& recorder) const {
   recorder.endStage();
 }
 
-// The lives of the row in use before the lists were made that did not fit go to their places in longer ones;
-// the pairs are found anew.
+// The lists in use before those that did not fit keep what their pairs remember, in larger buffers; the pairs
+// are found anew.
 Status ContactStage::makeRoom(const DeviceGroom& groom) {
-  const std::uint32_t before = stride_, row = control().parity ^ 1;
-  const std::size_t count = particles_.size();
-  auto counts = downloadAll<std::uint32_t>(lists_[0], 2 * count);
-  if (!counts) return counts.error();
-  auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * count * before);
+  const std::uint32_t before = control().parity ^ 1, oldMost = mostBlocks_, oldBlocks = blockCount_;
+  const std::size_t heads = 2 * particles_.size();
+  auto lists = downloadAll<std::uint32_t>(lists_[0], heads * (1 + oldMost));
+  if (!lists) return lists.error();
+  auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * std::size_t{oldBlocks} * layout::kListBlock);
   if (!lives) return lives.error();
 
-  stride_ = (before + std::max(before / 4, 8u)) & ~1u;
-  if (before < mostStride()) stride_ = std::min(stride_, mostStride());
-  if (Status status = createLists(*device_); !status) return status;
-  std::vector<layout::ContactLife> longer(2 * count * stride_);
-  for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t from = (2 * c + row) * before, to = (2 * c + row) * stride_;
-    std::copy_n(lives->begin() + static_cast<std::ptrdiff_t>(from), (*counts)[2 * c + row],
-                longer.begin() + static_cast<std::ptrdiff_t>(to));
-  }
-  if (Status status = lists_[0].upload(std::as_bytes(std::span(*counts))); !status) return status;
-  if (Status status = lists_[2].upload(std::as_bytes(std::span(longer))); !status) return status;
-
+  // What was wanted, and a quarter more. Each particle's last block is partly empty.
   layout::ContactControl& c = control();
-  c.parity = row;
-  c.isHalted = c.isListed = c.longestList = c.listed = 0;
+  const auto enough = [](std::uint32_t wanted, std::uint32_t had) {
+    return wanted > had ? wanted + wanted / 4 + 1 : had;
+  };
+  blockCount_ = enough(c.blocks, oldBlocks);
+  mostBlocks_ = enough((c.longestList + layout::kListBlock - 1) / layout::kListBlock, oldMost);
+  if (Status status = createLists(); !status) return status;
+
+  std::vector<std::uint32_t> newLists(heads * (1 + mostBlocks_));
+  for (std::size_t list = before; list < heads; list += 2) {
+    std::copy_n(lists->begin() + static_cast<std::ptrdiff_t>(list * (1 + oldMost)), 1 + oldMost,
+                newLists.begin() + static_cast<std::ptrdiff_t>(list * (1 + mostBlocks_)));
+  }
+  std::vector<layout::ContactLife> newLives(2 * std::size_t{blockCount_} * layout::kListBlock);
+  std::copy_n(
+      lives->begin() + static_cast<std::ptrdiff_t>(before * std::size_t{oldBlocks} * layout::kListBlock),
+      std::size_t{oldBlocks} * layout::kListBlock,
+      newLives.begin() + static_cast<std::ptrdiff_t>(before * std::size_t{blockCount_} * layout::kListBlock));
+  if (Status status = lists_[0].upload(std::as_bytes(std::span(newLists))); !status) return status;
+  if (Status status = lists_[2].upload(std::as_bytes(std::span(newLives))); !status) return status;
+
+  c.parity = before;
+  c.isHalted = c.isListed = c.listed = 0;
   --c.rebuilds;
   return bindAll(groom);
 }
@@ -280,10 +306,10 @@ Status ContactStage::forget() {
 }
 
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {
-  const std::size_t count = particles_.size();
-  auto counts = downloadAll<std::uint32_t>(lists_[0], 2 * count);
-  if (!counts) return counts.error();
-  auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * count * stride_);
+  const std::size_t count = particles_.size(), parity = control().parity;
+  auto lists = downloadAll<std::uint32_t>(lists_[0], 2 * count * (1 + mostBlocks_));
+  if (!lists) return lists.error();
+  auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * std::size_t{blockCount_} * layout::kListBlock);
   if (!lives) return lives.error();
 
   std::vector<std::uint32_t> inGroom(rest.points.size());
@@ -293,9 +319,11 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
   }
   std::vector<ListedContact> contacts;
   for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t row = 2 * c + control().parity;
-    for (std::uint32_t j = 0; j < (*counts)[row]; ++j) {
-      const auto& [shares, particle] = (*lives)[row * stride_ + j];
+    const std::size_t list = (2 * c + parity) * (1 + mostBlocks_);
+    for (std::uint32_t j = 0; j < (*lists)[list]; ++j) {
+      const std::size_t block = (*lists)[list + 1 + j / layout::kListBlock];
+      const auto& [shares, particle] =
+          (*lives)[(parity * blockCount_ + block) * layout::kListBlock + j % layout::kListBlock];
       const std::uint32_t a = inGroom[particles_[c]], b = inGroom[particle];
       if (a < b) contacts.push_back({a, b, std::max(0.0f, -shares), shares < 0 ? 1.0f : shares});
     }

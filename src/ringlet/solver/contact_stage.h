@@ -48,7 +48,6 @@ class ContactStage {
   /// Pairs looked at in the frame that ended, both sides counted; and starts counting anew.
   std::uint64_t takePairTests();
   std::uint64_t rebuilds() const { return control().rebuilds; }
-  std::uint32_t stride() const { return stride_; }
   /// Forgets lists and lives: the hair was put somewhere else.
   Status forget();
 
@@ -59,7 +58,7 @@ class ContactStage {
 
  private:
   ContactStage() = default;
-  Status createLists(gpu::Device& device);
+  Status createLists();
   Status bindAll(const DeviceGroom& groom);
   layout::ContactParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
@@ -67,21 +66,22 @@ class ContactStage {
   void dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
   std::uint32_t contactGroups() const;
-  std::uint32_t mostStride() const;
   layout::ContactControl& control() const;
 
   gpu::Device* device_ = nullptr;
   std::vector<gpu::Kernel> kernels_;     // by ContactKernel
   std::vector<gpu::Bindings> bindings_;  // one, for all kernels have the same list
   std::vector<gpu::Buffer> constant_;    // contacts, neighbours
-  std::vector<gpu::Buffer> working_;     // grid, places
-  std::vector<gpu::Buffer> lists_;       // counts, pairs, lives, normals
+  std::vector<gpu::Buffer> working_;     // grid, places, queue
+  std::vector<gpu::Buffer> lists_;       // heads, pairs, lives, normals
   const DeviceGroom* groom_ = nullptr;
   gpu::Buffer const* control_ = nullptr;
   ContactSettings settings_;
   std::vector<std::uint32_t> particles_;  // device index of each contact particle
   double stepSeconds_ = 0;
-  std::uint32_t strandCount_ = 0, bucketCount_ = 0, stride_ = 0;
+  std::uint32_t strandCount_ = 0, bucketCount_ = 0;
+  std::uint32_t blockCount_ = 0;  // there are, for all lists
+  std::uint32_t mostBlocks_ = 0;  // of one list
   float largestRadius_ = 0;
   bool everyPair_ = false;
 };
