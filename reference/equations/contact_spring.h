@@ -94,6 +94,8 @@ struct ContactLife {
 template <class Real>
 ContactLife<Real> nextLife(const ContactSettings& settings, ContactLife<Real> life, bool touching,
                            Real distance, Real restLength, Real stepSeconds) {
+  // Falls to nothing, so that rounding does not keep a contact for a step.
+  const auto faded = [](Real share) { return share < Real(1e-5) ? Real(0) : share; };
   const auto changeIn = [&](double seconds) {  // a share's change within the step
     return seconds > 0 ? stepSeconds / static_cast<Real>(seconds) : Real(1);
   };
@@ -102,9 +104,9 @@ ContactLife<Real> nextLife(const ContactSettings& settings, ContactLife<Real> li
   }
   if (distance > static_cast<Real>(settings.breakFactor) * restLength) return {};
   if (life.stiffnessShare > 0) {
-    life.stiffnessShare = std::max(Real(0), life.stiffnessShare - changeIn(settings.stiffnessReleaseSeconds));
+    life.stiffnessShare = faded(life.stiffnessShare - changeIn(settings.stiffnessReleaseSeconds));
   } else {
-    life.dampingShare = std::max(Real(0), life.dampingShare - changeIn(settings.dampingReleaseSeconds));
+    life.dampingShare = faded(life.dampingShare - changeIn(settings.dampingReleaseSeconds));
   }
   return life;
 }

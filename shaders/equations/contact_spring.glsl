@@ -34,12 +34,15 @@ bool isTouching(ContactMeeting meeting, float restLength, float T, float seenAhe
 vec2 sharesOf(float life) { return life < 0.0 ? vec2(-life, 1.0) : vec2(0.0, life); }
 float lifeOfShares(vec2 shares) { return shares.x > 0.0 ? -shares.x : shares.y; }
 
+/// A share that falls to nothing, so that rounding does not keep a contact for a step.
+float faded(float share) { return share < 1e-5 ? 0.0 : share; }
+
 /// shares: (kappa, delta); changes: what they may change by in a step, (ramp, release of stiffness, release of damping).
 vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, vec3 changes, float breakFactor) {
   if (touching) return vec2(min(1.0, shares.x + changes.x), 1.0);
   if (distance > breakFactor * restLength) return vec2(0);
-  if (shares.x > 0.0) return vec2(max(0.0, shares.x - changes.y), shares.y);
-  return vec2(0.0, max(0.0, shares.y - changes.z));
+  if (shares.x > 0.0) return vec2(faded(shares.x - changes.y), shares.y);
+  return vec2(0.0, faded(shares.y - changes.z));
 }
 
 struct ContactWeights {

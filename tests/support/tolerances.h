@@ -32,6 +32,10 @@ inline constexpr double kCalmEnergyRatio = 1e-8;
 // smoothing averages a few, and a chain of 256 turns adds up as their root: 1e-4 radians.
 inline constexpr double kFrameTurnDegrees = 0.01;
 
+// Half a second of shaken strands that meet, device against double, in metres: float positions a foot from the head
+// are right to 3e-8, and contacts pass on what a step is off by.
+inline constexpr double kMeetingMetres = 1e-6;
+
 // Lying still: how far a particle may wander in 10 s, share of the arc length.
 inline constexpr double kAtRest = 1e-5;
 
