@@ -5,5 +5,6 @@
 
 void main() {
   if (gl_GlobalInvocationID.x > 0) return;
+  if (control.isHalted != 0) return;
   if (control.blocks > parameters.blockCount || control.longestList > parameters.mostBlocks * kListBlock) control.isHalted = 1;
 }

@@ -27,8 +27,9 @@ bool mayTouch(uint a, uint b) {
 // The pair's life so far, from the row that was in use. Cells come in the same order as last time, mostly, so it is looked
 // for where the last one was found, and onwards.
 uint lastFound = 0;
+uint turns = 0;  // of all loops
 float sharesBefore(uint list, uint count, uint particle) {
-  for (uint tried = 0; tried < count; ++tried) {
+  for (uint tried = 0; tried < count; ++tried, ++turns) {
     uint j = lastFound + tried < count ? lastFound + tried : lastFound + tried - count;
     ContactLife life = lifeAt(lifeOf(control.parity ^ 1, entryOf(list, j)));
     if (life.particle == particle) {
@@ -68,7 +69,7 @@ void main() {
       if (end > parameters.bucketCount) entries += startOf(end - parameters.bucketCount);
       while (entries > 0) {
         uint queued = 0;
-        for (; entries > 0 && queued < kQueue; --entries, ++entry) {
+        for (; entries > 0 && queued < kQueue; --entries, ++entry, ++turns) {
           if (entry == parameters.contactCount) entry = 0;
           vec4 near = sortedAt(entry);
           precise vec3 apart = x - near.xyz;
@@ -82,6 +83,7 @@ void main() {
         }
         // All invocations look at what they have found together; a driver that runs them in step would else do it for one
         // after the other.
+        turns += 20 * queued;  // and those of mayTouch
         for (uint j = 0; j < queued; ++j) {
           vec2 near = queues[c * kQueue + j];
           uint b = floatBitsToUint(near.x);
@@ -121,4 +123,5 @@ void main() {
   places[c].position = vec4(x, 0);
   places[c].velocity = vec4(v, 0);
   atomicAdd(control.listed, count);
+  if (turns > parameters.mostTurns) control.isHalted = kHaltedByTurns;
 }

@@ -211,7 +211,7 @@ struct ContactControl {
   uint indirectBuckets[3];   // over blocks of buckets
   uint parity;               // which of the two rows is in use
   uint indirectOne[3];       // one workgroup
-  uint isHalted;             // a list is too long: everything stands still until the host has made room
+  uint isHalted;             // 1: lists have no room, everything stands still until the host has made some; or kHaltedByTurns
   uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
   uint speed;        // the fastest contact particle's [m/s], as bits
   float cellSize;    // [m]
@@ -222,6 +222,9 @@ struct ContactControl {
   uint listed;       // pairs in all lists, both sides counted
   uint pairTests;    // pairs looked at, a step behind, since the host last took the number
 };
+
+// More particles are near one than a device's loops can look at (ContactParameters::mostTurns).
+RINGLET_CONSTANT uint kHaltedByTurns = 2;
 
 struct ContactParameters {
   uint contactCount;
@@ -242,6 +245,7 @@ struct ContactParameters {
   float dampingRelease;
   float breakFactor;
   float seenAhead;         // a contact is seen ahead from this times r0
+  uint mostTurns;          // loops of an invocation may make together
 };
 
 #ifdef __cplusplus

@@ -115,6 +115,29 @@ TEST_F(ContactLists, DegenerateInputs) {
   expectExact(random(2000, {3000, 3000, 3000}), "kilometres apart");
 }
 
+// lavapipe ends loops that are too long without a word; pairs would be lost. The user is told instead.
+TEST_F(ContactLists, MoreThanADeviceCanLookThroughIsAnError) {
+  if (gpu().properties().type != "cpu") GTEST_SKIP() << "only CPU devices end loops";
+  Groom groom;
+  groom.metresPerUnit = 1;
+  const Points points = random(4000, {0.004, 0.004, 0.004});
+  for (std::size_t s = 0; s < points.size() / 2; ++s) {
+    const Vec3f root(Vec3d{0.1 * double(s % 50), 0, 0.1 * double(s / 50)});
+    groom.addStrand(std::vector<Vec3f>{root, root + Vec3f{0, -0.02f, 0}});
+  }
+  Settings settings;
+  settings.contacts.on = true;
+  settings.contacts.radius = kRadius;
+  settings.contacts.prunePairs = false;
+  auto simulation = Simulation::create(device(), groom, {}, settings);
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  ASSERT_TRUE(simulation->setState({points, Points(points.size())}));
+  const Status stepped = simulation->stepFrame(HeadPose{});
+  ASSERT_FALSE(stepped);
+  EXPECT_NE(stepped.error().message.find("smaller contact radius"), std::string::npos)
+      << stepped.error().message;
+}
+
 // Positions that are no numbers meet nobody and harm nothing.
 TEST_F(ContactLists, LostNumbers) {
   Points points = random(500, {0.1, 0.1, 0.1});

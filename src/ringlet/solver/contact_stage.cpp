@@ -203,7 +203,9 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
           .stiffnessRelease = changeIn(settings_.stiffnessReleaseSeconds, stepSeconds_),
           .dampingRelease = changeIn(settings_.dampingReleaseSeconds, stepSeconds_),
           .breakFactor = static_cast<float>(settings_.breakFactor),
-          .seenAhead = static_cast<float>(kContactSeenAhead)};
+          .seenAhead = static_cast<float>(kContactSeenAhead),
+          // lavapipe ends an invocation's loops at 65,535 turns, without a word.
+          .mostTurns = device_->properties().type == "cpu" ? 60000u : 0xffffffffu};
 }
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
@@ -259,6 +261,12 @@ void ContactStage::recordGather(gpu::Recorder& recorder) const {
 // The lists in use before those that did not fit keep what their pairs remember, in larger buffers; the pairs
 // are found anew.
 Status ContactStage::makeRoom(const DeviceGroom& groom) {
+  if (control().isHalted == layout::kHaltedByTurns) {
+    return Error{
+        "more contact particles are near one another than this device can look through; use a smaller "
+        "contact radius, or "
+        "fewer strands in one place"};
+  }
   const std::uint32_t before = control().parity ^ 1, oldMost = mostBlocks_, oldBlocks = blockCount_;
   const std::size_t heads = 2 * particles_.size();
   auto lists = downloadAll<std::uint32_t>(lists_[0], heads * (1 + oldMost));
