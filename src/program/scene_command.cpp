@@ -56,7 +56,9 @@ constexpr const char* kExitHelp =
     "these are\n"
     "off; others where they are on. All but flip and head do without pruning, because their hair is apart at "
     "rest.\n"
-    "Steps are then measured one by one.\n"
+    "Steps are then measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, which has "
+    "the defaults\n"
+    "of simulate.\n"
     "\n"
     "Exit status: as for simulate.";
 

@@ -38,9 +38,8 @@ constexpr const char* kExample =
     "velocity solve,\n"
     "worst strand and step; measuring it takes a few per cent of the step's time; null for paper, with "
     "contacts\n"
-    "and for reference) device driver kernel backend positions_hash integrator material steps_per_frame fps "
-    "interrupted "
-    "warnings outputs.\n";
+    "and for reference) device driver kernel backend positions_hash integrator material steps_per_frame fps\n"
+    "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
@@ -195,7 +194,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command
       ->add_flag("--measure-contacts", options.measuresContacts,
                  "Measure after every step how deep hairs are in each other and count those that cross, with "
-                 "contacts on or off: some 3 us a particle and step on the CPU")
+                 "contacts on or off: some 6 us a particle and step of dense hair, on the CPU")
       ->group("Contacts");
 
   // How it is stepped.

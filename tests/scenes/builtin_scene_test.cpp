@@ -68,6 +68,14 @@ TEST(BuiltinScene, AMotionWithAnEndIsOverByThen) {
   }
 }
 
+TEST(BuiltinScene, ATurnGoesRoundOnceAndStays) {
+  const Motion turn = *motionByName("turn", {0, 1, 0});
+  EXPECT_GT(distance(turn.poseAt(0.8), turn.poseAt(1)), 1e-3);
+  EXPECT_EQ(distance(turn.poseAt(1), turn.poseAt(5)), 0);
+  const Vec3d crown = rotate(turn.poseAt(1).rotation, Vec3d{0, 1, 0});
+  EXPECT_LT(length(crown - Vec3d{0, -1, 0}), 1e-12) << "upside down";
+}
+
 TEST(RootMotion, GoesOutAndBackSmoothly) {
   const RootMotion never, press{.easeSeconds = 1, .untilSeconds = 4},
       hold{.easeSeconds = 1, .untilSeconds = std::numeric_limits<double>::infinity()},

@@ -6,10 +6,10 @@ namespace {
 
 class Curtain : public ContactSceneTest {};
 
-TEST_F(Curtain, SheetsDoNotPassEachOther) { expectKeptApart(watch("curtain", {.seconds = 2.5})); }
+TEST_F(Curtain, SheetsDoNotPassEachOther) { expectKeptApart(watch("curtain", {.seconds = 2})); }
 
 TEST_F(Curtain, SheetsCrossHundredsOfTimesWithoutContacts) {
-  const ContactRun run = watch("curtain", {.contacts = false, .seconds = 2.5});
+  const ContactRun run = watch("curtain", {.contacts = false, .seconds = 2});
   EXPECT_GT(run.numbers.crossings, 300u);
   EXPECT_GT(run.numbers.deepestOverlap, kDeepestOverlap);
 }
