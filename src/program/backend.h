@@ -24,6 +24,7 @@ struct BackendInput {
   const Material& material;
   const Settings& settings;
   HeadPose start, oneStepEarlier;
+  std::span<const Vec3d> rootShifts;  // of each strand's root beside the head (HeadPose::shift) [m], or none
 };
 
 class Backend {
@@ -35,9 +36,12 @@ class Backend {
   /// Groom order, relative to the head's origin, along world axes [m].
   virtual Result<std::vector<Vec3f>> positions() = 0;
   virtual Result<SimulationReport> report() = 0;
+  virtual Result<ContactReport> contactReport() = 0;
   /// By stage, summed over all frames [ms].
   virtual std::map<std::string, double> stageMilliseconds() const = 0;
+  /// Of the hair and its settings, and what the device's own watchers say.
   virtual std::vector<std::string> warnings() const = 0;
+  virtual std::vector<std::string> deviceMessages() const = 0;
 
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
@@ -48,8 +52,8 @@ class Backend {
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
                                                 const KernelChoice& kernel);
 
-/// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
-/// warns of.
+/// The reference in double precision, on one thread. Refuses what the solver refuses, contacts and root
+/// shifts too, and warns of what the solver warns of.
 Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input);
 
 }  // namespace ringlet::program

@@ -14,10 +14,12 @@ class GpuBackend : public Backend {
   Status stepFrame(std::span<const HeadPose> stepPoses) override { return simulation_.stepFrame(stepPoses); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<SimulationReport> report() override { return simulation_.report(); }
+  Result<ContactReport> contactReport() override { return simulation_.contactReport(); }
   std::map<std::string, double> stageMilliseconds() const override { return simulation_.stageMilliseconds(); }
-  /// The solver's own, and the validation layer's where it is on.
-  std::vector<std::string> warnings() const override {
-    std::vector<std::string> all = simulation_.warnings();
+  std::vector<std::string> warnings() const override { return simulation_.warnings(); }
+  /// The validation layer's, where it is on.
+  std::vector<std::string> deviceMessages() const override {
+    std::vector<std::string> all;
     for (const std::string& message : device_.validationMessages())
       all.push_back("Vulkan validation: " + message);
     return all;
@@ -40,6 +42,9 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
   auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
                                        input.oneStepEarlier, kernel);
   if (!simulation) return simulation.error();
+  if (!input.rootShifts.empty()) {
+    if (Status shifted = simulation->setRootShifts(input.rootShifts); !shifted) return shifted.error();
+  }
   return std::unique_ptr<Backend>(std::make_unique<GpuBackend>(std::move(*device), std::move(*simulation)));
 }
 

@@ -1,4 +1,6 @@
 // `--backend reference`: reference::Simulation<double> behind backend.h.
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -38,10 +40,13 @@ class ReferenceBackend : public Backend {
                             .degenerateEdges = from.degenerateEdges};
   }
 
+  Result<ContactReport> contactReport() override { return ContactReport{}; }
+
   std::map<std::string, double> stageMilliseconds() const override {
     return {{"strand_step", milliseconds_}};
   }
   std::vector<std::string> warnings() const override { return warnings_; }
+  std::vector<std::string> deviceMessages() const override { return {}; }
   std::string device() const override { return "CPU, one thread"; }
   std::string driver() const override { return "none"; }
   std::string kernel() const override { return "reference, double precision"; }
@@ -55,6 +60,11 @@ class ReferenceBackend : public Backend {
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input) {
+  if (input.settings.contacts.on || !input.rootShifts.empty()) {
+    return Error{fmt::format("the reference has no {} yet; use --backend gpu{}",
+                             input.settings.contacts.on ? "contacts" : "roots that move beside the head",
+                             input.settings.contacts.on ? ", or --contacts off" : "")};
+  }
   auto rest = buildRestState(input.groom, input.material, input.settings);
   if (!rest) return rest.error();
   return std::unique_ptr<Backend>(std::make_unique<ReferenceBackend>(input, std::move(rest->warnings)));

@@ -8,6 +8,55 @@
 #include "program/exit_codes.h"
 
 namespace ringlet::program {
+namespace {
+
+// Null where there are no contacts, or they were not measured.
+void addContactKeys(nlohmann::ordered_json& json, const SimulateOutcome& outcome) {
+  const auto& known = outcome.contacts;
+  const auto& measured = outcome.contactNumbers;
+  const auto orNull = [](bool has, auto value) {
+    return has ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+  };
+  const ContactReport report = known.value_or(ContactReport{});
+  const ContactNumbers numbers = measured.value_or(ContactNumbers{});
+  json["contacts"] = orNull(known.has_value(), report.contacts);
+  json["pairs_unpruned"] = orNull(known.has_value(), report.pairsUnpruned);
+  json["pairs"] = orNull(known.has_value(), report.pairs);
+  json["pair_tests"] = orNull(known.has_value(), report.pairTests);
+  json["rebuilds"] = orNull(known.has_value(), report.rebuilds);
+  json["momentum_error"] = orNull(known.has_value(), report.momentumError);
+  json["raw_recall"] = orNull(known && measured, numbers.worst.rawRecall);
+  json["overlap_beyond_rest_sum"] = orNull(measured.has_value(), numbers.worst.overlapBeyondRestSum);
+  json["deepest_overlap_all"] = orNull(measured.has_value(), numbers.deepestOverlap);
+  json["crossings"] = orNull(measured.has_value(), numbers.crossings);
+}
+
+std::string contactText(const SimulateOutcome& outcome, const ContactSettings& settings) {
+  std::string text;
+  if (outcome.contacts) {
+    const ContactReport& report = *outcome.contacts;
+    text += fmt::format(
+        "  contacts      {} in the {} frame, momentum error {:.2g}; {} pair tests, {} rebuilds of the "
+        "lists\n",
+        report.contacts, outcome.contactNumbers ? "worst" : "last", report.momentumError, report.pairTests,
+        report.rebuilds);
+    text +=
+        fmt::format("  pairs         {} of {} pairs of strands that are near at rest may touch{}\n",
+                    report.pairs, report.pairsUnpruned, settings.prunePairs ? "" : ", and all that are not");
+  }
+  if (outcome.contactNumbers) {
+    const ContactNumbers& numbers = *outcome.contactNumbers;
+    text += fmt::format(
+        "  overlap       {:.4f} of the radii beyond rest at the deepest, {:.4g} in all at the worst "
+        "frame{}\n",
+        numbers.deepestOverlap, numbers.worst.overlapBeyondRestSum,
+        outcome.contacts ? fmt::format(", recall {:.3f}", numbers.worst.rawRecall) : "");
+    text += fmt::format("  crossings     {}, in all steps\n", numbers.crossings);
+  }
+  return text;
+}
+
+}  // namespace
 
 std::vector<std::string> integratorNames() { return {"jacobi", "point_jacobi", "paper"}; }
 
@@ -29,6 +78,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["nonfinite"] = outcome.report.nonfinite;
   json["velocity_residual"] =
       outcome.velocityResidual ? nlohmann::ordered_json(*outcome.velocityResidual) : nlohmann::ordered_json();
+  addContactKeys(json, outcome);
   json["device"] = outcome.device;
   json["driver"] = outcome.driver;
   json["kernel"] = outcome.kernel;
@@ -59,6 +109,7 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
   text +=
       fmt::format("  longest edge  {:.4f} x its length in the groom; the limit touched {:.3g} % of edges\n",
                   outcome.report.maxEdgeStretch, 100 * outcome.report.limitedShare);
+  text += contactText(outcome, settings.contacts);
   for (const auto& path : outcome.outputs) {
     text += fmt::format("  {}  {}\n", path == outcome.outputs.front() ? "written     " : "            ",
                         path.string());

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "program/command_line.h"
+#include "program/contact_options.h"
 #include "program/exit_codes.h"
 #include "program/measure_command.h"
 #include "program/run_report.h"
@@ -28,6 +29,8 @@ constexpr const char* kExample =
     "  ringlet scene --list\n"
     "  ringlet scene hanging_curl --preload 0 --particles 128\n"
     "  ringlet scene walk_cycle --frames-on raw --json -o out\n"
+    "  ringlet scene curtain --contacts off\n"
+    "  ringlet scene flip --prune none\n"
     "  ringlet measure out/groom.obj out            measures what was written once more\n"
     "\n"
     "Every frame is measured, the groom at rest counting as the one before the first. A scene is stepped as "
@@ -46,7 +49,16 @@ constexpr const char* kExample =
     "frame "
     "in one\n"
     "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
-    "seconds preload.\n"
+    "seconds preload.\n";
+constexpr const char* kExitHelp =
+    "\n"
+    "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head) measure contacts also where "
+    "these are\n"
+    "off; others where they are on. All but flip and head do without pruning, because their hair is apart at "
+    "rest.\n"
+    "Steps are then measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, which has "
+    "the defaults\n"
+    "of simulate.\n"
     "\n"
     "Exit status: as for simulate.";
 
@@ -54,6 +66,7 @@ constexpr const char* kExample =
 struct Typed {
   std::string name;
   SceneOptions scene;
+  ContactChoice contacts;
   RunOptions run;
   RunNames names{.material = "scene"};
   std::string core = "on", framesOn = "smoothed";
@@ -127,6 +140,7 @@ Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOpt
   settings.framesPerSecond *= settings.stepsPerFrame;
   options.frameCount *= settings.stepsPerFrame;
   settings.stepsPerFrame = 1;
+  options.measuresContacts = false;
   options.folder.clear();
   options.kernel.residual = false;
 
@@ -136,7 +150,8 @@ Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOpt
     turn.look(points, scene.groom.metresPerUnit, head.rotation);
     return {};
   };
-  const auto outcome = runHair({scene.groom, scene.material, settings, scene.motion}, options, look);
+  const auto outcome =
+      runHair({scene.groom, scene.material, settings, scene.motion, scene.rootShifts}, options, look);
   if (!outcome) return outcome.error();
   return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
 }
@@ -162,7 +177,9 @@ nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, con
 Result<int> runScene(Typed& typed) {
   auto scene = makeScene(typed.name, typed.scene);
   if (!scene) return scene.error();
+  applyContactOptions(typed.contacts, scene->settings.contacts);
   RunOptions& options = typed.run;
+  options.measuresContacts = scene->showsContacts || scene->settings.contacts.on;
   options.frameCount = scene->frameCount();
   options.kernel.residual = true;
   const Settings& settings = scene->settings;
@@ -177,7 +194,8 @@ Result<int> runScene(Typed& typed) {
   };
   if (Status seen = look(scene->groom.points, scene->motion.poseAt(0)); !seen)
     return inScene(typed, seen.error());
-  auto outcome = runHair({scene->groom, scene->material, settings, scene->motion}, options, look);
+  auto outcome =
+      runHair({scene->groom, scene->material, settings, scene->motion, scene->rootShifts}, options, look);
   if (!outcome) return inScene(typed, outcome.error());
   outcome->warnings.insert(outcome->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
   if (Status written = writeGroom(*scene, options, *outcome); !written)
@@ -222,14 +240,16 @@ void checkList(const CLI::App& command) {
 
 // The same for --integrator paper, whose springs, frames and loads are as printed.
 void checkPaper(const Typed& typed) {
-  const char* option = !typed.scene.core                     ? "--core"
+  const char* option = typed.scene.bendStiffness             ? "--bend-stiffness"
+                       : !typed.scene.core                   ? "--core"
                        : !typed.scene.smoothedFrames         ? "--frames-on"
                        : typed.scene.preload.value_or(0) > 0 ? "--preload"
                                                              : nullptr;
   if (option) {
-    throw CLI::ValidationError(option,
-                               "--integrator paper takes its springs as printed: with a core, smoothed "
-                               "frames and no preload; leave this out");
+    throw CLI::ValidationError(
+        option,
+        "--integrator paper takes its springs as printed: their stiffness, a core, smoothed "
+        "frames and no preload; leave this out");
   }
 }
 
@@ -240,6 +260,10 @@ void resolve(Typed& typed) {
   typed.scene.smoothedFrames = typed.framesOn == "smoothed";
   typed.scene.integrator = integratorByName(typed.names.integrator);
   if (typed.scene.integrator == Integrator::paper) checkPaper(typed);
+  checkContactOptions(typed.contacts);
+  typed.scene.contacts = typed.contacts.on();
+  if (!typed.contacts.on().value_or(sceneShowsContacts(typed.name)) && !sceneShowsContacts(typed.name))
+    refuseContactOptions(typed.contacts, "only with --contacts on, or in a scene of hair that meets hair");
   typed.run.onReference = typed.names.backend == "reference";
   if (typed.run.onReference && !typed.run.device.empty())
     throw CLI::ValidationError("--device", "only --backend gpu has a device");
@@ -252,7 +276,7 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<Typed>();
   CLI::App* command =
       app.add_subcommand("scene", "Runs a built-in scene and measures what becomes of its hair");
-  command->footer(kExample);
+  command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
   command->add_option("NAME", typed->name, "The scene; see --list")
       ->check(oneOf(sceneNames()))
       ->type_name("NAME");
@@ -265,7 +289,10 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->check(wholeBetween(2, 65536))
       ->type_name("N")
       ->group(hair);
-  command->add_option("--strands", typed->scene.strands, "Strands side by side (default 1; release 32)")
+  command
+      ->add_option("--strands", typed->scene.strands,
+                   "Strands side by side (default 1; release 32; flip 100, head 1500); of each swatch "
+                   "(curtain 50, pile and fall 12), in whole rows")
       ->check(wholeBetween(1, 100'000))
       ->type_name("N")
       ->group(hair);
@@ -274,6 +301,13 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
                    "Share of gravity balanced in the rest pose, 0 to 1 (default: the scene's; 0 for paper)")
       ->check(between(0, 1))
       ->type_name("P")
+      ->group(hair);
+  command
+      ->add_option(
+          "--bend-stiffness", typed->scene.bendStiffness,
+          "Stiffness that keeps the curl's shape, in weights of a strand, 0 to 1e5 (default: the scene's)")
+      ->check(between(0, 1e5))
+      ->type_name("W")
       ->group(hair);
   command->add_option("--core", typed->core, "Core spring on or off (default on)")
       ->check(oneOf({"on", "off"}))
@@ -285,6 +319,8 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->check(oneOf({"smoothed", "raw"}))
       ->type_name("WHICH")
       ->group(hair);
+
+  addContactOptions(command, typed->contacts, "in scenes of hair that meets hair");
 
   const char* solver = "Solver";
   command

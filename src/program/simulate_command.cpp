@@ -11,6 +11,7 @@
 #include <string>
 
 #include "program/command_line.h"
+#include "program/contact_options.h"
 #include "program/exit_codes.h"
 #include "program/material_command.h"
 #include "program/run_report.h"
@@ -21,8 +22,9 @@ namespace {
 
 constexpr int kMostFrames = 1'000'000;  // eleven hours at 24 a second; more is a slip of the finger
 constexpr const char* kExample =
-    "Example:\n"
+    "Examples:\n"
     "  ringlet make head -o head.obj && ringlet simulate head.obj --motion shake --frames 48 -o out\n"
+    "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
     "\n"
     "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "
     "frame, in the\n"
@@ -34,10 +36,11 @@ constexpr const char* kExample =
     "and writing)\n"
     "stages_ms (per frame, by stage) max_edge_stretch limited_share nonfinite velocity_residual (of the "
     "velocity solve,\n"
-    "worst strand and step; measuring it takes a few per cent of the step's time; null for paper and for "
-    "reference)\n"
-    "device driver kernel backend positions_hash integrator material steps_per_frame fps interrupted "
-    "warnings outputs.\n"
+    "worst strand and step; measuring it takes a few per cent of the step's time; null for paper, with "
+    "contacts\n"
+    "and for reference) device driver kernel backend positions_hash integrator material steps_per_frame fps\n"
+    "interrupted warnings outputs.\n";
+constexpr const char* kExitHelp =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
     "Ctrl-C.";
@@ -49,6 +52,7 @@ struct Typed {
   std::optional<int> stepsPerFrame;
   std::optional<double> preload, amplitude, frequency;
   double gravity = 9.81;
+  ContactChoice contacts;
   bool noChebyshev = false, json = false, quiet = false;
   bool iterationsGiven = false;
 };
@@ -76,6 +80,10 @@ void resolve(Typed& typed) {
                                "only --integrator point_jacobi has iterations");
   }
   checkMaterialOptions(options.material, settings.integrator);
+  checkContactOptions(typed.contacts);
+  applyContactOptions(typed.contacts, settings.contacts);
+  if (!settings.contacts.on && !options.measuresContacts)
+    refuseContactOptions(typed.contacts, "only with --contacts on or --measure-contacts");
 
   options.onReference = typed.backend == "reference";
   if (options.onReference && (!options.device.empty() || typed.kernel != "auto")) {
@@ -124,7 +132,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   SimulateOptions& options = typed->options;
   Settings& settings = options.settings;
   CLI::App* command = app.add_subcommand("simulate", "Moves the hair of a groom and writes the animation");
-  command->footer(kExample);
+  command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
 
   command->add_option("GROOM", options.groom, "Strands to simulate: a .hair or .obj file")
       ->required()
@@ -150,7 +158,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--amplitude", typed->amplitude,
                    "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "
-                   "glide metres/s (1), walk metres (0.025)")
+                   "glide metres/s (1), walk metres (0.025), turn radians, once (pi)")
       ->check(between(-1000, 1000))
       ->type_name("A")
       ->group(scene);
@@ -181,6 +189,13 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   // What hair is made of.
   addMaterialOptions(command, options.material, "Material");
+
+  addContactOptions(command, typed->contacts, "off");
+  command
+      ->add_flag("--measure-contacts", options.measuresContacts,
+                 "Measure after every step how deep hairs are in each other and count those that cross, with "
+                 "contacts on or off: some 6 us a particle and step of dense hair, on the CPU")
+      ->group("Contacts");
 
   // How it is stepped.
   const char* solver = "Solver";

@@ -57,19 +57,102 @@ std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head
   return points;
 }
 
-// The paper's loops solve no system, and the reference does not measure.
+// The paper's loops solve no system, contacts one of other terms, and the reference does not measure.
 bool measuresResidual(const RunInput& input, const RunOptions& options) {
-  return options.kernel.residual && !options.onReference && input.settings.integrator != Integrator::paper;
+  return options.kernel.residual && !options.onReference && !input.settings.contacts.on &&
+         input.settings.integrator != Integrator::paper;
+}
+
+// The same steps, each a frame of its own: so that each can be looked at.
+Settings stepByStep(Settings settings) {
+  settings.framesPerSecond *= settings.stepsPerFrame;
+  settings.stepsPerFrame = 1;
+  return settings;
 }
 
 Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOptions& options) {
-  const BackendInput start{input.groom, input.material, input.settings, input.motion.poseAt(0),
-                           input.motion.poseAt(-input.settings.stepSeconds())};
+  const Settings settings = options.measuresContacts ? stepByStep(input.settings) : input.settings;
+  const BackendInput start{input.groom,
+                           input.material,
+                           settings,
+                           input.motion.poseAt(0),
+                           input.motion.poseAt(-settings.stepSeconds()),
+                           input.rootShifts};
   if (options.onReference) return makeReferenceBackend(start);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
   return makeGpuBackend(start, options.device, kernel);
 }
+
+// Steps hair and, where contacts are to be measured, looks at every step.
+class Stepper {
+ public:
+  static Result<Stepper> make(Backend& backend, const RunInput& input, const RunOptions& options) {
+    Stepper stepper(backend, input.settings.contacts.on);
+    if (!options.measuresContacts) return stepper;
+    auto watch = ContactWatch::make(input.groom, input.material, input.settings);
+    if (!watch) return watch.error();
+    stepper.watch_.emplace(std::move(*watch));
+    if (Status seen = stepper.look(); !seen) return seen.error();
+    return stepper;
+  }
+
+  Status stepFrame(std::span<const HeadPose> poses) {
+    if (!watch_) {
+      Stopwatch stopwatch(stepping_);
+      return backend_->stepFrame(poses);
+    }
+    for (std::size_t step = 0; step < poses.size(); ++step) {
+      {
+        Stopwatch stopwatch(stepping_);
+        if (Status stepped = backend_->stepFrame(poses.subspan(step, 1)); !stepped) return stepped;
+      }
+      if (Status seen = look(); !seen) return seen;
+    }
+    Stopwatch stopwatch(measuring_);
+    if (!watch_->endFrame() || !hasContacts_) return {};
+    auto report = backend_->contactReport();
+    if (!report) return report.error();
+    worst_ = *report;
+    return {};
+  }
+
+  /// What was seen goes into the outcome.
+  Status tell(SimulateOutcome& outcome) const {
+    outcome.millisecondsPerFrame = stepping_;
+    if (hasContacts_) {
+      auto report = backend_->contactReport();
+      if (!report) return report.error();
+      if (watch_) report->contacts = worst_.contacts, report->momentumError = worst_.momentumError;
+      outcome.contacts = *report;
+    }
+    if (watch_) {
+      outcome.contactNumbers = watch_->numbers();
+      outcome.stages["measure"] = measuring_;
+    }
+    return {};
+  }
+
+  /// Steps that are frames of their own would be called wrong numbers of steps a frame.
+  std::vector<std::string> warnings() const { return watch_ ? watch_->warnings() : backend_->warnings(); }
+
+ private:
+  Stepper(Backend& backend, bool hasContacts) : backend_(&backend), hasContacts_(hasContacts) {}
+
+  Status look() {
+    Stopwatch stopwatch(measuring_);
+    auto positions = backend_->positions();
+    if (!positions) return positions.error();
+    watch_->addStep(*positions);
+    return {};
+  }
+
+  Backend* backend_;
+  bool hasContacts_;
+  std::optional<ContactWatch> watch_;
+  ContactReport worst_;
+  double stepping_ = 0, measuring_ = 0;  // [ms]
+};
 
 // A failure in the middle of a run, with what it leaves.
 Error afterFrames(int frameCount, const Error& cause, const std::filesystem::path& folder) {
@@ -133,9 +216,11 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   }
   auto backend = makeBackend(input, options);
   if (!backend) return backend.error();
+  auto stepper = Stepper::make(**backend, input, options);
+  if (!stepper) return stepper.error();
 
   // Frames, until all are done or Ctrl-C comes.
-  double stepping = 0, readback = 0, writing = 0;  // [ms]
+  double readback = 0, writing = 0;  // [ms]
   std::size_t mostReplaced = 0;
   std::vector<Vec3f> positions;
   {
@@ -143,11 +228,8 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
     for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
       progress.show(frame);
       const std::vector<HeadPose> poses = posesOfFrame(input.motion, input.settings, frame);
-      {
-        Stopwatch watch(stepping);
-        if (Status stepped = (*backend)->stepFrame(poses); !stepped)
-          return afterFrames(frame, stepped.error(), options.folder);
-      }
+      if (Status stepped = stepper->stepFrame(poses); !stepped)
+        return afterFrames(frame, stepped.error(), options.folder);
       {
         Stopwatch watch(readback);
         auto read = (*backend)->positions();
@@ -191,10 +273,12 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   outcome.stages = (*backend)->stageMilliseconds();
   outcome.stages["readback"] = readback;
   outcome.stages["write"] = writing;
+  if (Status told = stepper->tell(outcome); !told) return told.error();
   const double frames = std::max(outcome.frameCount, 1);
   for (auto& [stage, milliseconds] : outcome.stages) milliseconds /= frames;
-  outcome.millisecondsPerFrame = stepping / frames;
-  for (const std::string& warning : (*backend)->warnings()) outcome.warnings.push_back(warning);
+  outcome.millisecondsPerFrame /= frames;
+  outcome.warnings = stepper->warnings();
+  for (const std::string& message : (*backend)->deviceMessages()) outcome.warnings.push_back(message);
   return outcome;
 }
 

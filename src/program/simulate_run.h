@@ -12,6 +12,7 @@
 
 #include "program/material_command.h"
 #include "ringlet/base/result.h"
+#include "ringlet/measure/contact_watch.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
@@ -29,6 +30,7 @@ struct RunOptions {
   std::string device;
   KernelChoice kernel;  // its residual: measured where the integrator has one, on the GPU
   bool showProgress = true;
+  bool measuresContacts = false;  // every step and frame, with contacts on or off; costs CPU time
 };
 
 /// What the user asked for, checked.
@@ -50,6 +52,9 @@ struct SimulateOutcome {
       stages;  // by the device's own clock where it has one; readback, write by the wall
   SimulationReport report;
   std::optional<double> velocityResidual;  // the report's, where it was measured
+  std::optional<ContactReport> contacts;   // where they are on; contacts and momentumError of the worst frame
+                                           // where contacts are measured, else of the last
+  std::optional<ContactNumbers> contactNumbers;  // where they are measured
   std::string device, driver, kernel;
   std::string positionsHash;  // of the last frame
   bool interrupted = false;
@@ -63,6 +68,8 @@ struct RunInput {
   const Material& material;
   const Settings& settings;
   const Motion& motion;
+  std::span<const Vec3d>
+      rootShifts{};  // of each strand's root beside the head (HeadPose::shift) [m], or none
 };
 
 /// Sees every frame: points in the groom's unit, in its order, finite; and where the head is.

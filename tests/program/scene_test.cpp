@@ -58,6 +58,17 @@ TEST(Scene, ListsEveryScene) {
   }
 }
 
+const std::vector<std::string> kContactKeys = {"contacts",
+                                               "pairs_unpruned",
+                                               "pairs",
+                                               "pair_tests",
+                                               "rebuilds",
+                                               "momentum_error",
+                                               "raw_recall",
+                                               "overlap_beyond_rest_sum",
+                                               "deepest_overlap_all",
+                                               "crossings"};
+
 class SceneBackends : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
@@ -85,6 +96,7 @@ TEST_P(SceneBackends, EveryOneRunsAndSaysAllOfSimulateAndMeasure) {
     EXPECT_TRUE(expected.count(key)) << key;
 
   for (const std::string& name : sceneNames()) {
+    if (sceneShowsContacts(name)) continue;  // below
     SCOPED_TRACE(name);
     const json out = scene(folder_, {name, "--particles", "32", "--seconds", "0.125"}, GetParam());
     ASSERT_TRUE(out.is_object());
@@ -105,9 +117,98 @@ TEST_P(SceneBackends, EveryOneRunsAndSaysAllOfSimulateAndMeasure) {
     EXPECT_EQ(out["warnings"], json::array());
     EXPECT_EQ(out["outputs"], json::array());
     EXPECT_EQ(out["velocity_residual"].is_number(), GetParam() == std::string("gpu"));
+    for (const std::string& key : kContactKeys) EXPECT_TRUE(out[key].is_null()) << key;
     EXPECT_EQ(out["frame_turn_deg"].is_number(), name == "twist_jump");
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "groom.obj")) << "nothing is written without -o";
+}
+
+// Scenes of hair that meets hair, made small: their numbers with contacts, and those that remain without.
+TEST(Scene, HairThatMeetsHairIsMeasured) {
+  const auto folder = scratchFolder("scene_contacts");
+  RINGLET_NEEDS_DEVICE(folder);
+  for (const std::string& name : sceneNames()) {
+    if (!sceneShowsContacts(name)) continue;
+    SCOPED_TRACE(name);
+    std::vector<std::string> arguments{name, "--seconds", "0.125"};
+    if (name != "two_curls") arguments.insert(arguments.end(), {"--strands", "12"});
+    const json on = scene(folder, arguments, "gpu");
+    ASSERT_TRUE(on.is_object());
+    EXPECT_EQ(on["fps"], 24) << "though steps are measured one by one";
+    EXPECT_EQ(on["steps_per_frame"], 8);
+    EXPECT_EQ(on["frames"], 3);
+    EXPECT_EQ(on["nonfinite"], 0);
+    EXPECT_TRUE(on["velocity_residual"].is_null());
+    for (const std::string& key : kContactKeys) EXPECT_TRUE(on[key].is_number()) << key;
+    EXPECT_LE(on["pairs"], on["pairs_unpruned"]);
+    EXPECT_GE(on["rebuilds"], 1);
+    EXPECT_GE(on["raw_recall"], 0);
+    EXPECT_LE(on["raw_recall"], 1);
+    EXPECT_TRUE(on["stages_ms"]["measure"].is_number());
+
+    arguments.insert(arguments.end(), {"--contacts", "off"});
+    const json off = scene(folder, arguments, "gpu");
+    for (const std::string& key : kContactKeys) {
+      const bool remains =
+          key == "overlap_beyond_rest_sum" || key == "deepest_overlap_all" || key == "crossings";
+      EXPECT_EQ(off[key].is_number(), remains) << key;
+    }
+  }
+}
+
+// Steps that are frames of their own are the same steps.
+TEST(Scene, MeasuringChangesNothing) {
+  const auto folder = scratchFolder("scene_measured");
+  RINGLET_NEEDS_DEVICE(folder);
+  ASSERT_EQ(
+      runProgram(folder, {"make", "swatch", "--columns", "3", "--rows", "2", "-o", "swatch.obj"}).exitCode,
+      0);
+  std::vector<std::string> arguments{"simulate",          "swatch.obj", "--contacts", "on", "--frames", "6",
+                                     "--steps-per-frame", "4",          "--json",     "-o", "out"};
+  const json plain = json::parse(runProgram(folder, arguments).out, nullptr, false);
+  arguments.push_back("--measure-contacts");
+  const json measured = json::parse(runProgram(folder, arguments).out, nullptr, false);
+  ASSERT_TRUE(plain.is_object() && measured.is_object());
+  for (const char* key : {"positions_hash", "warnings", "steps_per_frame", "fps", "pairs", "pair_tests",
+                          "rebuilds", "limited_share", "max_edge_stretch"})
+    EXPECT_EQ(plain[key], measured[key]) << key;
+  EXPECT_FALSE(plain["warnings"].empty()) << "4 steps are few, and the sentence says 4";
+  for (const char* key : {"raw_recall", "overlap_beyond_rest_sum", "deepest_overlap_all", "crossings"}) {
+    EXPECT_TRUE(plain[key].is_null()) << key;
+    EXPECT_TRUE(measured[key].is_number()) << key;
+  }
+  EXPECT_TRUE(plain["contacts"].is_number());
+}
+
+TEST(Scene, ContactOptionsTakeEffect) {
+  const auto folder = scratchFolder("scene_contact_options");
+  RINGLET_NEEDS_DEVICE(folder);
+  auto run = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments{"flip", "--strands", "20", "--particles", "32", "--seconds", "0.125"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return scene(folder, arguments, "gpu");
+  };
+  const json plain = run({}), all = run({"--prune", "none"}), few = run({"--prune", "30"}),
+             bound = run({"--max-neighbours", "2"}), dropped = run({"--drop-share", "0.5"});
+  EXPECT_EQ(all["pairs"], all["pairs_unpruned"]);
+  EXPECT_EQ(all["raw_recall"], 1);
+  EXPECT_LT(plain["pairs"], all["pairs"]);
+  EXPECT_LT(few["pairs"], plain["pairs"]);
+  EXPECT_LE(bound["pairs"], 20);
+  EXPECT_LT(dropped["pairs"], plain["pairs"]);
+  EXPECT_GT(dropped["pairs"], 0);
+  EXPECT_LT(few["pair_tests"], plain["pair_tests"]);
+  EXPECT_LT(run({"--contact-radius", "0.002", "--fill-gaps", "off"})["pairs_unpruned"],
+            plain["pairs_unpruned"]);
+  for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+           {"--contact-iterations", "4"}, {"--contact-friction", "1"}, {"--bend-stiffness", "2"}})
+    EXPECT_NE(run(options)["positions_hash"], plain["positions_hash"]) << options[0];
+
+  const auto text = runProgram(folder, {"scene", "two_curls", "--seconds", "0.125"});
+  EXPECT_EQ(text.exitCode, 0) << text.err;
+  for (const char* part : {"  contacts      ", " in the worst frame, momentum error ", "  pairs         ",
+                           ", and all that are not", "  overlap       ", "  crossings     0, in all steps"})
+    expectContains(text.out, part);
 }
 
 // What measure finds in the files is what the scene said, but for what only its steps know.
@@ -306,6 +407,26 @@ TEST(Scene, MistakesAreOneSentence) {
            Case{{"bounce", "--integrator", "paper", "--core", "off"}, 2, "--core: --integrator paper takes"},
            Case{{"bounce", "--integrator", "paper", "--frames-on", "raw"}, 2, "--frames-on: --integrator"},
            Case{{"bounce", "--integrator", "paper", "--preload", "1"}, 2, "--preload: --integrator paper"},
+           Case{{"two_curls", "--contacts", "yes"}, 2, "--contacts: there is no 'yes' (only on, off)"},
+           Case{{"two_curls", "--contact-radius", "0"},
+                2,
+                "--contact-radius: must be a number from 1e-06 to 1"},
+           Case{{"two_curls", "--prune", "0"}, 2, "whole number from 1 to 1000000, not '0', or none"},
+           Case{{"two_curls", "--prune", "all"}, 2, "not 'all', or none"},
+           Case{{"two_curls", "--prune", "none", "--drop-share", "0.5"},
+                2,
+                "--drop-share: --prune none prunes"},
+           Case{{"two_curls", "--contact-iterations", "0"}, 2, "must be a whole number from 1 to 1000"},
+           Case{{"two_curls", "--contact-friction", "11"}, 2, "must be a number from 0 to 10"},
+           Case{{"two_curls", "--max-neighbours", "-1"}, 2, "must be a whole number from 0"},
+           Case{{"bounce", "--prune", "8"}, 2, "--prune: only with --contacts on, or in a scene of hair"},
+           Case{{"bounce", "--integrator", "paper", "--bend-stiffness", "1"}, 2, "--bend-stiffness: --integ"},
+           Case{{"two_curls", "--strands", "3"}, 1, "two_curls has its two strands"},
+           Case{{"two_curls", "--integrator", "paper"}, 1, "contacts need jacobi"},
+           Case{{"two_curls", "--backend", "reference"},
+                1,
+                "two_curls: the reference has no contacts yet; use --backend gpu, or --contacts off"},
+           Case{{"pile", "--backend", "reference", "--contacts", "off"}, 1, "no roots that move beside"},
            Case{{"--list", "bounce"}, 2, "NAME: --list only says which scenes there are"},
            Case{{"--list", "-o", "out"}, 2, "--output: --list only says"},
            Case{{"twist_jump", "--particles", "8"},

@@ -217,6 +217,47 @@ TEST(Simulate, ARunThatBlowsUpSaysSoAndItsFilesCanStillBeRead) {
   EXPECT_TRUE(readGroom(folder / "out/last.obj"));
 }
 
+TEST(Simulate, ContactsAreForTheAsking) {
+  const auto folder = scratchFolder("simulate_contacts");
+  writeSmallGroom(folder / "groom.obj");
+  struct Case {
+    std::vector<std::string> arguments;
+    int exitCode;
+    std::string message;
+  };
+  for (const Case& c : {
+           Case{{"--contacts", "maybe"}, 2, "--contacts: there is no 'maybe' (only on, off)"},
+           Case{{"--prune", "8"}, 2, "--prune: only with --contacts on or --measure-contacts"},
+           Case{{"--contacts", "on", "--prune", "8.5"}, 2, "not '8.5', or none"},
+           Case{{"--contacts", "on", "--prune", "none", "--max-neighbours", "4"},
+                2,
+                "--max-neighbours: --prune"},
+           Case{{"--contacts", "on", "--backend", "reference"}, 1, "the reference has no contacts yet"},
+           Case{{"--contacts", "on", "--integrator", "point_jacobi"}, 1, "contacts need jacobi"},
+       }) {
+    std::vector<std::string> arguments{"simulate", "groom.obj", "--frames", "1", "-o", "out"};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const auto result = runProgram(folder, arguments);
+    EXPECT_EQ(result.exitCode, c.exitCode) << c.message;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+  }
+
+  // What can be measured without contacts is, by the reference too.
+  const json measured =
+      simulate(folder, {"groom.obj", "--frames", "2", "--backend", "reference", "--measure-contacts"});
+  EXPECT_TRUE(measured["contacts"].is_null());
+  EXPECT_EQ(measured["crossings"], 0);
+  EXPECT_TRUE(measured["deepest_overlap_all"].is_number());
+  const std::string help = runProgram(folder, {"simulate", "--help"}).out;
+  for (const char* key :
+       {"contacts", "pairs_unpruned", "pairs", "pair_tests", "raw_recall", "overlap_beyond_rest_sum",
+        "deepest_overlap_all", "crossings", "momentum_error", "rebuilds"}) {
+    EXPECT_TRUE(measured.contains(key)) << key;
+    EXPECT_NE(help.find(key), std::string::npos) << key;
+  }
+}
+
 TEST(Simulate, UnknownDeviceIsNamed) {
   const auto folder = scratchFolder("simulate_device");
   writeSmallGroom(folder / "groom.obj");

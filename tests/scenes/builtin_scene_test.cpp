@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 #include "ringlet/rest/rest_state.h"
 
 namespace ringlet::test {
@@ -31,7 +35,12 @@ TEST(BuiltinScene, EveryOneStartsAtRest) {
     EXPECT_EQ(distance(motion.poseAt(-1), HeadPose{}), 0) << name;
     // The swing begins with s^3 of the ease times its own first power: below 1 um in the first millisecond.
     EXPECT_LT(distance(motion.poseAt(1e-3), HeadPose{}), 1e-6) << name;
-    EXPECT_TRUE(buildRestState(scene->groom, scene->material, scene->settings)) << name;
+    EXPECT_EQ(motion.poseAt(0).shift, 0) << name;
+    EXPECT_EQ(motion.poseAt(-1).shift, 0) << name;
+    EXPECT_LT(std::abs(motion.poseAt(1e-3).shift), 1e-6) << name;
+    const auto rest = buildRestState(scene->groom, scene->material, scene->settings);
+    ASSERT_TRUE(rest) << rest.error().message;
+    EXPECT_EQ(rest->warnings.size(), 0u) << name << ": " << rest->warnings.at(0);
   }
 }
 
@@ -59,10 +68,71 @@ TEST(BuiltinScene, AMotionWithAnEndIsOverByThen) {
   }
 }
 
+TEST(BuiltinScene, ATurnGoesRoundOnceAndStays) {
+  const Motion turn = *motionByName("turn", {0, 1, 0});
+  EXPECT_GT(distance(turn.poseAt(0.8), turn.poseAt(1)), 1e-3);
+  EXPECT_EQ(distance(turn.poseAt(1), turn.poseAt(5)), 0);
+  const Vec3d crown = rotate(turn.poseAt(1).rotation, Vec3d{0, 1, 0});
+  EXPECT_LT(length(crown - Vec3d{0, -1, 0}), 1e-12) << "upside down";
+}
+
+TEST(RootMotion, GoesOutAndBackSmoothly) {
+  const RootMotion never, press{.easeSeconds = 1, .untilSeconds = 4},
+      hold{.easeSeconds = 1, .untilSeconds = std::numeric_limits<double>::infinity()},
+      sway{.frequency = 2, .easeSeconds = 0.5, .untilSeconds = 3};
+  double before = 0;
+  for (double t = -1; t < 6; t += 1e-3) {
+    EXPECT_EQ(never.shareAt(t), 0);
+    EXPECT_GE(press.shareAt(t), 0);
+    EXPECT_LE(std::abs(press.shareAt(t) - before), 1.9e-3) << "15 / 8 of the mean speed at the most: " << t;
+    before = press.shareAt(t);
+    if (t < 0 || t > 4) {
+      EXPECT_EQ(press.shareAt(t), 0) << t;
+    }
+    if (t < 0 || t > 3) {
+      EXPECT_EQ(sway.shareAt(t), 0) << t;
+    }
+    if (t > 1) {
+      EXPECT_EQ(hold.shareAt(t), 1) << t;
+    }
+    if (t > 0.5 && t < 2.5) {
+      EXPECT_NEAR(sway.shareAt(t), std::sin(4 * std::numbers::pi * t), 1e-12) << t;
+    }
+  }
+  EXPECT_EQ(press.shareAt(2), 1);
+}
+
+// Two halves of as many strands each, which go opposite ways; apart at rest, so without pruning.
+TEST(BuiltinScene, HairThatComesTogetherDoesSoUnpruned) {
+  for (const char* name : {"two_curls", "curtain", "pile"}) {
+    const auto scene = makeScene(name);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::size_t half = scene->groom.strandCount() / 2;
+    ASSERT_EQ(scene->rootShifts.size(), 2 * half) << name;
+    for (std::size_t s = 0; s < half; ++s) {
+      EXPECT_EQ(scene->rootShifts[s], scene->rootShifts[0]);
+      EXPECT_EQ(scene->rootShifts[half + s], scene->rootShifts[0] * -1.0);
+    }
+    EXPECT_FALSE(scene->settings.contacts.prunePairs) << name;
+  }
+  for (const std::string& name : sceneNames()) {
+    const auto scene = makeScene(name), off = makeScene(name, {.contacts = false});
+    ASSERT_TRUE(scene && off) << name;
+    EXPECT_EQ(scene->showsContacts, sceneShowsContacts(name));
+    EXPECT_EQ(scene->settings.contacts.on, sceneShowsContacts(name));
+    EXPECT_FALSE(off->settings.contacts.on);
+    if (sceneShowsContacts(name) && name != "head") {
+      EXPECT_TRUE(scene->settings.contacts.fillGaps) << name;
+    }
+  }
+}
+
 TEST(BuiltinScene, TakesItsOptions) {
   const auto scene = makeScene("hanging_curl", {.particles = 128,
                                                 .strands = 5,
                                                 .preload = 0.25,
+                                                .bendStiffness = 7,
+                                                .contacts = true,
                                                 .core = false,
                                                 .smoothedFrames = false,
                                                 .stepsPerFrame = 16,
@@ -71,10 +141,17 @@ TEST(BuiltinScene, TakesItsOptions) {
   EXPECT_EQ(scene->groom.strandCount(), 5u);
   EXPECT_EQ(scene->groom.strand(4).size(), 128u);
   EXPECT_EQ(scene->settings.gravityPreload, 0.25);
+  EXPECT_EQ(scene->material.bendStiffness, 7);
+  EXPECT_TRUE(scene->settings.contacts.on);
   EXPECT_EQ(scene->settings.stepsPerFrame, 16);
   EXPECT_EQ(scene->material.coreStiffness, 0);
   EXPECT_EQ(scene->material.bendSmoothingLength, 0);
   EXPECT_EQ(scene->frameCount(), 48);
+
+  const auto swatches = makeScene("pile", {.particles = 32, .strands = 13});
+  ASSERT_TRUE(swatches) << swatches.error().message;
+  EXPECT_EQ(swatches->groom.strandCount(), 36u) << "three rows of six each";
+  EXPECT_EQ(swatches->rootShifts.size(), 36u);
 
   const auto paper = makeScene("release", {.integrator = Integrator::paper});
   ASSERT_TRUE(paper) << paper.error().message;
@@ -102,6 +179,10 @@ TEST(BuiltinScene, SaysWhatIsWrong) {
   expectError("hanging_curl", {.seconds = -1}, "-1 seconds");
   expectError("twist_jump", {.particles = 15}, "16 to 65536");
   expectError("head_shake", {.core = false, .integrator = Integrator::paper}, "leave the switch out");
+  expectError("two_curls", {.strands = 3}, "has its two strands");
+  expectError("two_curls", {.integrator = Integrator::paper}, "contacts need jacobi");
+  expectError("bounce", {.bendStiffness = 1, .integrator = Integrator::paper}, "leave the stiffness out");
+  expectError("bounce", {.bendStiffness = -1}, "-1");
   expectError("head_shake", {.preload = 1, .integrator = Integrator::paper}, "no preload");
 }
 

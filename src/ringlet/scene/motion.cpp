@@ -35,8 +35,13 @@ constexpr Vec3d kSide{1, 0, 0};  // X, whichever of Y and Z is up
 
 }  // namespace
 
+double RootMotion::shareAt(double t) const {
+  const double size = ease(t, easeSeconds) * ease(untilSeconds - t, easeSeconds);
+  return frequency > 0 ? std::sin(2 * std::numbers::pi * frequency * t) * size : size;
+}
+
 HeadPose Motion::poseAt(double t) const {
-  HeadPose pose{start, {}};
+  HeadPose pose{start, {}, roots.shareAt(t)};
   const double size = ease(t, easeSeconds) * ease(untilSeconds - t, easeSeconds);
   const double angle = 2 * std::numbers::pi * frequency * t;
   const double swing = std::sin(angle) * size;
@@ -64,6 +69,9 @@ HeadPose Motion::poseAt(double t) const {
                       fromRotationVector(kSide * (kNoddingPerBob * amplitude * nodding));
       break;
     }
+    case MotionKind::turn:
+      pose.rotation = fromRotationVector(axis * (amplitude * ease(t, easeSeconds)));
+      break;
   }
   return pose;
 }
@@ -78,9 +86,12 @@ std::optional<Motion> motionByName(std::string_view name, Vec3d up) {
   }
   if (name == "glide") return Motion{.kind = MotionKind::glide, .axis = kSide, .amplitude = 1};
   if (name == "walk") return Motion{.kind = MotionKind::walk, .axis = up, .amplitude = 0.025, .frequency = 1};
+  if (name == "turn") {
+    return Motion{.kind = MotionKind::turn, .axis = kSide, .amplitude = std::numbers::pi, .easeSeconds = 1};
+  }
   return std::nullopt;
 }
 
-std::string motionNames() { return "still, shake, nod, spin, glide, walk"; }
+std::string motionNames() { return "still, shake, nod, spin, glide, walk, turn"; }
 
 }  // namespace ringlet

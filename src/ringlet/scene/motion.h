@@ -19,18 +19,30 @@ enum class MotionKind {
   spin,   // turns about `axis` at constant speed, reached after easeSeconds
   glide,  // moves along `axis` at constant speed, from the first instant
   walk,   // on the spot, `axis` up: bobs at every step, sways and turns from leg to leg, nods a little
+  turn,   // turns about `axis` once, in easeSeconds, and stays there
+};
+
+/// How far roots that move beside the head have gone, as a share of each one's own shift (HeadPose::shift):
+/// smoothly to the full shift and back, or to and fro about their places.
+struct RootMotion {
+  double frequency = 0;     // to and fro as a sine, from -1 to 1 [Hz]; 0: to 1, and stays
+  double easeSeconds = 1;   // grows smoothly from 0 over this time, and shrinks so at the end
+  double untilSeconds = 0;  // over by then, and roots back in their places; 0: they never leave them
+
+  double shareAt(double t) const;
 };
 
 /// Position and orientation of the head as a smooth function of time.
 struct Motion {
   MotionKind kind = MotionKind::still;
   Vec3d axis{1, 0, 0};        // unit vector: direction of travel, or axis of turning
-  double amplitude = 0.1;     // shake, walk (of its bob) [m]; nod [rad]; spin [rad/s]; glide [m/s]
+  double amplitude = 0.1;     // shake, walk (of its bob) [m]; nod, turn [rad]; spin [rad/s]; glide [m/s]
   double frequency = 2;       // shake, nod [Hz]; walk: strides, of two steps each [Hz]
   double easeSeconds = 0.25;  // all but glide: amplitude or speed grows smoothly from 0 over this time
   double untilSeconds =
       std::numeric_limits<double>::infinity();  // shake, nod, walk: over by then, eased out as it eased in
   Vec3d start{};                                // position of the head at t = 0 [m]
+  RootMotion roots{};                           // of those that have a shift of their own
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;

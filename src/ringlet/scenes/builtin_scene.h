@@ -17,13 +17,16 @@ namespace ringlet {
 
 /// What may be asked of any scene; what is left out is the scene's own.
 struct SceneOptions {
-  std::optional<int> particles{};      // of each strand, in [2, 65536]
-  std::optional<int> strands{};        // copies side by side, in [1, 100000]; `release` takes whole rows of 8
-  std::optional<double> preload{};     // share of gravity balanced in the rest pose
-  bool core = true;                    // false: no core spring
-  bool smoothedFrames = true;          // false: frames follow the raw strand, smoothing length 0
-  std::optional<int> stepsPerFrame{};  // default 8, or 30 for Integrator::paper
-  std::optional<double> seconds{};     // length of the scene, in (0, 36000]
+  std::optional<int> particles{};  // of each strand, in [2, 65536]
+  std::optional<int> strands{};    // in [1, 100000]: copies side by side; swatches, of which a scene may have
+                                 // two (then of each), take whole rows; two_curls has its two
+  std::optional<double> preload{};             // share of gravity balanced in the rest pose
+  std::optional<double> bendStiffness{};       // K_b [w], a material's range; not for `paper`
+  std::optional<bool> contacts{};              // on or off
+  bool core = true;                            // false: no core spring
+  bool smoothedFrames = true;                  // false: frames follow the raw strand, smoothing length 0
+  std::optional<int> stepsPerFrame{};          // default 8, or 30 for Integrator::paper
+  std::optional<double> seconds{};             // length of the scene, in (0, 36000]
   Integrator integrator = Integrator::jacobi;  // `paper` has its own constants and no preload
 };
 
@@ -34,18 +37,25 @@ struct BuiltinScene {
   Material material;
   Settings settings;
   Motion motion;
+  std::vector<Vec3d> rootShifts{};  // of each strand's root beside the head (Simulation::setRootShifts) [m],
+                                    // or none
   double seconds = 0;
+  bool showsContacts = false;         // what it shows is hair that meets hair (measure/contact_watch.h)
   bool showsFrames = false;           // what it shows is how strand frames turn (measure/frame_turn.h)
   std::vector<std::string> warnings;  // for the user: what the options spoil, a sentence each
 
   int frameCount() const;  // whole frames, at least one
 };
 
-/// hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release.
+/// hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release, and those of hair that meets hair:
+/// two_curls, curtain, pile, fall, flip, head.
 std::vector<std::string> sceneNames();
 
 /// What it shows, in a sentence; empty for an unknown name.
 std::string sceneSummary(std::string_view name);
+
+/// Whether that is hair that meets hair: contacts are on unless asked off, and measured in any case.
+bool sceneShowsContacts(std::string_view name);
 
 /// Errors: an unknown name, an option out of its range, a core or smoothed frames switched off for `paper`,
 /// which knows neither switch.

@@ -1,0 +1,40 @@
+// The options by which commands choose contacts between hairs.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "ringlet/scene/contact_settings.h"
+
+namespace ringlet::program {
+
+/// Contacts as asked for on a command line; what was left out is the scene's, or ContactSettings' own.
+struct ContactChoice {
+  std::optional<std::string> state;  // on or off
+  std::optional<double> radius;      // [m]
+  std::optional<std::string> fillGaps;
+  std::optional<std::string> prune;  // a number of overlaps, or none
+  std::optional<int> maxNeighbours;
+  std::optional<double> dropShare;
+  std::optional<int> iterations;
+  std::optional<double> friction;
+
+  /// Switched on or off; nothing: neither.
+  std::optional<bool> on() const { return state ? std::optional(*state == "on") : std::nullopt; }
+};
+
+/// Adds --contacts, --contact-radius, --fill-gaps, --prune, --max-neighbours, --drop-share,
+/// --contact-iterations and --contact-friction. defaultState: what --help says where --contacts is left out.
+/// `choice` must outlive the command.
+void addContactOptions(CLI::App* command, ContactChoice& choice, const std::string& defaultState);
+
+/// Throws CLI11's error for what makes no sense together.
+void checkContactOptions(const ContactChoice& choice);
+
+/// Throws CLI11's error for an option that says how contacts are, where `reason` says that there are none.
+void refuseContactOptions(const ContactChoice& choice, const std::string& reason);
+
+void applyContactOptions(const ContactChoice& choice, ContactSettings& settings);
+
+}  // namespace ringlet::program

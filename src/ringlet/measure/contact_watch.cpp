@@ -1,0 +1,47 @@
+// Implements measure/contact_watch.h.
+#include "ringlet/measure/contact_watch.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/measure/crossings.h"
+
+namespace ringlet {
+
+Result<ContactWatch> ContactWatch::make(const Groom& groom, const Material& material,
+                                        const Settings& settings) {
+  auto rest = buildRestState(groom, material, settings);
+  if (!rest) return rest.error();
+  ContactParticles particles = chooseContactParticles(*rest, settings.contacts);
+  ContactGraph graph = pruneStrandPairs(countOverlaps(*rest, particles, settings.contacts.enlargement), *rest,
+                                        settings.contacts);
+  if (settings.contacts.on) {
+    rest->warnings.insert(rest->warnings.end(), particles.warnings.begin(), particles.warnings.end());
+    rest->warnings.insert(rest->warnings.end(), graph.warnings.begin(), graph.warnings.end());
+  }
+  return ContactWatch(std::move(*rest), std::move(particles), std::move(graph), groom.firstPoint);
+}
+
+ContactWatch::ContactWatch(RestState rest, ContactParticles particles, ContactGraph graph,
+                           std::span<const std::uint32_t> firstPoint)
+    : rest_(std::move(rest)),
+      particles_(std::move(particles)),
+      graph_(std::move(graph)),
+      firstPoint_(firstPoint.begin(), firstPoint.end()) {}
+
+void ContactWatch::addStep(std::span<const Vec3f> positions) {
+  if (!positions_.empty()) numbers_.crossings += countCrossings(firstPoint_, positions_, positions);
+  positions_.assign(positions.begin(), positions.end());
+}
+
+bool ContactWatch::endFrame() {
+  RINGLET_ASSERT(!positions_.empty(), "a frame ends with a step");
+  const ContactQuality now = measureContacts(rest_, particles_, graph_, positions_);
+  numbers_.deepestOverlap = std::max(numbers_.deepestOverlap, now.deepestOverlap);
+  if (now.overlapBeyondRestSum < numbers_.worst.overlapBeyondRestSum) return false;
+  numbers_.worst = now;
+  return true;
+}
+
+}  // namespace ringlet

@@ -1,0 +1,56 @@
+// ContactWatch: a whole run seen for what hairs did to each other: how often they went through one another,
+// and the frame in which they were deepest in each other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/measure/contact_quality.h"
+#include "ringlet/rest/material.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet {
+
+/// Over all steps and frames seen.
+struct ContactNumbers {
+  std::uint64_t crossings = 0;  // over all steps (measure/crossings.h)
+  ContactQuality worst;         // of the frame with the largest overlapBeyondRestSum; of equals the last
+  double deepestOverlap = 0;    // of all frames, beyond rest, as a share of R
+};
+
+/// Feed the state a run starts from and then every outer step, and say where a frame ends. Works the same
+/// with contacts off: it sees what they would have had to do. Cost of a step: some 6 us an edge in dense
+/// hair; of a frame: linear in contact particles and overlaps.
+class ContactWatch {
+ public:
+  /// Errors: those of buildRestState. Radii and pruning are those of settings.contacts, on or off.
+  static Result<ContactWatch> make(const Groom& groom, const Material& material, const Settings& settings);
+
+  /// positions [m]: groom order. Of a frame much longer than a step, straight ways between its ends would
+  /// cross where the hair went round.
+  void addStep(std::span<const Vec3f> positions);
+  /// The state added last ends a frame. Whether it is the worst so far.
+  bool endFrame();
+
+  const ContactNumbers& numbers() const { return numbers_; }
+  /// What the solver warns of with these settings (Simulation::warnings).
+  const std::vector<std::string>& warnings() const { return rest_.warnings; }
+
+ private:
+  ContactWatch(RestState rest, ContactParticles particles, ContactGraph graph,
+               std::span<const std::uint32_t> firstPoint);
+
+  RestState rest_;
+  ContactParticles particles_;
+  ContactGraph graph_;
+  std::vector<std::uint32_t> firstPoint_;
+  std::vector<Vec3f> positions_;  // of the step before; none at first
+  ContactNumbers numbers_;
+};
+
+}  // namespace ringlet

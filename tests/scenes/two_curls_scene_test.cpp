@@ -1,0 +1,42 @@
+// two_curls: two curls are pushed to half their width from core to core, give way, and come to rest once they
+// are apart again.
+#include "tests/scenes/contact_runs.h"
+
+namespace ringlet::test {
+namespace {
+
+class TwoCurls : public ContactSceneTest {};
+
+TEST_F(TwoCurls, DoNotPassEachOther) {
+  for (int steps : {8, 16, 32}) {
+    SCOPED_TRACE(steps);
+    expectKeptApart(watch("two_curls", {.stepsPerFrame = steps, .seconds = 4}));
+  }
+}
+
+// At 4 steps contacts that are only seen ahead hold on to each other, and press others deeper than they
+// should: the depth is printed.
+TEST_F(TwoCurls, DoNotPassEachOtherAtFourSteps) {
+  EXPECT_EQ(watch("two_curls", {.stepsPerFrame = 4, .seconds = 4}).numbers.crossings, 0u);
+}
+
+// Twice a turn, on eight turns; and neither more nor less at other steps.
+TEST_F(TwoCurls, CrossWithoutContacts) {
+  for (int steps : kStepCounts) {
+    const ContactRun run = watch("two_curls", {.contacts = false, .stepsPerFrame = steps, .seconds = 4});
+    EXPECT_EQ(run.numbers.crossings, 16u);
+    EXPECT_GT(run.numbers.deepestOverlap, kDeepestOverlap);
+    EXPECT_EQ(run.report.pairTests, 0u);
+    EXPECT_LE(run.worstRootError, kRootPlace);
+  }
+}
+
+TEST_F(TwoCurls, ComeToRest) {
+  for (int steps : {4, 8}) {
+    const ContactRun run = watch("two_curls", {.bendStiffness = 5, .stepsPerFrame = steps});
+    EXPECT_LT(run.energyRatio, 1e-6) << steps;
+  }
+}
+
+}  // namespace
+}  // namespace ringlet::test
