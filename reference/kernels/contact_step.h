@@ -131,6 +131,37 @@ double contactMomentumError(const Contacts<Real>& contacts, const Field<double>&
   return size > 0 ? sum.norm() / size : 0;
 }
 
+/// Takes back contacts seen ahead that velocities [m/s] do not bring about: others have stopped the two, and
+/// its spring would hold them together. Whether there were any.
+template <class Real>
+bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts) {
+  bool dropped = false;
+  for (Contact<Real>& contact : contacts.live) {
+    if (!(contact.weights.push < 0)) continue;
+    const Vector3<double> parting = velocities[contacts.particles[contact.pair.a].index] -
+                                    velocities[contacts.particles[contact.pair.b].index];
+    const double separation = contact.normal.template cast<double>().dot(parting);
+    if (static_cast<double>(contact.weights.push) <
+        static_cast<double>(contact.weights.normal) * separation) {
+      contact.weights = {};
+      dropped = true;
+    }
+  }
+  return dropped;
+}
+
+/// 2 D beside the strands' own systems.
+template <class Real>
+void setContactWeights(std::span<const std::uint32_t> firstPoint, const Contacts<Real>& contacts,
+                       std::vector<StrandSystem>& systems) {
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    systems[s].contactWeights.clear();
+    for (std::uint32_t i = firstPoint[s]; i < firstPoint[s + 1]; ++i) {
+      systems[s].contactWeights.push_back(2 * contacts.weights[i]);
+    }
+  }
+}
+
 /// Strand-block Jacobi from v^0. `systems` are those of the solve without contacts; what contacts add to them
 /// is written beside it. velocities [m/s]: v^0 in, the last iterate out.
 template <class Real>
@@ -141,15 +172,15 @@ void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint
   gatherContacts(velocities.size(), contacts);
   contacts.momentumError = 0;
   if (contacts.live.empty()) return;
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    for (std::uint32_t i = firstPoint[s]; i < firstPoint[s + 1]; ++i) {
-      systems[s].contactWeights.push_back(2 * contacts.weights[i]);
-    }
-  }
+  setContactWeights(firstPoint, contacts, systems);
 
   Field<double> solved, momenta;
   for (const Vector3<Real>& v : velocities) solved.push_back(v.template cast<double>());
   for (int iteration = 0; iteration < iterationCount; ++iteration) {
+    if (iteration > 0 && dropUnmet(solved, contacts)) {
+      gatherContacts(velocities.size(), contacts);
+      setContactWeights(firstPoint, contacts, systems);
+    }
     momenta = pairMomenta(contacts, solved);
     for (std::size_t s = 0; s < systems.size(); ++s) {
       const std::size_t first = firstPoint[s], count = firstPoint[s + 1] - first;

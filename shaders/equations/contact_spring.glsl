@@ -65,10 +65,15 @@ ContactWeights contactWeights(vec2 shares, bool touching, float distance, float 
   return weights;
 }
 
-/// Q as (n sqrt(q_n - q_t), q_t); friction is at most 1, so q_t is never larger.
+/// Q as (n sqrt(q_n - q_t), q_t); friction is at most 1, so q_t is never larger. A contact seen ahead has no damping, so no
+/// q_t, and a push below 0, which stands there.
 vec4 contactMatrix(ContactWeights weights, vec3 normal) {
-  return vec4(sqrt(max(0.0, weights.normal - weights.tangential)) * normal, weights.tangential);
+  return vec4(sqrt(max(0.0, weights.normal - weights.tangential)) * normal, weights.push < 0.0 ? weights.push : weights.tangential);
 }
-vec3 contactMultiply(vec4 Q, vec3 v) { return dot(Q.xyz, v) * Q.xyz + Q.w * v; }
+float tangentialOf(vec4 Q) { return max(0.0, Q.w); }
+vec3 contactMultiply(vec4 Q, vec3 v) { return dot(Q.xyz, v) * Q.xyz + tangentialOf(Q) * v; }
+
+/// Whether a contact seen ahead has not come about: parting as the two now are, it would hold them together.
+bool isUnmet(vec4 Q, vec3 parting) { return Q.w < 0.0 && Q.w < length(Q.xyz) * dot(Q.xyz, parting); }
 
 #endif

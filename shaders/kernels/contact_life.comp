@@ -42,7 +42,7 @@ void main() {
     vec4 Q = contactMatrix(weights, meeting.normal);
     lives[ownLife].shares = lifeOfShares(shares);
     normals[entry] = Q;
-    D = addOuter(addDiagonal(D, Q.w), 1.0, Q.xyz);
+    D = addOuter(addDiagonal(D, tangentialOf(Q)), 1.0, Q.xyz);
     push += weights.push * meeting.normal;
     momentum += contactMultiply(Q, v + otherVelocity);
   }
