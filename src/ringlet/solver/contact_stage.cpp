@@ -159,7 +159,6 @@ Status ContactStage::createLists() {
 
 Status ContactStage::bindAll(const DeviceGroom& groom) {
   control_ = &groom.contactControl;
-  bindings_.clear();
   auto bindings = gpu::Bindings::create(kernels_[0], {groom.positions,
                                                       groom.solved,
                                                       constant_[0],
@@ -181,7 +180,7 @@ Status ContactStage::bindAll(const DeviceGroom& groom) {
                                                       lists_[2],
                                                       lists_[3]});
   if (!bindings) return bindings.error();
-  bindings_.push_back(std::move(*bindings));
+  bindings_ = std::move(*bindings);
   return {};
 }
 
@@ -210,11 +209,11 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                             std::uint32_t groupCount) const {
-  recorder.dispatch(kernels_[static_cast<std::size_t>(kernel)], bindings_[0], parameters(step), groupCount);
+  recorder.dispatch(kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step), groupCount);
 }
 void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                                     std::uint64_t offset) const {
-  recorder.dispatchIndirect(kernels_[static_cast<std::size_t>(kernel)], bindings_[0], parameters(step),
+  recorder.dispatchIndirect(kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step),
                             *control_, offset);
 }
 

@@ -8,7 +8,7 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "ringlet/base/result.h"
@@ -27,8 +27,8 @@ namespace ringlet {
 
 class ContactStage {
  public:
-  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom`'s
-  /// buffers must live as long and may be moved.
+  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` must
+  /// live as long, in one place.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const ContactParticles& particles, const ContactGraph& graph,
                                      const DeviceGroom& groom);
@@ -69,12 +69,11 @@ class ContactStage {
   layout::ContactControl& control() const;
 
   gpu::Device* device_ = nullptr;
-  std::vector<gpu::Kernel> kernels_;     // by ContactKernel
-  std::vector<gpu::Bindings> bindings_;  // one, for all kernels have the same list
-  std::vector<gpu::Buffer> constant_;    // contacts, neighbours
-  std::vector<gpu::Buffer> working_;     // grid, places, queue
-  std::vector<gpu::Buffer> lists_;       // heads, pairs, lives, normals
-  const DeviceGroom* groom_ = nullptr;
+  std::vector<gpu::Kernel> kernels_;       // by ContactKernel
+  std::optional<gpu::Bindings> bindings_;  // all kernels have the same list
+  std::vector<gpu::Buffer> constant_;      // contacts, neighbours
+  std::vector<gpu::Buffer> working_;       // grid, places, queue
+  std::vector<gpu::Buffer> lists_;         // heads, pairs, lives, normals
   gpu::Buffer const* control_ = nullptr;
   ContactSettings settings_;
   std::vector<std::uint32_t> particles_;  // device index of each contact particle
