@@ -41,7 +41,7 @@ class Simulation {
       rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit,
                                            materialOfStrand(material, s), paper, settings));
     }
-    shiftsNow_ = shiftsNext_ = Field<double>(groom.strandCount(), Vector3<double>::Zero());
+    rootShifts_.assign(groom.strandCount(), Vector3<double>::Zero());
     systems_.resize(groom.strandCount());
     taps_.resize(groom.strandCount());
     if (settings.contacts.on) {
@@ -70,11 +70,11 @@ class Simulation {
     velocities_ = velocities;
   }
 
-  /// Where each strand's roots are from the end of the next step on, beside where the head carries them: in
-  /// the groom's axes [m]. For scenes in which strands are brought together.
-  void shiftRoots(const Field<double>& shifts) {
-    RINGLET_ASSERT(shifts.size() == rest_.size(), "shiftRoots needs a shift for every strand");
-    shiftsNext_ = shifts;
+  /// How far each strand's root moves beside the head, when the head's pose has `shift` 1: in the groom's
+  /// axes [m]. Before the first frame.
+  void setRootShifts(std::span<const Vec3d> shifts) {
+    RINGLET_ASSERT(shifts.size() == rest_.size(), "every strand has a root shift");
+    for (std::size_t s = 0; s < rest_.size(); ++s) rootShifts_[s] = toEigen<double>(shifts[s]);
   }
 
   const HeadPose& head() const { return head_; }
@@ -127,7 +127,6 @@ class Simulation {
     }
     previousHead_ = head_;
     head_ = next;
-    shiftsNow_ = shiftsNext_;
   }
 
   // For strand s. In double: the head's velocity is a small difference of positions that may be large.
@@ -140,8 +139,8 @@ class Simulation {
             .next = toEigen<double>(next.rotation),
             .velocityChange = toEigen<Real>(velocityNext - velocityNow),
             .seconds = static_cast<Real>(T),
-            .shiftNow = shiftsNow_[s],
-            .shiftNext = shiftsNext_[s]};
+            .shiftNow = head_.shift * rootShifts_[s],
+            .shiftNext = next.shift * rootShifts_[s]};
   }
 
   std::span<Vector3<Real>> strandOf(Field<Real>& field, std::size_t s) const {
@@ -157,7 +156,7 @@ class Simulation {
 
   Settings settings_;
   HeadPose previousHead_, head_;           // poses n - 1 and n
-  Field<double> shiftsNow_, shiftsNext_;   // of roots, poses n and n + 1 [m]
+  Field<double> rootShifts_;               // at HeadPose::shift 1 [m]
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;

@@ -26,7 +26,7 @@ struct HeadStep {
       next;  // rotations of poses n - 1, n, n + 1: their differences over T need the digits
   Vector3<Real> velocityChange;  // of its translation: V_{n+1} - V_n [m/s]
   Real seconds = 0;              // T
-  // The strand's roots beside where the head carries them, poses n and n + 1, the groom's axes [m].
+  // Where the strand's roots are beside the head, poses n and n + 1, the groom's axes [m].
   Vector3<double> shiftNow = Vector3<double>::Zero(), shiftNext = Vector3<double>::Zero();
 
   Rotation<Real> rotation() const { return now.template cast<Real>(); }

@@ -399,12 +399,13 @@ Meeting meetTwoCurls(const Settings& settings, double bendStiffness, double hand
 
   Meeting meeting;
   Field<double> pressed;
+  simulation.setRootShifts(std::vector<Vec3d>{{(from - nearest) / 2, 0, 0}, {(nearest - from) / 2, 0, 0}});
   const double T = settings.stepSeconds();
   for (int n = 1; n * T < seconds + T / 2; ++n) {
-    const double t = n * T, moved = (from - nearest) / 2 * (ease((t - 0.5) / 0.75) - ease((t - 2.5) / 0.75));
-    simulation.shiftRoots({{moved, 0, 0}, {-moved, 0, 0}});
+    const double t = n * T, shift = ease((t - 0.5) / 0.75) - ease((t - 2.5) / 0.75);
     const Field<double> before = simulation.positions();
-    simulateStill(simulation, T);
+    const HeadPose pose{{}, {}, shift};
+    simulation.stepFrame(std::span(&pose, 1));
     meeting.crossings += crossingCount(groom.firstPoint, before, simulation.positions());
     meeting.deepest = std::max(meeting.deepest, deepestOverlap(particles, simulation.positions()));
     double energy = 0;

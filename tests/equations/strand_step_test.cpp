@@ -146,14 +146,16 @@ TEST(StrandStep, ShiftedRootsFollowTheHeadToo) {
   const Settings settings = settingsFor(Integrator::jacobi);
   const Motion nod = *motionByName("nod", {0, 1, 0});
   Simulation<double> simulation(groom, Material{}, settings);
-  const Vector3<double> shift(0.01, 0.002, -0.03);
+  const Vec3d shift{0.01, 0.002, -0.03};
+  simulation.setRootShifts(std::vector<Vec3d>{shift, {}});
   Vector3<double> before = simulation.positions().front();
   for (int n = 1; n <= 80; ++n) {
-    simulation.shiftRoots({n / 80.0 * shift, Vector3<double>::Zero()});
-    const HeadPose pose = nod.poseAt(n * settings.stepSeconds());
+    HeadPose pose = nod.poseAt(n * settings.stepSeconds());
+    pose.shift = n / 80.0;
     simulation.stepFrame(std::span(&pose, 1));
     const Rotation<double> now = toEigen<double>(pose.rotation);
-    const Vector3<double> place = now * (simulation.restStrands()[0].points[0] + n / 80.0 * shift);
+    const Vector3<double> place =
+        now * (simulation.restStrands()[0].points[0] + pose.shift * toEigen<double>(shift));
     EXPECT_LT((simulation.positions().front() - place).norm(), 1e-15);
     EXPECT_LT((simulation.velocities().front() - (place - before) / settings.stepSeconds()).norm(), 1e-13);
     EXPECT_LT((simulation.positions()[64] - now * simulation.restStrands()[1].points[0]).norm(), 1e-15);
