@@ -21,6 +21,7 @@ struct Report {
   std::uint64_t edgeSteps = 0;        // all edges, times steps
   std::uint64_t degenerateEdges = 0;  // edges, times steps, that had no direction
   std::uint64_t nonfinite = 0;        // particles whose position or velocity is not finite now
+  std::uint64_t steps = 0;            // outer steps
   std::uint64_t contacts = 0;         // pairs that touch or have not yet broken, now
   double momentumError = 0;           // of the last step's contacts: |sum| over sum of magnitudes [1]
 
@@ -125,6 +126,7 @@ class Simulation {
                  scratch_, taps_[s]);
       record(rest_[s], taps_[s]);
     }
+    ++report_.steps;
     previousHead_ = head_;
     head_ = next;
   }

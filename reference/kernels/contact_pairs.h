@@ -52,12 +52,17 @@ inline bool mayTouch(const RestContacts& rest, const ContactParticle& a, const C
   return a.strand != b.strand && !(a.isPinned && b.isPinned) && rest.mayTouch(a.strand, b.strand);
 }
 
+/// What the grid found, and how often it looked: from both sides of a pair.
+struct NearPairs {
+  std::vector<ContactPair> pairs;
+  std::uint64_t tests = 0;
+};
+
 /// All pairs that may touch and are no further apart than the sum of their `reaches` [m], ascending. Entries
 /// of places [m] and reaches follow `particles`. A particle without a reach, or whose place or reach is not
 /// finite, has no pairs.
-inline std::vector<ContactPair> nearPairs(const RestContacts& rest,
-                                          const std::vector<ContactParticle>& particles,
-                                          const Field<double>& places, const Scalars<double>& reaches) {
+inline NearPairs nearPairs(const RestContacts& rest, const std::vector<ContactParticle>& particles,
+                           const Field<double>& places, const Scalars<double>& reaches) {
   double cellSize = 0;  // whoever is near is in a neighbouring cell
   for (const double reach : reaches) {
     if (std::isfinite(reach)) cellSize = std::max(cellSize, 2 * reach);
@@ -75,7 +80,8 @@ inline std::vector<ContactPair> nearPairs(const RestContacts& rest,
     if (isUsable(k)) grid[cellOf(k)].push_back(k);
   }
 
-  std::vector<ContactPair> pairs;
+  NearPairs near;
+  std::vector<ContactPair>& pairs = near.pairs;
   for (std::uint32_t a = 0; a < particles.size(); ++a) {
     if (!isUsable(a)) continue;
     const std::size_t firstOfA = pairs.size();
@@ -84,6 +90,7 @@ inline std::vector<ContactPair> nearPairs(const RestContacts& rest,
       const auto found = grid.find(
           {centre[0] + neighbour % 3 - 1, centre[1] + neighbour / 3 % 3 - 1, centre[2] + neighbour / 9 - 1});
       if (found == grid.end()) continue;
+      near.tests += found->second.size();
       for (const std::uint32_t b : found->second) {
         if (b <= a || (places[a] - places[b]).norm() > reaches[a] + reaches[b]) continue;
         if (mayTouch(rest, particles[a], particles[b])) pairs.push_back({a, b});
@@ -91,7 +98,7 @@ inline std::vector<ContactPair> nearPairs(const RestContacts& rest,
     }
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(firstOfA), pairs.end());
   }
-  return pairs;
+  return near;
 }
 
 }  // namespace ringlet::reference

@@ -32,6 +32,8 @@ struct Contacts {
   RestContacts rest;
   std::vector<ContactParticle> particles;
   std::vector<Contact<Real>> live;  // ascending by pair
+  std::uint64_t nearCount = 0;      // pairs near enough to be asked, in the last step
+  std::uint64_t pairTests = 0;      // pairs looked at for that, in all steps
 
   Field<Real> freeVelocities;            // v^0 [m/s]
   Field<double> pushes;                  // sum of push n [kg m/s]
@@ -64,7 +66,10 @@ void updateContacts(const ContactSettings& settings, Real stepSeconds, const Fie
 
   std::vector<Contact<Real>> live;
   auto before = contacts.live.begin();  // both lists ascend
-  for (const ContactPair& pair : nearPairs(contacts.rest, contacts.particles, places, reaches)) {
+  const NearPairs near = nearPairs(contacts.rest, contacts.particles, places, reaches);
+  contacts.nearCount = near.pairs.size();
+  contacts.pairTests += near.tests;
+  for (const ContactPair& pair : near.pairs) {
     const ContactParticle &a = contacts.particles[pair.a], &b = contacts.particles[pair.b];
     const auto constants = contactConstants<Real>(settings, (a.mass + b.mass) / 2, a.radius + b.radius,
                                                   (a.restPlace - b.restPlace).norm());

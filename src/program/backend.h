@@ -52,8 +52,8 @@ class Backend {
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
                                                 const KernelChoice& kernel);
 
-/// The reference in double precision, on one thread. Refuses what the solver refuses, contacts and root
-/// shifts too, and warns of what the solver warns of.
+/// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
+/// warns of.
 Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input);
 
 }  // namespace ringlet::program

@@ -1,11 +1,11 @@
 // `--backend reference`: reference::Simulation<double> behind backend.h.
-#include <fmt/format.h>
-
 #include <chrono>
 #include <cmath>
 
 #include "program/backend.h"
 #include "reference/step.h"
+#include "ringlet/rest/contact_graph.h"
+#include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/rest_state.h"
 
 namespace ringlet::program {
@@ -13,9 +13,12 @@ namespace {
 
 class ReferenceBackend : public Backend {
  public:
-  ReferenceBackend(const BackendInput& input, std::vector<std::string> warnings)
+  ReferenceBackend(const BackendInput& input, const ContactReport& atRest, std::vector<std::string> warnings)
       : warnings_(std::move(warnings)),
-        simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier) {}
+        contactsAtRest_(atRest),
+        simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier) {
+    if (!input.rootShifts.empty()) simulation_.setRootShifts(input.rootShifts);
+  }
 
   Status stepFrame(std::span<const HeadPose> stepPoses) override {
     const auto start = std::chrono::steady_clock::now();
@@ -40,7 +43,17 @@ class ReferenceBackend : public Backend {
                             .degenerateEdges = from.degenerateEdges};
   }
 
-  Result<ContactReport> contactReport() override { return ContactReport{}; }
+  Result<ContactReport> contactReport() override {
+    const auto from = simulation_.report();
+    ContactReport report = contactsAtRest_;
+    if (!simulation_.settings().contacts.on) return report;
+    report.listed = simulation_.contacts().nearCount;
+    report.contacts = from.contacts;
+    report.pairTests = simulation_.contacts().pairTests;
+    report.rebuilds = from.steps;  // all pairs are found anew in every step
+    report.momentumError = from.momentumError;
+    return report;
+  }
 
   std::map<std::string, double> stageMilliseconds() const override {
     return {{"strand_step", milliseconds_}};
@@ -53,6 +66,7 @@ class ReferenceBackend : public Backend {
 
  private:
   std::vector<std::string> warnings_;
+  ContactReport contactsAtRest_;
   reference::Simulation<double> simulation_;
   double milliseconds_ = 0;
 };
@@ -60,14 +74,22 @@ class ReferenceBackend : public Backend {
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input) {
-  if (input.settings.contacts.on || !input.rootShifts.empty()) {
-    return Error{fmt::format("the reference has no {} yet; use --backend gpu{}",
-                             input.settings.contacts.on ? "contacts" : "roots that move beside the head",
-                             input.settings.contacts.on ? ", or --contacts off" : "")};
-  }
   auto rest = buildRestState(input.groom, input.material, input.settings);
   if (!rest) return rest.error();
-  return std::unique_ptr<Backend>(std::make_unique<ReferenceBackend>(input, std::move(rest->warnings)));
+  ContactReport contacts;
+  if (const ContactSettings& settings = input.settings.contacts; settings.on) {
+    // The reference derives its own; these counts and warnings are those the solver gives.
+    const ContactParticles particles = chooseContactParticles(*rest, settings);
+    const ContactGraph graph =
+        pruneStrandPairs(countOverlaps(*rest, particles, settings.enlargement), *rest, settings);
+    contacts = {.contactParticles = particles.particles.size(),
+                .pairsUnpruned = graph.pairsUnpruned,
+                .pairs = graph.pairs};
+    rest->warnings.insert(rest->warnings.end(), particles.warnings.begin(), particles.warnings.end());
+    rest->warnings.insert(rest->warnings.end(), graph.warnings.begin(), graph.warnings.end());
+  }
+  return std::unique_ptr<Backend>(
+      std::make_unique<ReferenceBackend>(input, contacts, std::move(rest->warnings)));
 }
 
 }  // namespace ringlet::program

@@ -52,7 +52,7 @@ TEST(ContactPairs, TheGridFindsAllPairs) {
     Scalars<double> reaches;
     for (std::size_t k = 0; k < count; ++k) reaches.push_back(0.01 + 0.01 * (k % 7 == 0));
     for (const RestContacts& rest : {all, odd}) {
-      const auto found = nearPairs(rest, particles, places, reaches);
+      const auto found = nearPairs(rest, particles, places, reaches).pairs;
       EXPECT_EQ(found, allPairs(rest, particles, places, reaches));
       EXPECT_GT(found.size(), 0u);
     }
@@ -67,7 +67,7 @@ TEST(ContactPairs, WhatIsNotFiniteOrHasNoReachHasNoPairs) {
   places[2].x() = std::nan("");
   reaches[4] = std::numeric_limits<double>::infinity();
   const std::vector<ContactPair> expected{{0, 3}, {0, 5}, {1, 3}, {1, 5}, {3, 5}};
-  EXPECT_EQ(nearPairs(RestContacts{.prunesPairs = false}, particles, places, reaches), expected);
+  EXPECT_EQ(nearPairs(RestContacts{.prunesPairs = false}, particles, places, reaches).pairs, expected);
 }
 
 TEST(ContactPairs, PinnedParticlesDoNotTouchEachOther) {
@@ -75,7 +75,7 @@ TEST(ContactPairs, PinnedParticlesDoNotTouchEachOther) {
   particles[2].isPinned = true;
   const Field<double> places(4, Vector3<double>::Zero());
   const std::vector<ContactPair> expected{{0, 3}, {1, 2}, {1, 3}};
-  EXPECT_EQ(nearPairs(RestContacts{.prunesPairs = false}, particles, places, Scalars<double>(4, 0.01)),
+  EXPECT_EQ(nearPairs(RestContacts{.prunesPairs = false}, particles, places, Scalars<double>(4, 0.01)).pairs,
             expected);
 }
 

@@ -232,7 +232,6 @@ TEST(Simulate, ContactsAreForTheAsking) {
            Case{{"--contacts", "on", "--prune", "none", "--max-neighbours", "4"},
                 2,
                 "--max-neighbours: --prune"},
-           Case{{"--contacts", "on", "--backend", "reference"}, 1, "the reference has no contacts yet"},
            Case{{"--contacts", "on", "--integrator", "point_jacobi"}, 1, "contacts need jacobi"},
        }) {
     std::vector<std::string> arguments{"simulate", "groom.obj", "--frames", "1", "-o", "out"};
