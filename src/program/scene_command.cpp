@@ -13,7 +13,7 @@
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
-#include "program/measure_command.h"
+#include "program/measure_report.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
 #include "ringlet/groom/obj_file.h"

@@ -50,6 +50,12 @@ Vec3<T> normalizedOr(Vec3<T> v, Vec3<T> fallback) {
 using Vec3f = Vec3<float>;
 using Vec3d = Vec3<double>;
 
+/// Any unit vector across a unit vector, always the same for the same one.
+inline Vec3d anyNormal(Vec3d direction) {
+  const Vec3d axis = std::abs(direction.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  return normalizedOr(cross(direction, axis), Vec3d{0, 0, 1});
+}
+
 /// A unit quaternion; rotates column vectors. (a * b) turns by b first, then by a.
 template <class T>
 struct Quat {

@@ -74,12 +74,6 @@ Edges usableEdges(std::span<const Vec3d> strand) {
 // The angle between two unit vectors, exact also near 0 and pi [rad].
 double angleBetween(Vec3d a, Vec3d b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
 
-// Any unit vector across a unit vector.
-Vec3d anyNormal(Vec3d direction) {
-  const Vec3d axis = std::abs(direction.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  return normalizedOr(cross(direction, axis), Vec3d{0, 0, 1});
-}
-
 // Each joint's bend as a complex number: size theta [rad], argument the bend's axis in a frame that goes
 // along the strand without twist. On a helix it turns by phi per joint; on a flat wave it only changes sign.
 std::vector<std::complex<double>> measureBends(std::span<const Vec3d> directions) {

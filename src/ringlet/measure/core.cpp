@@ -53,12 +53,6 @@ class Curve {
   std::vector<Vec3d> integral_;  // from the first point to each
 };
 
-// Any unit vector across a unit vector.
-Vec3d anyNormal(Vec3d direction) {
-  const Vec3d axis = std::abs(direction.x) < 0.5 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  return normalizedOr(cross(direction, axis), Vec3d{0, 0, 1});
-}
-
 // `v` turned by the smallest rotation that takes the unit vector `from` to `to`; about any axis if opposite.
 Vec3d turnedWith(Vec3d v, Vec3d from, Vec3d to) {
   const double cosine = dot(from, to);

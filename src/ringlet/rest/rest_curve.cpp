@@ -7,8 +7,7 @@ namespace {
 Quatd smallestRotation(Vec3d a, Vec3d b) {
   double c = 1 + dot(a, b);
   if (c < 1e-6) {
-    Vec3d across = std::abs(a.x) < 0.7 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-    Vec3d axis = normalizedOr(cross(a, across), Vec3d{0, 0, 1});
+    Vec3d axis = anyNormal(a);
     return {axis.x, axis.y, axis.z, 0};
   }
   Vec3d axis = cross(a, b);
