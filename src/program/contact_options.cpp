@@ -36,7 +36,7 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
   command
       ->add_option("--contacts", choice.state,
                    "Whether strands push each other away, on or off (default " + defaultState +
-                       "); jacobi on the GPU only")
+                       "); jacobi only")
       ->check(oneOf({"on", "off"}))
       ->type_name("STATE")
       ->group(group);
@@ -83,9 +83,9 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
       ->group(group);
   command
       ->add_option("--contact-friction", choice.friction,
-                   "Damping of strands that slide along each other, as a multiple of that between strands "
-                   "that meet, 0 to 10 (default 0)")
-      ->check(between(0, 10))
+                   "Damping of strands that slide along each other, as a share of that between strands "
+                   "that meet, 0 to 1 (default 0)")
+      ->check(between(0, 1))
       ->type_name("X")
       ->group(group);
 }
