@@ -8,7 +8,7 @@
 void dispatchRebuild(bool rebuild) {
   uint contactGroups = (parameters.contactCount + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x;
   control.indirectContacts[0] = rebuild ? contactGroups : 0;
-  control.indirectBuckets[0] = rebuild ? parameters.bucketCount / kBlock : 0;
+  control.indirectBuckets[0] = rebuild ? parameters.bucketCount / kBucketBlock : 0;
   control.indirectOne[0] = rebuild ? 1 : 0;
   for (uint axis = 1; axis < 3; ++axis) {
     control.indirectContacts[axis] = 1;
@@ -23,7 +23,6 @@ void main() {
     dispatchRebuild(false);
     return;
   }
-  control.pairTests += control.listed;  // of the step before
   bool isGood = control.isListed != 0 && 2.0 * uintBitsToFloat(control.motion) <= parameters.skin;
   dispatchRebuild(!isGood);
   control.step = parameters.step;

@@ -1,6 +1,6 @@
 // Lists: every contact particle's pairs, from the 27 cells about it, in the order of cells and of contact particles inside
-// one. Pairs of strands that may not touch are left out; a pair that was listed before keeps its life. Where there is no room the
-// frame stops (contact_check.comp), and the host makes some.
+// one. Pairs of strands that may not touch are left out; a pair that was listed before keeps its life. Where there is no
+// room the frame stops (contact_check.comp), and the host makes some.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

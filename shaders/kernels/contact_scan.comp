@@ -6,8 +6,8 @@
 #include "scan/block_sum.glsl"
 
 void main() {
-  uint each = kBlock / gl_WorkGroupSize.x;  // buckets of an invocation
-  uint first = gl_WorkGroupID.x * kBlock + gl_LocalInvocationID.x * each;
+  uint each = kBucketBlock / gl_WorkGroupSize.x;  // buckets of an invocation
+  uint first = gl_WorkGroupID.x * kBucketBlock + gl_LocalInvocationID.x * each;
   uint sum = 0;
   for (uint k = 0; k < each; ++k) sum += grid[gridCount(first + k)];
   uint before = sumBefore(sum);

@@ -5,7 +5,7 @@
 #include "scan/block_sum.glsl"
 
 void main() {
-  uint blockCount = parameters.bucketCount / kBlock;
+  uint blockCount = parameters.bucketCount / kBucketBlock;
   uint each = (blockCount + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x;
   uint first = min(gl_LocalInvocationID.x * each, blockCount);
   uint end = min(first + each, blockCount);

@@ -52,16 +52,15 @@ ContactLife lifeAt(uint entry) {
 }
 vec4 normalAt(uint entry) { return kTexels ? vectorAt(normalTexels, entry) : normals[entry]; }
 
-// The grid's buffer, one part after another. Bucket b's contact particles are entries [start of b, start of b + 1).
-const uint kBlock = 1024;  // buckets that are summed together
+// The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact particles are entries [start of b, start of b + 1).
 uint gridCount(uint bucket) { return bucket; }  // how many are in a bucket; 0 outside a rebuild
 uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }  // within its block; one more than buckets
 uint gridSum(uint block) { return 2 * parameters.bucketCount + 1 + block; }  // before a block; one more than blocks
-uint gridBucketOf(uint c) { return gridSum(parameters.bucketCount / kBlock + 1) + c; }
+uint gridBucketOf(uint c) { return gridSum(parameters.bucketCount / kBucketBlock + 1) + c; }
 uint gridRank(uint c) { return gridBucketOf(parameters.contactCount) + c; }  // among its bucket's, in any order
 uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }  // contact particle, in any order in a bucket
 
-uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBlock)]; }
+uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBucketBlock)]; }
 
 // Cells of one size, hashed, so that hair may be anywhere. Cells that follow each other along x are in buckets that do, so
 // that three of them are one range. Beyond 2^30 cells all share the last.

@@ -164,6 +164,7 @@ RINGLET_CONSTANT uint kContactTexelBindingCount = 7;
 // went where depends on threads; what is in a list, and its order, does not.
 RINGLET_CONSTANT uint kListBlock = 8;
 RINGLET_CONSTANT uint kQueue = 16;
+RINGLET_CONSTANT uint kBucketBlock = 1024;  // buckets of the grid that are summed together
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
@@ -220,7 +221,7 @@ struct ContactControl {
   uint step;         // of the frame, that the lists are for
   uint rebuilds;     // since the simulation began
   uint listed;       // pairs in all lists, both sides counted
-  uint pairTests;    // pairs looked at, a step behind, since the host last took the number
+  uint pairTests;    // pairs looked at since the host last took the number
 };
 
 // More particles are near one than a device's loops can look at (ContactParameters::mostTurns).

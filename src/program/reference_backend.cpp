@@ -1,11 +1,12 @@
 // `--backend reference`: reference::Simulation<double> behind backend.h.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "program/backend.h"
 #include "reference/step.h"
-#include "ringlet/rest/contact_graph.h"
-#include "ringlet/rest/contact_particles.h"
+#include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 
 namespace ringlet::program {
@@ -79,14 +80,11 @@ Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input)
   ContactReport contacts;
   if (const ContactSettings& settings = input.settings.contacts; settings.on) {
     // The reference derives its own; these counts and warnings are those the solver gives.
-    const ContactParticles particles = chooseContactParticles(*rest, settings);
-    const ContactGraph graph =
-        pruneStrandPairs(countOverlaps(*rest, particles, settings.enlargement), *rest, settings);
-    contacts = {.contactParticles = particles.particles.size(),
-                .pairsUnpruned = graph.pairsUnpruned,
-                .pairs = graph.pairs};
-    rest->warnings.insert(rest->warnings.end(), particles.warnings.begin(), particles.warnings.end());
-    rest->warnings.insert(rest->warnings.end(), graph.warnings.begin(), graph.warnings.end());
+    const RestContacts atRest = buildRestContacts(*rest, settings);
+    contacts = {.contactParticles = atRest.particles.particles.size(),
+                .pairsUnpruned = atRest.graph.pairsUnpruned,
+                .pairs = atRest.graph.pairs};
+    std::ranges::copy(atRest.warnings(), std::back_inserter(rest->warnings));
   }
   return std::unique_ptr<Backend>(
       std::make_unique<ReferenceBackend>(input, contacts, std::move(rest->warnings)));

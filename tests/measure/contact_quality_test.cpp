@@ -15,15 +15,12 @@ using namespace test;
 
 struct Prepared {
   RestState rest;
-  ContactParticles particles;
-  ContactGraph graph;
+  RestContacts contacts;
 
   explicit Prepared(const Groom& groom, const ContactSettings& settings = {})
-      : rest(restOf(groom)),
-        particles(chooseContactParticles(rest, settings)),
-        graph(pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings)) {}
+      : rest(restOf(groom)), contacts(buildRestContacts(rest, settings)) {}
   ContactQuality at(std::span<const Vec3f> positions) const {
-    return measureContacts(rest, particles, graph, positions);
+    return measureContacts(rest, contacts, positions);
   }
 };
 
@@ -83,21 +80,21 @@ ContactQuality byAllPairs(const Prepared& p, std::span<const Vec3f> positions) {
   ContactQuality quality;
   double allowed = 0;
   const auto now = [&](std::size_t i) {
-    const std::uint32_t s = p.particles.strands[i];
-    return static_cast<Vec3d>(
-        positions[p.rest.firstInGroom[s] + (p.particles.particles[i] - p.rest.strands[s].firstParticle)]);
+    const std::uint32_t s = p.contacts.particles.strands[i];
+    return static_cast<Vec3d>(positions[p.rest.firstInGroom[s] + (p.contacts.particles.particles[i] -
+                                                                  p.rest.strands[s].firstParticle)]);
   };
   const auto before = [&](std::size_t i) {
-    return static_cast<Vec3d>(p.rest.points[p.particles.particles[i]]);
+    return static_cast<Vec3d>(p.rest.points[p.contacts.particles.particles[i]]);
   };
-  for (std::size_t i = 0; i < p.particles.particles.size(); ++i) {
+  for (std::size_t i = 0; i < p.contacts.particles.particles.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const std::uint32_t a = p.particles.strands[i], b = p.particles.strands[j];
-      const double R = double{p.particles.radii[a]} + double{p.particles.radii[b]};
+      const std::uint32_t a = p.contacts.particles.strands[i], b = p.contacts.particles.strands[j];
+      const double R = double{p.contacts.particles.radii[a]} + double{p.contacts.particles.radii[b]};
       const double d = length(now(i) - now(j)), rest = length(before(i) - before(j));
       if (a == b || d >= R) continue;
       ++quality.overlapping;
-      allowed += p.graph.allows(a, b) ? 1 : 0;
+      allowed += p.contacts.graph.allows(a, b) ? 1 : 0;
       const double overlap = rest < R ? (rest - d) / R : (R - d) / R;
       if (overlap <= 0) continue;
       quality.overlapBeyondRestSum += overlap;
@@ -112,7 +109,7 @@ TEST(ContactQuality, IsThatOfAllPairs) {
   for (const ContactSample& sample : contactSamples()) {
     const Prepared p(sample.groom);
     std::mt19937 random(51);
-    std::normal_distribution<double> noise(0, 1.5 * p.particles.baseRadius);
+    std::normal_distribution<double> noise(0, 1.5 * p.contacts.particles.baseRadius);
     std::vector<Vec3f> moved = sample.groom.points;
     for (Vec3f& x : moved) x += static_cast<Vec3f>(Vec3d{noise(random), noise(random), noise(random)});
     for (const auto& positions : {sample.groom.points, moved}) {

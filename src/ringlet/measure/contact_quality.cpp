@@ -9,8 +9,9 @@
 
 namespace ringlet {
 
-ContactQuality measureContacts(const RestState& rest, const ContactParticles& particles,
-                               const ContactGraph& graph, std::span<const Vec3f> positions) {
+ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
+                               std::span<const Vec3f> positions) {
+  const auto& [particles, graph] = contacts;
   RINGLET_ASSERT(positions.size() == rest.points.size(), "one position per particle");
   std::vector<Box> boxes;
   std::vector<Vec3d> restPoints;

@@ -6,8 +6,7 @@
 #include <span>
 
 #include "ringlet/base/vec3.h"
-#include "ringlet/rest/contact_graph.h"
-#include "ringlet/rest/contact_particles.h"
+#include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 
 namespace ringlet {
@@ -24,7 +23,7 @@ struct ContactQuality {
 
 /// positions [m]: groom order, as Simulation::positions returns them. Particles that are not finite overlap
 /// nothing. Cost: linear in contact particles and overlaps.
-ContactQuality measureContacts(const RestState& rest, const ContactParticles& particles,
-                               const ContactGraph& graph, std::span<const Vec3f> positions);
+ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
+                               std::span<const Vec3f> positions);
 
 }  // namespace ringlet

@@ -2,6 +2,7 @@
 #include "ringlet/measure/contact_watch.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "ringlet/base/assert.h"
@@ -13,21 +14,14 @@ Result<ContactWatch> ContactWatch::make(const Groom& groom, const Material& mate
                                         const Settings& settings) {
   auto rest = buildRestState(groom, material, settings);
   if (!rest) return rest.error();
-  ContactParticles particles = chooseContactParticles(*rest, settings.contacts);
-  ContactGraph graph = pruneStrandPairs(countOverlaps(*rest, particles, settings.contacts.enlargement), *rest,
-                                        settings.contacts);
-  if (settings.contacts.on) {
-    rest->warnings.insert(rest->warnings.end(), particles.warnings.begin(), particles.warnings.end());
-    rest->warnings.insert(rest->warnings.end(), graph.warnings.begin(), graph.warnings.end());
-  }
-  return ContactWatch(std::move(*rest), std::move(particles), std::move(graph), groom.firstPoint);
+  RestContacts contacts = buildRestContacts(*rest, settings.contacts);
+  if (settings.contacts.on) std::ranges::copy(contacts.warnings(), std::back_inserter(rest->warnings));
+  return ContactWatch(std::move(*rest), std::move(contacts), groom.firstPoint);
 }
 
-ContactWatch::ContactWatch(RestState rest, ContactParticles particles, ContactGraph graph,
-                           std::span<const std::uint32_t> firstPoint)
+ContactWatch::ContactWatch(RestState rest, RestContacts contacts, std::span<const std::uint32_t> firstPoint)
     : rest_(std::move(rest)),
-      particles_(std::move(particles)),
-      graph_(std::move(graph)),
+      contacts_(std::move(contacts)),
       firstPoint_(firstPoint.begin(), firstPoint.end()) {}
 
 void ContactWatch::addStep(std::span<const Vec3f> positions) {
@@ -37,7 +31,7 @@ void ContactWatch::addStep(std::span<const Vec3f> positions) {
 
 bool ContactWatch::endFrame() {
   RINGLET_ASSERT(!positions_.empty(), "a frame ends with a step");
-  const ContactQuality now = measureContacts(rest_, particles_, graph_, positions_);
+  const ContactQuality now = measureContacts(rest_, contacts_, positions_);
   numbers_.deepestOverlap = std::max(numbers_.deepestOverlap, now.deepestOverlap);
   if (now.overlapBeyondRestSum < numbers_.worst.overlapBeyondRestSum) return false;
   numbers_.worst = now;

@@ -42,12 +42,10 @@ class ContactWatch {
   const std::vector<std::string>& warnings() const { return rest_.warnings; }
 
  private:
-  ContactWatch(RestState rest, ContactParticles particles, ContactGraph graph,
-               std::span<const std::uint32_t> firstPoint);
+  ContactWatch(RestState rest, RestContacts contacts, std::span<const std::uint32_t> firstPoint);
 
   RestState rest_;
-  ContactParticles particles_;
-  ContactGraph graph_;
+  RestContacts contacts_;
   std::vector<std::uint32_t> firstPoint_;
   std::vector<Vec3f> positions_;  // of the step before; none at first
   ContactNumbers numbers_;

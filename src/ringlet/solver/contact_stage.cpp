@@ -10,37 +10,21 @@
 
 #include "ringlet/rest/material.h"
 #include "ringlet/solver/contact_kernels.h"
+#include "ringlet/solver/device_buffers.h"
 
 namespace ringlet {
 namespace {
 
-using gpu::Buffer;
-using gpu::BufferKind;
-
 constexpr std::uint32_t kGroupSize = 64;
-constexpr std::uint32_t kBlock = 1024;  // buckets summed together, as in contact_buffers.glsl
-constexpr std::uint64_t kMostTexelBytes = 2ull << 30;
-constexpr std::uint32_t kFirstBlocks = 1,
-                        kFirstMostBlocks = 8;  // of a contact particle's list, to begin with
-constexpr double kSkinShare = 0.15;            // of R: what may come closer before lists are made anew
+// Of a contact particle's list, to begin with.
+constexpr std::uint32_t kFirstBlocks = 1, kFirstMostBlocks = 8;
+constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists are made anew
+// Lists are read as texels where a device sees at least this much, what the smallest storage buffers hold.
+constexpr std::uint64_t kLeastTexelBytes = 128ull << 20;
 
 // What a share of a contact changes by in a step.
 float changeIn(double seconds, double stepSeconds) {
   return seconds > 0 ? static_cast<float>(stepSeconds / seconds) : 1.0f;
-}
-
-Result<Buffer> createFrom(gpu::Device& device, std::span<const std::byte> bytes, const std::string& name) {
-  auto buffer = Buffer::create(device, bytes.size(), BufferKind::storage, name);
-  if (!buffer) return buffer;
-  if (Status status = buffer->upload(bytes); !status) return status.error();
-  return buffer;
-}
-
-Result<Buffer> createZero(gpu::Device& device, std::uint64_t bytes, const std::string& name) {
-  auto buffer = Buffer::create(device, bytes, BufferKind::storage, name);
-  if (!buffer) return buffer;
-  if (Status status = buffer->fillZero(); !status) return status.error();
-  return buffer;
 }
 
 std::vector<layout::ContactRest> contactRests(const RestState& rest, const Settings& settings,
@@ -69,15 +53,17 @@ std::vector<std::uint32_t> neighbourTable(const ContactGraph& graph) {
 }  // namespace
 
 Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& rest,
-                                          const Settings& settings, const ContactParticles& particles,
-                                          const ContactGraph& graph, const DeviceGroom& groom) {
+                                          const Settings& settings, const RestContacts& contacts,
+                                          const DeviceGroom& groom) {
+  const ContactParticles& particles = contacts.particles;
   ContactStage self;
   self.device_ = &device;
+  self.groom_ = &groom;
   self.settings_ = settings.contacts;
   self.stepSeconds_ = settings.stepSeconds();
   self.particles_ = particles.particles;
   self.strandCount_ = static_cast<std::uint32_t>(rest.strands.size());
-  self.everyPair_ = graph.everyPair;
+  self.everyPair_ = contacts.graph.everyPair;
   self.largestRadius_ = *std::max_element(particles.radii.begin(), particles.radii.end());
   const std::uint64_t count = self.particles_.size();
   if (self.contactGroups() > device.properties().maxGroupCount) {
@@ -86,39 +72,37 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
         "or spacing",
         count, std::uint64_t{device.properties().maxGroupCount} * kGroupSize)};
   }
-  self.bucketCount_ = static_cast<std::uint32_t>(std::bit_ceil(std::max<std::uint64_t>(2 * count, kBlock)));
-  // The lists are the longest; they never exceed maxStorageBufferRange.
-  const bool texels = device.properties().maxTexelRecords * sizeof(layout::vec4) >=
-                      std::min(device.properties().maxStorageBufferRange, kMostTexelBytes);
+  self.bucketCount_ =
+      static_cast<std::uint32_t>(std::bit_ceil(std::max<std::uint64_t>(2 * count, layout::kBucketBlock)));
+  const bool texels = isSeenAsTexels(device, kLeastTexelBytes);
+  self.largestList_ = device.properties().maxStorageBufferRange;
+  if (texels) {
+    const std::uint64_t seen = device.properties().maxTexelRecords * sizeof(layout::vec4);
+    self.largestList_ = std::min(self.largestList_, seen);
+  }
   for (std::size_t k = 0; k < kContactKernelCount; ++k) {
     auto kernel = createContactKernel(device, static_cast<ContactKernel>(k), kGroupSize, texels);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
   }
 
-  const auto rests = contactRests(rest, settings, particles);
-  const auto table = neighbourTable(graph);
-  auto contacts = createFrom(device, std::as_bytes(std::span(rests)), "contacts");
-  if (!contacts) return contacts.error();
-  auto neighbours = createFrom(device, std::as_bytes(std::span(table)), "neighbours");
+  auto rests = createFilled(device, contactRests(rest, settings, particles), "contacts");
+  if (!rests) return rests.error();
+  auto neighbours = createFilled(device, neighbourTable(contacts.graph), "neighbours");
   if (!neighbours) return neighbours.error();
-  const std::uint64_t gridWords = 2 * self.bucketCount_ + 1 + self.bucketCount_ / kBlock + 1 + 3 * count;
+  const std::uint64_t gridWords =
+      2 * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
   auto grid = createZero(device, gridWords * sizeof(std::uint32_t), "contact grid");
   if (!grid) return grid.error();
   auto places = createZero(device, count * sizeof(layout::ContactPlace), "contact places");
   if (!places) return places.error();
-  self.constant_.push_back(std::move(*contacts));
-  self.constant_.push_back(std::move(*neighbours));
-  self.working_.push_back(std::move(*grid));
-  self.working_.push_back(std::move(*places));
-
   auto queue = createZero(device, count * layout::kQueue * 2 * sizeof(float), "contact queue");
   if (!queue) return queue.error();
-  self.working_.push_back(std::move(*queue));
+  self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*grid),
+                                std::move(*places), std::move(*queue)});
   self.blockCount_ = static_cast<std::uint32_t>(kFirstBlocks * count);
   self.mostBlocks_ = kFirstMostBlocks;
   if (Status status = self.createLists(); !status) return status.error();
-  if (Status status = self.bindAll(groom); !status) return status.error();
   self.control() = {};
   return self;
 }
@@ -128,57 +112,37 @@ std::uint32_t ContactStage::contactGroups() const {
 }
 
 layout::ContactControl& ContactStage::control() const {
-  return *reinterpret_cast<layout::ContactControl*>(control_->mapped().data());
+  return *reinterpret_cast<layout::ContactControl*>(groom_->contactControl.mapped().data());
 }
 
-// Lists' heads, pairs, lives (of two lists) and normals, for `blockCount_` blocks and `mostBlocks_` of a
-// list.
+// For `blockCount_` blocks and `mostBlocks_` of a list; and what the kernels see of them.
 Status ContactStage::createLists() {
   const std::uint64_t entries = std::uint64_t{blockCount_} * layout::kListBlock;
-  const std::pair<const char*, std::uint64_t> buffers[] = {
-      {"contact lists", 2 * particles_.size() * (1 + mostBlocks_) * sizeof(std::uint32_t)},
-      {"contact pairs", entries * sizeof(layout::ContactPair)},
-      {"contact lives", 2 * entries * sizeof(layout::ContactLife)},
-      {"contact normals", entries * sizeof(layout::vec4)},
+  const auto create = [&](const char* name, std::uint64_t bytes) -> Result<gpu::Buffer> {
+    if (bytes <= largestList_) return createZero(*device_, bytes, name);
+    return Error{fmt::format(
+        "the lists of {} contact particles, {} pairs in all and up to {} for one, need a buffer "
+        "of {} MiB, and this device's are {} MiB at most; use a smaller contact radius, or prune more",
+        particles_.size(), entries, mostBlocks_ * layout::kListBlock, bytes >> 20, largestList_ >> 20)};
   };
-  lists_.clear();
-  for (const auto& [name, bytes] : buffers) {
-    if (bytes > device_->properties().maxStorageBufferRange) {
-      return Error{fmt::format(
-          "the lists of {} contact particles, {} pairs in all and up to {} for one, need a buffer "
-          "of {} MiB, and this device's are {} MiB at most; use a smaller contact radius, or prune more",
-          particles_.size(), entries, mostBlocks_ * layout::kListBlock, bytes >> 20,
-          device_->properties().maxStorageBufferRange >> 20)};
-    }
-    auto buffer = createZero(*device_, bytes, name);
-    if (!buffer) return buffer.error();
-    lists_.push_back(std::move(*buffer));
-  }
-  return {};
-}
+  lists_.reset();
+  auto heads = create("contact lists", 2 * particles_.size() * (1 + mostBlocks_) * sizeof(std::uint32_t));
+  if (!heads) return heads.error();
+  auto pairs = create("contact pairs", entries * sizeof(layout::ContactPair));
+  if (!pairs) return pairs.error();
+  auto lives = create("contact lives", 2 * entries * sizeof(layout::ContactLife));
+  if (!lives) return lives.error();
+  auto normals = create("contact normals", entries * sizeof(layout::vec4));
+  if (!normals) return normals.error();
+  lists_.emplace(Lists{std::move(*heads), std::move(*pairs), std::move(*lives), std::move(*normals)});
 
-Status ContactStage::bindAll(const DeviceGroom& groom) {
-  control_ = &groom.contactControl;
-  auto bindings = gpu::Bindings::create(kernels_[0], {groom.positions,
-                                                      groom.solved,
-                                                      constant_[0],
-                                                      constant_[1],
-                                                      working_[0],
-                                                      working_[1],
-                                                      lists_[0],
-                                                      lists_[1],
-                                                      lists_[2],
-                                                      lists_[3],
-                                                      groom.contactSystems,
-                                                      groom.contactControl,
-                                                      working_[2],
-                                                      groom.positions,
-                                                      groom.solved,
-                                                      constant_[0],
-                                                      working_[1],
-                                                      lists_[1],
-                                                      lists_[2],
-                                                      lists_[3]});
+  // In the order of layout.h: storage, then texels.
+  const auto& [contacts, neighbours, grid, places, queue] = *buffers_;
+  auto bindings = gpu::Bindings::create(
+      kernels_[0], {groom_->positions, groom_->solved, contacts, neighbours, grid, places, lists_->heads,
+                    lists_->pairs, lists_->lives, lists_->normals, groom_->contactSystems,
+                    groom_->contactControl, queue, groom_->positions, groom_->solved, contacts, places,
+                    lists_->pairs, lists_->lives, lists_->normals});
   if (!bindings) return bindings.error();
   bindings_ = std::move(*bindings);
   return {};
@@ -214,7 +178,7 @@ void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::
 void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                                     std::uint64_t offset) const {
   recorder.dispatchIndirect(kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step),
-                            *control_, offset);
+                            groom_->contactControl, offset);
 }
 
 void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) const {
@@ -259,18 +223,17 @@ void ContactStage::recordGather(gpu::Recorder& recorder) const {
 
 // The lists in use before those that did not fit keep what their pairs remember, in larger buffers; the pairs
 // are found anew.
-Status ContactStage::makeRoom(const DeviceGroom& groom) {
+Status ContactStage::makeRoom() {
   if (control().isHalted == layout::kHaltedByTurns) {
     return Error{
         "more contact particles are near one another than this device can look through; use a smaller "
-        "contact radius, or "
-        "fewer strands in one place"};
+        "contact radius, or fewer strands in one place"};
   }
   const std::uint32_t before = control().parity ^ 1, oldMost = mostBlocks_, oldBlocks = blockCount_;
   const std::size_t heads = 2 * particles_.size();
-  auto lists = downloadAll<std::uint32_t>(lists_[0], heads * (1 + oldMost));
+  auto lists = downloadAll<std::uint32_t>(lists_->heads, heads * (1 + oldMost));
   if (!lists) return lists.error();
-  auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * std::size_t{oldBlocks} * layout::kListBlock);
+  auto lives = downloadAll<layout::ContactLife>(lists_->lives, 2 * std::size_t{oldBlocks} * layout::kListBlock);
   if (!lives) return lives.error();
 
   // What was wanted, and a quarter more. Each particle's last block is partly empty.
@@ -292,13 +255,13 @@ Status ContactStage::makeRoom(const DeviceGroom& groom) {
       lives->begin() + static_cast<std::ptrdiff_t>(before * std::size_t{oldBlocks} * layout::kListBlock),
       std::size_t{oldBlocks} * layout::kListBlock,
       newLives.begin() + static_cast<std::ptrdiff_t>(before * std::size_t{blockCount_} * layout::kListBlock));
-  if (Status status = lists_[0].upload(std::as_bytes(std::span(newLists))); !status) return status;
-  if (Status status = lists_[2].upload(std::as_bytes(std::span(newLives))); !status) return status;
+  if (Status status = lists_->heads.upload(std::as_bytes(std::span(newLists))); !status) return status;
+  if (Status status = lists_->lives.upload(std::as_bytes(std::span(newLives))); !status) return status;
 
   c.parity = before;
   c.isHalted = c.isListed = c.listed = 0;
   --c.rebuilds;
-  return bindAll(groom);
+  return {};
 }
 
 std::uint64_t ContactStage::takePairTests() {
@@ -309,21 +272,17 @@ std::uint64_t ContactStage::takePairTests() {
 
 Status ContactStage::forget() {
   control().isListed = 0;
-  return lists_[0].fillZero();
+  return lists_->heads.fillZero();
 }
 
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {
   const std::size_t count = particles_.size(), parity = control().parity;
-  auto lists = downloadAll<std::uint32_t>(lists_[0], 2 * count * (1 + mostBlocks_));
+  auto lists = downloadAll<std::uint32_t>(lists_->heads, 2 * count * (1 + mostBlocks_));
   if (!lists) return lists.error();
-  auto lives = downloadAll<layout::ContactLife>(lists_[2], 2 * std::size_t{blockCount_} * layout::kListBlock);
+  auto lives = downloadAll<layout::ContactLife>(lists_->lives, 2 * std::size_t{blockCount_} * layout::kListBlock);
   if (!lives) return lives.error();
 
-  std::vector<std::uint32_t> inGroom(rest.points.size());
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    for (std::uint32_t i = 0; i < rest.strands[s].particleCount; ++i)
-      inGroom[rest.strands[s].firstParticle + i] = rest.firstInGroom[s] + i;
-  }
+  const std::vector<std::uint32_t> inGroom = groomIndices(rest);
   std::vector<ListedContact> contacts;
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t list = (2 * c + parity) * (1 + mostBlocks_);
@@ -343,10 +302,10 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
 
 // J_a = momentum - 2 D v of the last iterate, in kg m/s. What a pinned particle received is not known, and
 // left out.
-Result<double> ContactStage::momentumError(const RestState& rest, const DeviceGroom& groom) const {
-  auto systems = downloadAll<layout::ContactSystem>(groom.contactSystems, rest.points.size());
+Result<double> ContactStage::momentumError(const RestState& rest) const {
+  auto systems = downloadAll<layout::ContactSystem>(groom_->contactSystems, rest.points.size());
   if (!systems) return systems.error();
-  auto solved = downloadAll<layout::vec4>(groom.solved, rest.points.size());
+  auto solved = downloadAll<layout::vec4>(groom_->solved, rest.points.size());
   if (!solved) return solved.error();
   Vec3d sum{};
   double sizes = 0;

@@ -15,8 +15,7 @@
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/rest/contact_graph.h"
-#include "ringlet/rest/contact_particles.h"
+#include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/contact_kernels.h"
@@ -30,8 +29,7 @@ class ContactStage {
   /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` must
   /// live as long, in one place.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                     const ContactParticles& particles, const ContactGraph& graph,
-                                     const DeviceGroom& groom);
+                                     const RestContacts& contacts, const DeviceGroom& groom);
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say.
@@ -43,7 +41,7 @@ class ContactStage {
   bool isHalted() const { return control().isHalted != 0; }
   std::uint32_t haltedStep() const { return control().step; }
   /// Makes longer lists, keeping what pairs remember; recordings made before are no longer good.
-  Status makeRoom(const DeviceGroom& groom);
+  Status makeRoom();
 
   /// Pairs looked at in the frame that ended, both sides counted; and starts counting anew.
   std::uint64_t takePairTests();
@@ -54,12 +52,18 @@ class ContactStage {
   /// All listed pairs, a < b, each once, sorted.
   Result<std::vector<ListedContact>> listed(const RestState& rest) const;
   /// |sum of contact momenta| over the sum of their sizes, of the last step.
-  Result<double> momentumError(const RestState& rest, const DeviceGroom& groom) const;
+  Result<double> momentumError(const RestState& rest) const;
 
  private:
+  struct Buffers {
+    gpu::Buffer contacts, neighbours, grid, places, queue;
+  };
+  struct Lists {
+    gpu::Buffer heads, pairs, lives, normals;  // lives of the list in use and of the one before
+  };
+
   ContactStage() = default;
   Status createLists();
-  Status bindAll(const DeviceGroom& groom);
   layout::ContactParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                 std::uint32_t groupCount) const;
@@ -71,10 +75,10 @@ class ContactStage {
   gpu::Device* device_ = nullptr;
   std::vector<gpu::Kernel> kernels_;       // by ContactKernel
   std::optional<gpu::Bindings> bindings_;  // all kernels have the same list
-  std::vector<gpu::Buffer> constant_;      // contacts, neighbours
-  std::vector<gpu::Buffer> working_;       // grid, places, queue
-  std::vector<gpu::Buffer> lists_;         // heads, pairs, lives, normals
-  gpu::Buffer const* control_ = nullptr;
+  const DeviceGroom* groom_ = nullptr;
+  std::optional<Buffers> buffers_;
+  std::optional<Lists> lists_;
+  std::uint64_t largestList_ = 0;  // [bytes] a buffer of the lists may have
   ContactSettings settings_;
   std::vector<std::uint32_t> particles_;  // device index of each contact particle
   double stepSeconds_ = 0;

@@ -1,32 +1,14 @@
 // Implements solver/device_groom.h.
 #include "ringlet/solver/device_groom.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "ringlet/solver/device_buffers.h"
+
 namespace ringlet {
-namespace {
 
 using gpu::Buffer;
 using gpu::BufferKind;
-
-template <class T>
-Result<Buffer> createFilled(gpu::Device& device, const std::vector<T>& values, const std::string& name) {
-  auto buffer = Buffer::create(device, values.size() * sizeof(T), BufferKind::storage, name);
-  if (!buffer) return buffer;
-  if (Status status = buffer->upload(std::as_bytes(std::span(values))); !status) return status.error();
-  return buffer;
-}
-
-Result<Buffer> createZero(gpu::Device& device, std::uint64_t bytes, const std::string& name) {
-  auto buffer = Buffer::create(device, bytes, BufferKind::storage, name);
-  if (!buffer) return buffer;
-  if (Status status = buffer->fillZero(); !status) return status.error();
-  return buffer;
-}
-
-}  // namespace
 
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
                                         std::uint64_t scratchRecords, bool withContacts) {
@@ -61,13 +43,22 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
 }
 
 bool DeviceGroom::fitsTexels(const gpu::Device& device) const {
-  const std::uint64_t bytes = device.properties().maxTexelRecords * sizeof(layout::vec4);
-  return std::max({positions.bytes(), particles.bytes(), strands.bytes(), contactSystems.bytes()}) <= bytes;
+  return isSeenAsTexels(
+      device, std::max({positions.bytes(), particles.bytes(), strands.bytes(), contactSystems.bytes()}));
 }
 
 std::span<layout::StepPose> DeviceGroom::mappedPoses() const {
   const auto bytes = poses.mapped();
   return {reinterpret_cast<layout::StepPose*>(bytes.data()), bytes.size() / sizeof(layout::StepPose)};
+}
+
+std::vector<std::uint32_t> groomIndices(const RestState& rest) {
+  std::vector<std::uint32_t> indices(rest.points.size());
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    for (std::uint32_t i = 0; i < rest.strands[s].particleCount; ++i)
+      indices[rest.strands[s].firstParticle + i] = rest.firstInGroom[s] + i;
+  }
+  return indices;
 }
 
 }  // namespace ringlet

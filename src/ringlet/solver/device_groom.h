@@ -33,6 +33,9 @@ struct DeviceGroom {
   bool fitsTexels(const gpu::Device& device) const;
 };
 
+/// The groom's index of each particle, in device order.
+std::vector<std::uint32_t> groomIndices(const RestState& rest);
+
 /// From device order to groom order and back, a value per particle.
 template <class To, class From, class Convert>
 std::vector<To> inGroomOrder(const RestState& rest, std::span<const From> deviceValues, Convert convert) {
@@ -51,17 +54,6 @@ std::vector<To> inDeviceOrder(const RestState& rest, std::span<const From> groom
     const std::size_t to = rest.strands[s].firstParticle, from = rest.firstInGroom[s];
     for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
       values[to + i] = convert(groomValues[from + i]);
-  }
-  return values;
-}
-
-/// All of a buffer as records of T.
-template <class T>
-Result<std::vector<T>> downloadAll(const gpu::Buffer& buffer, std::size_t count, std::uint64_t offset = 0) {
-  std::vector<T> values(count);
-  if (Status status = buffer.download(std::as_writable_bytes(std::span(values)), offset * sizeof(T));
-      !status) {
-    return status.error();
   }
   return values;
 }

@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/rest/contact_graph.h"
-#include "ringlet/rest/contact_particles.h"
+#include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/contact_stage.h"
+#include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/strand_kernels.h"
@@ -63,16 +64,16 @@ struct Simulation::Implementation {
   DeviceGroom buffers;
   std::vector<StrandRange> ranges;
   std::vector<PlannedDispatch> plan;
-  std::vector<gpu::Kernel> kernels;  // one a range
-  std::vector<gpu::Bindings> bindings;
-  std::optional<gpu::Recorder> frame;
+  std::vector<gpu::Kernel> kernels{};  // one a range
+  std::vector<gpu::Bindings> bindings{};
+  std::optional<gpu::Recorder> frame{};
 
-  std::optional<ContactStage> contacts;
-  ContactReport contactReport;  // what is known of the rest pose, and sums
-  bool isWholeFrame = true;     // the recording is the whole frame, not the rest of one
+  std::optional<ContactStage> contacts{};
+  ContactReport contactReport{};  // what is known of the rest pose, and sums
+  bool isWholeFrame = true;       // the recording is the whole frame, not the rest of one
 
   std::uint64_t stepsDone = 0;
-  std::map<std::string, double> stageMilliseconds;
+  std::map<std::string, double> stageMilliseconds{};
 
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
   Status recordFrame();
@@ -117,15 +118,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           {oneStepEarlier, start},
                                                           std::move(*buffers),
                                                           std::move(*ranges),
-                                                          std::move(*plan),
-                                                          {},
-                                                          {},
-                                                          {},
-                                                          {},
-                                                          {},
-                                                          true,
-                                                          0,
-                                                          {}});
+                                                          std::move(*plan)});
   const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
@@ -174,17 +167,14 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
 }
 
 Status Simulation::Implementation::addContacts() {
-  const ContactParticles particles = chooseContactParticles(rest, settings.contacts);
-  const auto overlaps = countOverlaps(rest, particles, settings.contacts.enlargement);
-  const ContactGraph graph = pruneStrandPairs(overlaps, rest, settings.contacts);
-  rest.warnings.insert(rest.warnings.end(), particles.warnings.begin(), particles.warnings.end());
-  rest.warnings.insert(rest.warnings.end(), graph.warnings.begin(), graph.warnings.end());
-  auto stage = ContactStage::create(device.gpu(), rest, settings, particles, graph, buffers);
+  const RestContacts atRest = buildRestContacts(rest, settings.contacts);
+  std::ranges::copy(atRest.warnings(), std::back_inserter(rest.warnings));
+  auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers);
   if (!stage) return stage.error();
   contacts = std::move(*stage);
-  contactReport = {.contactParticles = particles.particles.size(),
-                   .pairsUnpruned = graph.pairsUnpruned,
-                   .pairs = graph.pairs};
+  contactReport = {.contactParticles = atRest.particles.particles.size(),
+                   .pairsUnpruned = atRest.graph.pairsUnpruned,
+                   .pairs = atRest.graph.pairs};
   return {};
 }
 
@@ -259,7 +249,7 @@ Status Simulation::Implementation::runFrame() {
     if (!contacts) return {};
     contactReport.pairTests += contacts->takePairTests();
     if (!contacts->isHalted()) return {};
-    if (Status status = contacts->makeRoom(buffers); !status) return status;
+    if (Status status = contacts->makeRoom(); !status) return status;
     if (Status status = recordContactFrame(contacts->haltedStep(), false); !status) return status;
     isWholeFrame = false;
   }
@@ -385,7 +375,7 @@ Result<SimulationReport> Simulation::report() const {
 Result<ContactReport> Simulation::contactReport() const {
   ContactReport report = self_->contactReport;
   if (!self_->contacts) return report;
-  auto listed = self_->contacts->listed(self_->rest);
+  const auto listed = self_->contacts->listed(self_->rest);
   if (!listed) return listed.error();
   report.listed = listed->size();
   report.contacts =
@@ -393,7 +383,7 @@ Result<ContactReport> Simulation::contactReport() const {
         return c.stiffnessShare > 0 || c.dampingShare > 0;
       }));
   report.rebuilds = self_->contacts->rebuilds();
-  auto error = self_->contacts->momentumError(self_->rest, self_->buffers);
+  auto error = self_->contacts->momentumError(self_->rest);
   if (!error) return error.error();
   report.momentumError = *error;
   return report;

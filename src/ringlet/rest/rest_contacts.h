@@ -1,0 +1,27 @@
+// RestContacts: who may touch whom, decided once in the rest pose; what the solver, the measures and the
+// reports of contacts all start from. Iben et al. 2012, section 4. Mirrored by reference/rest_contacts.h.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ringlet/rest/contact_graph.h"
+#include "ringlet/rest/contact_particles.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/scene/contact_settings.h"
+
+namespace ringlet {
+
+/// Device order, as RestState.
+struct RestContacts {
+  ContactParticles particles;
+  ContactGraph graph;
+
+  /// For the user, a sentence each: of gaps or raised radii, and of pruning that leaves nothing.
+  std::vector<std::string> warnings() const;
+};
+
+/// Cost: of countOverlaps, which is nearly all of it.
+RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings);
+
+}  // namespace ringlet

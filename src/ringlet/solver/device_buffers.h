@@ -1,0 +1,47 @@
+// Storage buffers filled at creation, and read back whole: the ways between host and device that solver/ uses.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/device.h"
+
+namespace ringlet {
+
+template <class T>
+Result<gpu::Buffer> createFilled(gpu::Device& device, const std::vector<T>& values, const std::string& name) {
+  auto buffer = gpu::Buffer::create(device, values.size() * sizeof(T), gpu::BufferKind::storage, name);
+  if (!buffer) return buffer;
+  if (Status status = buffer->upload(std::as_bytes(std::span(values))); !status) return status.error();
+  return buffer;
+}
+
+inline Result<gpu::Buffer> createZero(gpu::Device& device, std::uint64_t bytes, const std::string& name) {
+  auto buffer = gpu::Buffer::create(device, bytes, gpu::BufferKind::storage, name);
+  if (!buffer) return buffer;
+  if (Status status = buffer->fillZero(); !status) return status.error();
+  return buffer;
+}
+
+/// All of a buffer as records of T, from the `offset`th on.
+template <class T>
+Result<std::vector<T>> downloadAll(const gpu::Buffer& buffer, std::size_t count, std::uint64_t offset = 0) {
+  std::vector<T> values(count);
+  if (Status status = buffer.download(std::as_writable_bytes(std::span(values)), offset * sizeof(T));
+      !status) {
+    return status.error();
+  }
+  return values;
+}
+
+/// Whether a kernel on the device sees all of a buffer of this size as texels (gpu::BindingKind).
+inline bool isSeenAsTexels(const gpu::Device& device, std::uint64_t bytes) {
+  return bytes <= device.properties().maxTexelRecords * 16;
+}
+
+}  // namespace ringlet
