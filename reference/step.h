@@ -69,6 +69,8 @@ class Simulation {
     RINGLET_ASSERT(velocities.size() == velocities_.size(), "setState needs a velocity for every particle");
     positions_ = positions;
     velocities_ = velocities;
+    contacts_.live.clear();
+    contacts_.changes.clear();
   }
 
   /// How far each strand's root moves beside the head, when the head's pose has `shift` 1: in the groom's
@@ -126,6 +128,7 @@ class Simulation {
                  scratch_, taps_[s]);
       record(rest_[s], taps_[s]);
     }
+    if (settings_.contacts.on) rememberChanges(velocities_, contacts_);
     ++report_.steps;
     previousHead_ = head_;
     head_ = next;

@@ -4,10 +4,10 @@
 //
 //     (L + 2 D) v^{k+1} = base + sum push n + sum Q (v_a^k + v_b^k)         D = sum Q of the particle
 //
-// all strands at once, from v^0, the solve without contacts. A pair's mean velocity, and not the other's
-// velocity, is what the iteration holds: its eigenvalues are then in [0, 1) whatever the stiffness and the
-// number of contacts, and a symmetric hit is right after one iteration. Its fixed point is
-// L v = base + sum (push n - Q (v_a - v_b)).
+// all strands at once, from a guess: v^0, the solve without contacts, and most of what the step before changed
+// it by. A pair's mean velocity, and not the other's velocity, is what the iteration holds: its eigenvalues are
+// then in [0, 1) whatever the stiffness and the number of contacts, and a symmetric hit is right after one
+// iteration. Its fixed point is L v = base + sum (push n - Q (v_a - v_b)).
 #pragma once
 
 #include "reference/equations/contact_spring.h"
@@ -36,6 +36,7 @@ struct Contacts {
   std::uint64_t pairTests = 0;      // pairs looked at for that, in all steps
 
   Field<Real> freeVelocities;            // v^0 [m/s]
+  Field<double> changes;                 // of v^0 by contacts and stretch limit, in the step before; or none [m/s]
   Field<double> pushes;                  // sum of push n [kg m/s]
   std::vector<Matrix3<double>> weights;  // D [kg]
   double momentumError = 0;              // |sum J| over sum |J|, J the momentum a particle got [1]
@@ -167,7 +168,26 @@ void setContactWeights(std::span<const std::uint32_t> firstPoint, const Contacts
   }
 }
 
-/// Strand-block Jacobi from v^0. `systems` are those of the solve without contacts; what contacts add to them
+/// v^0 [m/s], as the contacts of the step before let expect it to change.
+template <class Real>
+Field<double> guessVelocities(const Field<Real>& velocities, const Contacts<Real>& contacts) {
+  Field<double> guess;
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    guess.push_back(velocities[i].template cast<double>());
+    if (!contacts.changes.empty()) guess[i] += kContactWarmth * contacts.changes[i];
+  }
+  return guess;
+}
+
+/// After the step's move: what its velocities v [m/s] are to v^0.
+template <class Real>
+void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts) {
+  contacts.changes.clear();
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    contacts.changes.push_back((velocities[i] - contacts.freeVelocities[i]).template cast<double>());
+}
+
+/// Strand-block Jacobi from a guess. `systems` are those of the solve without contacts; what contacts add to them
 /// is written beside it. velocities [m/s]: v^0 in, the last iterate out.
 template <class Real>
 void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,
@@ -179,8 +199,7 @@ void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint
   if (contacts.live.empty()) return;
   setContactWeights(firstPoint, contacts, systems);
 
-  Field<double> solved, momenta;
-  for (const Vector3<Real>& v : velocities) solved.push_back(v.template cast<double>());
+  Field<double> solved = guessVelocities(velocities, contacts), momenta;
   for (int iteration = 0; iteration < iterationCount; ++iteration) {
     if (iteration > 0 && dropUnmet(solved, contacts)) {
       gatherContacts(velocities.size(), contacts);

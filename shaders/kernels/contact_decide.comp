@@ -26,13 +26,15 @@ void main() {
   bool isGood = control.isListed != 0 && 2.0 * uintBitsToFloat(control.motion) <= parameters.skin;
   dispatchRebuild(!isGood);
   control.step = parameters.step;
+  ++control.steps;
+  control.parity ^= 1;
+  control.liveBlocks = 0;
+  control.longestLive = 0;
   if (!isGood) {
     // The furthest a pair of this list may be apart; a little more, for the rounding of cells.
     float R = 2.0 * parameters.largestRadius;
     float ahead = 2.0 * parameters.seconds * uintBitsToFloat(control.speed);
-    control.cellSize = 1.01 * (min(parameters.breakFactor * R + ahead, max(parameters.breakFactor, parameters.seenAhead) * R) +
-                               parameters.skin);
-    control.parity ^= 1;
+    control.cellSize = 1.01 * (min(R + ahead, parameters.seenAhead * R) + parameters.skin);
     control.isListed = 1;
     control.listed = 0;
     control.blocks = 0;

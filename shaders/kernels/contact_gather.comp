@@ -11,34 +11,33 @@ void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  ContactRest rest = contactOf(c);
-  vec3 v = velocityOf(rest.particle);
-  uint list = listOf(c, control.parity);
-  uint count = lists[list];
-  uint entry = 0;
-  vec3 momentum = vec3(0);
-  vec3 unmetPush = vec3(0);
-  Symmetric unmet = symmetricDiagonal(0.0);
-  bool anyUnmet = false;
-  for (uint j = 0; j < count; ++j) {
-    entry = nextEntry(list, j, entry);
-    vec4 Q = normalAt(entry);
-    if (Q == vec4(0)) continue;
-    vec3 otherVelocity = velocityOf(pairAt(entry).particle);
-    if (isUnmet(Q, v - otherVelocity)) {
-      unmetPush += Q.w * normalize(Q.xyz);
-      unmet = addOuter(unmet, 1.0, Q.xyz);
-      normals[entry] = vec4(0);
-      anyUnmet = true;
-      continue;
+  uint list = liveListOf(c, control.parity);
+  uint count = liveLists[list];
+  for (bool has = count > 0; has; has = false) {  // an if, see contact_life.comp
+    ContactRest rest = contactOf(c);
+    vec3 v = velocityOf(rest.particle);
+    uint entry = 0;
+    vec3 momentum = vec3(0);
+    vec3 unmetPush = vec3(0);
+    Symmetric unmet = symmetricDiagonal(0.0);
+    for (uint j = 0; j < count; ++j) {
+      entry = nextLive(list, control.parity, j, entry);
+      ContactLive live = liveAt(entry);
+      vec4 Q = live.matrix;
+      vec3 otherVelocity = velocityOf(live.particle);
+      if (isUnmet(Q, v - otherVelocity)) {
+        unmetPush += Q.w * normalize(Q.xyz);
+        unmet = addOuter(unmet, 1.0, Q.xyz);
+        lives[entry].matrix = vec4(0);
+      } else {
+        momentum += contactMultiply(Q, v + otherVelocity);
+      }
     }
-    momentum += contactMultiply(Q, v + otherVelocity);
+    ContactSystem system = systems[rest.particle];
+    float unit = rest.inverseMassUnit;
+    vec3 push = vec3(system.diagonal.w, system.offDiagonal.w, system.momentum.w) - unit * unmetPush;
+    systems[rest.particle] =
+        ContactSystem(vec4(system.diagonal.xyz - unit * unmet.d, push.x), vec4(system.offDiagonal.xyz - unit * unmet.o, push.y),
+                      vec4(push + unit * momentum, push.z));
   }
-  float unit = rest.inverseMassUnit;
-  if (anyUnmet) {
-    systems[rest.particle].diagonal -= vec4(unit * unmet.d, 0);
-    systems[rest.particle].offDiagonal -= vec4(unit * unmet.o, 0);
-    systems[rest.particle].push -= vec4(unit * unmetPush, 0);
-  }
-  systems[rest.particle].momentum = systems[rest.particle].push + vec4(unit * momentum, 0);
 }

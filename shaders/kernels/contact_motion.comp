@@ -1,5 +1,7 @@
 // How far contact particles have come since their lists were made, and how fast the fastest is: what decides whether lists
-// are still good (contact_decide.comp). Reads positions and v^0; writes the control's motion and speed.
+// are still good (contact_decide.comp); and the velocities the solve starts from. Contacts change from step to step by
+// little: the step is guessed to change v^0 by most of what the last one did. Reads positions, v^0 and the velocities the last
+// step ended with; writes the control's motion and speed, and the guesses. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -18,4 +20,8 @@ void main() {
   // Of numbers >= 0 the bits compare as the numbers do. Most are no record, and a look is cheaper than an atomic.
   if (floatBitsToUint(motion) > control.motion) atomicMax(control.motion, floatBitsToUint(motion));
   if (floatBitsToUint(speed) > control.speed) atomicMax(control.speed, floatBitsToUint(speed));
+
+  vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
+  places[c].predicted[control.parity ^ 1] = vec4(v, 0);
+  guesses[c] = vec4(v + parameters.warmth * change, 0);
 }

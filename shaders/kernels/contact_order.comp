@@ -11,8 +11,9 @@ void main() {
   uint bucket = grid[gridBucketOf(c)];
   uint start = startOf(bucket);
   uint end = startOf(bucket + 1);
-  if (end - start > parameters.mostTurns) control.isHalted = kHaltedByTurns;
   uint before = 0;
-  for (uint other = start; other < end; ++other) before += grid[gridEntry(other)] < c ? 1 : 0;
+  uint other = start;
+  for (; other < end; ++other) before += grid[gridEntry(other)] < c ? 1 : 0;
+  if (other < end) control.isHalted = kHaltedByTurns;
   places[start + before].sorted = vec4(positionOf(contactOf(c).particle), uintBitsToFloat(c));
 }

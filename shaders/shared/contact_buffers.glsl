@@ -8,57 +8,74 @@
 layout(local_size_x_id = 0) in;
 
 layout(set = 0, binding = kBindContactPositions) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = kBindContactVelocities) readonly buffer Velocities { vec4 velocities[]; };
 layout(set = 0, binding = kBindContactSolved) readonly buffer Solved { vec4 solved[]; };
 layout(set = 0, binding = kBindContacts) readonly buffer Contacts { ContactRest contacts[]; };
-layout(set = 0, binding = kBindNeighbours) readonly buffer Neighbours { uint neighbours[]; };
+layout(set = 0, binding = kBindNeighbours) readonly buffer Neighbours { uvec4 neighbours[]; };
+layout(set = 0, binding = kBindIndices) readonly buffer Indices { uvec4 indices[]; };
 layout(set = 0, binding = kBindGrid) buffer Grid { uint grid[]; };
 layout(set = 0, binding = kBindPlaces) buffer Places { ContactPlace places[]; };
+layout(set = 0, binding = kBindGuesses) buffer Guesses { vec4 guesses[]; };
 layout(set = 0, binding = kBindLists) buffer Lists { uint lists[]; };
 layout(set = 0, binding = kBindPairs) buffer Pairs { ContactPair pairs[]; };
-layout(set = 0, binding = kBindLives) buffer Lives { ContactLife lives[]; };
-layout(set = 0, binding = kBindNormals) buffer Normals { vec4 normals[]; };
+layout(set = 0, binding = kBindLiveLists) buffer LiveLists { uint liveLists[]; };
+layout(set = 0, binding = kBindLives) buffer Lives { ContactLive lives[]; };
 layout(set = 0, binding = kBindSystems) buffer Systems { ContactSystem systems[]; };
-layout(set = 0, binding = kBindQueue) buffer Queues { vec2 queues[]; };
 layout(set = 0, binding = kBindControl) buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindContactPositionTexels) uniform usamplerBuffer positionTexels;
+layout(set = 0, binding = kBindContactVelocityTexels) uniform usamplerBuffer velocityTexels;
 layout(set = 0, binding = kBindContactSolvedTexels) uniform usamplerBuffer solvedTexels;
 layout(set = 0, binding = kBindContactTexels) uniform usamplerBuffer contactTexels;
+layout(set = 0, binding = kBindNeighbourTexels) uniform usamplerBuffer neighbourTexels;
+layout(set = 0, binding = kBindIndexTexels) uniform usamplerBuffer indexTexels;
 layout(set = 0, binding = kBindPlaceTexels) uniform usamplerBuffer placeTexels;
+layout(set = 0, binding = kBindGuessTexels) uniform usamplerBuffer guessTexels;
 layout(set = 0, binding = kBindPairTexels) uniform usamplerBuffer pairTexels;
-layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
-layout(set = 0, binding = kBindNormalTexels) uniform usamplerBuffer normalTexels;
+layout(set = 0, binding = kBindLiveTexels) uniform usamplerBuffer liveTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
 // Records as they were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
+vec3 lastVelocityOf(uint particle) { return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz; }
 vec3 velocityOf(uint particle) { return kTexels ? vectorAt(solvedTexels, particle).xyz : solved[particle].xyz; }
 ContactRest contactOf(uint c) {
   if (!kTexels) return contacts[c];
   uvec4 b = recordAt(contactTexels, 2 * c + 1);
   return ContactRest(vectorAt(contactTexels, 2 * c), b.x, b.y, uintBitsToFloat(b.z), uintBitsToFloat(b.w));
 }
-vec4 sortedAt(uint place) { return kTexels ? vectorAt(placeTexels, 3 * place) : places[place].sorted; }
-vec3 listedPosition(uint c) { return kTexels ? vectorAt(placeTexels, 3 * c + 1).xyz : places[c].position.xyz; }
-vec3 listedVelocity(uint c) { return kTexels ? vectorAt(placeTexels, 3 * c + 2).xyz : places[c].velocity.xyz; }
-ContactPair pairAt(uint entry) {
-  if (!kTexels) return pairs[entry];
-  uvec4 pair = recordAt(pairTexels, entry);
-  return ContactPair(pair.x, uintBitsToFloat(pair.y), uintBitsToFloat(pair.z), uintBitsToFloat(pair.w));
+uint contactAt(uint particle) {
+  uvec4 four = kTexels ? recordAt(indexTexels, particle / 4) : indices[particle / 4];
+  uvec2 two = (particle & 2) == 0 ? four.xy : four.zw;
+  return (particle & 1) == 0 ? two.x : two.y;
 }
-ContactLife lifeAt(uint entry) {
+vec4 sortedAt(uint place) { return kTexels ? vectorAt(placeTexels, 5 * place) : places[place].sorted; }
+vec3 listedPosition(uint c) { return kTexels ? vectorAt(placeTexels, 5 * c + 1).xyz : places[c].position.xyz; }
+vec3 listedVelocity(uint c) { return kTexels ? vectorAt(placeTexels, 5 * c + 2).xyz : places[c].velocity.xyz; }
+vec3 predictedBefore(uint c) {
+  return kTexels ? vectorAt(placeTexels, 5 * c + 3 + control.parity).xyz : places[c].predicted[control.parity].xyz;
+}
+vec3 guessOf(uint c) { return kTexels ? vectorAt(guessTexels, c).xyz : guesses[c].xyz; }
+/// Two pairs that follow each other, the first of an even index: (particle, restLength as bits) of each.
+uvec4 twoPairsAt(uint entry) {
+  if (kTexels) return recordAt(pairTexels, entry / 2);
+  ContactPair a = pairs[entry], b = pairs[entry + 1];
+  return uvec4(a.particle, floatBitsToUint(a.restLength), b.particle, floatBitsToUint(b.restLength));
+}
+ContactLive liveAt(uint entry) {
   if (!kTexels) return lives[entry];
-  uvec4 two = recordAt(lifeTexels, entry / 2);
-  return entry % 2 == 0 ? ContactLife(uintBitsToFloat(two.x), two.y) : ContactLife(uintBitsToFloat(two.z), two.w);
+  uvec4 b = recordAt(liveTexels, 2 * entry + 1);
+  return ContactLive(vectorAt(liveTexels, 2 * entry), b.x, b.y, uintBitsToFloat(b.z), uintBitsToFloat(b.w));
 }
-vec4 normalAt(uint entry) { return kTexels ? vectorAt(normalTexels, entry) : normals[entry]; }
 
-// The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact particles are entries [start of b, start of b + 1).
+// The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact particles
+// are entries [start of b, start of b + 1).
 uint gridCount(uint bucket) { return bucket; }  // how many are in a bucket; 0 outside a rebuild
 uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }  // within its block; one more than buckets
 uint gridSum(uint block) { return 2 * parameters.bucketCount + 1 + block; }  // before a block; one more than blocks
 uint gridBucketOf(uint c) { return gridSum(parameters.bucketCount / kBucketBlock + 1) + c; }
 uint gridRank(uint c) { return gridBucketOf(parameters.contactCount) + c; }  // among its bucket's, in any order
-uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }  // contact particle, in any order in a bucket
+/// The contact particle of a place, in any order inside a bucket.
+uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }
 
 uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBucketBlock)]; }
 
@@ -71,13 +88,19 @@ uint bucketOf(ivec3 cell) {
   return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
 }
 
-// A contact particle has two lists: that in use, and the one before, from which lives are taken over. Where one starts;
-// there its length stands.
-uint listOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostBlocks); }
-/// Where pair j of a list is.
-uint entryOf(uint list, uint j) { return lists[list + 1 + j / kListBlock] * kListBlock + j % kListBlock; }
-/// The same, pair after pair: a block is looked up once.
-uint nextEntry(uint list, uint j, uint entry) { return j % kListBlock == 0 ? entryOf(list, j) : entry + 1; }
-uint lifeOf(uint parity, uint entry) { return parity * parameters.blockCount * kListBlock + entry; }
+/// Where a contact particle's list starts; there its length stands, then its blocks.
+uint listOf(uint c) { return c * (1 + parameters.mostBlocks); }
+/// The same of its contacts: a list of the step, and one of the step before.
+uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostLiveBlocks); }
+uint liveEntry(uint parity, uint block, uint j) { return (parity * parameters.liveBlockCount + block) * kLiveBlock + j; }
+/// Where contact j of a list is; contact after contact, for a block is looked up once.
+uint nextLive(uint list, uint parity, uint j, uint entry) {
+  return j % kLiveBlock == 0 ? liveEntry(parity, liveLists[list + 1 + j / kLiveBlock], 0) : entry + 1;
+}
+
+/// Whether the lists hold all they should.
+bool listsHadRoom() {
+  return control.blocks <= parameters.blockCount && control.longestList <= parameters.mostBlocks * kListBlock;
+}
 
 #endif

@@ -32,7 +32,7 @@ RINGLET_CONSTANT uint kBindPositionTexels = 10;
 RINGLET_CONSTANT uint kBindVelocityTexels = 11;
 RINGLET_CONSTANT uint kBindParticleTexels = 12;  // 2 a particle
 RINGLET_CONSTANT uint kBindStrandTexels = 13;    // 7 a strand
-RINGLET_CONSTANT uint kBindContactSystemTexels = 14;  // 4 a particle
+RINGLET_CONSTANT uint kBindContactSystemTexels = 14;  // 3 a particle
 
 // Integrators (specialization constant 2).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
@@ -136,35 +136,43 @@ struct StepParameters {
 };
 
 // Bindings of the contact kernels, all in set 0.
-RINGLET_CONSTANT uint kBindContactPositions = 0;  // vec4[particles]: as above
-RINGLET_CONSTANT uint kBindContactSolved = 1;     // vec4[particles]: v^k
-RINGLET_CONSTANT uint kBindContacts = 2;          // ContactRest[contacts]
-RINGLET_CONSTANT uint kBindNeighbours = 3;        // uint: first neighbour of each strand, one more, then the neighbours
-RINGLET_CONSTANT uint kBindGrid = 4;              // uint: see gridStarts and its like in shared/contact_buffers.glsl
-RINGLET_CONSTANT uint kBindPlaces = 5;            // ContactPlace[contacts]
-RINGLET_CONSTANT uint kBindLists = 6;             // uint[contacts][2][1 + mostBlocks]: pairs in the list, and its blocks
-RINGLET_CONSTANT uint kBindPairs = 7;             // ContactPair[blocks][kListBlock]
-RINGLET_CONSTANT uint kBindLives = 8;             // ContactLife[2][blocks][kListBlock]
-RINGLET_CONSTANT uint kBindNormals = 9;           // vec4[blocks][kListBlock]: n sqrt(q_n - q_t), q_t [kg]
-RINGLET_CONSTANT uint kBindSystems = 10;          // ContactSystem[particles]
-RINGLET_CONSTANT uint kBindControl = 11;          // ContactControl
-RINGLET_CONSTANT uint kBindQueue = 12;            // vec2[contacts][kQueue]: near ones (index as bits, squared distance)
-RINGLET_CONSTANT uint kContactBindingCount = 13;
+RINGLET_CONSTANT uint kBindContactPositions = 0;   // vec4[particles]: as above
+RINGLET_CONSTANT uint kBindContactVelocities = 1;  // vec4[particles]: as above
+RINGLET_CONSTANT uint kBindContactSolved = 2;      // vec4[particles]: v^k
+RINGLET_CONSTANT uint kBindContacts = 3;           // ContactRest[contacts]
+RINGLET_CONSTANT uint kBindNeighbours = 4;         // uvec4: who may touch whom, see kNoStrand
+RINGLET_CONSTANT uint kBindIndices = 5;            // uvec4: the contact particle of each particle, four a record
+RINGLET_CONSTANT uint kBindGrid = 6;               // uint: see gridStart and its like in shared/contact_buffers.glsl
+RINGLET_CONSTANT uint kBindPlaces = 7;             // ContactPlace[contacts]
+RINGLET_CONSTANT uint kBindGuesses = 8;            // vec4[contacts]: guessed velocity of the step, as the first iterate [m/s]
+RINGLET_CONSTANT uint kBindLists = 9;              // uint[contacts][1 + mostBlocks]: pairs in the list, and its blocks
+RINGLET_CONSTANT uint kBindPairs = 10;             // ContactPair[blocks][kListBlock]
+RINGLET_CONSTANT uint kBindLiveLists = 11;         // uint[contacts][2][1 + mostLiveBlocks]
+RINGLET_CONSTANT uint kBindLives = 12;             // ContactLive[2][liveBlocks][kLiveBlock]
+RINGLET_CONSTANT uint kBindSystems = 13;           // ContactSystem[particles]
+RINGLET_CONSTANT uint kBindControl = 14;           // ContactControl
+RINGLET_CONSTANT uint kContactBindingCount = 15;
 // And as texels (shared/texels.glsl):
-RINGLET_CONSTANT uint kBindContactPositionTexels = 13;
-RINGLET_CONSTANT uint kBindContactSolvedTexels = 14;
-RINGLET_CONSTANT uint kBindContactTexels = 15;  // 2 a contact particle
-RINGLET_CONSTANT uint kBindPlaceTexels = 16;    // 3 a contact particle
-RINGLET_CONSTANT uint kBindPairTexels = 17;
-RINGLET_CONSTANT uint kBindLifeTexels = 18;     // of 2 lives
-RINGLET_CONSTANT uint kBindNormalTexels = 19;
-RINGLET_CONSTANT uint kContactTexelBindingCount = 7;
+RINGLET_CONSTANT uint kBindContactPositionTexels = 15;
+RINGLET_CONSTANT uint kBindContactVelocityTexels = 16;
+RINGLET_CONSTANT uint kBindContactSolvedTexels = 17;
+RINGLET_CONSTANT uint kBindContactTexels = 18;  // 2 a contact particle
+RINGLET_CONSTANT uint kBindNeighbourTexels = 19;
+RINGLET_CONSTANT uint kBindIndexTexels = 20;
+RINGLET_CONSTANT uint kBindPlaceTexels = 21;    // 5 a contact particle
+RINGLET_CONSTANT uint kBindGuessTexels = 22;
+RINGLET_CONSTANT uint kBindPairTexels = 23;     // of 2 pairs
+RINGLET_CONSTANT uint kBindLiveTexels = 24;     // 2 a contact
+RINGLET_CONSTANT uint kContactTexelBindingCount = 10;
 
 // Lists are as long as they must be, in blocks of this many pairs that are given out as they are asked for. Which block
 // went where depends on threads; what is in a list, and its order, does not.
-RINGLET_CONSTANT uint kListBlock = 8;
-RINGLET_CONSTANT uint kQueue = 16;
-RINGLET_CONSTANT uint kBucketBlock = 1024;  // buckets of the grid that are summed together
+RINGLET_CONSTANT uint kListBlock = 32;          // as many as an integer has bits (contact_life.comp)
+RINGLET_CONSTANT uint kLiveBlock = 8;
+RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
+RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for each
+                                                // strand, (first of its buckets, how many less one, 0, 0), then the buckets of
+                                                // four strands; see solver/neighbour_table.h
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
@@ -175,34 +183,36 @@ struct ContactRest {
   float inverseMassUnit;  // 1 / the strand's mass unit [1/kg]; 0 for a particle that follows the head
 };
 
-// One contact particle's part in one pair. The other has the pair too, with the same numbers.
+// A contact particle's neighbour: near enough to touch while the list is good.
 struct ContactPair {
-  uint particle;  // the other, device order
+  uint particle;     // the other, device order
   float restLength;  // r0 [m]
-  float stiffness;   // k [N/m]
-  float damping;     // c [N s/m]
 };
 
-// What a pair remembers from step to step, in two rows: lists are made anew from the row before. The shares are one number,
-// for the damping's is 1 while the stiffness's is not 0: -kappa, or delta where kappa is 0.
-struct ContactLife {
+// A contact particle's part in a contact that lives; the other has the contact too, with the same numbers. In two rows, that
+// of the step and that of the step before. The shares are one number, for the damping's is 1 while the stiffness's is not 0:
+// -kappa, or delta where kappa is 0.
+struct ContactLive {
+  vec4 matrix;       // Q: n sqrt(q_n - q_t), q_t [kg], see contactMatrix
+  uint particle;     // the other, device order
+  uint contact;      // and as contact particle
+  float restLength;  // r0 [m]
   float shares;
-  uint particle;  // the other, device order
 };
 
 // What contacts add to a particle's velocity system, (L + 2 D) v = base + momentum, in the strand's mass units.
 struct ContactSystem {
-  vec4 diagonal;     // of D: xx, yy, zz
-  vec4 offDiagonal;  // yz, xz, xy
-  vec4 push;         // xyz: sum of push n [mass unit m/s]
-  vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]
+  vec4 diagonal;     // xyz: of D xx, yy, zz; w: push x
+  vec4 offDiagonal;  // xyz: of D yz, xz, xy; w: push y
+  vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]; w: push z. The push is the sum of push n
 };
 
-// Where a contact particle was in the grid, and when its list was made.
+// Where a contact particle was in the grid, and when its list was made; and what a guess needs of the step before.
 struct ContactPlace {
-  vec4 sorted;    // of the place's entry, in cell order: xyz position [m], w the contact particle (as bits)
-  vec4 position;  // of the contact particle, when its list was made [m]
-  vec4 velocity;  // v^0 then [m/s]
+  vec4 sorted;        // of the place's entry, in cell order: xyz position [m], w the contact particle (as bits)
+  vec4 position;      // of the contact particle, when its list was made [m]
+  vec4 velocity;      // v^0 then [m/s]
+  vec4 predicted[2];  // v^0 of this step and the one before, by parity [m/s]
 };
 
 // What contact kernels decide among themselves and tell the host.
@@ -212,41 +222,47 @@ struct ContactControl {
   uint indirectBuckets[3];   // over blocks of buckets
   uint parity;               // which of the two rows is in use
   uint indirectOne[3];       // one workgroup
-  uint isHalted;             // 1: lists have no room, everything stands still until the host has made some; or kHaltedByTurns
+  uint isHalted;             // 0, kHaltedForRoom or kHaltedByTurns
   uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
   uint speed;        // the fastest contact particle's [m/s], as bits
   float cellSize;    // [m]
   uint longestList;  // pairs of the longest list
   uint blocks;       // that lists have asked for
+  uint longestLive;  // contacts of the particle that has most
+  uint liveBlocks;   // that contacts have asked for in this step
   uint step;         // of the frame, that the lists are for
+  uint steps;        // since hair was last put somewhere
   uint rebuilds;     // since the simulation began
   uint listed;       // pairs in all lists, both sides counted
   uint pairTests;    // pairs looked at since the host last took the number
 };
 
-// More particles are near one than a device's loops can look at (ContactParameters::mostTurns).
+// Why everything stands still: lists have no room until the host has made some; or more particles are near one than the
+// device's loops can look at (lavapipe ends an invocation's loops at 65,535 turns, without a word).
+RINGLET_CONSTANT uint kHaltedForRoom = 1;
 RINGLET_CONSTANT uint kHaltedByTurns = 2;
 
 struct ContactParameters {
   uint contactCount;
-  uint bucketCount;  // a power of two
-  uint blockCount;   // there are
-  uint mostBlocks;   // of a list
-  uint strandCount;
-  uint everyPair;    // any two strands may touch
-  uint step;         // of the frame
-  float seconds;     // T
-  float skin;        // [m]
-  float largestRadius;     // [m]
-  float stiffness;         // k R / m_c [m/s^2]
+  uint bucketCount;     // a power of two
+  uint blockCount;      // there are
+  uint mostBlocks;      // of a list
+  uint liveBlockCount;  // there are in a row
+  uint mostLiveBlocks;  // of a contact particle
+  uint everyPair;       // any two strands may touch
+  uint step;            // of the frame
+  float seconds;        // T
+  float skin;           // [m]
+  float largestRadius;  // [m]
+  float stiffness;      // k R / m_c [m/s^2]
   float dampingRatio;
   float friction;
-  float ramp;              // what a share changes by in a step
+  float ramp;           // what a share changes by in a step
   float stiffnessRelease;
   float dampingRelease;
   float breakFactor;
-  float seenAhead;         // a contact is seen ahead from this times r0
-  uint mostTurns;          // loops of an invocation may make together
+  float seenAhead;      // a contact is seen ahead from this times r0
+  float warmth;         // share of a step's change by contacts that the next one is guessed to have
 };
 
 #ifdef __cplusplus

@@ -51,8 +51,8 @@ StrandRest strandRest(uint s) {
 }
 ContactSystem contactSystemOf(uint i) {
   if (!kTexels) return contactSystems[i];
-  return ContactSystem(vectorAt(contactSystemTexels, 4 * i), vectorAt(contactSystemTexels, 4 * i + 1),
-                       vectorAt(contactSystemTexels, 4 * i + 2), vectorAt(contactSystemTexels, 4 * i + 3));
+  return ContactSystem(vectorAt(contactSystemTexels, 3 * i), vectorAt(contactSystemTexels, 3 * i + 1),
+                       vectorAt(contactSystemTexels, 3 * i + 2));
 }
 
 StrandRest strand;  // this invocation's

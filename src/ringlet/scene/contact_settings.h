@@ -11,6 +11,10 @@ namespace ringlet {
 /// its rest length: further off, what will meet is anybody's guess, and looking costs its cube.
 inline constexpr double kContactSeenAhead = 2;
 
+/// A step's solve starts from the velocities it would have without contacts and this share of what the last
+/// step's contacts (and its stretch limit) changed: 0 starts cold, 1 may swing.
+inline constexpr double kContactWarmth = 0.8;
+
 /// checkSettings (rest/rest_state.h) holds the ranges. `w` below is what a contact particle weighs: its mass
 /// m_c, the strand's over its number of contact particles, times 9.81 m/s^2. R is the sum of two radii [m].
 struct ContactSettings {

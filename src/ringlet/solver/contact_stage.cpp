@@ -7,17 +7,19 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 
 #include "ringlet/rest/material.h"
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/device_buffers.h"
+#include "ringlet/solver/neighbour_table.h"
 
 namespace ringlet {
 namespace {
 
 constexpr std::uint32_t kGroupSize = 64;
-// Of a contact particle's list, to begin with.
-constexpr std::uint32_t kFirstBlocks = 1, kFirstMostBlocks = 8;
+// Of a contact particle's lists, to begin with: blocks in the mean, and at most.
+constexpr std::uint32_t kFirstBlocks = 2, kFirstMostBlocks = 4;
 constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists are made anew
 // Lists are read as texels where a device sees at least this much, what the smallest storage buffers hold.
 constexpr std::uint64_t kLeastTexelBytes = 128ull << 20;
@@ -44,17 +46,19 @@ std::vector<layout::ContactRest> contactRests(const RestState& rest, const Setti
   return rests;
 }
 
-std::vector<std::uint32_t> neighbourTable(const ContactGraph& graph) {
-  std::vector<std::uint32_t> table = graph.firstNeighbour;
-  table.insert(table.end(), graph.neighbours.begin(), graph.neighbours.end());
-  return table;
+// The contact particle of each particle; 0 where there is none.
+std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactParticles& particles) {
+  std::vector<std::uint32_t> indices((rest.points.size() + 3) / 4 * 4);
+  for (std::size_t c = 0; c < particles.particles.size(); ++c)
+    indices[particles.particles[c]] = static_cast<std::uint32_t>(c);
+  return indices;
 }
 
 }  // namespace
 
 Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& rest,
                                           const Settings& settings, const RestContacts& contacts,
-                                          const DeviceGroom& groom) {
+                                          DeviceGroom& groom) {
   const ContactParticles& particles = contacts.particles;
   ContactStage self;
   self.device_ = &device;
@@ -62,7 +66,6 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.settings_ = settings.contacts;
   self.stepSeconds_ = settings.stepSeconds();
   self.particles_ = particles.particles;
-  self.strandCount_ = static_cast<std::uint32_t>(rest.strands.size());
   self.everyPair_ = contacts.graph.everyPair;
   self.largestRadius_ = *std::max_element(particles.radii.begin(), particles.radii.end());
   const std::uint64_t count = self.particles_.size();
@@ -92,16 +95,19 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!neighbours) return neighbours.error();
   const std::uint64_t gridWords =
       2 * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
+  auto indices = createFilled(device, contactIndices(rest, particles), "contact indices");
+  if (!indices) return indices.error();
   auto grid = createZero(device, gridWords * sizeof(std::uint32_t), "contact grid");
   if (!grid) return grid.error();
   auto places = createZero(device, count * sizeof(layout::ContactPlace), "contact places");
   if (!places) return places.error();
-  auto queue = createZero(device, count * layout::kQueue * 2 * sizeof(float), "contact queue");
-  if (!queue) return queue.error();
-  self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*grid),
-                                std::move(*places), std::move(*queue)});
-  self.blockCount_ = static_cast<std::uint32_t>(kFirstBlocks * count);
-  self.mostBlocks_ = kFirstMostBlocks;
+  auto guesses = createZero(device, count * sizeof(layout::vec4), "contact guesses");
+  if (!guesses) return guesses.error();
+  self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
+                                std::move(*grid), std::move(*places), std::move(*guesses)});
+  const auto blocks = static_cast<std::uint32_t>(kFirstBlocks * count);
+  self.near_ = {blocks, kFirstMostBlocks};
+  self.live_ = {blocks, kFirstMostBlocks};
   if (Status status = self.createLists(); !status) return status.error();
   self.control() = {};
   return self;
@@ -115,34 +121,40 @@ layout::ContactControl& ContactStage::control() const {
   return *reinterpret_cast<layout::ContactControl*>(groom_->contactControl.mapped().data());
 }
 
-// For `blockCount_` blocks and `mostBlocks_` of a list; and what the kernels see of them.
+// As large as `near_` and `live_` say; and what the kernels see of them.
 Status ContactStage::createLists() {
-  const std::uint64_t entries = std::uint64_t{blockCount_} * layout::kListBlock;
   const auto create = [&](const char* name, std::uint64_t bytes) -> Result<gpu::Buffer> {
     if (bytes <= largestList_) return createZero(*device_, bytes, name);
     return Error{fmt::format(
-        "the lists of {} contact particles, {} pairs in all and up to {} for one, need a buffer "
-        "of {} MiB, and this device's are {} MiB at most; use a smaller contact radius, or prune more",
-        particles_.size(), entries, mostBlocks_ * layout::kListBlock, bytes >> 20, largestList_ >> 20)};
+        "the {} of {} contact particles, up to {} for one, need a buffer of {} MiB, and this device's are {} "
+        "MiB at most; use a smaller contact radius, or prune more",
+        name, particles_.size(), near_.most * layout::kListBlock, bytes >> 20, largestList_ >> 20)};
   };
+  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+  const std::uint64_t count = particles_.size();
   lists_.reset();
-  auto heads = create("contact lists", 2 * particles_.size() * (1 + mostBlocks_) * sizeof(std::uint32_t));
+  auto heads = create("contact lists", count * (1 + near_.most) * kWord);
   if (!heads) return heads.error();
-  auto pairs = create("contact pairs", entries * sizeof(layout::ContactPair));
+  auto pairs = create("contact pairs",
+                      std::uint64_t{near_.blocks} * layout::kListBlock * sizeof(layout::ContactPair));
   if (!pairs) return pairs.error();
-  auto lives = create("contact lives", 2 * entries * sizeof(layout::ContactLife));
+  auto liveHeads = create("live contacts' lists", 2 * count * (1 + live_.most) * kWord);
+  if (!liveHeads) return liveHeads.error();
+  auto lives = create("live contacts",
+                      2 * std::uint64_t{live_.blocks} * layout::kLiveBlock * sizeof(layout::ContactLive));
   if (!lives) return lives.error();
-  auto normals = create("contact normals", entries * sizeof(layout::vec4));
-  if (!normals) return normals.error();
-  lists_.emplace(Lists{std::move(*heads), std::move(*pairs), std::move(*lives), std::move(*normals)});
+  lists_.emplace(Lists{std::move(*heads), std::move(*pairs), std::move(*liveHeads), std::move(*lives)});
 
   // In the order of layout.h: storage, then texels.
-  const auto& [contacts, neighbours, grid, places, queue] = *buffers_;
+  const auto& [contacts, neighbours, indices, grid, places, guesses] = *buffers_;
+  const auto& [positions, velocities, solved] =
+      std::tie(groom_->positions, groom_->velocities, groom_->solved);
   auto bindings = gpu::Bindings::create(
-      kernels_[0], {groom_->positions, groom_->solved, contacts, neighbours, grid, places, lists_->heads,
-                    lists_->pairs, lists_->lives, lists_->normals, groom_->contactSystems,
-                    groom_->contactControl, queue, groom_->positions, groom_->solved, contacts, places,
-                    lists_->pairs, lists_->lives, lists_->normals});
+      kernels_[0],
+      {positions, velocities, solved, contacts, neighbours, indices, grid, places, guesses, lists_->heads,
+       lists_->pairs, lists_->liveHeads, lists_->lives, groom_->contactSystems, groom_->contactControl,
+       positions, velocities, solved, contacts, neighbours, indices, places, guesses, lists_->pairs,
+       lists_->lives});
   if (!bindings) return bindings.error();
   bindings_ = std::move(*bindings);
   return {};
@@ -151,9 +163,10 @@ Status ContactStage::createLists() {
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
   return {.contactCount = static_cast<std::uint32_t>(particles_.size()),
           .bucketCount = bucketCount_,
-          .blockCount = blockCount_,
-          .mostBlocks = mostBlocks_,
-          .strandCount = strandCount_,
+          .blockCount = near_.blocks,
+          .mostBlocks = near_.most,
+          .liveBlockCount = live_.blocks,
+          .mostLiveBlocks = live_.most,
           .everyPair = everyPair_ ? 1u : 0u,
           .step = step,
           .seconds = static_cast<float>(stepSeconds_),
@@ -167,8 +180,7 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
           .dampingRelease = changeIn(settings_.dampingReleaseSeconds, stepSeconds_),
           .breakFactor = static_cast<float>(settings_.breakFactor),
           .seenAhead = static_cast<float>(kContactSeenAhead),
-          // lavapipe ends an invocation's loops at 65,535 turns, without a word.
-          .mostTurns = device_->properties().type == "cpu" ? 60000u : 0xffffffffu};
+          .warmth = static_cast<float>(kContactWarmth)};
 }
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
@@ -204,14 +216,14 @@ void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) cons
 
   recorder.beginStage("contact_query");
   dispatchIndirect(recorder, ContactKernel::query, step, perContact);
-  recorder.barrier();
-  dispatch(recorder, ContactKernel::check, step, 1);
   recorder.endStage();
 }
 
 void ContactStage::recordLife(gpu::Recorder& recorder) const {
   recorder.beginStage("contact_life");
   dispatch(recorder, ContactKernel::life, 0, contactGroups());
+  recorder.barrier();
+  dispatch(recorder, ContactKernel::check, 0, 1);
   recorder.endStage();
 }
 
@@ -221,46 +233,48 @@ void ContactStage::recordGather(gpu::Recorder& recorder) const {
   recorder.endStage();
 }
 
-// The lists in use before those that did not fit keep what their pairs remember, in larger buffers; the pairs
-// are found anew.
+// The step begins anew, from the contacts of the step before, in larger buffers; pairs are found anew.
 Status ContactStage::makeRoom() {
-  if (control().isHalted == layout::kHaltedByTurns) {
+  layout::ContactControl& c = control();
+  if (c.isHalted == layout::kHaltedByTurns) {
     return Error{
         "more contact particles are near one another than this device can look through; use a smaller "
         "contact radius, or fewer strands in one place"};
   }
-  const std::uint32_t before = control().parity ^ 1, oldMost = mostBlocks_, oldBlocks = blockCount_;
-  const std::size_t heads = 2 * particles_.size();
-  auto lists = downloadAll<std::uint32_t>(lists_->heads, heads * (1 + oldMost));
-  if (!lists) return lists.error();
-  auto lives = downloadAll<layout::ContactLife>(lists_->lives, 2 * std::size_t{oldBlocks} * layout::kListBlock);
+  const std::uint32_t before = c.parity ^ 1;
+  const Room old = live_;
+  const std::size_t count = particles_.size();
+  auto heads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * count * (1 + old.most));
+  if (!heads) return heads.error();
+  const std::size_t rowSize = std::size_t{old.blocks} * layout::kLiveBlock;
+  auto lives = downloadAll<layout::ContactLive>(lists_->lives, rowSize, before * rowSize);
   if (!lives) return lives.error();
 
   // What was wanted, and a quarter more. Each particle's last block is partly empty.
-  layout::ContactControl& c = control();
-  const auto enough = [](std::uint32_t wanted, std::uint32_t had) {
-    return wanted > had ? wanted + wanted / 4 + 1 : had;
+  const auto enough = [](Room had, std::uint32_t blocks, std::uint32_t longest, std::uint32_t blockSize) {
+    const auto larger = [](std::uint32_t wanted, std::uint32_t now) {
+      return wanted > now ? wanted + wanted / 4 + 1 : now;
+    };
+    return Room{larger(blocks, had.blocks), larger((longest + blockSize - 1) / blockSize, had.most)};
   };
-  blockCount_ = enough(c.blocks, oldBlocks);
-  mostBlocks_ = enough((c.longestList + layout::kListBlock - 1) / layout::kListBlock, oldMost);
+  near_ = enough(near_, c.blocks, c.longestList, layout::kListBlock);
+  live_ = enough(live_, c.liveBlocks, c.longestLive, layout::kLiveBlock);
   if (Status status = createLists(); !status) return status;
 
-  std::vector<std::uint32_t> newLists(heads * (1 + mostBlocks_));
-  for (std::size_t list = before; list < heads; list += 2) {
-    std::copy_n(lists->begin() + static_cast<std::ptrdiff_t>(list * (1 + oldMost)), 1 + oldMost,
-                newLists.begin() + static_cast<std::ptrdiff_t>(list * (1 + mostBlocks_)));
+  std::vector<std::uint32_t> newHeads(2 * count * (1 + live_.most));
+  for (std::size_t list = before; list < 2 * count; list += 2) {
+    std::copy_n(heads->begin() + static_cast<std::ptrdiff_t>(list * (1 + old.most)), 1 + old.most,
+                newHeads.begin() + static_cast<std::ptrdiff_t>(list * (1 + live_.most)));
   }
-  std::vector<layout::ContactLife> newLives(2 * std::size_t{blockCount_} * layout::kListBlock);
-  std::copy_n(
-      lives->begin() + static_cast<std::ptrdiff_t>(before * std::size_t{oldBlocks} * layout::kListBlock),
-      std::size_t{oldBlocks} * layout::kListBlock,
-      newLives.begin() + static_cast<std::ptrdiff_t>(before * std::size_t{blockCount_} * layout::kListBlock));
-  if (Status status = lists_->heads.upload(std::as_bytes(std::span(newLists))); !status) return status;
-  if (Status status = lists_->lives.upload(std::as_bytes(std::span(newLives))); !status) return status;
+  if (Status status = lists_->liveHeads.upload(std::as_bytes(std::span(newHeads))); !status) return status;
+  const std::uint64_t rowBegin =
+      before * std::uint64_t{live_.blocks} * layout::kLiveBlock * sizeof(layout::ContactLive);
+  if (Status status = lists_->lives.upload(std::as_bytes(std::span(*lives)), rowBegin); !status) return status;
 
   c.parity = before;
   c.isHalted = c.isListed = c.listed = 0;
   --c.rebuilds;
+  --c.steps;
   return {};
 }
 
@@ -271,32 +285,47 @@ std::uint64_t ContactStage::takePairTests() {
 }
 
 Status ContactStage::forget() {
-  control().isListed = 0;
-  return lists_->heads.fillZero();
+  control().isListed = control().steps = 0;
+  if (Status status = groom_->contactSystems.fillZero(); !status) return status;
+  return lists_->liveHeads.fillZero();
 }
 
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {
   const std::size_t count = particles_.size(), parity = control().parity;
-  auto lists = downloadAll<std::uint32_t>(lists_->heads, 2 * count * (1 + mostBlocks_));
-  if (!lists) return lists.error();
-  auto lives = downloadAll<layout::ContactLife>(lists_->lives, 2 * std::size_t{blockCount_} * layout::kListBlock);
+  auto heads = downloadAll<std::uint32_t>(lists_->heads, count * (1 + near_.most));
+  if (!heads) return heads.error();
+  auto pairs =
+      downloadAll<layout::ContactPair>(lists_->pairs, std::size_t{near_.blocks} * layout::kListBlock);
+  if (!pairs) return pairs.error();
+  auto liveHeads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * count * (1 + live_.most));
+  if (!liveHeads) return liveHeads.error();
+  const std::size_t rowSize = std::size_t{live_.blocks} * layout::kLiveBlock;
+  auto lives = downloadAll<layout::ContactLive>(lists_->lives, rowSize, parity * rowSize);
   if (!lives) return lives.error();
 
+  // Contacts first: of a pair that is in both lists, the contact stays.
   const std::vector<std::uint32_t> inGroom = groomIndices(rest);
   std::vector<ListedContact> contacts;
+  const auto add = [&](std::size_t c, std::uint32_t other, float shares) {
+    const std::uint32_t a = inGroom[particles_[c]], b = inGroom[other];
+    if (a < b) contacts.push_back({a, b, std::max(0.0f, -shares), shares < 0 ? 1.0f : shares});
+  };
   for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t list = (2 * c + parity) * (1 + mostBlocks_);
-    for (std::uint32_t j = 0; j < (*lists)[list]; ++j) {
-      const std::size_t block = (*lists)[list + 1 + j / layout::kListBlock];
-      const auto& [shares, particle] =
-          (*lives)[(parity * blockCount_ + block) * layout::kListBlock + j % layout::kListBlock];
-      const std::uint32_t a = inGroom[particles_[c]], b = inGroom[particle];
-      if (a < b) contacts.push_back({a, b, std::max(0.0f, -shares), shares < 0 ? 1.0f : shares});
+    const std::size_t live = (2 * c + parity) * (1 + live_.most), near = c * (1 + near_.most);
+    for (std::uint32_t j = 0; j < (*liveHeads)[live]; ++j) {
+      const std::size_t block = (*liveHeads)[live + 1 + j / layout::kLiveBlock];
+      const layout::ContactLive& contact = (*lives)[block * layout::kLiveBlock + j % layout::kLiveBlock];
+      add(c, contact.particle, contact.shares);
+    }
+    for (std::uint32_t j = 0; j < (*heads)[near]; ++j) {
+      const std::size_t block = (*heads)[near + 1 + j / layout::kListBlock];
+      add(c, (*pairs)[block * layout::kListBlock + j % layout::kListBlock].particle, 0);
     }
   }
-  std::sort(contacts.begin(), contacts.end(), [](const ListedContact& x, const ListedContact& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  });
+  const auto place = [](const ListedContact& x) { return std::pair(x.a, x.b); };
+  std::ranges::stable_sort(contacts, {}, place);
+  const auto twice = std::ranges::unique(contacts, {}, place);
+  contacts.erase(twice.begin(), twice.end());
   return contacts;
 }
 
@@ -311,7 +340,7 @@ Result<double> ContactStage::momentumError(const RestState& rest) const {
   double sizes = 0;
   for (const layout::StrandRest& strand : rest.strands) {
     for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
-      const auto& [d, o, push, m] = (*systems)[i];
+      const auto& [d, o, m] = (*systems)[i];
       const layout::vec4 v = (*solved)[i];
       const Vec3d Dv{double(d.x) * v.x + double(o.z) * v.y + double(o.y) * v.z,
                      double(o.z) * v.x + double(d.y) * v.y + double(o.x) * v.z,

@@ -29,7 +29,7 @@ class ContactStage {
   /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` must
   /// live as long, in one place.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                     const RestContacts& contacts, const DeviceGroom& groom);
+                                     const RestContacts& contacts, DeviceGroom& groom);
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say.
@@ -49,17 +49,21 @@ class ContactStage {
   /// Forgets lists and lives: the hair was put somewhere else.
   Status forget();
 
-  /// All listed pairs, a < b, each once, sorted.
+  /// All pairs that are near or contacts, a < b, each once, sorted.
   Result<std::vector<ListedContact>> listed(const RestState& rest) const;
   /// |sum of contact momenta| over the sum of their sizes, of the last step.
   Result<double> momentumError(const RestState& rest) const;
 
  private:
   struct Buffers {
-    gpu::Buffer contacts, neighbours, grid, places, queue;
+    gpu::Buffer contacts, neighbours, indices, grid, places, guesses;
   };
   struct Lists {
-    gpu::Buffer heads, pairs, lives, normals;  // lives of the list in use and of the one before
+    gpu::Buffer heads, pairs, liveHeads, lives;  // of who is near; of contacts, of this step and the one before
+  };
+  struct Room {
+    std::uint32_t blocks = 0;  // there are, for all lists
+    std::uint32_t most = 0;    // of one list
   };
 
   ContactStage() = default;
@@ -75,16 +79,15 @@ class ContactStage {
   gpu::Device* device_ = nullptr;
   std::vector<gpu::Kernel> kernels_;       // by ContactKernel
   std::optional<gpu::Bindings> bindings_;  // all kernels have the same list
-  const DeviceGroom* groom_ = nullptr;
+  DeviceGroom* groom_ = nullptr;
   std::optional<Buffers> buffers_;
   std::optional<Lists> lists_;
   std::uint64_t largestList_ = 0;  // [bytes] a buffer of the lists may have
   ContactSettings settings_;
   std::vector<std::uint32_t> particles_;  // device index of each contact particle
   double stepSeconds_ = 0;
-  std::uint32_t strandCount_ = 0, bucketCount_ = 0;
-  std::uint32_t blockCount_ = 0;  // there are, for all lists
-  std::uint32_t mostBlocks_ = 0;  // of one list
+  std::uint32_t bucketCount_ = 0;
+  Room near_, live_;
   float largestRadius_ = 0;
   bool everyPair_ = false;
 };
