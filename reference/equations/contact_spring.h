@@ -10,12 +10,14 @@
 //
 // The step's impulse on a is push n - Q (v_a - v_b), on b its negative, with
 //
-//     push = T k kappa (r0 - d)            Q = q_n n n^T + q_t (I - n n^T)
-//     q_n = T c delta + T^2 k kappa,   q_t = friction T c delta
+//     push = T k kappa (r0 - d)            Q = (q_s + q_d) n n^T + q_t (I - n n^T)
+//     q_s = T^2 k kappa,   q_d = T c delta,   q_t = friction q_d
 //
-// The spring (k) acts only while touching, and then in both directions: seen ahead, d > r0 and push is
-// negative, which is what lets the pair come to r0 unhindered. The damper (c) acts only while d < r0 or
-// breaking: no damping before there is a contact.
+// The spring (k) acts only while touching. Seen ahead, d > r0 and push is negative, which lets the pair come
+// to r0 unhindered; where the pair then does not come nearer than r0 by the end of the step, the spring would
+// hold it, and is taken back (isMet). The damper (c) acts from the first step with d < r0 to the last of the
+// life: no damping before there is a contact, and none that depends on which side of r0 rounding puts a pair
+// that rests.
 #pragma once
 
 #include <algorithm>
@@ -114,22 +116,27 @@ ContactLife<Real> nextLife(const ContactSettings& settings, ContactLife<Real> li
 /// A step's weights [kg] and momentum [kg m/s].
 template <class Real>
 struct ContactWeights {
-  Real normal = 0, tangential = 0;  // q_n, q_t
-  Real push = 0;                    // along n
+  Real spring = 0, damping = 0, tangential = 0;  // q_s, q_d, q_t
+  Real push = 0;                                 // along n
+
+  Real normal() const { return spring + damping; }
+  /// Whether the spring still pushes at the end of a step in which the two part at `separation` [m/s].
+  bool isMet(Real separation) const { return !(push < spring * separation); }
 };
 
+/// `lived`: the contact was there before this step, which left it `life`.
 template <class Real>
 ContactWeights<Real> contactWeights(const ContactSettings& settings, const ContactConstants<Real>& constants,
-                                    const ContactLife<Real>& life, bool touching, Real distance,
+                                    const ContactLife<Real>& life, bool lived, bool touching, Real distance,
                                     Real stepSeconds) {
   ContactWeights<Real> weights;
-  if (distance < constants.restLength || !touching) {
-    weights.normal = stepSeconds * constants.damping * life.dampingShare;
-    weights.tangential = static_cast<Real>(settings.friction) * weights.normal;
+  if (lived || distance < constants.restLength) {
+    weights.damping = stepSeconds * constants.damping * life.dampingShare;
+    weights.tangential = static_cast<Real>(settings.friction) * weights.damping;
   }
   if (touching) {
     const Real spring = stepSeconds * constants.stiffness * life.stiffnessShare;
-    weights.normal += stepSeconds * spring;
+    weights.spring = stepSeconds * spring;
     weights.push = spring * (constants.restLength - distance);
   }
   return weights;
@@ -138,7 +145,7 @@ ContactWeights<Real> contactWeights(const ContactSettings& settings, const Conta
 /// Q [kg].
 template <class Real>
 Matrix3<Real> contactMatrix(const ContactWeights<Real>& weights, const Vector3<Real>& normal) {
-  return (weights.normal - weights.tangential) * normal * normal.transpose() +
+  return (weights.normal() - weights.tangential) * normal * normal.transpose() +
          weights.tangential * Matrix3<Real>::Identity();
 }
 

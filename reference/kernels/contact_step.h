@@ -4,10 +4,10 @@
 //
 //     (L + 2 D) v^{k+1} = base + sum push n + sum Q (v_a^k + v_b^k)         D = sum Q of the particle
 //
-// all strands at once, from a guess: v^0, the solve without contacts, and most of what the step before changed
-// it by. A pair's mean velocity, and not the other's velocity, is what the iteration holds: its eigenvalues are
-// then in [0, 1) whatever the stiffness and the number of contacts, and a symmetric hit is right after one
-// iteration. Its fixed point is L v = base + sum (push n - Q (v_a - v_b)).
+// all strands at once, from a guess: v^0, the solve without contacts, and most of what the step before
+// changed it by. A pair's mean velocity, and not the other's velocity, is what the iteration holds: its
+// eigenvalues are then in [0, 1) whatever the stiffness and the number of contacts, and a symmetric hit is
+// right after one iteration. Its fixed point is L v = base + sum (push n - Q (v_a - v_b)).
 #pragma once
 
 #include "reference/equations/contact_spring.h"
@@ -35,9 +35,9 @@ struct Contacts {
   std::uint64_t nearCount = 0;      // pairs near enough to be asked, in the last step
   std::uint64_t pairTests = 0;      // pairs looked at for that, in all steps
 
-  Field<Real> freeVelocities;            // v^0 [m/s]
-  Field<double> changes;                 // of v^0 by contacts and stretch limit, in the step before; or none [m/s]
-  Field<double> pushes;                  // sum of push n [kg m/s]
+  Field<Real> freeVelocities;  // v^0 [m/s]
+  Field<double> changes;       // of v^0 by contacts and stretch limit, in the step before; or none [m/s]
+  Field<double> pushes;        // sum of push n [kg m/s]
   std::vector<Matrix3<double>> weights;  // D [kg]
   double momentumError = 0;              // |sum J| over sum |J|, J the momentum a particle got [1]
 };
@@ -84,8 +84,9 @@ void updateContacts(const ContactSettings& settings, Real stepSeconds, const Fie
     const ContactLife<Real> life = nextLife(settings, isKnown ? before->life : ContactLife<Real>{}, touching,
                                             place.distance, constants.restLength, stepSeconds);
     if (life.isOver()) continue;
-    live.push_back({pair, life, place.normal,
-                    contactWeights(settings, constants, life, touching, place.distance, stepSeconds)});
+    live.push_back(
+        {pair, life, place.normal,
+         contactWeights(settings, constants, life, isKnown, touching, place.distance, stepSeconds)});
   }
   contacts.live = std::move(live);
 }
@@ -137,21 +138,17 @@ double contactMomentumError(const Contacts<Real>& contacts, const Field<double>&
   return size > 0 ? sum.norm() / size : 0;
 }
 
-/// Takes back contacts seen ahead that velocities [m/s] do not bring about: others have stopped the two, and
-/// its spring would hold them together. Whether there were any.
+/// Takes back springs that at velocities [m/s] would hold two together. Whether there were any.
 template <class Real>
 bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts) {
   bool dropped = false;
   for (Contact<Real>& contact : contacts.live) {
-    if (!(contact.weights.push < 0)) continue;
     const Vector3<double> parting = velocities[contacts.particles[contact.pair.a].index] -
                                     velocities[contacts.particles[contact.pair.b].index];
     const double separation = contact.normal.template cast<double>().dot(parting);
-    if (static_cast<double>(contact.weights.push) <
-        static_cast<double>(contact.weights.normal) * separation) {
-      contact.weights = {};
-      dropped = true;
-    }
+    if (contact.weights.isMet(static_cast<Real>(separation))) continue;
+    contact.weights.spring = contact.weights.push = 0;
+    dropped = true;
   }
   return dropped;
 }
@@ -187,8 +184,8 @@ void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts) {
     contacts.changes.push_back((velocities[i] - contacts.freeVelocities[i]).template cast<double>());
 }
 
-/// Strand-block Jacobi from a guess. `systems` are those of the solve without contacts; what contacts add to them
-/// is written beside it. velocities [m/s]: v^0 in, the last iterate out.
+/// Strand-block Jacobi from a guess. `systems` are those of the solve without contacts; what contacts add to
+/// them is written beside it. velocities [m/s]: v^0 in, the last iterate out.
 template <class Real>
 void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,
                    std::vector<StrandSystem>& systems, SolveScratch& scratch, Contacts<Real>& contacts,

@@ -3,7 +3,7 @@
 //
 //   d = |x_a - x_b|, n = (x_a - x_b) / d, u_n = n . (v_a - v_b)
 //   touching: d < r0, or seen ahead: d + T u_n < r0
-//   momentum on a: push n - Q (v_a - v_b),  push = T k kappa (r0 - d),  Q = q_n n nᵀ + q_t (1 - n nᵀ)
+//   momentum on a: push n - Q (v_a - v_b),  push = T k kappa (r0 - d),  Q = (q_s + q_d) n nᵀ + q_t (1 - n nᵀ)
 #ifndef RINGLET_CONTACT_SPRING
 #define RINGLET_CONTACT_SPRING
 
@@ -46,34 +46,24 @@ vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, vec3
 }
 
 struct ContactWeights {
-  float normal, tangential;  // q_n, q_t [kg]
-  float push;                // along n [kg m/s]
+  float spring, damping;  // q_s, q_d [kg]; q_t is friction q_d
 };
 
-ContactWeights contactWeights(vec2 shares, bool touching, float distance, float restLength, float stiffness, float damping,
-                              float friction, float T) {
-  ContactWeights weights = ContactWeights(0.0, 0.0, 0.0);
-  if (distance < restLength || !touching) {  // no damping before there is a contact
-    weights.normal = T * damping * shares.y;
-    weights.tangential = friction * weights.normal;
-  }
-  if (touching) {
-    float spring = T * stiffness * shares.x;
-    weights.normal += T * spring;
-    weights.push = spring * (restLength - distance);
-  }
-  return weights;
+/// lived: the contact was there before this step, which left it `shares`.
+ContactWeights contactWeights(vec2 shares, bool lived, bool touching, float gap, float stiffness, float damping, float T) {
+  return ContactWeights(touching ? T * T * stiffness * shares.x : 0.0, lived || gap > 0.0 ? T * damping * shares.y : 0.0);
 }
 
-/// Q as (n sqrt(q_n - q_t), q_t); friction is at most 1, so q_t is never larger. A contact seen ahead has no damping, so no
-/// q_t, and a push below 0, which stands there.
-vec4 contactMatrix(ContactWeights weights, vec3 normal) {
-  return vec4(sqrt(max(0.0, weights.normal - weights.tangential)) * normal, weights.push < 0.0 ? weights.push : weights.tangential);
-}
-float tangentialOf(vec4 Q) { return max(0.0, Q.w); }
-vec3 contactMultiply(vec4 Q, vec3 v) { return dot(Q.xyz, v) * Q.xyz + tangentialOf(Q) * v; }
+/// gap: r0 - d [m]. push, along n [kg m/s].
+float contactPush(float spring, float gap, float T) { return spring * gap / T; }
 
-/// Whether a contact seen ahead has not come about: parting as the two now are, it would hold them together.
-bool isUnmet(vec4 Q, vec3 parting) { return Q.w < 0.0 && Q.w < length(Q.xyz) * dot(Q.xyz, parting); }
+/// Whether the spring still pushes at the end of a step in which the two part at `separation` [m/s].
+bool isMet(float gap, float separation, float T) { return !(gap < T * separation); }
+
+/// Q v.
+vec3 contactMultiply(ContactWeights weights, float friction, vec3 normal, vec3 v) {
+  float tangential = friction * weights.damping;
+  return (weights.spring + weights.damping - tangential) * dot(normal, v) * normal + tangential * v;
+}
 
 #endif

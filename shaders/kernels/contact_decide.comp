@@ -14,11 +14,14 @@ void dispatchRebuild(bool rebuild) {
     control.indirectContacts[axis] = 1;
     control.indirectBuckets[axis] = 1;
     control.indirectOne[axis] = 1;
+    control.indirectMeeting[axis] = 1;
   }
 }
 
 void main() {
   if (gl_GlobalInvocationID.x > 0) return;
+  control.indirectMeeting[0] = 0;
+  control.meetingCount = 0;
   if (control.isHalted != 0) {
     dispatchRebuild(false);
     return;

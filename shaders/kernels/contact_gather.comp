@@ -1,6 +1,6 @@
 // Prepares the next iteration of the solve with contacts: pair means of the last one's velocities, sum of Q (v_a + v_b),
-// with the weights contact_life.comp has set. Contacts seen ahead that the last iterate does not bring about are taken back,
-// on both sides alike. Mirrored by reference/kernels/contact_step.h.
+// with the weights contact_life.comp has set. Springs that at the last iterate would hold two together are taken back, on both
+// sides alike. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -8,36 +8,34 @@
 #include "maths/symmetric.glsl"
 
 void main() {
-  if (control.isHalted != 0) return;
-  uint c = gl_GlobalInvocationID.x;
-  if (c >= parameters.contactCount) return;
+  if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
+  uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
+  ContactRest rest = contactOf(c);
+  vec3 v = velocityOf(rest.particle);
   uint list = liveListOf(c, control.parity);
   uint count = liveLists[list];
-  for (bool has = count > 0; has; has = false) {  // an if, see contact_life.comp
-    ContactRest rest = contactOf(c);
-    vec3 v = velocityOf(rest.particle);
-    uint entry = 0;
-    vec3 momentum = vec3(0);
-    vec3 unmetPush = vec3(0);
-    Symmetric unmet = symmetricDiagonal(0.0);
-    for (uint j = 0; j < count; ++j) {
-      entry = nextLive(list, control.parity, j, entry);
-      ContactLive live = liveAt(entry);
-      vec4 Q = live.matrix;
-      vec3 otherVelocity = velocityOf(live.particle);
-      if (isUnmet(Q, v - otherVelocity)) {
-        unmetPush += Q.w * normalize(Q.xyz);
-        unmet = addOuter(unmet, 1.0, Q.xyz);
-        lives[entry].matrix = vec4(0);
-      } else {
-        momentum += contactMultiply(Q, v + otherVelocity);
-      }
+  uint entry = 0;
+  vec3 momentum = vec3(0);
+  vec3 unmetPush = vec3(0);
+  Symmetric unmet = symmetricDiagonal(0.0);
+  for (uint j = 0; j < count; ++j) {
+    entry = nextLive(list, control.parity, j, entry);
+    ContactLive live = liveAt(entry);
+    vec3 normal = live.normal.xyz;
+    float spring = live.normal.w;
+    vec3 otherVelocity = velocityOf(live.particle);
+    if (spring > 0.0 && !isMet(live.gap, dot(normal, v - otherVelocity), parameters.seconds)) {
+      unmetPush += contactPush(spring, live.gap, parameters.seconds) * normal;
+      unmet = addOuter(unmet, spring, normal);
+      lives[entry].normal.w = 0.0;
+      spring = 0.0;
     }
-    ContactSystem system = systems[rest.particle];
-    float unit = rest.inverseMassUnit;
-    vec3 push = vec3(system.diagonal.w, system.offDiagonal.w, system.momentum.w) - unit * unmetPush;
-    systems[rest.particle] =
-        ContactSystem(vec4(system.diagonal.xyz - unit * unmet.d, push.x), vec4(system.offDiagonal.xyz - unit * unmet.o, push.y),
-                      vec4(push + unit * momentum, push.z));
+    momentum += contactMultiply(ContactWeights(spring, live.damping), parameters.friction, normal, v + otherVelocity);
   }
+  ContactSystem system = systems[rest.particle];
+  float unit = rest.inverseMassUnit;
+  vec3 push = vec3(system.diagonal.w, system.offDiagonal.w, system.momentum.w) - unit * unmetPush;
+  systems[rest.particle] = ContactSystem(vec4(system.diagonal.xyz - unit * unmet.d, push.x),
+                                         vec4(system.offDiagonal.xyz - unit * unmet.o, push.y),
+                                         vec4(push + unit * momentum, push.z));
 }

@@ -18,10 +18,6 @@ Symmetric D = symmetricDiagonal(0.0);
 vec3 push = vec3(0);
 vec3 momentum = vec3(0);
 
-ContactMeeting meetingWith(uint particle) {
-  return contactMeeting(x - positionOf(particle), v - velocityOf(particle), rest.particle < particle);
-}
-
 void append(ContactLive live) {
   if (count % kLiveBlock == 0) {
     block = atomicAdd(control.liveBlocks, 1);
@@ -33,33 +29,32 @@ void append(ContactLive live) {
 }
 
 // A contact that touches, or did: its shares were `before`.
-void liveOn(uint particle, uint contact, float restLength, float before) {
-  ContactMeeting meeting = meetingWith(particle);
-  bool touching = isTouching(meeting, restLength, parameters.seconds, parameters.seenAhead);
-  vec3 changes = vec3(parameters.ramp, parameters.stiffnessRelease, parameters.dampingRelease);
-  vec2 shares = nextLife(sharesOf(before), touching, meeting.distance, restLength, changes, parameters.breakFactor);
-  if (shares == vec2(0)) return;
+void liveOn(uint particle, float before) {
+  uint contact = contactAt(particle);
   ContactRest other = contactOf(contact);
+  float R = rest.point.w + other.point.w;
+  float r0 = contactRestLength(R, distance(rest.point.xyz, other.point.xyz));
+  ContactMeeting meeting = contactMeeting(x - positionOf(particle), v - velocityOf(particle), rest.particle < particle);
+  bool touching = isTouching(meeting, r0, parameters.seconds, parameters.seenAhead);
+  vec3 changes = vec3(parameters.ramp, parameters.stiffnessRelease, parameters.dampingRelease);
+  vec2 shares = nextLife(sharesOf(before), touching, meeting.distance, r0, changes, parameters.breakFactor);
+  if (shares == vec2(0)) return;
   float mass = 0.5 * (rest.mass + other.mass);
-  float stiffness = parameters.stiffness * mass / (rest.point.w + other.point.w);
+  float stiffness = parameters.stiffness * mass / R;
   float damping = 2.0 * parameters.dampingRatio * sqrt(stiffness * mass);
-  ContactWeights weights = contactWeights(shares, touching, meeting.distance, restLength, stiffness, damping,
-                                          parameters.friction, parameters.seconds);
-  vec4 Q = contactMatrix(weights, meeting.normal);
-  D = addOuter(addDiagonal(D, tangentialOf(Q)), 1.0, Q.xyz);
-  push += weights.push * meeting.normal;
-  momentum += contactMultiply(Q, guess + guessOf(contact));
-  append(ContactLive(Q, particle, contact, restLength, lifeOfShares(shares)));
+  float gap = r0 - meeting.distance;
+  ContactWeights weights = contactWeights(shares, before != 0.0, touching, gap, stiffness, damping, parameters.seconds);
+  float tangential = parameters.friction * weights.damping;
+  D = addOuter(addDiagonal(D, tangential), weights.spring + weights.damping - tangential, meeting.normal);
+  push += contactPush(weights.spring, gap, parameters.seconds) * meeting.normal;
+  momentum += contactMultiply(weights, parameters.friction, meeting.normal, guess + guessOf(contact));
+  append(ContactLive(vec4(meeting.normal, weights.spring), particle, lifeOfShares(shares), weights.damping, gap));
 }
 
-bool isNewAndTouching(uint particle, float restLength) {
-  return isTouching(meetingWith(particle), restLength, parameters.seconds, parameters.seenAhead);
-}
-
+// Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one must.
 void main() {
-  if (control.isHalted != 0 || !listsHadRoom()) return;
-  uint c = gl_GlobalInvocationID.x;
-  if (c >= parameters.contactCount) return;
+  if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
+  uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
   rest = contactOf(c);
   x = positionOf(rest.particle);
   v = velocityOf(rest.particle);
@@ -71,56 +66,50 @@ void main() {
 
   // Contacts of the step before.
   uint entry = 0;
-  uint made = 0;  // turns of loops, and how many there should be
+  uint made = 0;  // turns of loops; and how many there should be
   for (uint j = 0; j < countBefore; ++j, ++made) {
     entry = nextLive(listBefore, parityBefore, j, entry);
     ContactLive live = liveAt(entry);
-    liveOn(live.particle, live.contact, live.restLength, live.shares);
+    liveOn(live.particle, live.shares);
   }
 
-  // Neighbours that touch, as bits of a block, and then those that did not before: most only stand near.
+  // Neighbours that touch (contact_touch.comp) and did not before.
   uint neighbourList = listOf(c);
-  uint neighbourCount = lists[neighbourList];
-  uint wanted = countBefore + (neighbourCount + kListBlock - 1) / kListBlock;
+  uint blockCount = (lists[neighbourList] + kListBlock - 1) / kListBlock;
+  uint wanted = countBefore + blockCount;
   uint sought = 0;  // where the last one was found: lists are in like order
-  for (uint begin = 0; begin < neighbourCount; begin += kListBlock, ++made) {
-    uint first = lists[neighbourList + 1 + begin / kListBlock] * kListBlock;
-    uint inBlock = min(neighbourCount - begin, kListBlock);
-    uint touching = 0;
-    for (uint k = 0; k < inBlock; k += 2) {
-      uvec4 two = twoPairsAt(first + k);
-      touching |= isNewAndTouching(two.x, uintBitsToFloat(two.y)) ? 1u << k : 0;
-      touching |= isNewAndTouching(two.z, uintBitsToFloat(two.w)) ? 2u << k : 0;
-    }
-    if (inBlock < 32) touching &= (1u << inBlock) - 1;
+  for (uint b = 0; b < blockCount; ++b, ++made) {
+    uint first = lists[listedBlock(neighbourList, b)] * kListBlock;
+    uint touching = lists[touchingBits(neighbourList, b)];
+    uint fresh = touching;
     wanted += bitCount(touching);
     for (; touching != 0; touching &= touching - 1, ++made) {
-      uint at = first + findLSB(touching);
-      uvec4 two = twoPairsAt(at & ~1u);
-      uvec2 pair = (at & 1) == 0 ? two.xy : two.zw;
-      bool isOld = false;
+      uint k = findLSB(touching);
+      uvec4 two = twoPairsAt(first + (k & ~1u));
+      uint particle = (k & 1) == 0 ? two.x : two.z;
+      bool isKnown = false;
       uint looked = 0;
-      for (; looked < countBefore && !isOld; ++looked) {
+      for (; looked < countBefore && !isKnown; ++looked) {
         uint j = sought + looked < countBefore ? sought + looked : sought + looked - countBefore;
-        uint place = liveEntry(parityBefore, liveLists[listBefore + 1 + j / kLiveBlock], j % kLiveBlock);
-        isOld = (kTexels ? recordAt(liveTexels, 2 * place + 1).x : lives[place].particle) == pair.x;
-        if (isOld) sought = j + 1;
+        uint known = liveEntry(parityBefore, liveLists[listBefore + 1 + j / kLiveBlock], j % kLiveBlock);
+        isKnown = (kTexels ? recordAt(liveTexels, 2 * known + 1).x : lives[known].particle) == particle;
+        if (isKnown) sought = j + 1;
       }
-      if (!isOld) {
-        if (looked < countBefore) ++wanted;  // the loop was cut short
-        liveOn(pair.x, contactAt(pair.x), uintBitsToFloat(pair.y), 0.0);
-      }
+      if (isKnown) fresh &= ~(1u << k);
+      if (!isKnown && looked < countBefore) ++wanted;  // the loop was cut short
+    }
+    wanted += bitCount(fresh);
+    for (; fresh != 0; fresh &= fresh - 1, ++made) {
+      uint k = findLSB(fresh);
+      uvec4 two = twoPairsAt(first + (k & ~1u));
+      liveOn((k & 1) == 0 ? two.x : two.z, 0.0);
     }
   }
   liveLists[list] = count;
   if (count > control.longestLive) atomicMax(control.longestLive, count);
   if (made != wanted) control.isHalted = kHaltedByTurns;
 
-  // What was nothing and is nothing needs no telling. (A loop, for an if is run all the same by a driver that runs
-  // invocations in step.)
   float unit = rest.inverseMassUnit;
-  for (bool tell = count > 0 || countBefore > 0; tell; tell = false) {
-    systems[rest.particle] = ContactSystem(vec4(unit * D.d, unit * push.x), vec4(unit * D.o, unit * push.y),
-                                           vec4(unit * (push + momentum), unit * push.z));
-  }
+  systems[rest.particle] = ContactSystem(vec4(unit * D.d, unit * push.x), vec4(unit * D.o, unit * push.y),
+                                         vec4(unit * (push + momentum), unit * push.z));
 }

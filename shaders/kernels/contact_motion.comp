@@ -22,6 +22,6 @@ void main() {
   if (floatBitsToUint(speed) > control.speed) atomicMax(control.speed, floatBitsToUint(speed));
 
   vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
-  places[c].predicted[control.parity ^ 1] = vec4(v, 0);
+  histories[c].predicted[control.parity ^ 1] = vec4(v, 0);
   guesses[c] = vec4(v + parameters.warmth * change, 0);
 }

@@ -1,5 +1,5 @@
 // The grid, 5 of 5: the order inside a bucket, by index, so that nothing depends on which thread came first; and positions
-// beside them, in that order, for the query.
+// and velocities beside them, in that order, for the query.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -15,5 +15,7 @@ void main() {
   uint other = start;
   for (; other < end; ++other) before += grid[gridEntry(other)] < c ? 1 : 0;
   if (other < end) control.isHalted = kHaltedByTurns;
-  places[start + before].sorted = vec4(positionOf(contactOf(c).particle), uintBitsToFloat(c));
+  ContactRest rest = contactOf(c);
+  places[start + before] = ContactPlace(vec4(positionOf(rest.particle), uintBitsToFloat(c)),
+                                        vec4(velocityOf(rest.particle), uintBitsToFloat(rest.strand)));
 }

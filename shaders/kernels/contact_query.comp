@@ -13,7 +13,7 @@ uint block = 0;  // its last
 void append(ContactPair pair) {
   if (count % kListBlock == 0) {
     block = atomicAdd(control.blocks, 1);
-    if (count / kListBlock < parameters.mostBlocks) lists[list + 1 + count / kListBlock] = block;
+    if (count / kListBlock < parameters.mostBlocks) lists[listedBlock(list, count / kListBlock)] = block;
   }
   // Without room, what is wanted is still counted.
   if (block < parameters.blockCount) pairs[block * kListBlock + count % kListBlock] = pair;
@@ -36,18 +36,18 @@ bool mayTouch(uvec4 own, uint strand) {
 void main() {
   uint place = gl_GlobalInvocationID.x;
   if (place >= parameters.contactCount) return;
-  vec4 self = sortedAt(place);
+  vec4 self = placedPosition(place);
   uint c = floatBitsToUint(self.w);
   ContactRest rest = contactOf(c);
   uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
   precise vec3 x = self.xyz;
-  vec3 v = velocityOf(rest.particle);
+  vec3 v = placedVelocity(place).xyz;
   // No pair's reach is larger: by the radii, and by the fastest there is.
-  precise float farthest =
-      min(parameters.seenAhead * (rest.point.w + parameters.largestRadius) + parameters.skin, control.cellSize);
+  float mostR = rest.point.w + parameters.largestRadius;
+  precise float farthest = min(parameters.seenAhead * mostR + parameters.skin, control.cellSize);
   ivec3 cell = cellOf(x);
   list = listOf(c);
-  uint wanted = 0;  // turns of the loops below, and how many they made
+  uint wanted = 9;  // turns of the loops below; and how many they made
   uint made = 0;
   for (int row = 0; row < 9; ++row, ++made) {
     // Three cells along x: a range of entries, which may go on from the last bucket to the first.
@@ -59,28 +59,39 @@ void main() {
     while (entries > 0) {
       if (entry == parameters.contactCount) entry = 0;
       uint looked = min(min(entries, 32), parameters.contactCount - entry);
-      // Those near enough as bits first, and then one after the other: a driver that runs invocations in step would else do
-      // for every one what a single one must.
+      // Three sieves, finer and dearer each, over what is left as bits: a driver that runs invocations in step does for all
+      // of them what a single one must.
       uint near = 0;
       for (uint k = 0; k < looked; ++k, ++made) {
-        vec4 other = sortedAt(entry + k);
-        precise vec3 apart = x - other.xyz;
+        precise vec3 apart = x - placedPosition(entry + k).xyz;
         precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
         near |= squared < farthest * farthest ? 1u << k : 0;
       }
       wanted += looked + bitCount(near);
+      uint meeting = 0;  // near enough for how fast the two near each other
       for (; near != 0; near &= near - 1, ++made) {
-        vec4 found = sortedAt(entry + findLSB(near));
-        uint b = floatBitsToUint(found.w);
-        ContactRest other = contactOf(b);
+        uint k = findLSB(near);
+        vec3 apart = x - placedPosition(entry + k).xyz;
+        vec4 other = placedVelocity(entry + k);
+        float ahead = parameters.seconds * length(v - other.xyz);
+        float reach = 1.0001 * (min(mostR + ahead, parameters.seenAhead * mostR) + parameters.skin);
+        bool mayMeet = dot(apart, apart) < reach * reach && floatBitsToUint(other.w) != rest.strand;
+        meeting |= mayMeet ? 1u << k : 0;
+      }
+      wanted += bitCount(meeting);
+      for (; meeting != 0; meeting &= meeting - 1, ++made) {
+        uint k = findLSB(meeting);
+        vec4 found = placedPosition(entry + k);
+        vec3 otherVelocity = placedVelocity(entry + k).xyz;
+        ContactRest other = contactOf(floatBitsToUint(found.w));
         // Other cells may share a bucket, and a bucket may come by twice.
         ivec3 away = cellOf(found.xyz) - middle;
-        bool isCandidate = away.y == 0 && away.z == 0 && abs(away.x) <= 1 && other.strand != rest.strand &&
+        bool isCandidate = away.y == 0 && away.z == 0 && abs(away.x) <= 1 &&
                            !(rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0);
         precise vec3 apart = x - found.xyz;
         precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
         float r0 = contactRestLength(rest.point.w + other.point.w, distance(rest.point.xyz, other.point.xyz));
-        float ahead = parameters.seconds * length(v - velocityOf(other.particle));
+        float ahead = parameters.seconds * length(v - otherVelocity);
         float reach = min(r0 + ahead, parameters.seenAhead * r0) + parameters.skin;
         if (!isCandidate || !(squared < reach * reach)) continue;
         if (parameters.everyPair == 0 && !mayTouch(ownNeighbours, other.strand)) continue;
@@ -92,8 +103,8 @@ void main() {
   }
   lists[list] = count;
   if (count > control.longestList) atomicMax(control.longestList, count);
-  places[c].position = vec4(x, 0);
-  places[c].velocity = vec4(v, 0);
+  histories[c].position = vec4(x, 0);
+  histories[c].velocity = vec4(v, 0);
   atomicAdd(control.listed, count);
-  if (made != wanted + 9) control.isHalted = kHaltedByTurns;
+  if (made != wanted) control.isHalted = kHaltedByTurns;
 }

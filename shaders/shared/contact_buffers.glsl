@@ -15,6 +15,7 @@ layout(set = 0, binding = kBindNeighbours) readonly buffer Neighbours { uvec4 ne
 layout(set = 0, binding = kBindIndices) readonly buffer Indices { uvec4 indices[]; };
 layout(set = 0, binding = kBindGrid) buffer Grid { uint grid[]; };
 layout(set = 0, binding = kBindPlaces) buffer Places { ContactPlace places[]; };
+layout(set = 0, binding = kBindHistories) buffer Histories { ContactHistory histories[]; };
 layout(set = 0, binding = kBindGuesses) buffer Guesses { vec4 guesses[]; };
 layout(set = 0, binding = kBindLists) buffer Lists { uint lists[]; };
 layout(set = 0, binding = kBindPairs) buffer Pairs { ContactPair pairs[]; };
@@ -29,6 +30,7 @@ layout(set = 0, binding = kBindContactTexels) uniform usamplerBuffer contactTexe
 layout(set = 0, binding = kBindNeighbourTexels) uniform usamplerBuffer neighbourTexels;
 layout(set = 0, binding = kBindIndexTexels) uniform usamplerBuffer indexTexels;
 layout(set = 0, binding = kBindPlaceTexels) uniform usamplerBuffer placeTexels;
+layout(set = 0, binding = kBindHistoryTexels) uniform usamplerBuffer historyTexels;
 layout(set = 0, binding = kBindGuessTexels) uniform usamplerBuffer guessTexels;
 layout(set = 0, binding = kBindPairTexels) uniform usamplerBuffer pairTexels;
 layout(set = 0, binding = kBindLiveTexels) uniform usamplerBuffer liveTexels;
@@ -48,11 +50,12 @@ uint contactAt(uint particle) {
   uvec2 two = (particle & 2) == 0 ? four.xy : four.zw;
   return (particle & 1) == 0 ? two.x : two.y;
 }
-vec4 sortedAt(uint place) { return kTexels ? vectorAt(placeTexels, 5 * place) : places[place].sorted; }
-vec3 listedPosition(uint c) { return kTexels ? vectorAt(placeTexels, 5 * c + 1).xyz : places[c].position.xyz; }
-vec3 listedVelocity(uint c) { return kTexels ? vectorAt(placeTexels, 5 * c + 2).xyz : places[c].velocity.xyz; }
+vec4 placedPosition(uint place) { return kTexels ? vectorAt(placeTexels, 2 * place) : places[place].position; }
+vec4 placedVelocity(uint place) { return kTexels ? vectorAt(placeTexels, 2 * place + 1) : places[place].velocity; }
+vec3 listedPosition(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c).xyz : histories[c].position.xyz; }
+vec3 listedVelocity(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c + 1).xyz : histories[c].velocity.xyz; }
 vec3 predictedBefore(uint c) {
-  return kTexels ? vectorAt(placeTexels, 5 * c + 3 + control.parity).xyz : places[c].predicted[control.parity].xyz;
+  return kTexels ? vectorAt(historyTexels, 4 * c + 2 + control.parity).xyz : histories[c].predicted[control.parity].xyz;
 }
 vec3 guessOf(uint c) { return kTexels ? vectorAt(guessTexels, c).xyz : guesses[c].xyz; }
 /// Two pairs that follow each other, the first of an even index: (particle, restLength as bits) of each.
@@ -64,7 +67,7 @@ uvec4 twoPairsAt(uint entry) {
 ContactLive liveAt(uint entry) {
   if (!kTexels) return lives[entry];
   uvec4 b = recordAt(liveTexels, 2 * entry + 1);
-  return ContactLive(vectorAt(liveTexels, 2 * entry), b.x, b.y, uintBitsToFloat(b.z), uintBitsToFloat(b.w));
+  return ContactLive(vectorAt(liveTexels, 2 * entry), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), uintBitsToFloat(b.w));
 }
 
 // The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact particles
@@ -88,9 +91,14 @@ uint bucketOf(ivec3 cell) {
   return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
 }
 
-/// Where a contact particle's list starts; there its length stands, then its blocks.
-uint listOf(uint c) { return c * (1 + parameters.mostBlocks); }
-/// The same of its contacts: a list of the step, and one of the step before.
+// The lists' buffer. Where a contact particle's list starts; there its length stands, then, of each of its blocks, which it
+// is and which of its pairs touch, as bits.
+uint listOf(uint c) { return c * (1 + 2 * parameters.mostBlocks); }
+uint listedBlock(uint list, uint b) { return list + 1 + 2 * b; }
+uint touchingBits(uint list, uint b) { return list + 2 + 2 * b; }
+/// After the lists: contact particles that have contacts or had some, in any order.
+uint meetingPlace(uint i) { return listOf(parameters.contactCount) + i; }
+/// Where the list of its contacts starts, that of the step or that of the step before: their number, and blocks.
 uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostLiveBlocks); }
 uint liveEntry(uint parity, uint block, uint j) { return (parity * parameters.liveBlockCount + block) * kLiveBlock + j; }
 /// Where contact j of a list is; contact after contact, for a block is looked up once.

@@ -143,31 +143,33 @@ RINGLET_CONSTANT uint kBindContacts = 3;           // ContactRest[contacts]
 RINGLET_CONSTANT uint kBindNeighbours = 4;         // uvec4: who may touch whom, see kNoStrand
 RINGLET_CONSTANT uint kBindIndices = 5;            // uvec4: the contact particle of each particle, four a record
 RINGLET_CONSTANT uint kBindGrid = 6;               // uint: see gridStart and its like in shared/contact_buffers.glsl
-RINGLET_CONSTANT uint kBindPlaces = 7;             // ContactPlace[contacts]
-RINGLET_CONSTANT uint kBindGuesses = 8;            // vec4[contacts]: guessed velocity of the step, as the first iterate [m/s]
-RINGLET_CONSTANT uint kBindLists = 9;              // uint[contacts][1 + mostBlocks]: pairs in the list, and its blocks
-RINGLET_CONSTANT uint kBindPairs = 10;             // ContactPair[blocks][kListBlock]
-RINGLET_CONSTANT uint kBindLiveLists = 11;         // uint[contacts][2][1 + mostLiveBlocks]
-RINGLET_CONSTANT uint kBindLives = 12;             // ContactLive[2][liveBlocks][kLiveBlock]
-RINGLET_CONSTANT uint kBindSystems = 13;           // ContactSystem[particles]
-RINGLET_CONSTANT uint kBindControl = 14;           // ContactControl
-RINGLET_CONSTANT uint kContactBindingCount = 15;
+RINGLET_CONSTANT uint kBindPlaces = 7;             // ContactPlace[contacts], in cell order
+RINGLET_CONSTANT uint kBindHistories = 8;          // ContactHistory[contacts]
+RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[contacts]: guessed velocity of the step, as the first iterate [m/s]
+RINGLET_CONSTANT uint kBindLists = 10;              // uint: see listOf and its like in shared/contact_buffers.glsl
+RINGLET_CONSTANT uint kBindPairs = 11;             // ContactPair[blocks][kListBlock]
+RINGLET_CONSTANT uint kBindLiveLists = 12;         // uint: see liveListOf
+RINGLET_CONSTANT uint kBindLives = 13;             // ContactLive[2][liveBlocks][kLiveBlock]
+RINGLET_CONSTANT uint kBindSystems = 14;           // ContactSystem[particles]
+RINGLET_CONSTANT uint kBindControl = 15;           // ContactControl
+RINGLET_CONSTANT uint kContactBindingCount = 16;
 // And as texels (shared/texels.glsl):
-RINGLET_CONSTANT uint kBindContactPositionTexels = 15;
-RINGLET_CONSTANT uint kBindContactVelocityTexels = 16;
-RINGLET_CONSTANT uint kBindContactSolvedTexels = 17;
-RINGLET_CONSTANT uint kBindContactTexels = 18;  // 2 a contact particle
-RINGLET_CONSTANT uint kBindNeighbourTexels = 19;
-RINGLET_CONSTANT uint kBindIndexTexels = 20;
-RINGLET_CONSTANT uint kBindPlaceTexels = 21;    // 5 a contact particle
-RINGLET_CONSTANT uint kBindGuessTexels = 22;
-RINGLET_CONSTANT uint kBindPairTexels = 23;     // of 2 pairs
-RINGLET_CONSTANT uint kBindLiveTexels = 24;     // 2 a contact
-RINGLET_CONSTANT uint kContactTexelBindingCount = 10;
+RINGLET_CONSTANT uint kBindContactPositionTexels = 16;
+RINGLET_CONSTANT uint kBindContactVelocityTexels = 17;
+RINGLET_CONSTANT uint kBindContactSolvedTexels = 18;
+RINGLET_CONSTANT uint kBindContactTexels = 19;  // 2 a contact particle
+RINGLET_CONSTANT uint kBindNeighbourTexels = 20;
+RINGLET_CONSTANT uint kBindIndexTexels = 21;
+RINGLET_CONSTANT uint kBindPlaceTexels = 22;    // 2 a contact particle
+RINGLET_CONSTANT uint kBindHistoryTexels = 23;  // 4 a contact particle
+RINGLET_CONSTANT uint kBindGuessTexels = 24;
+RINGLET_CONSTANT uint kBindPairTexels = 25;     // of 2 pairs
+RINGLET_CONSTANT uint kBindLiveTexels = 26;     // 2 a contact
+RINGLET_CONSTANT uint kContactTexelBindingCount = 11;
 
 // Lists are as long as they must be, in blocks of this many pairs that are given out as they are asked for. Which block
 // went where depends on threads; what is in a list, and its order, does not.
-RINGLET_CONSTANT uint kListBlock = 32;          // as many as an integer has bits (contact_life.comp)
+RINGLET_CONSTANT uint kListBlock = 32;          // as many as an integer has bits (contact_touch.comp)
 RINGLET_CONSTANT uint kLiveBlock = 8;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for each
@@ -193,11 +195,11 @@ struct ContactPair {
 // of the step and that of the step before. The shares are one number, for the damping's is 1 while the stiffness's is not 0:
 // -kappa, or delta where kappa is 0.
 struct ContactLive {
-  vec4 matrix;       // Q: n sqrt(q_n - q_t), q_t [kg], see contactMatrix
-  uint particle;     // the other, device order
-  uint contact;      // and as contact particle
-  float restLength;  // r0 [m]
+  vec4 normal;     // xyz: n; w: q_s [kg]
+  uint particle;   // the other, device order
   float shares;
+  float damping;   // q_d [kg]
+  float gap;       // r0 - d [m]
 };
 
 // What contacts add to a particle's velocity system, (L + 2 D) v = base + momentum, in the strand's mass units.
@@ -207,10 +209,15 @@ struct ContactSystem {
   vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]; w: push z. The push is the sum of push n
 };
 
-// Where a contact particle was in the grid, and when its list was made; and what a guess needs of the step before.
+// A place of the grid: a contact particle as it was when lists were made.
 struct ContactPlace {
-  vec4 sorted;        // of the place's entry, in cell order: xyz position [m], w the contact particle (as bits)
-  vec4 position;      // of the contact particle, when its list was made [m]
+  vec4 position;  // [m]; w: which contact particle, as bits
+  vec4 velocity;  // v^0 [m/s]; w: its strand, as bits
+};
+
+// What a contact particle was: when its list was made, and in the step before.
+struct ContactHistory {
+  vec4 position;      // when its list was made [m]
   vec4 velocity;      // v^0 then [m/s]
   vec4 predicted[2];  // v^0 of this step and the one before, by parity [m/s]
 };
@@ -223,6 +230,8 @@ struct ContactControl {
   uint parity;               // which of the two rows is in use
   uint indirectOne[3];       // one workgroup
   uint isHalted;             // 0, kHaltedForRoom or kHaltedByTurns
+  uint indirectMeeting[3];   // over contact particles that have contacts, or had
+  uint meetingCount;         // how many they are
   uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
   uint speed;        // the fastest contact particle's [m/s], as bits
   float cellSize;    // [m]

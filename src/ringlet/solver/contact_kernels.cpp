@@ -14,6 +14,7 @@
 #include "ringlet_shaders/contact_scan_plain.h"
 #include "ringlet_shaders/contact_scatter_plain.h"
 #include "ringlet_shaders/contact_sum_plain.h"
+#include "ringlet_shaders/contact_touch_plain.h"
 #include "shared/layout.h"
 
 namespace ringlet {
@@ -30,8 +31,8 @@ const Compiled kCompiled[kContactKernelCount] = {
     {"contact_count", k_contact_count_plain},   {"contact_scan", k_contact_scan_plain},
     {"contact_sum", k_contact_sum_plain},       {"contact_scatter", k_contact_scatter_plain},
     {"contact_order", k_contact_order_plain},   {"contact_query", k_contact_query_plain},
-    {"contact_check", k_contact_check_plain},   {"contact_life", k_contact_life_plain},
-    {"contact_gather", k_contact_gather_plain},
+    {"contact_touch", k_contact_touch_plain},   {"contact_life", k_contact_life_plain},
+    {"contact_check", k_contact_check_plain},   {"contact_gather", k_contact_gather_plain},
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace ringlet {
 
 /// In the order of a step: contact_motion.comp and so on.
-enum class ContactKernel { motion, decide, count, scan, sum, scatter, order, query, check, life, gather };
-inline constexpr std::size_t kContactKernelCount = 11;
+enum class ContactKernel { motion, decide, count, scan, sum, scatter, order, query, touch, life, check, gather };
+inline constexpr std::size_t kContactKernelCount = 12;
 
 /// texels: records are read as texels (gpu::BindingKind).
 Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize,

@@ -24,6 +24,12 @@ constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists 
 // Lists are read as texels where a device sees at least this much, what the smallest storage buffers hold.
 constexpr std::uint64_t kLeastTexelBytes = 128ull << 20;
 
+// Where the device writes how many workgroups run.
+constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectContacts),
+                        kPerBlock = offsetof(layout::ContactControl, indirectBuckets),
+                        kOne = offsetof(layout::ContactControl, indirectOne),
+                        kMeeting = offsetof(layout::ContactControl, indirectMeeting);
+
 // What a share of a contact changes by in a step.
 float changeIn(double seconds, double stepSeconds) {
   return seconds > 0 ? static_cast<float>(stepSeconds / seconds) : 1.0f;
@@ -101,10 +107,13 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!grid) return grid.error();
   auto places = createZero(device, count * sizeof(layout::ContactPlace), "contact places");
   if (!places) return places.error();
+  auto histories = createZero(device, count * sizeof(layout::ContactHistory), "contact histories");
+  if (!histories) return histories.error();
   auto guesses = createZero(device, count * sizeof(layout::vec4), "contact guesses");
   if (!guesses) return guesses.error();
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
-                                std::move(*grid), std::move(*places), std::move(*guesses)});
+                                std::move(*grid), std::move(*places), std::move(*histories),
+                                std::move(*guesses)});
   const auto blocks = static_cast<std::uint32_t>(kFirstBlocks * count);
   self.near_ = {blocks, kFirstMostBlocks};
   self.live_ = {blocks, kFirstMostBlocks};
@@ -133,10 +142,10 @@ Status ContactStage::createLists() {
   constexpr std::uint64_t kWord = sizeof(std::uint32_t);
   const std::uint64_t count = particles_.size();
   lists_.reset();
-  auto heads = create("contact lists", count * (1 + near_.most) * kWord);
+  auto heads = create("contact lists", count * (2 + 2 * near_.most) * kWord);
   if (!heads) return heads.error();
-  auto pairs = create("contact pairs",
-                      std::uint64_t{near_.blocks} * layout::kListBlock * sizeof(layout::ContactPair));
+  auto pairs =
+      create("contact pairs", std::uint64_t{near_.blocks} * layout::kListBlock * sizeof(layout::ContactPair));
   if (!pairs) return pairs.error();
   auto liveHeads = create("live contacts' lists", 2 * count * (1 + live_.most) * kWord);
   if (!liveHeads) return liveHeads.error();
@@ -146,15 +155,36 @@ Status ContactStage::createLists() {
   lists_.emplace(Lists{std::move(*heads), std::move(*pairs), std::move(*liveHeads), std::move(*lives)});
 
   // In the order of layout.h: storage, then texels.
-  const auto& [contacts, neighbours, indices, grid, places, guesses] = *buffers_;
+  const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
   const auto& [positions, velocities, solved] =
       std::tie(groom_->positions, groom_->velocities, groom_->solved);
-  auto bindings = gpu::Bindings::create(
-      kernels_[0],
-      {positions, velocities, solved, contacts, neighbours, indices, grid, places, guesses, lists_->heads,
-       lists_->pairs, lists_->liveHeads, lists_->lives, groom_->contactSystems, groom_->contactControl,
-       positions, velocities, solved, contacts, neighbours, indices, places, guesses, lists_->pairs,
-       lists_->lives});
+  auto bindings = gpu::Bindings::create(kernels_[0], {positions,
+                                                      velocities,
+                                                      solved,
+                                                      contacts,
+                                                      neighbours,
+                                                      indices,
+                                                      grid,
+                                                      places,
+                                                      histories,
+                                                      guesses,
+                                                      lists_->heads,
+                                                      lists_->pairs,
+                                                      lists_->liveHeads,
+                                                      lists_->lives,
+                                                      groom_->contactSystems,
+                                                      groom_->contactControl,
+                                                      positions,
+                                                      velocities,
+                                                      solved,
+                                                      contacts,
+                                                      neighbours,
+                                                      indices,
+                                                      places,
+                                                      histories,
+                                                      guesses,
+                                                      lists_->pairs,
+                                                      lists_->lives});
   if (!bindings) return bindings.error();
   bindings_ = std::move(*bindings);
   return {};
@@ -194,9 +224,6 @@ void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kerne
 }
 
 void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) const {
-  constexpr std::uint64_t perContact = offsetof(layout::ContactControl, indirectContacts),
-                          perBlock = offsetof(layout::ContactControl, indirectBuckets),
-                          one = offsetof(layout::ContactControl, indirectOne);
   recorder.beginStage("contact_motion");
   dispatch(recorder, ContactKernel::motion, step, contactGroups());
   recorder.barrier();
@@ -207,7 +234,7 @@ void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) cons
   recorder.beginStage("contact_grid");
   using enum ContactKernel;
   const std::pair<ContactKernel, std::uint64_t> grid[] = {
-      {count, perContact}, {scan, perBlock}, {sum, one}, {scatter, perContact}, {order, perContact}};
+      {count, kPerContact}, {scan, kPerBlock}, {sum, kOne}, {scatter, kPerContact}, {order, kPerContact}};
   for (const auto& [kernel, offset] : grid) {
     dispatchIndirect(recorder, kernel, step, offset);
     recorder.barrier();
@@ -215,13 +242,18 @@ void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) cons
   recorder.endStage();
 
   recorder.beginStage("contact_query");
-  dispatchIndirect(recorder, ContactKernel::query, step, perContact);
+  dispatchIndirect(recorder, ContactKernel::query, step, kPerContact);
   recorder.endStage();
 }
 
 void ContactStage::recordLife(gpu::Recorder& recorder) const {
+  recorder.beginStage("contact_touch");
+  dispatch(recorder, ContactKernel::touch, 0, contactGroups());
+  recorder.barrier();
+  recorder.endStage();
+
   recorder.beginStage("contact_life");
-  dispatch(recorder, ContactKernel::life, 0, contactGroups());
+  dispatchIndirect(recorder, ContactKernel::life, 0, kMeeting);
   recorder.barrier();
   dispatch(recorder, ContactKernel::check, 0, 1);
   recorder.endStage();
@@ -229,7 +261,7 @@ void ContactStage::recordLife(gpu::Recorder& recorder) const {
 
 void ContactStage::recordGather(gpu::Recorder& recorder) const {
   recorder.beginStage("contact_gather");
-  dispatch(recorder, ContactKernel::gather, 0, contactGroups());
+  dispatchIndirect(recorder, ContactKernel::gather, 0, kMeeting);
   recorder.endStage();
 }
 
@@ -269,7 +301,8 @@ Status ContactStage::makeRoom() {
   if (Status status = lists_->liveHeads.upload(std::as_bytes(std::span(newHeads))); !status) return status;
   const std::uint64_t rowBegin =
       before * std::uint64_t{live_.blocks} * layout::kLiveBlock * sizeof(layout::ContactLive);
-  if (Status status = lists_->lives.upload(std::as_bytes(std::span(*lives)), rowBegin); !status) return status;
+  if (Status status = lists_->lives.upload(std::as_bytes(std::span(*lives)), rowBegin); !status)
+    return status;
 
   c.parity = before;
   c.isHalted = c.isListed = c.listed = 0;
@@ -292,7 +325,7 @@ Status ContactStage::forget() {
 
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {
   const std::size_t count = particles_.size(), parity = control().parity;
-  auto heads = downloadAll<std::uint32_t>(lists_->heads, count * (1 + near_.most));
+  auto heads = downloadAll<std::uint32_t>(lists_->heads, count * (1 + 2 * near_.most));
   if (!heads) return heads.error();
   auto pairs =
       downloadAll<layout::ContactPair>(lists_->pairs, std::size_t{near_.blocks} * layout::kListBlock);
@@ -311,14 +344,14 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
     if (a < b) contacts.push_back({a, b, std::max(0.0f, -shares), shares < 0 ? 1.0f : shares});
   };
   for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t live = (2 * c + parity) * (1 + live_.most), near = c * (1 + near_.most);
+    const std::size_t live = (2 * c + parity) * (1 + live_.most), near = c * (1 + 2 * near_.most);
     for (std::uint32_t j = 0; j < (*liveHeads)[live]; ++j) {
       const std::size_t block = (*liveHeads)[live + 1 + j / layout::kLiveBlock];
       const layout::ContactLive& contact = (*lives)[block * layout::kLiveBlock + j % layout::kLiveBlock];
       add(c, contact.particle, contact.shares);
     }
     for (std::uint32_t j = 0; j < (*heads)[near]; ++j) {
-      const std::size_t block = (*heads)[near + 1 + j / layout::kListBlock];
+      const std::size_t block = (*heads)[near + 1 + 2 * (j / layout::kListBlock)];
       add(c, (*pairs)[block * layout::kListBlock + j % layout::kListBlock].particle, 0);
     }
   }

@@ -56,7 +56,7 @@ class ContactStage {
 
  private:
   struct Buffers {
-    gpu::Buffer contacts, neighbours, indices, grid, places, guesses;
+    gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses;
   };
   struct Lists {
     gpu::Buffer heads, pairs, liveHeads, lives;  // of who is near; of contacts, of this step and the one before

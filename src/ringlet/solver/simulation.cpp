@@ -11,6 +11,7 @@
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/rest_contacts.h"
+#include "ringlet/rest/strand_order.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_buffers.h"
@@ -91,7 +92,10 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                       const Material& material, const Settings& settings,
                                       const HeadPose& start, const HeadPose& oneStepEarlier,
                                       const KernelChoice& choice) {
-  auto rest = buildRestState(groom, material, settings);
+  // Strands that may meet stand near each other in memory.
+  std::vector<std::uint32_t> order;
+  if (settings.contacts.on) order = orderAlongCurve(groom);
+  auto rest = buildRestState(groom, material, settings, order);
   if (!rest) return rest.error();
 
   const DeviceLimits limits = limitsOf(device.gpu());

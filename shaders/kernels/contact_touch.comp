@@ -1,0 +1,48 @@
+// Which neighbours touch, as bits beside each list's blocks, and which contact particles have contacts or had some: the
+// kernels after this one run for those only, and most only stand near others. Mirrored by reference/kernels/contact_step.h.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/contact_buffers.glsl"
+#include "equations/contact_spring.glsl"
+
+uint particle;  // this invocation's
+vec3 x;
+vec3 v;
+
+bool touches(uint other, float restLength) {
+  ContactMeeting meeting = contactMeeting(x - positionOf(other), v - velocityOf(other), particle < other);
+  return isTouching(meeting, restLength, parameters.seconds, parameters.seenAhead);
+}
+
+void main() {
+  if (control.isHalted != 0 || !listsHadRoom()) return;
+  uint c = gl_GlobalInvocationID.x;
+  if (c >= parameters.contactCount) return;
+  particle = contactOf(c).particle;
+  x = positionOf(particle);
+  v = velocityOf(particle);
+  uint list = listOf(c);
+  uint count = lists[list];
+  bool meets = liveLists[liveListOf(c, control.parity ^ 1)] > 0;
+  uint made = 0;
+  for (uint begin = 0; begin < count; begin += kListBlock) {
+    uint first = lists[listedBlock(list, begin / kListBlock)] * kListBlock;
+    uint inBlock = min(count - begin, kListBlock);
+    uint bits = 0;
+    for (uint k = 0; k < inBlock; k += 2) {
+      uvec4 two = twoPairsAt(first + k);
+      bits |= touches(two.x, uintBitsToFloat(two.y)) ? 1u << k : 0;
+      bits |= touches(two.z, uintBitsToFloat(two.w)) ? 2u << k : 0;
+    }
+    if (inBlock < 32) bits &= (1u << inBlock) - 1;
+    lists[touchingBits(list, begin / kListBlock)] = bits;
+    meets = meets || bits != 0;
+    made += inBlock;
+  }
+  if (made != count) control.isHalted = kHaltedByTurns;
+  liveLists[liveListOf(c, control.parity)] = 0;
+  if (!meets) return;
+  uint i = atomicAdd(control.meetingCount, 1);
+  lists[meetingPlace(i)] = c;
+  if (i % gl_WorkGroupSize.x == 0) atomicAdd(control.indirectMeeting[0], 1);
+}
