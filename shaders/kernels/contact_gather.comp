@@ -14,23 +14,22 @@ void main() {
   vec3 v = velocityOf(rest.particle);
   uint list = liveListOf(c, control.parity);
   uint count = liveLists[list];
-  uint entry = 0;
   vec3 momentum = vec3(0);
   vec3 unmetPush = vec3(0);
   Symmetric unmet = symmetricDiagonal(0.0);
   for (uint j = 0; j < count; ++j) {
-    entry = nextLive(list, control.parity, j, entry);
-    ContactLive live = liveAt(entry);
-    vec3 normal = live.normal.xyz;
-    float spring = live.normal.w;
-    vec3 otherVelocity = velocityOf(live.particle);
-    if (spring > 0.0 && !isMet(live.gap, dot(normal, v - otherVelocity), parameters.seconds)) {
-      unmetPush += contactPush(spring, live.gap, parameters.seconds) * normal;
+    uint entry = forceEntry(list, j);
+    ContactForce force = forceAt(entry);
+    vec3 normal = force.normal.xyz;
+    float spring = force.normal.w;
+    vec3 otherVelocity = velocityOf(force.particle);
+    if (spring > 0.0 && !isMet(force.gap, dot(normal, v - otherVelocity), parameters.seconds)) {
+      unmetPush += contactPush(spring, force.gap, parameters.seconds) * normal;
       unmet = addOuter(unmet, spring, normal);
-      lives[entry].normal.w = 0.0;
+      forces[entry].normal.w = 0.0;
       spring = 0.0;
     }
-    momentum += contactMultiply(ContactWeights(spring, live.damping), parameters.friction, normal, v + otherVelocity);
+    momentum += contactMultiply(ContactWeights(spring, force.damping), parameters.friction, normal, v + otherVelocity);
   }
   ContactSystem system = systems[rest.particle];
   float unit = rest.inverseMassUnit;

@@ -18,13 +18,17 @@ Symmetric D = symmetricDiagonal(0.0);
 vec3 push = vec3(0);
 vec3 momentum = vec3(0);
 
-void append(ContactLive live) {
+void append(ContactForce force, float shares) {
   if (count % kLiveBlock == 0) {
     block = atomicAdd(control.liveBlocks, 1);
     if (count / kLiveBlock < parameters.mostLiveBlocks) liveLists[list + 1 + count / kLiveBlock] = block;
   }
   // Without room, what is wanted is still counted.
-  if (block < parameters.liveBlockCount) lives[liveEntry(control.parity, block, count % kLiveBlock)] = live;
+  if (block < parameters.liveBlockCount) {
+    uint entry = block * kLiveBlock + count % kLiveBlock;
+    forces[entry] = force;
+    lives[lifeEntry(control.parity, entry)] = ContactLife(force.particle, shares);
+  }
   ++count;
 }
 
@@ -48,7 +52,7 @@ void liveOn(uint particle, float before) {
   D = addOuter(addDiagonal(D, tangential), weights.spring + weights.damping - tangential, meeting.normal);
   push += contactPush(weights.spring, gap, parameters.seconds) * meeting.normal;
   momentum += contactMultiply(weights, parameters.friction, meeting.normal, guess + guessOf(contact));
-  append(ContactLive(vec4(meeting.normal, weights.spring), particle, lifeOfShares(shares), weights.damping, gap));
+  append(ContactForce(vec4(meeting.normal, weights.spring), particle, weights.damping, gap, 0), lifeOfShares(shares));
 }
 
 // Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one must.
@@ -65,12 +69,10 @@ void main() {
   uint countBefore = liveLists[listBefore];
 
   // Contacts of the step before.
-  uint entry = 0;
   uint made = 0;  // turns of loops; and how many there should be
   for (uint j = 0; j < countBefore; ++j, ++made) {
-    entry = nextLive(listBefore, parityBefore, j, entry);
-    ContactLive live = liveAt(entry);
-    liveOn(live.particle, live.shares);
+    ContactLife life = lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j)));
+    liveOn(life.particle, life.shares);
   }
 
   // Neighbours that touch (contact_touch.comp) and did not before.
@@ -91,8 +93,7 @@ void main() {
       uint looked = 0;
       for (; looked < countBefore && !isKnown; ++looked) {
         uint j = sought + looked < countBefore ? sought + looked : sought + looked - countBefore;
-        uint known = liveEntry(parityBefore, liveLists[listBefore + 1 + j / kLiveBlock], j % kLiveBlock);
-        isKnown = (kTexels ? recordAt(liveTexels, 2 * known + 1).x : lives[known].particle) == particle;
+        isKnown = lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j))).particle == particle;
         if (isKnown) sought = j + 1;
       }
       if (isKnown) fresh &= ~(1u << k);

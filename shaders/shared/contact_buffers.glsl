@@ -20,7 +20,8 @@ layout(set = 0, binding = kBindGuesses) buffer Guesses { vec4 guesses[]; };
 layout(set = 0, binding = kBindLists) buffer Lists { uint lists[]; };
 layout(set = 0, binding = kBindPairs) buffer Pairs { ContactPair pairs[]; };
 layout(set = 0, binding = kBindLiveLists) buffer LiveLists { uint liveLists[]; };
-layout(set = 0, binding = kBindLives) buffer Lives { ContactLive lives[]; };
+layout(set = 0, binding = kBindLives) buffer Lives { ContactLife lives[]; };
+layout(set = 0, binding = kBindForces) buffer Forces { ContactForce forces[]; };
 layout(set = 0, binding = kBindSystems) buffer Systems { ContactSystem systems[]; };
 layout(set = 0, binding = kBindControl) buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindContactPositionTexels) uniform usamplerBuffer positionTexels;
@@ -33,7 +34,8 @@ layout(set = 0, binding = kBindPlaceTexels) uniform usamplerBuffer placeTexels;
 layout(set = 0, binding = kBindHistoryTexels) uniform usamplerBuffer historyTexels;
 layout(set = 0, binding = kBindGuessTexels) uniform usamplerBuffer guessTexels;
 layout(set = 0, binding = kBindPairTexels) uniform usamplerBuffer pairTexels;
-layout(set = 0, binding = kBindLiveTexels) uniform usamplerBuffer liveTexels;
+layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
+layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
 // Records as they were when the dispatch began.
@@ -64,10 +66,16 @@ uvec4 twoPairsAt(uint entry) {
   ContactPair a = pairs[entry], b = pairs[entry + 1];
   return uvec4(a.particle, floatBitsToUint(a.restLength), b.particle, floatBitsToUint(b.restLength));
 }
-ContactLive liveAt(uint entry) {
+ContactLife lifeAt(uint entry) {
   if (!kTexels) return lives[entry];
-  uvec4 b = recordAt(liveTexels, 2 * entry + 1);
-  return ContactLive(vectorAt(liveTexels, 2 * entry), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), uintBitsToFloat(b.w));
+  uvec4 two = recordAt(lifeTexels, entry / 2);
+  uvec2 life = (entry & 1) == 0 ? two.xy : two.zw;
+  return ContactLife(life.x, uintBitsToFloat(life.y));
+}
+ContactForce forceAt(uint entry) {
+  if (!kTexels) return forces[entry];
+  uvec4 b = recordAt(forceTexels, 2 * entry + 1);
+  return ContactForce(vectorAt(forceTexels, 2 * entry), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), 0);
 }
 
 // The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact particles
@@ -100,11 +108,9 @@ uint touchingBits(uint list, uint b) { return list + 2 + 2 * b; }
 uint meetingPlace(uint i) { return listOf(parameters.contactCount) + i; }
 /// Where the list of its contacts starts, that of the step or that of the step before: their number, and blocks.
 uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostLiveBlocks); }
-uint liveEntry(uint parity, uint block, uint j) { return (parity * parameters.liveBlockCount + block) * kLiveBlock + j; }
-/// Where contact j of a list is; contact after contact, for a block is looked up once.
-uint nextLive(uint list, uint parity, uint j, uint entry) {
-  return j % kLiveBlock == 0 ? liveEntry(parity, liveLists[list + 1 + j / kLiveBlock], 0) : entry + 1;
-}
+/// Where its contact j is, among forces; and among lives.
+uint forceEntry(uint list, uint j) { return liveLists[list + 1 + j / kLiveBlock] * kLiveBlock + j % kLiveBlock; }
+uint lifeEntry(uint parity, uint force) { return parity * parameters.liveBlockCount * kLiveBlock + force; }
 
 /// Whether the lists hold all they should.
 bool listsHadRoom() {

@@ -149,28 +149,30 @@ RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[contacts]: guessed ve
 RINGLET_CONSTANT uint kBindLists = 10;              // uint: see listOf and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPairs = 11;             // ContactPair[blocks][kListBlock]
 RINGLET_CONSTANT uint kBindLiveLists = 12;         // uint: see liveListOf
-RINGLET_CONSTANT uint kBindLives = 13;             // ContactLive[2][liveBlocks][kLiveBlock]
-RINGLET_CONSTANT uint kBindSystems = 14;           // ContactSystem[particles]
-RINGLET_CONSTANT uint kBindControl = 15;           // ContactControl
-RINGLET_CONSTANT uint kContactBindingCount = 16;
+RINGLET_CONSTANT uint kBindLives = 13;             // ContactLife[2][liveBlocks][kLiveBlock]
+RINGLET_CONSTANT uint kBindForces = 14;            // ContactForce[liveBlocks][kLiveBlock]
+RINGLET_CONSTANT uint kBindSystems = 15;           // ContactSystem[particles]
+RINGLET_CONSTANT uint kBindControl = 16;           // ContactControl
+RINGLET_CONSTANT uint kContactBindingCount = 17;
 // And as texels (shared/texels.glsl):
-RINGLET_CONSTANT uint kBindContactPositionTexels = 16;
-RINGLET_CONSTANT uint kBindContactVelocityTexels = 17;
-RINGLET_CONSTANT uint kBindContactSolvedTexels = 18;
-RINGLET_CONSTANT uint kBindContactTexels = 19;  // 2 a contact particle
-RINGLET_CONSTANT uint kBindNeighbourTexels = 20;
-RINGLET_CONSTANT uint kBindIndexTexels = 21;
-RINGLET_CONSTANT uint kBindPlaceTexels = 22;    // 2 a contact particle
-RINGLET_CONSTANT uint kBindHistoryTexels = 23;  // 4 a contact particle
-RINGLET_CONSTANT uint kBindGuessTexels = 24;
-RINGLET_CONSTANT uint kBindPairTexels = 25;     // of 2 pairs
-RINGLET_CONSTANT uint kBindLiveTexels = 26;     // 2 a contact
-RINGLET_CONSTANT uint kContactTexelBindingCount = 11;
+RINGLET_CONSTANT uint kBindContactPositionTexels = 17;
+RINGLET_CONSTANT uint kBindContactVelocityTexels = 18;
+RINGLET_CONSTANT uint kBindContactSolvedTexels = 19;
+RINGLET_CONSTANT uint kBindContactTexels = 20;  // 2 a contact particle
+RINGLET_CONSTANT uint kBindNeighbourTexels = 21;
+RINGLET_CONSTANT uint kBindIndexTexels = 22;
+RINGLET_CONSTANT uint kBindPlaceTexels = 23;    // 2 a contact particle
+RINGLET_CONSTANT uint kBindHistoryTexels = 24;  // 4 a contact particle
+RINGLET_CONSTANT uint kBindGuessTexels = 25;
+RINGLET_CONSTANT uint kBindPairTexels = 26;     // of 2 pairs
+RINGLET_CONSTANT uint kBindLifeTexels = 27;     // of 2 lives
+RINGLET_CONSTANT uint kBindForceTexels = 28;    // 2 a contact
+RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 
 // Lists are as long as they must be, in blocks of this many pairs that are given out as they are asked for. Which block
 // went where depends on threads; what is in a list, and its order, does not.
-RINGLET_CONSTANT uint kListBlock = 32;          // as many as an integer has bits (contact_touch.comp)
-RINGLET_CONSTANT uint kLiveBlock = 8;
+RINGLET_CONSTANT uint kListBlock = 16;          // at most as many as an integer has bits (contact_touch.comp)
+RINGLET_CONSTANT uint kLiveBlock = 4;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for each
                                                 // strand, (first of its buckets, how many less one, 0, 0), then the buckets of
@@ -191,15 +193,20 @@ struct ContactPair {
   float restLength;  // r0 [m]
 };
 
-// A contact particle's part in a contact that lives; the other has the contact too, with the same numbers. In two rows, that
-// of the step and that of the step before. The shares are one number, for the damping's is 1 while the stiffness's is not 0:
-// -kappa, or delta where kappa is 0.
-struct ContactLive {
+// What a contact remembers from step to step, in two rows, that of the step and that of the step before. The shares are one
+// number, for the damping's is 1 while the stiffness's is not 0: -kappa, or delta where kappa is 0.
+struct ContactLife {
+  uint particle;  // the other, device order
+  float shares;
+};
+
+// What a contact is in a step, for one of its particles; the other has the contact too, with the same numbers.
+struct ContactForce {
   vec4 normal;     // xyz: n; w: q_s [kg]
   uint particle;   // the other, device order
-  float shares;
   float damping;   // q_d [kg]
   float gap;       // r0 - d [m]
+  uint unused;
 };
 
 // What contacts add to a particle's velocity system, (L + 2 D) v = base + momentum, in the strand's mass units.

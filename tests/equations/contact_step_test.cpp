@@ -290,8 +290,8 @@ TEST(ContactStep, TurnsWithARigidRotation) {
 }
 
 // Two straight strands that fly at each other in mirrored states, slowly enough that only opposite particles
-// meet: a pair's mean is zero, and the first iteration has it right. The second takes back what was seen
-// ahead and does not come about, and there is nothing more to do.
+// meet: a pair's mean is zero, and an iteration has it right; as it has after springs that would pull were
+// taken back, and there is nothing more to do.
 TEST(ContactStep, ASymmetricHitIsRightAtOnce) {
   Groom groom;
   groom.metresPerUnit = 1;

@@ -18,8 +18,8 @@ namespace ringlet {
 namespace {
 
 constexpr std::uint32_t kGroupSize = 64;
-// Of a contact particle's lists, to begin with: blocks in the mean, and at most.
-constexpr std::uint32_t kFirstBlocks = 2, kFirstMostBlocks = 4;
+// Blocks of a contact particle's lists at most, to begin with.
+constexpr std::uint32_t kFirstMostBlocks = 4;
 constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists are made anew
 // Lists are read as texels where a device sees at least this much, what the smallest storage buffers hold.
 constexpr std::uint64_t kLeastTexelBytes = 128ull << 20;
@@ -114,9 +114,8 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
                                 std::move(*guesses)});
-  const auto blocks = static_cast<std::uint32_t>(kFirstBlocks * count);
-  self.near_ = {blocks, kFirstMostBlocks};
-  self.live_ = {blocks, kFirstMostBlocks};
+  self.near_ = {static_cast<std::uint32_t>(count), kFirstMostBlocks};
+  self.live_ = {static_cast<std::uint32_t>(count / 4 + 1), kFirstMostBlocks};
   if (Status status = self.createLists(); !status) return status.error();
   self.control() = {};
   return self;
@@ -149,42 +148,27 @@ Status ContactStage::createLists() {
   if (!pairs) return pairs.error();
   auto liveHeads = create("live contacts' lists", 2 * count * (1 + live_.most) * kWord);
   if (!liveHeads) return liveHeads.error();
-  auto lives = create("live contacts",
-                      2 * std::uint64_t{live_.blocks} * layout::kLiveBlock * sizeof(layout::ContactLive));
+  const std::uint64_t liveCount = std::uint64_t{live_.blocks} * layout::kLiveBlock;
+  auto lives = create("live contacts", 2 * liveCount * sizeof(layout::ContactLife));
   if (!lives) return lives.error();
-  lists_.emplace(Lists{std::move(*heads), std::move(*pairs), std::move(*liveHeads), std::move(*lives)});
+  auto forces = create("contact forces", liveCount * sizeof(layout::ContactForce));
+  if (!forces) return forces.error();
+  lists_.emplace(Lists{std::move(*heads), std::move(*pairs), std::move(*liveHeads), std::move(*lives),
+                       std::move(*forces)});
 
   // In the order of layout.h: storage, then texels.
   const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
   const auto& [positions, velocities, solved] =
       std::tie(groom_->positions, groom_->velocities, groom_->solved);
-  auto bindings = gpu::Bindings::create(kernels_[0], {positions,
-                                                      velocities,
-                                                      solved,
-                                                      contacts,
-                                                      neighbours,
-                                                      indices,
-                                                      grid,
-                                                      places,
-                                                      histories,
-                                                      guesses,
-                                                      lists_->heads,
-                                                      lists_->pairs,
-                                                      lists_->liveHeads,
-                                                      lists_->lives,
-                                                      groom_->contactSystems,
-                                                      groom_->contactControl,
-                                                      positions,
-                                                      velocities,
-                                                      solved,
-                                                      contacts,
-                                                      neighbours,
-                                                      indices,
-                                                      places,
-                                                      histories,
-                                                      guesses,
-                                                      lists_->pairs,
-                                                      lists_->lives});
+  const Lists& lists = *lists_;
+  // clang-format off
+  auto bindings = gpu::Bindings::create(kernels_[0], {
+      positions, velocities, solved, contacts, neighbours, indices, grid, places, histories, guesses,
+      lists.heads, lists.pairs, lists.liveHeads, lists.lives, lists.forces,
+      groom_->contactSystems, groom_->contactControl,
+      positions, velocities, solved, contacts, neighbours, indices, places, histories, guesses,
+      lists.pairs, lists.lives, lists.forces});
+  // clang-format on
   if (!bindings) return bindings.error();
   bindings_ = std::move(*bindings);
   return {};
@@ -279,7 +263,7 @@ Status ContactStage::makeRoom() {
   auto heads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * count * (1 + old.most));
   if (!heads) return heads.error();
   const std::size_t rowSize = std::size_t{old.blocks} * layout::kLiveBlock;
-  auto lives = downloadAll<layout::ContactLive>(lists_->lives, rowSize, before * rowSize);
+  auto lives = downloadAll<layout::ContactLife>(lists_->lives, rowSize, before * rowSize);
   if (!lives) return lives.error();
 
   // What was wanted, and a quarter more. Each particle's last block is partly empty.
@@ -300,7 +284,7 @@ Status ContactStage::makeRoom() {
   }
   if (Status status = lists_->liveHeads.upload(std::as_bytes(std::span(newHeads))); !status) return status;
   const std::uint64_t rowBegin =
-      before * std::uint64_t{live_.blocks} * layout::kLiveBlock * sizeof(layout::ContactLive);
+      before * std::uint64_t{live_.blocks} * layout::kLiveBlock * sizeof(layout::ContactLife);
   if (Status status = lists_->lives.upload(std::as_bytes(std::span(*lives)), rowBegin); !status)
     return status;
 
@@ -333,7 +317,7 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
   auto liveHeads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * count * (1 + live_.most));
   if (!liveHeads) return liveHeads.error();
   const std::size_t rowSize = std::size_t{live_.blocks} * layout::kLiveBlock;
-  auto lives = downloadAll<layout::ContactLive>(lists_->lives, rowSize, parity * rowSize);
+  auto lives = downloadAll<layout::ContactLife>(lists_->lives, rowSize, parity * rowSize);
   if (!lives) return lives.error();
 
   // Contacts first: of a pair that is in both lists, the contact stays.
@@ -347,8 +331,8 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
     const std::size_t live = (2 * c + parity) * (1 + live_.most), near = c * (1 + 2 * near_.most);
     for (std::uint32_t j = 0; j < (*liveHeads)[live]; ++j) {
       const std::size_t block = (*liveHeads)[live + 1 + j / layout::kLiveBlock];
-      const layout::ContactLive& contact = (*lives)[block * layout::kLiveBlock + j % layout::kLiveBlock];
-      add(c, contact.particle, contact.shares);
+      const layout::ContactLife& life = (*lives)[block * layout::kLiveBlock + j % layout::kLiveBlock];
+      add(c, life.particle, life.shares);
     }
     for (std::uint32_t j = 0; j < (*heads)[near]; ++j) {
       const std::size_t block = (*heads)[near + 1 + 2 * (j / layout::kListBlock)];

@@ -59,7 +59,8 @@ class ContactStage {
     gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses;
   };
   struct Lists {
-    gpu::Buffer heads, pairs, liveHeads, lives;  // of who is near; of contacts, of this step and the one before
+    gpu::Buffer heads, pairs;              // of who is near
+    gpu::Buffer liveHeads, lives, forces;  // of contacts, of this step and the one before; forces of this one
   };
   struct Room {
     std::uint32_t blocks = 0;  // there are, for all lists
