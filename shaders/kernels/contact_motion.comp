@@ -7,6 +7,7 @@
 #include "shared/contact_buffers.glsl"
 
 void main() {
+  if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
   uint particle = contactOf(c).particle;

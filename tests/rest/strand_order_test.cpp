@@ -1,5 +1,4 @@
-// rest/strand_order.h: orders are orders, the curve is Hilbert's, the greedy step never loses; and what they
-// gain.
+// rest/strand_order.h: orders are orders, the curve is Hilbert's, and it brings overlapping strands together.
 #include "ringlet/rest/strand_order.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "ringlet/groom/generate.h"
+#include "ringlet/rest/contact_graph.h"
 #include "tests/rest/contact_samples.h"
 
 namespace ringlet {
@@ -43,27 +43,11 @@ Nearness nearness(std::span<const StrandOverlap> overlaps) {
   return n;
 }
 
-// The same overlaps in another order of the groom's strands.
-std::vector<StrandOverlap> reordered(std::vector<StrandOverlap> overlaps, const RestState& rest,
-                                     const std::vector<std::uint32_t>& order) {
-  std::vector<std::uint32_t> places(order.size());
-  for (std::uint32_t k = 0; k < order.size(); ++k) places[order[k]] = k;
-  for (StrandOverlap& o : overlaps) {
-    const std::uint32_t a = places[rest.strandInGroom[o.a]], b = places[rest.strandInGroom[o.b]];
-    o = {std::min(a, b), std::max(a, b), o.count};
-  }
-  return overlaps;
-}
-
 TEST(StrandOrder, IsByLengthFirstAndTheSameTwice) {
   for (const ContactSample& sample : contactSamples()) {
     const auto order = orderAlongCurve(sample.groom);
     expectDeviceOrder(order, sample.groom);
     EXPECT_EQ(order, orderAlongCurve(sample.groom)) << sample.name;
-    const RestState rest = restOf(sample.groom, order);
-    const auto improved = improveOrder(rest, overlapsOf(rest), 10);
-    expectDeviceOrder(improved, sample.groom);
-    EXPECT_EQ(improved, improveOrder(rest, overlapsOf(rest), 10)) << sample.name;
   }
 }
 
@@ -108,49 +92,17 @@ TEST(StrandOrder, OfARestStateIsThatAskedFor) {
   }
 }
 
-TEST(StrandOrder, TheGreedyStepOnlyShortens) {
-  // A row of strands, each of which overlaps the next, in random order.
-  const int count = 300;
-  std::vector<int> places(count);
-  std::iota(places.begin(), places.end(), 0);
-  std::shuffle(places.begin(), places.end(), std::mt19937(32));
-  Groom groom = metres();
-  for (int place : places) groom.addStrand(line({0.01 * place, 0, 0}, {0.01 * place, -0.1, 0}, 20));
-  RestState rest = restOf(groom);
-  double before = nearness(overlapsOf(rest)).meanDistance;
-  for (int k = 0; k < 20; ++k) {
-    rest = restOf(groom, improveOrder(rest, overlapsOf(rest), 1));
-    const double now = nearness(overlapsOf(rest)).meanDistance;
-    EXPECT_LE(now, before);
-    before = now;
-  }
-  EXPECT_LT(before, 30) << "of about 100 in random order";
-}
-
-TEST(StrandOrder, WhatItGainsOnAHead) {
+TEST(StrandOrder, BringsOverlappingStrandsTogether) {
   const auto groom = makeHead({.strandCount = 1500});
   ASSERT_TRUE(groom) << groom.error().message;
-  const auto curve = orderAlongCurve(*groom);
-  const RestState rest = restOf(*groom, curve);
-  const auto overlaps = overlapsOf(rest);
-  const auto print = [&](const std::string& name, const std::vector<std::uint32_t>& order) {
-    const Nearness n = nearness(reordered(overlaps, rest, order));
-    std::printf("%-24s mean distance of overlapping strands %5.1f, within 64 places %4.1f %%\n", name.c_str(),
+  const auto nearnessIn = [&](const char* name, const RestState& rest) {
+    const Nearness n = nearness(overlapsOf(rest));
+    std::printf("%-12s mean distance of overlapping strands %5.1f, within 64 places %4.1f %%\n", name,
                 n.meanDistance, 100 * n.nearShare);
-    return n;
+    return n.meanDistance;
   };
-  std::vector<std::uint32_t> order(groom->strandCount());
-  std::iota(order.begin(), order.end(), 0u);
-  const Nearness inGroom = print("groom", order);
-  std::shuffle(order.begin(), order.end(), std::mt19937(33));
-  print("random", order);
-  const Nearness alongCurve = print("curve", curve);
-  EXPECT_LT(alongCurve.meanDistance, 0.7 * inGroom.meanDistance);
-  for (int passes : {1, 5, 20, 100}) {
-    const Nearness greedy =
-        print("curve and " + std::to_string(passes) + " passes", improveOrder(rest, overlaps, passes));
-    EXPECT_LE(greedy.meanDistance, alongCurve.meanDistance);
-  }
+  const double inGroom = nearnessIn("groom", restOf(*groom));
+  EXPECT_LT(nearnessIn("curve", restOf(*groom, orderAlongCurve(*groom))), 0.7 * inGroom);
 }
 
 }  // namespace
