@@ -435,7 +435,7 @@ TEST(Scene, MistakesAreOneSentence) {
                 2,
                 "--drop-share: --prune none prunes"},
            Case{{"two_curls", "--contact-iterations", "0"}, 2, "must be a whole number from 1 to 1000"},
-           Case{{"two_curls", "--contact-friction", "11"}, 2, "must be a number from 0 to 10"},
+           Case{{"two_curls", "--contact-friction", "11"}, 2, "must be a number from 0 to 1"},
            Case{{"two_curls", "--max-neighbours", "-1"}, 2, "must be a whole number from 0"},
            Case{{"bounce", "--prune", "8"}, 2, "--prune: only with --contacts on, or in a scene of hair"},
            Case{{"bounce", "--integrator", "paper", "--bend-stiffness", "1"}, 2, "--bend-stiffness: --integ"},

@@ -62,6 +62,15 @@ TEST_F(Release, CurlycueKeepsItsCurls) {
   expectCurlsKept("curlycue, release", curlycue(loaded->groom, "release", {.seconds = 6}), 0.5);
 }
 
+TEST_F(Release, CurlycueKeepsItsCurlsWithContacts) {
+  RINGLET_NEEDS_DATA(path, "curlycue/frame_000.obj");
+  auto loaded = readGroom(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  BuiltinScene scene = curlycue(loaded->groom, "release", {.seconds = 5});
+  scene.settings.contacts.on = true;
+  expectCurlsKept("curlycue, release with contacts", scene, 0.5);
+}
+
 TEST_F(Release, CurlycueKeepsItsCurlsInAShake) {
   RINGLET_NEEDS_DATA(path, "curlycue/frame_000.obj");
   auto loaded = readGroom(path);

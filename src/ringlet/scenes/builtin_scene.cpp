@@ -8,189 +8,19 @@
 #include <limits>
 #include <numbers>
 
-#include "ringlet/groom/generate.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scenes/scene_grooms.h"
 
 namespace ringlet {
 namespace {
 
-constexpr int kParticles = 64;  // eight a turn of the curl
-constexpr int kSwatchColumns = 8, kSwatchRows = 4;
 // Of contacts where curls meet: two of these cover the 10 mm and less between the particles of a curl of
 // eight a turn [m].
 constexpr double kMeetingRadius = 0.0055;
-constexpr double kSpacing = 0.025;        // between the roots of copies [m]
 constexpr int kPaperStepsPerFrame = 30;   // Iben et al. 2012, section 5
 constexpr double kLongestScene = 36'000;  // [s]
 constexpr int kMostStrands = 100'000;
-constexpr double kCentimetre = 0.01;  // unit of the grooms' points [m]
-
-// The curl of all measurements: radius 1 cm, 8 turns, 25 cm, which is what CurlParameters has by default.
-CurlParameters curlOf(int particles) {
-  CurlParameters curl;
-  curl.particleCount = particles;
-  return curl;
-}
-
-// Copies of the strands of a groom, along X and then along Z.
-Groom sideBySide(const Groom& groom, int count) {
-  Groom copies;
-  copies.metresPerUnit = groom.metresPerUnit;
-  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
-  for (int k = 0; k < count; ++k) {
-    const Vec3f shift =
-        Vec3f(Vec3d{double(k % columns), 0, double(k / columns)} * (kSpacing / groom.metresPerUnit));
-    std::vector<Vec3f> strand;
-    for (Vec3f p : groom.strand(0)) strand.push_back(p + shift);
-    copies.addStrand(strand);
-  }
-  return copies;
-}
-
-Result<Groom> hangingCurls(const SceneOptions& options) {
-  auto curl = makeCurl(curlOf(options.particles.value_or(kParticles)));
-  if (!curl) return curl.error();
-  return sideBySide(*curl, options.strands.value_or(1));
-}
-
-// Columns along X, rows along Z, hanging.
-Result<Groom> hangingSwatch(const SceneOptions& options, int columns, int rows, std::uint64_t seed = 1) {
-  SwatchParameters swatch;
-  swatch.curl = curlOf(options.particles.value_or(kParticles));
-  swatch.columnCount = columns;
-  swatch.rowCount = options.strands ? (*options.strands + columns - 1) / columns : rows;
-  swatch.variation.seed = seed;
-  return makeSwatch(swatch);
-}
-
-// How a swatch that hangs comes to stand out from a wall, by where its hair then points; its rows are one
-// above the other.
-Vec3f alongZ(Vec3f p) { return {p.x, p.z, -p.y}; }
-Vec3f againstZ(Vec3f p) { return {-p.x, p.z, p.y}; }
-Vec3f alongX(Vec3f p) { return {-p.y, p.z, -p.x}; }
-
-// Rows of curls that stand out from a wall, along +Z.
-Result<Groom> horizontalSwatch(const SceneOptions& options) {
-  auto groom = hangingSwatch(options, kSwatchColumns, kSwatchRows);
-  if (!groom) return groom.error();
-  for (Vec3f& p : groom->points) p = alongZ(p);
-  return groom;
-}
-
-// Two grooms in one, the second after the first.
-Groom joined(Groom first, const Groom& second) {
-  for (std::size_t s = 0; s < second.strandCount(); ++s) first.addStrand(second.strand(s));
-  return first;
-}
-
-void move(Groom& groom, Vec3d by) {
-  for (Vec3f& p : groom.points) p += Vec3f(by / groom.metresPerUnit);
-}
-
-// Two curls of one hand, half a turn about their cores from each other, 5 cm apart: pushed together they
-// would cross twice a turn. (Of one phase they would lie in each other like spoons.) Their roots, which
-// nothing stops, pass beside each other.
-Result<Groom> twoCurls(const SceneOptions& options) {
-  constexpr double kApart = 0.05;  // of their cores [m]
-  if (options.strands) return Error{"two_curls has its two strands; leave the number of strands out"};
-  CurlParameters curl = curlOf(options.particles.value_or(kParticles));
-  curl.phase = -std::numbers::pi / 2;
-  auto first = makeCurl(curl);
-  if (!first) return first.error();
-  curl.phase = std::numbers::pi / 2;
-  auto second = makeCurl(curl);
-  if (!second) return second.error();
-  move(*first, {-kApart / 2, 0, 0});
-  move(*second, {kApart / 2, 0, 0});
-  return joined(std::move(*first), *second);
-}
-
-// Two hanging sheets of 10 x 5 curls, the nearest rows 10 cm apart.
-Result<Groom> curtain(const SceneOptions& options) {
-  constexpr double kApart = 0.1;  // of the nearest cores [m]
-  auto first = hangingSwatch(options, 10, 5, 1), second = hangingSwatch(options, 10, 5, 2);
-  if (!first || !second) return first ? second.error() : first.error();
-  const double rows = static_cast<double>(first->strandCount()) / 10;
-  const double middle = (kApart + (rows - 1) * kSpacing) / 2;
-  move(*first, {0, 0, -middle});
-  move(*second, {0, 0, middle});
-  return joined(std::move(*first), *second);
-}
-
-// Two swatches that stand out from walls, crosswise: the second 4 cm above the first and across its middle.
-//
-//       | ======   second, along X
-//             o o o    first, along Z
-Result<Groom> pile(const SceneOptions& options) {
-  constexpr double kApart = 0.04;  // of the nearest cores [m]
-  auto first = hangingSwatch(options, 6, 2, 1), second = hangingSwatch(options, 6, 2, 2);
-  if (!first || !second) return first ? second.error() : first.error();
-  const double rows = static_cast<double>(first->strandCount()) / 6;
-  const double middle = (kApart + (rows - 1) * kSpacing) / 2;
-  for (Vec3f& p : first->points) p = alongZ(p);
-  for (Vec3f& p : second->points) p = alongX(p);
-  move(*first, {0, -middle, -0.125});
-  move(*second, {-0.125, middle, 0});
-  return joined(std::move(*first), *second);
-}
-
-// Two swatches that stand out from facing walls, the first 6 cm above the second: it droops onto what stands
-// firm near the other's roots.
-//
-//       | ========      first
-//           ======== |  second
-Result<Groom> oneAboveTheOther(const SceneOptions& options) {
-  constexpr double kApart = 0.06;  // of the nearest cores [m]
-  auto first = hangingSwatch(options, 6, 2, 1), second = hangingSwatch(options, 6, 2, 2);
-  if (!first || !second) return first ? second.error() : first.error();
-  const double rows = static_cast<double>(first->strandCount()) / 6;
-  const double middle = (kApart + (rows - 1) * kSpacing) / 2;
-  for (Vec3f& p : first->points) p = alongZ(p);
-  for (Vec3f& p : second->points) p = againstZ(p);
-  move(*first, {0, middle, -0.15});
-  move(*second, {0, -middle, 0.15});
-  return joined(std::move(*first), *second);
-}
-
-Result<Groom> headOf(const SceneOptions& options, int strands) {
-  HeadParameters head;
-  head.curl = curlOf(options.particles.value_or(kParticles));
-  head.strandCount = options.strands.value_or(strands);
-  return makeHead(head);
-}
-Result<Groom> wholeHead(const SceneOptions& options) { return headOf(options, 1500); }
-Result<Groom> sparseHead(const SceneOptions& options) { return headOf(options, 100); }
-
-// A straight strand with one fold: two joints of nearly 180 degrees, a twentieth apart, that the smoothed
-// curve glides over.
-//
-//      root o---->----->-----o       the fold's edges run back at an angle of kFoldTilt; drawn lying,
-//                 o<----<---'        hangs along -Y
-//                  `---->----->-----o tip
-Result<Groom> foldedStrand(const SceneOptions& options) {
-  constexpr double kLength = 0.25;    // along the strand [m]
-  constexpr double kFoldTilt = 0.01;  // from folded flat [rad]
-  const int particles = options.particles.value_or(kParticles);
-  if (particles < 16 || particles > 65536) {
-    return Error{
-        fmt::format("twist_jump with {} particles: it takes 16 to 65536, to hold its fold", particles)};
-  }
-  const int edges = particles - 1, foldStart = edges / 3;
-  const int foldEdges = std::max(2, static_cast<int>(std::lround(0.05 * edges)));
-  const double edge = kLength / edges / kCentimetre;
-  std::vector<Vec3f> strand;
-  Vec3d p{};
-  for (int i = 0; i < particles; ++i) {
-    strand.push_back(Vec3f(p));
-    const bool isFold = i >= foldStart && i < foldStart + foldEdges;
-    p += isFold ? Vec3d{std::sin(kFoldTilt), std::cos(kFoldTilt), 0} * edge : Vec3d{0, -edge, 0};
-  }
-  Groom groom;
-  groom.metresPerUnit = kCentimetre;
-  groom.addStrand(strand);
-  return sideBySide(groom, options.strands.value_or(1));
-}
 
 Material ringletMaterial() { return materialPreset("ringlet").value(); }
 
@@ -413,7 +243,7 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
                      .showsContacts = recipe->showsContacts,
                      .showsFrames = recipe->showsFrames,
                      .warnings = {}};
-  const auto coarse = coarseCurlWarning(curlOf(options.particles.value_or(kParticles)));
+  const auto coarse = coarseCurlWarning(sceneCurl(options));
   if (coarse && recipe->groom != foldedStrand) scene.warnings.push_back(*coarse);
   if (!options.core) scene.material.coreStiffness = 0;
   if (options.bendStiffness) scene.material.bendStiffness = *options.bendStiffness;

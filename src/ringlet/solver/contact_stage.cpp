@@ -307,6 +307,15 @@ Status ContactStage::forget() {
   return lists_->liveHeads.fillZero();
 }
 
+Result<std::uint64_t> ContactStage::contactCount() const {
+  auto heads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * particles_.size() * (1 + live_.most));
+  if (!heads) return heads.error();
+  std::uint64_t sides = 0;
+  for (std::size_t list = control().parity; list < 2 * particles_.size(); list += 2)
+    sides += (*heads)[list * (1 + live_.most)];
+  return sides / 2;
+}
+
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {
   const std::size_t count = particles_.size(), parity = control().parity;
   auto heads = downloadAll<std::uint32_t>(lists_->heads, count * (1 + 2 * near_.most));

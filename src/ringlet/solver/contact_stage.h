@@ -46,6 +46,9 @@ class ContactStage {
   /// Pairs looked at in the frame that ended, both sides counted; and starts counting anew.
   std::uint64_t takePairTests();
   std::uint64_t rebuilds() const { return control().rebuilds; }
+  /// Pairs in the lists, each once; and how many contacts live.
+  std::uint64_t listedCount() const { return control().listed / 2; }
+  Result<std::uint64_t> contactCount() const;
   /// Forgets lists and lives: the hair was put somewhere else.
   Status forget();
 

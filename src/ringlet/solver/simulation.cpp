@@ -379,13 +379,10 @@ Result<SimulationReport> Simulation::report() const {
 Result<ContactReport> Simulation::contactReport() const {
   ContactReport report = self_->contactReport;
   if (!self_->contacts) return report;
-  const auto listed = self_->contacts->listed(self_->rest);
-  if (!listed) return listed.error();
-  report.listed = listed->size();
-  report.contacts =
-      static_cast<std::uint64_t>(std::count_if(listed->begin(), listed->end(), [](const ListedContact& c) {
-        return c.stiffnessShare > 0 || c.dampingShare > 0;
-      }));
+  report.listed = self_->contacts->listedCount();
+  const auto contacts = self_->contacts->contactCount();
+  if (!contacts) return contacts.error();
+  report.contacts = *contacts;
   report.rebuilds = self_->contacts->rebuilds();
   auto error = self_->contacts->momentumError(self_->rest);
   if (!error) return error.error();
