@@ -18,7 +18,7 @@ Symmetric D = symmetricDiagonal(0.0);
 vec3 push = vec3(0);
 vec3 momentum = vec3(0);
 
-void append(ContactForce force, float shares) {
+void append(ContactForce force, ContactLife life) {
   if (count % kLiveBlock == 0) {
     block = atomicAdd(control.liveBlocks, 1);
     if (count / kLiveBlock < parameters.mostLiveBlocks) liveLists[list + 1 + count / kLiveBlock] = block;
@@ -27,32 +27,39 @@ void append(ContactForce force, float shares) {
   if (block < parameters.liveBlockCount) {
     uint entry = block * kLiveBlock + count % kLiveBlock;
     forces[entry] = force;
-    lives[lifeEntry(control.parity, entry)] = ContactLife(force.particle, shares);
+    lives[lifeEntry(control.parity, entry)] = life;
   }
   ++count;
 }
 
 // A contact that touches, or did: its shares were `before`.
-void liveOn(uint particle, float before) {
-  uint contact = contactAt(particle);
-  ContactRest other = contactOf(contact);
-  float R = rest.point.w + other.point.w;
-  float r0 = contactRestLength(R, distance(rest.point.xyz, other.point.xyz));
-  ContactMeeting meeting = contactMeeting(x - positionOf(particle), v - velocityOf(particle), rest.particle < particle);
+void liveOn(ContactLife before) {
+  vec4 other = guessOf(before.particle);
+  float r0 = before.restLength;
+  ContactMeeting meeting =
+      contactMeeting(x - positionOf(before.particle), v - velocityOf(before.particle), rest.particle < before.particle);
   bool touching = isTouching(meeting, r0, parameters.seconds, parameters.seenAhead);
   vec3 changes = vec3(parameters.ramp, parameters.stiffnessRelease, parameters.dampingRelease);
-  vec2 shares = nextLife(sharesOf(before), touching, meeting.distance, r0, changes, parameters.breakFactor);
+  vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, changes, parameters.breakFactor);
   if (shares == vec2(0)) return;
-  float mass = 0.5 * (rest.mass + other.mass);
-  float stiffness = parameters.stiffness * mass / R;
-  float damping = 2.0 * parameters.dampingRatio * sqrt(stiffness * mass);
+  // 2 zeta sqrt(k m_c), m_c by k.
+  float damping =
+      2.0 * parameters.dampingRatio * before.stiffness * sqrt((rest.point.w + other.w) / max(parameters.stiffness, 1e-30));
   float gap = r0 - meeting.distance;
-  ContactWeights weights = contactWeights(shares, before != 0.0, touching, gap, stiffness, damping, parameters.seconds);
+  ContactWeights weights =
+      contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters.seconds);
   float tangential = parameters.friction * weights.damping;
   D = addOuter(addDiagonal(D, tangential), weights.spring + weights.damping - tangential, meeting.normal);
   push += contactPush(weights.spring, gap, parameters.seconds) * meeting.normal;
-  momentum += contactMultiply(weights, parameters.friction, meeting.normal, guess + guessOf(contact));
-  append(ContactForce(vec4(meeting.normal, weights.spring), particle, weights.damping, gap, 0), lifeOfShares(shares));
+  momentum += contactMultiply(weights, parameters.friction, meeting.normal, guess + other.xyz);
+  append(ContactForce(vec4(meeting.normal, weights.spring), before.particle, weights.damping, gap, 0),
+         ContactLife(before.particle, lifeOfShares(shares), r0, before.stiffness));
+}
+
+ContactLife newLife(uint particle, float restLength) {
+  ContactRest other = contactOf(contactAt(particle));
+  float mass = 0.5 * (rest.mass + other.mass);
+  return ContactLife(particle, 0.0, restLength, parameters.stiffness * mass / (rest.point.w + other.point.w));
 }
 
 // Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one must.
@@ -62,7 +69,7 @@ void main() {
   rest = contactOf(c);
   x = positionOf(rest.particle);
   v = velocityOf(rest.particle);
-  guess = guessOf(c);
+  guess = guessOf(rest.particle).xyz;
   list = liveListOf(c, control.parity);
   uint parityBefore = control.parity ^ 1;
   uint listBefore = liveListOf(c, parityBefore);
@@ -71,8 +78,7 @@ void main() {
   // Contacts of the step before.
   uint made = 0;  // turns of loops; and how many there should be
   for (uint j = 0; j < countBefore; ++j, ++made) {
-    ContactLife life = lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j)));
-    liveOn(life.particle, life.shares);
+    liveOn(lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j))));
   }
 
   // Neighbours that touch (contact_touch.comp) and did not before.
@@ -103,7 +109,8 @@ void main() {
     for (; fresh != 0; fresh &= fresh - 1, ++made) {
       uint k = findLSB(fresh);
       uvec4 two = twoPairsAt(first + (k & ~1u));
-      liveOn((k & 1) == 0 ? two.x : two.z, 0.0);
+      uvec2 pair = (k & 1) == 0 ? two.xy : two.zw;
+      liveOn(newLife(pair.x, uintBitsToFloat(pair.y)));
     }
   }
   liveLists[list] = count;

@@ -10,7 +10,8 @@ void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  uint particle = contactOf(c).particle;
+  ContactRest rest = contactOf(c);
+  uint particle = rest.particle;
   vec3 x = positionOf(particle);
   vec3 v = velocityOf(particle);
   float motion = length(x - listedPosition(c)) + parameters.seconds * length(v - listedVelocity(c));
@@ -24,5 +25,5 @@ void main() {
 
   vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
   histories[c].predicted[control.parity ^ 1] = vec4(v, 0);
-  guesses[c] = vec4(v + parameters.warmth * change, 0);
+  guesses[particle] = vec4(v + parameters.warmth * change, rest.point.w);
 }

@@ -59,7 +59,8 @@ vec3 listedVelocity(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c + 1
 vec3 predictedBefore(uint c) {
   return kTexels ? vectorAt(historyTexels, 4 * c + 2 + control.parity).xyz : histories[c].predicted[control.parity].xyz;
 }
-vec3 guessOf(uint c) { return kTexels ? vectorAt(guessTexels, c).xyz : guesses[c].xyz; }
+/// xyz: guessed velocity; w: radius.
+vec4 guessOf(uint particle) { return kTexels ? vectorAt(guessTexels, particle) : guesses[particle]; }
 /// Two pairs that follow each other, the first of an even index: (particle, restLength as bits) of each.
 uvec4 twoPairsAt(uint entry) {
   if (kTexels) return recordAt(pairTexels, entry / 2);
@@ -68,9 +69,8 @@ uvec4 twoPairsAt(uint entry) {
 }
 ContactLife lifeAt(uint entry) {
   if (!kTexels) return lives[entry];
-  uvec4 two = recordAt(lifeTexels, entry / 2);
-  uvec2 life = (entry & 1) == 0 ? two.xy : two.zw;
-  return ContactLife(life.x, uintBitsToFloat(life.y));
+  uvec4 life = recordAt(lifeTexels, entry);
+  return ContactLife(life.x, uintBitsToFloat(life.y), uintBitsToFloat(life.z), uintBitsToFloat(life.w));
 }
 ContactForce forceAt(uint entry) {
   if (!kTexels) return forces[entry];

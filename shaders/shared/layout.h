@@ -145,7 +145,7 @@ RINGLET_CONSTANT uint kBindIndices = 5;            // uvec4: the contact particl
 RINGLET_CONSTANT uint kBindGrid = 6;               // uint: see gridStart and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPlaces = 7;             // ContactPlace[contacts], in cell order
 RINGLET_CONSTANT uint kBindHistories = 8;          // ContactHistory[contacts]
-RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[contacts]: guessed velocity of the step, as the first iterate [m/s]
+RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[particles]: xyz: guessed velocity of the step, as the first iterate [m/s]; w: radius [m]
 RINGLET_CONSTANT uint kBindLists = 10;              // uint: see listOf and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPairs = 11;             // ContactPair[blocks][kListBlock]
 RINGLET_CONSTANT uint kBindLiveLists = 12;         // uint: see liveListOf
@@ -165,7 +165,7 @@ RINGLET_CONSTANT uint kBindPlaceTexels = 23;    // 2 a contact particle
 RINGLET_CONSTANT uint kBindHistoryTexels = 24;  // 4 a contact particle
 RINGLET_CONSTANT uint kBindGuessTexels = 25;
 RINGLET_CONSTANT uint kBindPairTexels = 26;     // of 2 pairs
-RINGLET_CONSTANT uint kBindLifeTexels = 27;     // of 2 lives
+RINGLET_CONSTANT uint kBindLifeTexels = 27;
 RINGLET_CONSTANT uint kBindForceTexels = 28;    // 2 a contact
 RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 
@@ -196,8 +196,10 @@ struct ContactPair {
 // What a contact remembers from step to step, in two rows, that of the step and that of the step before. The shares are one
 // number, for the damping's is 1 while the stiffness's is not 0: -kappa, or delta where kappa is 0.
 struct ContactLife {
-  uint particle;  // the other, device order
+  uint particle;     // the other, device order
   float shares;
+  float restLength;  // r0 [m]
+  float stiffness;   // k [N/m]
 };
 
 // What a contact is in a step, for one of its particles; the other has the contact too, with the same numbers.

@@ -109,7 +109,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!places) return places.error();
   auto histories = createZero(device, count * sizeof(layout::ContactHistory), "contact histories");
   if (!histories) return histories.error();
-  auto guesses = createZero(device, count * sizeof(layout::vec4), "contact guesses");
+  auto guesses = createZero(device, rest.points.size() * sizeof(layout::vec4), "contact guesses");
   if (!guesses) return guesses.error();
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
