@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds with warnings as errors and runs every test, GPU tests under the Vulkan validation layers: 14 minutes of tests on two shared cores.
+# Builds with warnings as errors and runs every test, GPU tests under the Vulkan validation layers: 11 minutes of tests on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -102,7 +102,7 @@ struct StrandReport {
   uint degenerateEdges;     // edges x steps that had no direction
   uint nonfiniteParticles;  // now
   uint firstNonfinite;      // the first of them, counted along the strand
-  float velocityResidual;   // since the simulation began, where measured, of the velocity solve L v = r: see velocityResidualShare
+  float velocityResidual;   // since the simulation began, where measured, of the solve L v = r: see velocityResidualShare
 };
 
 // The head, per outer step. poses[0] is the frame's start, poses[1 + k] the end of step k.
@@ -145,7 +145,7 @@ RINGLET_CONSTANT uint kBindIndices = 5;            // uvec4: the contact particl
 RINGLET_CONSTANT uint kBindGrid = 6;               // uint: see gridStart and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPlaces = 7;             // ContactPlace[contacts], in cell order
 RINGLET_CONSTANT uint kBindHistories = 8;          // ContactHistory[contacts]
-RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[particles]: xyz: guessed velocity of the step, as the first iterate [m/s]; w: radius [m]
+RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[particles]: xyz: the first iterate's velocity [m/s]; w: radius [m]
 RINGLET_CONSTANT uint kBindLists = 10;              // uint: see listOf and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPairs = 11;             // ContactPair[blocks][kListBlock]
 RINGLET_CONSTANT uint kBindLiveLists = 12;         // uint: see liveListOf

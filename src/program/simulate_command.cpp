@@ -25,6 +25,7 @@ constexpr const char* kExample =
     "Examples:\n"
     "  ringlet make head -o head.obj && ringlet simulate head.obj --motion shake --frames 48 -o out\n"
     "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
+    "  ringlet simulate head.obj --motion walk.bvh --skip-frames 1 -o out\n"
     "\n"
     "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "
     "frame, in the\n"
@@ -50,7 +51,10 @@ struct Typed {
   SimulateOptions options;
   std::string integrator = "jacobi", motion = "shake", up = "Y", backend = "gpu", kernel = "auto";
   std::optional<int> stepsPerFrame;
+  std::optional<int> frameCount;
   std::optional<double> preload, amplitude, frequency;
+  MotionFileChoice motionFile;
+  bool motionFileGiven = false;  // any of its options
   double gravity = 9.81;
   ContactChoice contacts;
   bool noChebyshev = false, json = false, quiet = false;
@@ -64,9 +68,22 @@ void resolve(Typed& typed) {
   options.up = typed.up == "Z" ? UpAxis::z : UpAxis::y;
   const Vec3d up = options.up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
   settings.gravity = up * -typed.gravity;
-  options.motion = motionByName(typed.motion, up).value();
-  options.motion.amplitude = typed.amplitude.value_or(options.motion.amplitude);
-  options.motion.frequency = typed.frequency.value_or(options.motion.frequency);
+  if (isMotionFile(typed.motion)) {
+    if (typed.amplitude || typed.frequency)
+      throw CLI::ValidationError(typed.amplitude ? "--amplitude" : "--frequency",
+                                 "a motion from a file has its own");
+    options.motionFile = typed.motionFile;
+    options.motionFile->path = typed.motion;
+    options.choosesFrames = !typed.frameCount;
+  } else {
+    if (typed.motionFileGiven)
+      throw CLI::ValidationError("--motion",
+                                 "only a .bvh file has a --joint, --motion-unit and --skip-frames");
+    options.motion = motionByName(typed.motion, up).value();
+    options.motion.amplitude = typed.amplitude.value_or(options.motion.amplitude);
+    options.motion.frequency = typed.frequency.value_or(options.motion.frequency);
+  }
+  options.frameCount = typed.frameCount.value_or(options.frameCount);
 
   // The paper's own scheme is explicit: it needs short steps, and knows no preload.
   const bool isPaper = typed.integrator == "paper", isPoint = typed.integrator == "point_jacobi";
@@ -143,7 +160,9 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   // What moves.
   const char* scene = "Scene";
-  command->add_option("--frames", options.frameCount, "Frames to simulate (default 48)")
+  command
+      ->add_option("--frames", typed->frameCount,
+                   "Frames to simulate (default 48, or a motion file's length)")
       ->check(wholeBetween(1, kMostFrames))
       ->type_name("N")
       ->group(scene);
@@ -151,10 +170,32 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(between(0.001, 1e6))
       ->type_name("F")
       ->group(scene);
-  command->add_option("--motion", typed->motion, "How the head moves: " + motionNames() + " (default shake)")
-      ->check(oneOf(motionNameList()))
-      ->type_name("NAME")
+  const CLI::Validator motionName = oneOf(motionNameList());
+  command
+      ->add_option("--motion", typed->motion,
+                   "How the head moves: " + motionNames() + "; or a .bvh file (default shake)")
+      ->check(CLI::Validator(
+          [motionName](std::string& word) { return isMotionFile(word) ? "" : motionName(word); }, "NAME"))
+      ->type_name("NAME|FILE")
       ->group(scene);
+  const auto ofMotionFile = [&](CLI::Option* option, const char* type) {
+    option->type_name(type)->group(scene)->each(
+        [typed](const std::string&) { typed->motionFileGiven = true; });
+  };
+  ofMotionFile(command->add_option("--joint", typed->motionFile.joint,
+                                   "Joint of the .bvh file that is the head (default Head)"),
+               "NAME");
+  ofMotionFile(command
+                   ->add_option("--motion-unit", typed->motionFile.metresPerUnit,
+                                "Metres per unit of the .bvh file (default: its skeleton is 1.7 m tall)")
+                   ->check(between(1e-6, 1000)),
+               "METRES");
+  ofMotionFile(
+      command
+          ->add_option("--skip-frames", typed->motionFile.skippedFrames,
+                       "Frames at the start of the .bvh file to leave out, as a T-pose is (default 0)")
+          ->check(wholeBetween(0, kMostFrames)),
+      "N");
   command
       ->add_option("--amplitude", typed->amplitude,
                    "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "

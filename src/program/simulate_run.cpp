@@ -290,6 +290,13 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
   Settings settings = options.settings;
   const auto material = chooseMaterial(options.material, settings, warnings);
   if (!material) return material.error();
+  if (options.motionFile) {
+    auto motion = readMotionFile(*options.motionFile, options.up, warnings);
+    if (!motion) return motion.error();
+    options.motion = std::move(*motion);
+    const double frames = options.motion.keyframes->seconds() * settings.framesPerSecond;
+    if (options.choosesFrames) options.frameCount = static_cast<int>(std::clamp(frames + 1e-6, 1.0, 1e6));
+  }
   if (options.choosesSteps) {
     const auto steps = chooseStepsPerFrame(loaded->groom, *material, settings);
     if (!steps) return steps.error();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "program/material_command.h"
+#include "program/motion_file.h"
 #include "ringlet/base/result.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/output/up_axis.h"
@@ -38,8 +39,10 @@ struct SimulateOptions : RunOptions {
   std::filesystem::path groom;
   double metresPerUnit = 0.01;  // of the groom's file, and of what is written
   Motion motion;
-  Settings settings;          // but maxStretch, which is the material's
-  bool choosesSteps = false;  // settings.stepsPerFrame is to be chosen for the groom
+  std::optional<MotionFileChoice> motionFile;  // in its place
+  bool choosesFrames = false;                  // frameCount is to be the file's length
+  Settings settings;                           // but maxStretch, which is the material's
+  bool choosesSteps = false;                   // settings.stepsPerFrame is to be chosen for the groom
   MaterialChoice material;
 };
 

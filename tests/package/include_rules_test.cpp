@@ -48,6 +48,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"base", {"base"}},
       {"groom", {"base", "groom"}},
       {"scene", {"base", "scene"}},
+      {"motion", {"base", "groom", "scene", "motion"}},
       {"rest", {"base", "groom", "scene", "rest"}},
       {"scenes", {"base", "groom", "scene", "rest", "scenes"}},
       {"gpu", {"base", "gpu"}},

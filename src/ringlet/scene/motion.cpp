@@ -72,6 +72,12 @@ HeadPose Motion::poseAt(double t) const {
     case MotionKind::turn:
       pose.rotation = fromRotationVector(axis * (amplitude * ease(t, easeSeconds)));
       break;
+    case MotionKind::keyframes: {
+      const HeadPose key = keyframes->poseAt(t);
+      pose.position += key.position;
+      pose.rotation = key.rotation;
+      break;
+    }
   }
   return pose;
 }

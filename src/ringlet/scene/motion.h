@@ -1,25 +1,28 @@
-// Motion: the head's built-in ways to move, as pose over time. Each starts at rest and eases in, except
-// `glide`, whose constant velocity the hair has from the start.
+// Motion: the ways a head moves, as pose over time: built-in ones, and keyframes. A built-in one starts at
+// rest and eases in, except `glide`, whose constant velocity the hair has from the start.
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "ringlet/base/vec3.h"
 #include "ringlet/scene/head_pose.h"
+#include "ringlet/scene/keyframes.h"
 
 namespace ringlet {
 
 enum class MotionKind {
-  still,  // does not move
-  shake,  // to and fro along `axis`
-  nod,    // turns to and fro about `axis`
-  spin,   // turns about `axis` at constant speed, reached after easeSeconds
-  glide,  // moves along `axis` at constant speed, from the first instant
-  walk,   // on the spot, `axis` up: bobs at every step, sways and turns from leg to leg, nods a little
-  turn,   // turns about `axis` once, in easeSeconds, and stays there
+  still,      // does not move
+  shake,      // to and fro along `axis`
+  nod,        // turns to and fro about `axis`
+  spin,       // turns about `axis` at constant speed, reached after easeSeconds
+  glide,      // moves along `axis` at constant speed, from the first instant
+  walk,       // on the spot, `axis` up: bobs at every step, sways and turns from leg to leg, nods a little
+  turn,       // turns about `axis` once, in easeSeconds, and stays there
+  keyframes,  // as `keyframes` say, which starts and ends as it will
 };
 
 /// How far roots that move beside the head have gone, as a share of each one's own shift (HeadPose::shift):
@@ -40,9 +43,10 @@ struct Motion {
   double frequency = 2;       // shake, nod [Hz]; walk: strides, of two steps each [Hz]
   double easeSeconds = 0.25;  // all but glide: amplitude or speed grows smoothly from 0 over this time
   double untilSeconds =
-      std::numeric_limits<double>::infinity();  // shake, nod, walk: over by then, eased out as it eased in
-  Vec3d start{};                                // position of the head at t = 0 [m]
-  RootMotion roots{};                           // of those that have a shift of their own
+      std::numeric_limits<double>::infinity();   // shake, nod, walk: over by then, eased out as it eased in
+  Vec3d start{};                                 // position of the head at t = 0 [m]
+  RootMotion roots{};                            // of those that have a shift of their own
+  std::shared_ptr<const Keyframes> keyframes{};  // where `kind` says so; `start` is added
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;

@@ -1,0 +1,53 @@
+// BvhFile: a skeleton and its motion from a BVH text file, as motion capture writes them, and the way of one
+// of its joints through the world. The format has no standard; what files do that others do not is said at
+// readBvh.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/scene/keyframes.h"
+
+namespace ringlet {
+
+/// In the file's unit, which it does not name; angles in degrees; Y up.
+struct BvhJoint {
+  enum class Channel { xPosition, yPosition, zPosition, xRotation, yRotation, zRotation };
+
+  std::string name;
+  std::size_t parent = 0;  // of the root: itself
+  Vec3d offset;            // from the parent
+  std::vector<Channel> channels;
+  std::size_t firstChannel = 0;  // in a frame
+};
+
+struct BvhFile {
+  std::vector<BvhJoint>
+      joints;  // a parent before its children; the ends of limbs are joints without channels
+  double frameSeconds = 0;
+  std::size_t channelCount = 0;
+  std::vector<double> values;  // frame after frame
+
+  std::size_t frameCount() const { return channelCount > 0 ? values.size() / channelCount : 0; }
+  /// From the lowest joint to the highest, in the skeleton's rest pose; 0 for a skeleton of one point.
+  double height() const;
+  /// A joint by its name; else, whatever the case, by what stands after a colon ("mixamorig:Head").
+  std::optional<std::size_t> find(std::string_view name) const;
+  /// The joint's poses from a frame on, which must be there. Cost: linear in frames and the joint's depth.
+  Keyframes motionOf(std::size_t joint, double metresPerUnit, std::size_t firstFrame) const;
+};
+
+/// Any order of channels, positions in any joint (they stand in place of its offset), "Frames:455" without a
+/// space, tabs, CR LF. Errors name the line: what is not BVH, numbers that are none or not finite, fewer
+/// numbers than the frames need, a frame time that is not above 0, no frames.
+Result<BvhFile> readBvh(const std::filesystem::path& path);
+Result<BvhFile> parseBvh(std::string_view text);
+
+}  // namespace ringlet
