@@ -166,6 +166,14 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(wholeBetween(1, kMostFrames))
       ->type_name("N")
       ->group(scene);
+  command
+      ->add_option(
+          "--pre-roll", options.preRollSeconds,
+          "Seconds the hair moves before the first frame, so that it begins settled; before its file "
+          "begins, the head comes the mirrored way (default 0)")
+      ->check(between(0, 3600))
+      ->type_name("S")
+      ->group(scene);
   command->add_option("--fps", settings.framesPerSecond, "Frames per second (default 24)")
       ->check(between(0.001, 1e6))
       ->type_name("F")

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -70,18 +72,37 @@ Settings stepByStep(Settings settings) {
   return settings;
 }
 
+// Frames before the first, in which nothing is written.
+int preRollFrames(const RunInput& input, const RunOptions& options) {
+  return static_cast<int>(std::ceil(options.preRollSeconds * input.settings.framesPerSecond - 1e-6));
+}
+
 Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOptions& options) {
+  const double start = -preRollFrames(input, options) / input.settings.framesPerSecond;
   const Settings settings = options.measuresContacts ? stepByStep(input.settings) : input.settings;
-  const BackendInput start{input.groom,
-                           input.material,
-                           settings,
-                           input.motion.poseAt(0),
-                           input.motion.poseAt(-settings.stepSeconds()),
-                           input.rootShifts};
-  if (options.onReference) return makeReferenceBackend(start);
+  const BackendInput made{input.groom,
+                          input.material,
+                          settings,
+                          input.motion.poseAt(start),
+                          input.motion.poseAt(start - settings.stepSeconds()),
+                          input.rootShifts};
+  if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
-  return makeGpuBackend(start, options.device, kernel);
+  return makeGpuBackend(made, options.device, kernel);
+}
+
+// The motion up to the first frame, so that hair begins it as it moves.
+Status preRoll(Backend& backend, const RunInput& input, const RunOptions& options) {
+  for (int frame = -preRollFrames(input, options); frame < 0 && !wasInterrupted(); ++frame) {
+    const std::vector<HeadPose> poses = posesOfFrame(input.motion, input.settings, frame);
+    const std::size_t together = options.measuresContacts ? 1 : poses.size();  // as makeBackend says
+    for (std::size_t step = 0; step < poses.size(); step += together) {
+      if (Status stepped = backend.stepFrame(std::span(poses).subspan(step, together)); !stepped)
+        return stepped;
+    }
+  }
+  return {};
 }
 
 // Steps hair and, where contacts are to be measured, looks at every step.
@@ -216,6 +237,8 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   }
   auto backend = makeBackend(input, options);
   if (!backend) return backend.error();
+  if (Status rolled = preRoll(**backend, input, options); !rolled) return rolled.error();
+  const std::map<std::string, double> stagesBefore = (*backend)->stageMilliseconds();
   auto stepper = Stepper::make(**backend, input, options);
   if (!stepper) return stepper.error();
 
@@ -271,6 +294,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   outcome.driver = (*backend)->driver();
   outcome.kernel = (*backend)->kernel();
   outcome.stages = (*backend)->stageMilliseconds();
+  for (const auto& [stage, milliseconds] : stagesBefore) outcome.stages[stage] -= milliseconds;
   outcome.stages["readback"] = readback;
   outcome.stages["write"] = writing;
   if (Status told = stepper->tell(outcome); !told) return told.error();

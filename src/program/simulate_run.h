@@ -25,6 +25,7 @@ namespace ringlet::program {
 struct RunOptions {
   std::filesystem::path folder;  // for the results; empty: nothing is written
   int frameCount = 48;
+  double preRollSeconds = 0;  // before the first frame, not written
   UpAxis up = UpAxis::y;
   double width = 0.0005;     // diameter of strands in hair.usda [m]
   bool onReference = false;  // rather than on the GPU

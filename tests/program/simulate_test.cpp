@@ -47,6 +47,18 @@ class Backends : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Both, Backends, testing::Values("reference", "gpu"),
                          [](const testing::TestParamInfo<const char*>& backend) { return backend.param; });
 
+// The first frame after two seconds is the 49th without them.
+TEST_P(Backends, PreRollBeginsEarlier) {
+  const std::vector<std::string> motion{"groom.obj", "--motion",  "still",   "--preload",
+                                        "0",         "--backend", GetParam()};
+  std::vector<std::string> whole = motion, rolled = motion;
+  whole.insert(whole.end(), {"--frames", "49"});
+  rolled.insert(rolled.end(), {"--frames", "1", "--pre-roll", "2"});
+  const json expected = simulate(folder_, whole), found = simulate(folder_, rolled);
+  EXPECT_EQ(found["frames"], 1);
+  EXPECT_EQ(found["positions_hash"], expected["positions_hash"]);
+}
+
 TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   const json out = simulate(folder_, {"groom.obj", "--frames", "7", "--fps", "30", "--backend", GetParam()});
   ASSERT_TRUE(out.is_object());
