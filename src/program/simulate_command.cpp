@@ -170,7 +170,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->add_option(
           "--pre-roll", options.preRollSeconds,
           "Seconds the hair moves before the first frame, so that it begins settled; before its file "
-          "begins, the head comes the mirrored way (default 0)")
+          "begins, the head glides into its first pose (default 0)")
       ->check(between(0, 3600))
       ->type_name("S")
       ->group(scene);

@@ -6,12 +6,33 @@
 
 namespace ringlet {
 
+namespace {
+
+// How long a turn has gone on at full speed, t seconds before the first key: all of the last tenth of a
+// second, and ever less before.
+double turnedSeconds(double t) {
+  constexpr double kFull = 0.1, kEase = 0.2;  // [s]
+  return t < kFull ? t : kFull + kEase * (1 - std::exp((kFull - t) / kEase));
+}
+
+// The rotation vector [rad] of a turn.
+Vec3d rotationVector(Quatd turn) {
+  if (turn.w < 0) turn = {-turn.x, -turn.y, -turn.z, -turn.w};
+  const Vec3d axis{turn.x, turn.y, turn.z};
+  const double sine = length(axis);
+  return sine > 0 ? axis * (2 * std::atan2(sine, turn.w) / sine) : Vec3d{};
+}
+
+}  // namespace
+
 HeadPose Keyframes::poseAt(double t) const {
   const HeadPose& first = poses.front();
+  if (poses.size() == 1) return {first.position, first.rotation};
   if (t < 0) {
-    const HeadPose ahead = poseAt(-t);
-    return {first.position * 2.0 - ahead.position,
-            normalized(first.rotation * ahead.rotation.conjugate() * first.rotation)};
+    const Vec3d velocity = (poses[1].position - first.position) / secondsPerKey;
+    const Vec3d turning = rotationVector(poses[1].rotation * first.rotation.conjugate()) / secondsPerKey;
+    return {first.position + velocity * t,
+            normalized(fromRotationVector(turning * -turnedSeconds(-t)) * first.rotation)};
   }
   const double along = t / secondsPerKey;
   const auto last = static_cast<double>(poses.size() - 1);
@@ -30,9 +51,8 @@ HeadPose Keyframes::poseAt(double t) const {
 Keyframes::Turn Keyframes::fastestTurn() const {
   Turn fastest;
   for (std::size_t k = 0; k + 1 < poses.size(); ++k) {
-    const Quatd turn = poses[k].rotation.conjugate() * poses[k + 1].rotation;
-    const double sine = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
-    const double speed = 2 * std::atan2(sine, std::abs(turn.w)) / secondsPerKey;
+    const Quatd turn = poses[k + 1].rotation * poses[k].rotation.conjugate();
+    const double speed = length(rotationVector(turn)) / secondsPerKey;
     if (speed > fastest.speed) fastest = {speed, k};
   }
   return fastest;

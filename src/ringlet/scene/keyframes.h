@@ -15,8 +15,8 @@ struct Keyframes {
   /// From the first pose to the last.
   double seconds() const { return secondsPerKey * static_cast<double>(poses.size() - 1); }
   /// Positions on the cubic through four keys (Catmull and Rom 1974), whose velocity is continuous; rotations
-  /// by slerp between two. Before the first key the way from it is mirrored, so that the motion begins at the
-  /// speed it goes on with; after the last the head stays. Cost: constant.
+  /// by slerp between two. Before the first key the head glides into it at the velocity it goes on with, and
+  /// begins to turn a third of a second before; after the last it stays. Cost: constant.
   HeadPose poseAt(double t) const;
   /// The fastest turn between two neighbouring keys [rad/s], and which is the first of the two.
   struct Turn {
