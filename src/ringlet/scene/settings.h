@@ -3,6 +3,7 @@
 #pragma once
 
 #include "ringlet/base/vec3.h"
+#include "ringlet/scene/air.h"
 #include "ringlet/scene/contact_settings.h"
 
 namespace ringlet {
@@ -28,6 +29,7 @@ struct Settings {
   int forceLoops = 15;        // paper: force loops per outer step
   int dampingLoops = 10;      // paper: damping loops per force loop
   ContactSettings contacts;   // between strands; jacobi only
+  AirSettings air;            // jacobi only
 
   double stepSeconds() const { return 1 / (framesPerSecond * stepsPerFrame); }
 };

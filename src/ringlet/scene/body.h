@@ -1,0 +1,51 @@
+// Body: what hair stays out of. Shapes are solid: a particle inside one is pushed out.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/vec3.h"
+#include "ringlet/scene/distance_grid.h"
+#include "ringlet/scene/head_pose.h"
+#include "ringlet/scene/motion.h"
+
+namespace ringlet {
+
+enum class BodyShape {
+  sphere,   // of `radius` about the frame's origin
+  capsule,  // all within `radius` of the line of `length` along Y, its middle at the origin
+  plane,    // the half space below Y = 0
+  box,      // halfExtents to either side of the origin
+  grid,     // where `grid` is negative
+};
+
+/// A place and an orientation: world (or head) from body.
+struct BodyPose {
+  Vec3d position;  // [m]
+  Quatd rotation;
+};
+
+struct Body {
+  std::string name{};  // for messages
+  BodyShape shape = BodyShape::sphere;
+  double radius = 0.1;                         // sphere, capsule [m], above 0
+  double length = 0.1;                         // capsule [m]
+  Vec3d halfExtents{0.1, 0.1, 0.1};            // box [m], above 0
+  std::shared_ptr<const DistanceGrid> grid{};  // grid
+  double thickness = 0;                        // hair keeps this much further away [m], 0 to 1
+  double friction = 0.2;                       // Coulomb's coefficient, 0 to 100
+  BodyPose place{};  // in the frame of what carries it: the head's groom axes, or its own motion's
+  std::optional<Motion> motion{};  // of its own, in the world; nothing: the head carries it
+
+  /// Where it is in the world, t seconds after the start, with the head at `head`.
+  BodyPose poseAt(double t, const HeadPose& head) const;
+};
+
+/// poses[step * bodies.size() + body], at the end of each step: stepPoses[k] is the head's at `times[k]` [s].
+std::vector<BodyPose> bodyPosesOf(std::span<const Body> bodies, std::span<const HeadPose> stepPoses,
+                                  std::span<const double> times);
+
+}  // namespace ringlet
