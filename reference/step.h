@@ -10,6 +10,7 @@
 #include "reference/kernels/strand_step.h"
 #include "ringlet/base/assert.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 
 namespace ringlet::reference {
@@ -36,8 +37,16 @@ class Simulation {
   /// The head starts at `start`, coming from `oneStepEarlier` (one outer step before), and the hair moves
   /// with it.
   Simulation(const Groom& groom, const Material& material, const Settings& settings, const HeadPose& start,
-             const HeadPose& oneStepEarlier, const PaperMaterial& paper = {})
-      : settings_(settings), previousHead_(oneStepEarlier), head_(start), firstPoint_(groom.firstPoint) {
+             const HeadPose& oneStepEarlier, const PaperMaterial& paper = {},
+             std::span<const Body> bodies = {})
+      : settings_(settings),
+        previousHead_(oneStepEarlier),
+        head_(start),
+        firstPoint_(groom.firstPoint),
+        bodies_(bodies.begin(), bodies.end()) {
+    RINGLET_ASSERT(bodies.empty() || settings.integrator == Integrator::jacobi,
+                   "bodies need the integrator jacobi");
+    for (const Body& body : bodies_) bodyPoses_.push_back(body.poseAt(0, start));
     for (std::size_t s = 0; s < groom.strandCount(); ++s) {
       rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit,
                                            materialOfStrand(material, s), paper, settings));
@@ -56,10 +65,18 @@ class Simulation {
       : Simulation(groom, material, settings, start, start) {}
 
   /// Outer steps; stepPoses[k] is the head's pose at the end of step k. A frame is settings.stepsPerFrame of
-  /// them.
-  void stepFrame(std::span<const HeadPose> stepPoses) {
-    for (const HeadPose& pose : stepPoses) stepOnce(pose);
+  /// them. bodyPoses: as bodyPosesOf gives them; without, all bodies are the head's.
+  void stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {}) {
+    const std::vector<BodyPose> carried =
+        bodyPoses.empty() ? bodyPosesOf(bodies_, stepPoses, std::vector<double>(stepPoses.size()))
+                          : std::vector<BodyPose>(bodyPoses.begin(), bodyPoses.end());
+    RINGLET_ASSERT(carried.size() == stepPoses.size() * bodies_.size(),
+                   "every body has a pose in every step");
+    for (std::size_t k = 0; k < stepPoses.size(); ++k)
+      stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()));
   }
+  /// Where bodies are before the first step; without, where they are at t = 0.
+  void placeBodies(std::span<const BodyPose> poses) { bodyPoses_.assign(poses.begin(), poses.end()); }
 
   /// Groom order, relative to the head's origin and its translation, along world axes.
   const Field<Real>& positions() const { return positions_; }    // [m]
@@ -110,28 +127,51 @@ class Simulation {
     }
   }
 
-  void stepOnce(const HeadPose& next) {
+  void stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses) {
+    const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
     for (std::size_t s = 0; s < rest_.size(); ++s) {
       const HeadStep<Real> head = headStep(next, s);
       const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
       prepareStrand(rest_[s], settings_, head, positions, velocities, scratch_, taps_[s], systems_[s]);
-      solveVelocities(rest_[s], settings_, head, systems_[s], scratch_, taps_[s], velocities);
+      solveVelocities(rest_[s], settings_, head, bodies, systems_[s], scratch_, taps_[s], positions,
+                      velocities);
     }
     if (settings_.contacts.on) {
       updateContacts(settings_.contacts, static_cast<Real>(settings_.stepSeconds()), positions_, velocities_,
                      contacts_);
-      solveContacts(settings_.contacts.iterations, firstPoint_, systems_, scratch_.solve, contacts_,
-                    velocities_);
+      const auto solveOne = [&](std::size_t s, std::span<Vector3<double>> velocities) {
+        solveAmongBodies<Real>(rest_[s], bodies, strandOf(positions_, s), systems_[s], scratch_, velocities);
+      };
+      solveContacts(settings_.contacts.iterations, firstPoint_, systems_, solveOne, contacts_, velocities_);
     }
     for (std::size_t s = 0; s < rest_.size(); ++s) {
-      moveStrand(rest_[s], settings_, headStep(next, s), strandOf(positions_, s), strandOf(velocities_, s),
-                 scratch_, taps_[s]);
+      moveStrand(rest_[s], settings_, headStep(next, s), bodies, strandOf(positions_, s),
+                 strandOf(velocities_, s), scratch_, taps_[s]);
       record(rest_[s], taps_[s]);
     }
     if (settings_.contacts.on) rememberChanges(velocities_, contacts_);
     ++report_.steps;
     previousHead_ = head_;
     head_ = next;
+    bodyPoses_.assign(bodyPoses.begin(), bodyPoses.end());
+  }
+
+  // In double, as headStep.
+  std::vector<BodyStep<Real>> bodySteps(const HeadPose& next, std::span<const BodyPose> poses) const {
+    std::vector<BodyStep<Real>> steps;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const BodyPose &from = bodyPoses_[b], &to = poses[b];
+      const Vec3d now = from.position - head_.position, then = to.position - next.position;
+      steps.push_back({.body = &bodies_[b],
+                       .rotationNow = toEigen<Real>(from.rotation),
+                       .rotationNext = toEigen<Real>(to.rotation),
+                       .positionNow = toEigen<Real>(now),
+                       .positionNext = toEigen<Real>(then),
+                       .velocity = toEigen<Real>((then - now) / settings_.stepSeconds()),
+                       .turn = toEigen<Real>(to.rotation * from.rotation.conjugate()),
+                       .seconds = static_cast<Real>(settings_.stepSeconds())});
+    }
+    return steps;
   }
 
   // For strand s. In double: the head's velocity is a small difference of positions that may be large.
@@ -163,6 +203,8 @@ class Simulation {
   HeadPose previousHead_, head_;           // poses n - 1 and n
   Field<double> rootShifts_;               // at HeadPose::shift 1 [m]
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
+  std::vector<Body> bodies_;
+  std::vector<BodyPose> bodyPoses_;  // at pose n, in the world
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;
   std::vector<StrandSystem> systems_;  // of the current step

@@ -185,10 +185,11 @@ void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts) {
 }
 
 /// Strand-block Jacobi from a guess. `systems` are those of the solve without contacts; what contacts add to
-/// them is written beside it. velocities [m/s]: v^0 in, the last iterate out.
-template <class Real>
+/// them is written beside it. velocities [m/s]: v^0 in, the last iterate out. `solve(s, velocities)` solves
+/// strand s.
+template <class Real, class SolveOne>
 void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,
-                   std::vector<StrandSystem>& systems, SolveScratch& scratch, Contacts<Real>& contacts,
+                   std::vector<StrandSystem>& systems, SolveOne solve, Contacts<Real>& contacts,
                    Field<Real>& velocities) {
   contacts.freeVelocities = velocities;
   gatherContacts(velocities.size(), contacts);
@@ -207,7 +208,7 @@ void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint
       const std::size_t first = firstPoint[s], count = firstPoint[s + 1] - first;
       const auto strandMomenta = std::span(momenta).subspan(first, count);
       systems[s].contactMomenta.assign(strandMomenta.begin(), strandMomenta.end());
-      solveStrand(systems[s], scratch, std::span(solved).subspan(first, count));
+      solve(s, std::span(solved).subspan(first, count));
     }
   }
   contacts.momentumError = contactMomentumError(contacts, momenta, solved);

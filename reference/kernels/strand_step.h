@@ -13,6 +13,7 @@
 #include "reference/equations/stretch_limit.h"
 #include "reference/equations/stretch_spring.h"
 #include "reference/fields.h"
+#include "reference/kernels/body_step.h"
 #include "reference/rest_strand.h"
 #include "reference/strand_solve.h"
 #include "ringlet/scene/settings.h"
@@ -74,6 +75,8 @@ struct StepScratch {
   Field<Real> edges, directions;                                 // e_i [m], e^_i [1]
   Field<Real> movedEdges;                                        // e_i after p += T v [m]
   Field<Real> velocityDifferences, smoothedVelocityDifferences;  // dv_i, nu_i [m/s]
+  Field<Real> starts;                                            // positions before the move [m]
+  std::vector<BodyPush<Real>> pushes;                            // of bodies
   Field<Real> edgeForces;  // per edge, before they go to the particles [N]
   SolveScratch solve;
   Field<double> solved;  // velocities in the solve's double [m/s]
@@ -250,10 +253,40 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
   }
 }
 
+/// The strand's own system with what bodies add to it.
+template <class Real>
+StrandSystem withPushes(const StrandSystem& system, const std::vector<BodyPush<Real>>& pushes) {
+  StrandSystem pushed = system;
+  pushed.contactWeights.resize(pushes.size(), Matrix3<double>::Zero());
+  pushed.contactMomenta.resize(pushes.size(), Vector3<double>::Zero());
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    pushed.contactWeights[i] += pushes[i].weight;
+    pushed.contactMomenta[i] += pushes[i].momentum;
+  }
+  return pushed;
+}
+
+/// Integrator::jacobi: the strand as block; and once more where that would go into a body.
+template <class Real>
+void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
+                      FieldView<Real> positions, const StrandSystem& system, StepScratch<Real>& scratch,
+                      FieldView<double> velocities) {
+  solveStrand(system, scratch.solve, velocities);
+  if (bodies.empty()) return;
+  Field<Real> found;
+  for (const Vector3<double>& v : velocities) found.push_back(v.template cast<Real>());
+  if (!findPushes(rest, bodies, positions, found, scratch.pushes)) return;
+  solveStrand(withPushes(system, scratch.pushes), scratch.solve, velocities);
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] = velocities[i].template cast<Real>();
+  rub<Real>(rest, scratch.pushes, found);
+  for (std::size_t i = 0; i < found.size(); ++i) velocities[i] = found[i].template cast<double>();
+}
+
 /// The new velocities of the free particles; the pinned ones are already there.
 template <class Real>
 void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                     const StrandSystem& system, StepScratch<Real>& scratch, const StrandTaps<Real>& taps,
+                     const std::vector<BodyStep<Real>>& bodies, const StrandSystem& system,
+                     StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> positions,
                      FieldView<Real> velocities) {
   if (rest.particleCount() <= rest.rootCount) return;
   if (settings.integrator == Integrator::paper) {
@@ -263,7 +296,9 @@ void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, con
   scratch.solved.resize(velocities.size());
   for (std::size_t i = 0; i < velocities.size(); ++i)
     scratch.solved[i] = velocities[i].template cast<double>();
-  if (settings.integrator == Integrator::jacobi) solveStrand(system, scratch.solve, scratch.solved);
+  if (settings.integrator == Integrator::jacobi) {
+    solveAmongBodies<Real>(rest, bodies, positions, system, scratch, scratch.solved);
+  }
   if (settings.integrator == Integrator::pointJacobi) {
     iteratePoints(system, settings.pointIterations, settings.chebyshev, scratch.solve, scratch.solved);
   }
@@ -280,12 +315,30 @@ Real measureStretch(const RestStrand<Real>& rest, FieldView<Real> positions) {
   return stretch;
 }
 
-/// p += T v with the new velocities, then the stretch limit.
+/// Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other. Velocities
+/// do not follow.
+template <class Real>
+void keepAmongBodies(const RestStrand<Real>& rest, const Settings& settings,
+                     const std::vector<BodyStep<Real>>& bodies, StepScratch<Real>& scratch,
+                     FieldView<Real> positions, FieldView<Real> velocities) {
+  keepOut<Real>(rest, bodies, scratch.starts, positions, velocities);
+  for (int round = 1; round < kKeepOutRounds; ++round) {
+    differences(positions, scratch.movedEdges);
+    Field<Real> unused(positions.size(), Vector3<Real>::Zero());
+    const std::size_t limited = limitStretch(rest.rootCount, static_cast<Real>(settings.maxStretch), Real(1),
+                                             rest.edgeLengths, scratch.movedEdges, positions, unused);
+    if (limited == 0) return;
+    keepOut<Real>(rest, bodies, scratch.starts, positions, velocities);
+  }
+}
+
+/// p += T v with the new velocities, then the stretch limit, then out of bodies.
 template <class Real>
 void moveStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
-                StrandTaps<Real>& taps) {
+                const std::vector<BodyStep<Real>>& bodies, FieldView<Real> positions,
+                FieldView<Real> velocities, StepScratch<Real>& scratch, StrandTaps<Real>& taps) {
   taps.solvedVelocities.assign(velocities.begin(), velocities.end());
+  scratch.starts.assign(positions.begin(), positions.end());
   differences(positions, scratch.movedEdges);
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
     scratch.movedEdges[i] += head.seconds * (velocities[i + 1] - velocities[i]);
@@ -300,6 +353,7 @@ void moveStrand(const RestStrand<Real>& rest, const Settings& settings, const He
   }
   taps.limitedCount = limitStretch(rest.rootCount, static_cast<Real>(settings.maxStretch), head.seconds,
                                    rest.edgeLengths, scratch.movedEdges, positions, velocities);
+  if (!bodies.empty()) keepAmongBodies(rest, settings, bodies, scratch, positions, velocities);
   taps.maxEdgeStretch = measureStretch(rest, positions);
   taps.positions.assign(positions.begin(), positions.end());
   taps.velocities.assign(velocities.begin(), velocities.end());

@@ -56,7 +56,10 @@ struct MetStrands {
     Field<double> velocities = start;
     SolveScratch scratch;
     for (StrandSystem& system : systems) system.contactWeights.clear(), system.contactMomenta.clear();
-    solveContacts(iterationCount, firstPoint, systems, scratch, contacts, velocities);
+    const auto solveOne = [&](std::size_t s, std::span<Vector3<double>> of) {
+      solveStrand(systems[s], scratch, of);
+    };
+    solveContacts(iterationCount, firstPoint, systems, solveOne, contacts, velocities);
     return velocities;
   }
 };

@@ -1,0 +1,196 @@
+// What bodies do to a strand in a step: find what would go into one, hold it in the velocity solve, rub, and
+// keep particles and edges out of where they have moved to. Mirrors shaders/bodies/*.glsl.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "reference/equations/body_contact.h"
+#include "reference/rest_strand.h"
+#include "reference/strand_solve.h"
+
+namespace ringlet::reference {
+
+/// A body in the step from n to n + 1; places relative to the head's origin, along world axes.
+template <class Real>
+struct BodyStep {
+  const Body* body = nullptr;
+  Rotation<Real> rotationNow, rotationNext;
+  Vector3<Real> positionNow, positionNext;  // [m]
+  Vector3<Real> velocity;  // of its origin, relative to the head's translation in this step [m/s]
+  Rotation<Real> turn;     // from rotationNow to rotationNext; from double, where the two would lose digits
+  Real seconds = 0;
+
+  Vector3<Real> atStart(const Vector3<Real>& p) const {
+    return rotationNow.conjugate() * Vector3<Real>(p - positionNow);
+  }
+  Vector3<Real> atEnd(const Vector3<Real>& p) const {
+    return rotationNext.conjugate() * Vector3<Real>(p - positionNext);
+  }
+  Vector3<Real> fromEnd(const Vector3<Real>& y) const { return rotationNext * y + positionNext; }
+  Vector3<Real> outward(const Vector3<Real>& normal) const { return rotationNext * normal; }
+  /// Of the place of the body that is at p when the step starts [m/s].
+  Vector3<Real> velocityAt(const Vector3<Real>& p) const {
+    const Vector3<Real> arm = p - positionNow, q = turn.vec();
+    const Vector3<Real> across = Real(2) * q.cross(arm);
+    return velocity + (turn.w() * across + q.cross(across)) / seconds;
+  }
+};
+
+/// What all bodies together ask of a particle: weight v = momentum, added to its mass and right-hand side;
+/// and the heaviest of what they ask, which rubs.
+template <class Real>
+struct BodyPush {
+  Matrix3<double> weight = Matrix3<double>::Zero();    // [kg]
+  Vector3<double> momentum = Vector3<double>::Zero();  // [kg m/s]
+  Real heaviest = 0;                                   // [kg]
+  Real target = 0;                                     // speed along the normal [m/s]
+  Vector3<Real> normal = Vector3<Real>::Zero(), bodyVelocity = Vector3<Real>::Zero();
+  Real friction = 0;
+
+  void add(Real w, const Vector3<Real>& n, Real speed, const Vector3<Real>& u, Real coefficient) {
+    const Vector3<double> direction = n.template cast<double>();
+    weight += double(w) * direction * direction.transpose();
+    momentum += double(w) * double(speed) * direction;
+    if (w <= heaviest) return;
+    heaviest = w, target = speed, normal = n, bodyVelocity = u, friction = coefficient;
+  }
+};
+
+/// From the particle before to the one after; zero where they are in one place.
+template <class Real>
+Vector3<Real> strandDirection(FieldView<Real> positions, std::size_t i) {
+  const Vector3<Real>& next = positions[std::min(i + 1, positions.size() - 1)];
+  return directionOr<Real>(next - positions[i - 1], Vector3<Real>::Zero());
+}
+
+/// Of all particles, from where they are and the velocities they would have without bodies. Whether there is
+/// any.
+template <class Real>
+bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
+                FieldView<Real> positions, FieldView<Real> free, std::vector<BodyPush<Real>>& pushes) {
+  pushes.assign(rest.particleCount(), {});
+  bool any = false;
+  for (const BodyStep<Real>& step : bodies) {
+    const Body& body = *step.body;
+    const Real T = step.seconds, friction = static_cast<Real>(body.friction);
+    const auto start = [&](std::size_t i) { return step.atStart(positions[i]); };
+    const auto end = [&](std::size_t i) { return step.atEnd(positions[i] + T * free[i]); };
+    for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
+      const Touch<Real> touch = traceParticle(body, start(i), end(i));
+      if (!touch.found) continue;
+      const bool isDeep = touch.surface.distance < Real(-kDeep);
+      Vector3<Real> n = step.outward(touch.surface.normal);
+      if (isDeep) n = wayOutOfDepth(n, strandDirection<Real>(positions, i));
+      const Vector3<Real> u = step.velocityAt(positions[i]);
+      const Real target = n.dot(u) + leastParting(touch, T), deficit = target - n.dot(free[i]);
+      if (!(deficit > Real(0))) continue;
+      const Real weight = (isDeep ? Real(kDeepShare) : Real(1)) * bodyWeight(rest.masses[i], deficit);
+      pushes[i].add(weight, n, target, u, friction);
+      any = true;
+    }
+    for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
+      const Touch<Real> touch = traceEdge(body, start(i), end(i), start(i + 1), end(i + 1));
+      if (!touch.found) continue;
+      const Vector3<Real> n = step.outward(touch.surface.normal);
+      const Real shares[2] = {1 - touch.along, touch.along};
+      const Vector3<Real> place = shares[0] * positions[i] + shares[1] * positions[i + 1];
+      const Vector3<Real> u = step.velocityAt(place);
+      const Real now = n.dot(shares[0] * free[i] + shares[1] * free[i + 1]);
+      const Real deficit = n.dot(u) + leastParting(touch, T) - now;
+      if (!(deficit > Real(0))) continue;
+      const Real sum = shares[0] * shares[0] + shares[1] * shares[1];
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t k = i + side;
+        if (k < rest.pinnedCount() || shares[side] < Real(kLeastShare)) continue;
+        const Real target = n.dot(free[k]) + shares[side] / sum * deficit;
+        pushes[k].add(shares[side] * bodyWeight(rest.masses[k], deficit), n, target, u, friction);
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+/// Friction, from what the pushes came to at the solved velocities.
+template <class Real>
+void rub(const RestStrand<Real>& rest, const std::vector<BodyPush<Real>>& pushes,
+         FieldView<Real> velocities) {
+  for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
+    const BodyPush<Real>& push = pushes[i];
+    const Real momentum = push.heaviest * (push.target - push.normal.dot(velocities[i]));
+    velocities[i] =
+        rubbed(velocities[i], push.bodyVelocity, push.normal, momentum, push.friction, rest.masses[i]);
+  }
+}
+
+/// A particle that began the step outside, at y0, and has moved to y1: out of the body, the way it came.
+template <class Real>
+struct KeptOut {
+  bool moved = false;
+  Vector3<Real> place, normal;
+};
+template <class Real>
+KeptOut<Real> keptOut(const Body& body, const Vector3<Real>& y0, Vector3<Real> y1) {
+  if (bodyDistance(body, y0).distance < Real(-kTouchDistance)) return {};
+  const Touch<Real> touch = traceParticle(body, y0, y1);
+  if (!touch.found) return {};
+  const Vector3<Real> came = y1;
+  // Onto the plane where it touched, then out of what curves beyond it; else back to the place itself.
+  const Real beyond = touch.surface.normal.dot(y1 - touch.place) + touch.surface.distance;
+  Vector3<Real> normal = touch.surface.normal;
+  y1 -= std::min(beyond, Real(0)) * normal;
+  for (int turn = 0; turn < 2; ++turn) {
+    const Surface<Real> surface = bodyDistance(body, y1);
+    if (surface.distance >= Real(0)) continue;
+    y1 -= surface.distance * surface.normal;
+    normal = surface.normal;
+  }
+  if (bodyDistance(body, y1).distance < Real(-kTouchDistance)) y1 = touch.place;
+  return {(y1 - came).norm() > Real(0), y1, normal};
+}
+
+/// After the move: particles first, then edges, which leave at kLeaveSpeed at most; of two edges the one that
+/// moves a particle further. `starts`: positions at the step's start.
+template <class Real>
+void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
+             const Field<Real>& starts, FieldView<Real> positions, FieldView<Real> velocities) {
+  for (const BodyStep<Real>& step : bodies) {
+    for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
+      const KeptOut<Real> kept = keptOut(*step.body, step.atStart(starts[i]), step.atEnd(positions[i]));
+      if (!kept.moved) continue;
+      positions[i] = step.fromEnd(kept.place);
+      const Vector3<Real> n = step.outward(kept.normal);
+      velocities[i] -= std::min(n.dot(velocities[i] - step.velocityAt(starts[i])), Real(0)) * n;
+    }
+  }
+  Field<Real> shifts(rest.particleCount(), Vector3<Real>::Zero());
+  Field<Real> changes = shifts;  // of velocities, by the same edge
+  for (const BodyStep<Real>& step : bodies) {
+    for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
+      const EdgeSurface<Real> deepest =
+          edgeDistance(*step.body, step.atEnd(positions[i]), step.atEnd(positions[i + 1]));
+      if (!deepest.isWithin || deepest.surface.distance >= Real(0)) continue;
+      const Vector3<Real> n = step.outward(deepest.surface.normal);
+      const Real out = std::min(-deepest.surface.distance, Real(kLeaveSpeed) * step.seconds);
+      const Real shares[2] = {1 - deepest.along, deepest.along};
+      const Real sum = shares[0] * shares[0] + shares[1] * shares[1];
+      const Vector3<Real> start = shares[0] * starts[i] + shares[1] * starts[i + 1];
+      const Vector3<Real> velocity = shares[0] * velocities[i] + shares[1] * velocities[i + 1];
+      const Real inward = std::min(n.dot(velocity - step.velocityAt(start)), Real(0));
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t k = i + side;
+        const Vector3<Real> shift = shares[side] / sum * out * n;
+        if (k < rest.pinnedCount() || shift.norm() <= shifts[k].norm()) continue;
+        shifts[k] = shift;
+        changes[k] = -shares[side] / sum * inward * n;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < rest.particleCount(); ++i) {
+    positions[i] += shifts[i];
+    velocities[i] += changes[i];
+  }
+}
+
+}  // namespace ringlet::reference
