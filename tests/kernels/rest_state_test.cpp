@@ -162,5 +162,51 @@ TEST(RestState, RefusesWhatItCannotHold) {
   EXPECT_NE(errorOf(good, settings).find("point_jacobi; contacts need jacobi"), std::string::npos);
 }
 
+TEST(RestState, RefusesAirOutOfRange) {
+  const Groom groom = randomGroom({8}, 1);
+  const auto errorOf = [&](const Settings& settings) {
+    const auto rest = buildRestState(groom, {}, settings);
+    return rest ? std::string() : rest.error().message;
+  };
+  struct Range {
+    const char* name;
+    double& (*valueOf)(AirSettings&);
+    double low, high;
+  };
+  const Range ranges[] = {
+      {"air.fallSpeed", [](AirSettings& air) -> double& { return air.fallSpeed; }, 0.01, 1000},
+      {"air.alongShare", [](AirSettings& air) -> double& { return air.alongShare; }, 0, 1},
+      {"air.wind.x", [](AirSettings& air) -> double& { return air.wind.x; }, -1000, 1000},
+      {"air.wind.y", [](AirSettings& air) -> double& { return air.wind.y; }, -1000, 1000},
+      {"air.wind.z", [](AirSettings& air) -> double& { return air.wind.z; }, -1000, 1000},
+      {"air.gust", [](AirSettings& air) -> double& { return air.gust; }, 0, 10},
+      {"air.gustSeconds", [](AirSettings& air) -> double& { return air.gustSeconds; }, 0.01, 1000},
+      {"air.turbulence", [](AirSettings& air) -> double& { return air.turbulence; }, 0, 1000},
+      {"air.eddySize", [](AirSettings& air) -> double& { return air.eddySize; }, 0.001, 1000},
+  };
+  for (const Range& range : ranges) {
+    Settings settings;
+    double& value = range.valueOf(settings.air);
+    for (const double allowed : {range.low, range.high}) {
+      value = allowed;
+      EXPECT_EQ(errorOf(settings), "") << range.name << " " << allowed;
+    }
+    for (const double refused :
+         {std::nextafter(range.low, -1e4), std::nextafter(range.high, 1e4), double(NAN), double(INFINITY)}) {
+      value = refused;
+      const std::string message = errorOf(settings);
+      EXPECT_EQ(message.find(std::string(range.name) + " is "), 0u) << message;
+      EXPECT_NE(message.find("it must be from"), std::string::npos) << message;
+    }
+  }
+  Settings settings;
+  settings.air.on = true;
+  EXPECT_EQ(errorOf(settings), "");
+  settings.integrator = Integrator::pointJacobi;
+  EXPECT_NE(errorOf(settings).find("point_jacobi; air needs jacobi"), std::string::npos);
+  settings.integrator = Integrator::paper;
+  EXPECT_NE(errorOf(settings).find("the integrator paper; air needs jacobi"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ringlet::test

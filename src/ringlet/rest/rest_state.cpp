@@ -321,6 +321,15 @@ Status checkSettings(const Settings& s, const Material& material) {
       {"contacts.dampingReleaseSeconds", s.contacts.dampingReleaseSeconds, 0, 10},
       {"contacts.breakFactor", s.contacts.breakFactor, 1, 10},
       {"contacts.iterations", double(s.contacts.iterations), 1, 1000},
+      {"air.fallSpeed", s.air.fallSpeed, 0.01, 1000},
+      {"air.alongShare", s.air.alongShare, 0, 1},
+      {"air.wind.x", s.air.wind.x, -1000, 1000},
+      {"air.wind.y", s.air.wind.y, -1000, 1000},
+      {"air.wind.z", s.air.wind.z, -1000, 1000},
+      {"air.gust", s.air.gust, 0, 10},
+      {"air.gustSeconds", s.air.gustSeconds, 0.01, 1000},
+      {"air.turbulence", s.air.turbulence, 0, 1000},
+      {"air.eddySize", s.air.eddySize, 0.001, 1000},
   };
   for (const Range& r : ranges) {
     if (!(r.value >= r.low && r.value <= r.high)) {
@@ -331,6 +340,11 @@ Status checkSettings(const Settings& s, const Material& material) {
     return Error{fmt::format(
         "contacts are on with the integrator {}; contacts need jacobi: choose it, or turn contacts off",
         s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
+  }
+  if (s.air.on && s.integrator != Integrator::jacobi) {
+    return Error{
+        fmt::format("the air is on with the integrator {}; air needs jacobi: choose it, or turn the air off",
+                    s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
   }
   return checkMaterial(material);
 }

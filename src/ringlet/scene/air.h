@@ -17,8 +17,8 @@ struct AirSettings {
   double fallSpeed = 4;  // at which air carries hair's weight [m/s], 0.01 to 1000: less, and wind takes more
   double alongShare = 0.1;  // 0 to 1
 
-  Vec3d wind{};            // even wind [m/s]
-  double gust = 0;         // the wind swells by up to this share of itself, 0 to 10
+  Vec3d wind{};            // even wind, each component from -1000 to 1000 [m/s]
+  double gust = 0;         // the wind swells by up to this share of itself, half of it on average; 0 to 10
   double gustSeconds = 2;  // from gust to gust, on average [s], 0.01 to 1000
   double turbulence = 0;   // root mean square of each component of the turbulent wind [m/s], 0 to 1000
   double eddySize = 0.2;   // of its largest eddies [m], 0.001 to 1000

@@ -1,0 +1,21 @@
+// One mode of the turbulent wind. Kraichnan, "Diffusion by a random velocity field", 1970:
+//
+//   w = sum of a_k cos(k . x + phase_k)        a_k across k, so that the wind has no divergence
+//
+// Phases run with time; ringlet/scene/wind.h makes the modes. Mirrored by reference/equations/turbulence.h.
+#ifndef RINGLET_TURBULENCE
+#define RINGLET_TURBULENCE
+
+/// An angle of up to 1,000 turns, less whole turns [rad]: Vulkan owes nothing of cos() beyond [-pi, pi].
+float foldedAngle(float angle) {
+  float turns = floor(angle * 0.15915494 + 0.5);
+  // 2 pi in two parts, the first in so few digits that its product is exact.
+  return (angle - turns * 6.28125) - turns * 0.0019353072;
+}
+
+/// wave [rad/m], amplitude [m/s], phase where x is 0 [rad], x [m]: wind [m/s].
+vec3 windOfMode(vec3 wave, vec3 amplitude, float phase, vec3 x) {
+  return cos(foldedAngle(dot(wave, x) + phase)) * amplitude;
+}
+
+#endif
