@@ -47,6 +47,7 @@ class Simulation {
     RINGLET_ASSERT(bodies.empty() || settings.integrator == Integrator::jacobi,
                    "bodies need the integrator jacobi");
     for (const Body& body : bodies_) bodyPoses_.push_back(body.poseAt(0, start));
+    if (settings.air.on) windModes_ = windModes(settings.air);
     for (std::size_t s = 0; s < groom.strandCount(); ++s) {
       rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit,
                                            materialOfStrand(material, s), paper, settings));
@@ -129,10 +130,11 @@ class Simulation {
 
   void stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses) {
     const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
+    const AirStep<Real> air = airStep(next);
     for (std::size_t s = 0; s < rest_.size(); ++s) {
       const HeadStep<Real> head = headStep(next, s);
       const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
-      prepareStrand(rest_[s], settings_, head, positions, velocities, scratch_, taps_[s], systems_[s]);
+      prepareStrand(rest_[s], settings_, head, air, positions, velocities, scratch_, taps_[s], systems_[s]);
       solveVelocities(rest_[s], settings_, head, bodies, systems_[s], scratch_, taps_[s], positions,
                       velocities);
     }
@@ -154,6 +156,17 @@ class Simulation {
     previousHead_ = head_;
     head_ = next;
     bodyPoses_.assign(bodyPoses.begin(), bodyPoses.end());
+  }
+
+  AirStep<Real> airStep(const HeadPose& next) const {
+    if (!settings_.air.on) return {};
+    const double T = settings_.stepSeconds(), seconds = T * static_cast<double>(report_.steps + 1);
+    const Vec3d travel = (next.position - head_.position) / T;
+    return {.settings = &settings_.air,
+            .wind = toEigen<Real>(evenWindAt(settings_.air, seconds) - travel),
+            .modes = windModes_,
+            .origin = toEigen<double>(head_.position),
+            .seconds = seconds};
   }
 
   // In double, as headStep.
@@ -204,6 +217,7 @@ class Simulation {
   Field<double> rootShifts_;               // at HeadPose::shift 1 [m]
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
   std::vector<Body> bodies_;
+  std::vector<WindMode> windModes_;
   std::vector<BodyPose> bodyPoses_;  // at pose n, in the world
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;

@@ -34,13 +34,22 @@ struct StrandSystem {
   std::vector<Matrix3<double>> contactWeights;
   Field<double> contactMomenta;
 
+  // And what the air adds; empty without.
+  std::vector<Matrix3<double>> airWeights;
+  Field<double> airMomenta;
+
   std::size_t particleCount() const { return masses.size(); }
   Matrix3<double> massBlock(std::size_t i) const {
-    const Matrix3<double> block = masses[i] * Matrix3<double>::Identity();
-    return contactWeights.empty() ? block : Matrix3<double>(block + contactWeights[i]);
+    Matrix3<double> block = masses[i] * Matrix3<double>::Identity();
+    if (!contactWeights.empty()) block += contactWeights[i];
+    if (!airWeights.empty()) block += airWeights[i];
+    return block;
   }
   Vector3<double> rightSide(std::size_t i) const {
-    return contactMomenta.empty() ? momenta[i] : Vector3<double>(momenta[i] + contactMomenta[i]);
+    Vector3<double> sum = momenta[i];
+    if (!contactMomenta.empty()) sum += contactMomenta[i];
+    if (!airMomenta.empty()) sum += airMomenta[i];
+    return sum;
   }
   Matrix3<double> edgeBlock(std::size_t i) const {
     return across[i] * Matrix3<double>::Identity() + along[i] * directions[i] * directions[i].transpose();

@@ -57,11 +57,13 @@ struct BodyPush {
   }
 };
 
-/// From the particle before to the one after; zero where they are in one place.
+/// Along the strand at a free particle: between the directions of its two edges, or zero.
 template <class Real>
 Vector3<Real> strandDirection(FieldView<Real> positions, std::size_t i) {
-  const Vector3<Real>& next = positions[std::min(i + 1, positions.size() - 1)];
-  return directionOr<Real>(next - positions[i - 1], Vector3<Real>::Zero());
+  const Vector3<Real> zero = Vector3<Real>::Zero();
+  Vector3<Real> sum = directionOr<Real>(positions[i] - positions[i - 1], zero);
+  if (i + 1 < positions.size()) sum += directionOr<Real>(positions[i + 1] - positions[i], zero);
+  return directionOr<Real>(sum, zero);
 }
 
 /// Of all particles, from where they are and the velocities they would have without bodies. Whether there is

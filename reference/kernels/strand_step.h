@@ -6,12 +6,14 @@
 
 #include <algorithm>
 
+#include "reference/equations/air_drag.h"
 #include "reference/equations/bend_spring.h"
 #include "reference/equations/core_spring.h"
 #include "reference/equations/frame.h"
 #include "reference/equations/smoothing.h"
 #include "reference/equations/stretch_limit.h"
 #include "reference/equations/stretch_spring.h"
+#include "reference/equations/turbulence.h"
 #include "reference/fields.h"
 #include "reference/kernels/body_step.h"
 #include "reference/rest_strand.h"
@@ -48,6 +50,16 @@ struct HeadStep {
   Vector3<Real> velocityBetween(const Vector3<double>& from, const Vector3<double>& to) const {
     return ((to - from) / static_cast<double>(seconds)).template cast<Real>();
   }
+};
+
+/// The air in a step.
+template <class Real>
+struct AirStep {
+  const AirSettings* settings = nullptr;       // none: a vacuum
+  Vector3<Real> wind = Vector3<Real>::Zero();  // without turbulence, relative to the head's translation [m/s]
+  std::span<const WindMode> modes;
+  Vector3<double> origin = Vector3<double>::Zero();  // where the head is when the step starts [m]
+  double seconds = 0;                                // when it ends
 };
 
 /// Every intermediate of a strand's step, N particles or N - 1 edges, for comparison with the shader's taps.
@@ -191,6 +203,33 @@ void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, 
   }
 }
 
+/// Along the strand at particle i: between the directions of its two edges, or zero.
+template <class Real>
+Vector3<Real> tangentAt(const Field<Real>& directions, std::size_t i) {
+  Vector3<Real> sum = Vector3<Real>::Zero();
+  if (i > 0) sum += directions[i - 1];
+  if (i < directions.size()) sum += directions[i];
+  return directionOr<Real>(sum, Vector3<Real>::Zero());
+}
+
+/// What the air adds to the system, from positions and velocities at the step's start.
+template <class Real>
+void addAir(const RestStrand<Real>& rest, const AirStep<Real>& air, const Field<Real>& directions, Real T,
+            FieldView<Real> positions, FieldView<Real> velocities, StrandSystem& system) {
+  system.airWeights.clear();
+  system.airMomenta.clear();
+  if (!air.settings) return;
+  for (std::size_t i = 0; i < rest.particleCount(); ++i) {
+    const Vector3<Real> wind =
+        air.wind + turbulentWind<Real>(air.modes, air.origin, air.seconds, positions[i]);
+    const Vector3<Real> u = velocities[i] - wind;
+    const Matrix3<Real> weight =
+        airDragMatrix<Real>(*air.settings, u, tangentAt(directions, i), rest.masses[i], T);
+    system.airWeights.push_back(weight.template cast<double>());
+    system.airMomenta.push_back((weight * wind).template cast<double>());
+  }
+}
+
 /// Integrator::paper, section 5: the springs' forces of the step's start over dampingLoops x forceLoops small
 /// steps. In each, damping from the velocities as they are, then the limit on rates.
 template <class Real>
@@ -231,8 +270,8 @@ void runPaperLoops(const RestStrand<Real>& rest, const Settings& settings, const
 /// forces, the velocities of pinned particles and, but for the paper's loops, the system.
 template <class Real>
 void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                   FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
-                   StrandTaps<Real>& taps, StrandSystem& system) {
+                   const AirStep<Real>& air, FieldView<Real> positions, FieldView<Real> velocities,
+                   StepScratch<Real>& scratch, StrandTaps<Real>& taps, StrandSystem& system) {
   const bool isPaper = settings.integrator == Integrator::paper;
 
   // The head's new translation is the new frame of reference.
@@ -242,6 +281,8 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
     measureShape(rest, isPaper, head, positions, velocities, scratch, taps);
     computeForces(rest, isPaper, scratch, taps);
   }
+
+  if (!isPaper) addAir<Real>(rest, air, scratch.directions, head.seconds, positions, velocities, system);
 
   // Pinned particles turn with the head; all others follow from forces.
   for (std::size_t i = 0; i < rest.pinnedCount(); ++i) {

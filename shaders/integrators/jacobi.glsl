@@ -15,11 +15,15 @@ vec3 rightHandSide(int k, vec3 forceBefore) {
   return m * v[k] + stepSeconds() * (force[k] - forceBefore + m * parameters.gravity.xyz);
 }
 
-// What contacts add to particle k: 2 D to its mass, and a momentum. Read where they are used; not kept in registers.
+// What is added to particle k's mass, and to its right-hand side: by contacts, 2 D and a momentum, read where they are
+// used and not kept in registers; by the air; by bodies.
 bool withContacts = false;
 bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
+const bool kAddsMass = kContacts || kAir || kBodies;
 Symmetric massOf(int k) {
   Symmetric mass = symmetricDiagonal(restEdge[k].x);
+  if (kAir) mass = add(mass, airDragMatrix(drag[k], tangent[k], restEdge[k].x));
+  if (kBodies) mass = add(mass, pushWeight[k]);
   if (meetsContacts(k)) {
     ContactSystem contact = contactSystemOf(strand.firstParticle + first + k);
     mass.d += 2.0 * contact.diagonal.xyz;
@@ -27,8 +31,11 @@ Symmetric massOf(int k) {
   }
   return mass;
 }
-vec3 contactMomentum(int k) {
-  return meetsContacts(k) ? contactSystemOf(strand.firstParticle + first + k).momentum.xyz : vec3(0);
+vec3 addedMomentum(int k) {
+  vec3 momentum = meetsContacts(k) ? contactSystemOf(strand.firstParticle + first + k).momentum.xyz : vec3(0);
+  if (kAir) momentum += restEdge[k].x * multiply(drag[k], tangent[k], wind[k]);
+  if (kBodies) momentum += pushMomentum[k];
+  return momentum;
 }
 
 // The same without the springs of the boundary edges: their pull belongs to f, the force across the boundary. Left in,
@@ -37,7 +44,7 @@ vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
   vec3 sum = m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz);
-  if (kContacts) sum += contactMomentum(k);
+  if (kAddsMass) sum += addedMomentum(k);
   return sum;
 }
 
@@ -66,7 +73,7 @@ void solveStrandBlock(vec3 pinned[3]) {
   [[unroll]] for (int k = RUN - 2; k >= 0; --k) {
     ImplicitEdge edge = implicitEdgeOf(k);
     Elimination step = eliminateEdge(edge, system.P, system.y);
-    system.P = kContacts ? add(system.P, massOf(k)) : addDiagonal(system.P, restEdge[k].x);
+    system.P = kAddsMass ? add(system.P, massOf(k)) : addDiagonal(system.P, restEdge[k].x);
     system.y += rightHandSideOfRun(k);
     if (isPinned(k + 1)) {  // its velocity is given, whatever pulls
       step.transfer = mat3(0);

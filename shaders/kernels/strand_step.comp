@@ -180,10 +180,28 @@ void coreForces() {
 // Elastic force on particle k: its edge pulls it on, the edge before pulls it back.
 vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
 
+#include "bodies/run_air.glsl"
+#include "bodies/run_bodies.glsl"
 #include "integrators/jacobi.glsl"
 #include "integrators/paper.glsl"
 #include "integrators/point_jacobi.glsl"
 #include "integrators/residual.glsl"
+
+// The strand as block; and once more where that would go into a body. One loop, so that there is one solve in the code.
+void solveAmongBodies(uint step, vec3 pinned[3]) {
+  vec3 before[RUN] = v;
+  clearPushes();
+  bool pushed = false;
+  for (uint turn = 0; turn < (pushed ? 2 : 1); ++turn) {
+    v = before;
+    solveStrandBlock(pinned);
+    if (turn == 0) {
+      pushed = findPushes(step);
+    } else {
+      rubRun();
+    }
+  }
+}
 
 void solveVelocities(uint step) {
   vec3 pinned[3];
@@ -191,37 +209,68 @@ void solveVelocities(uint step) {
     pinned[k] = pinnedVelocity(step, k);
   }
   vec3 before[RUN] = v;
-  if (kIntegrator == kIntegratorJacobi) solveStrandBlock(pinned);
+  if (kIntegrator == kIntegratorJacobi) {
+    if (kAir) feelAir(step);
+    if (kBodies) {
+      solveAmongBodies(step, pinned);
+    } else {
+      solveStrandBlock(pinned);
+    }
+  }
   if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
-  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kContacts) measureResidual(before);
+  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual(before);
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
   }
 }
 
-// p += T v, then the stretch limit as a prefix sum along the strand.
-void moveAndLimit(uint step) {
-  float T = stepSeconds();
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
-    p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
-  }
-  // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
-  vec3 vNext = fromTipward(v[0], 1);
+// The stretch limit as a prefix sum along the strand; e is the moved edges, then of no more use. Whether an edge was too
+// long.
+bool limitEdges(bool velocitiesFollow) {
   vec3 shift = vec3(0);
+  uint limited = 0;
   [[unroll]] for (int k = 0; k < RUN; ++k) {
-    vec3 edge = e[k] + T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
-    float share = isPinned(k + 1) ? 0.0 : limitedEdgeShare(edge, restEdge[k].y);
-    limitedEdges += share < 0.0 ? 1 : 0;
-    e[k] = shift;  // of particle k; the edge itself is no longer needed
+    float share = isPinned(k + 1) ? 0.0 : limitedEdgeShare(e[k], restEdge[k].y);
+    limited += share < 0.0 ? 1 : 0;
+    vec3 edge = e[k];
+    e[k] = shift;  // of particle k
     shift += share * edge;
   }
   vec3 before = sumBeforeRun(shift);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     vec3 s = isPinned(k) ? vec3(0) : before + e[k];
     p[k] += s;
-    v[k] += s / T;
+    if (velocitiesFollow) v[k] += s / stepSeconds();
   }
+  if (velocitiesFollow) limitedEdges += limited;
+  return kBodies && sumOverStrand(limited) > 0;
+}
+
+// Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other.
+void keepAmongBodies(uint step) {
+  bool again = true;
+  for (uint round = 1; again; ++round) {
+    keepRunOut(step);
+    if (round == kKeepOutRounds) break;
+    vec3 pNext = fromTipward(p[0], 1);
+    [[unroll]] for (int k = 0; k < RUN; ++k) e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
+    again = limitEdges(false);
+  }
+}
+
+// p += T v, then the stretch limit, then out of bodies.
+void moveAndLimit(uint step) {
+  float T = stepSeconds();
+  if (kBodies) pStart = p;
+  // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
+  vec3 vNext = fromTipward(v[0], 1);
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
+    e[k] += T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
+  }
+  limitEdges(true);
+  if (kBodies) keepAmongBodies(step);
 }
 
 void storeStrand(uint strandIndex) {

@@ -6,7 +6,10 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "shared/strand_buffers.glsl"
+#include "bodies/near_bodies.glsl"
+#include "equations/air_drag.glsl"
 #include "equations/bend_spring.glsl"
+#include "equations/body_contact.glsl"
 #include "equations/core_spring.glsl"
 #include "equations/eliminate_edge.glsl"
 #include "equations/frame.glsl"
@@ -15,6 +18,7 @@
 #include "equations/smoothing.glsl"
 #include "equations/stretch_limit.glsl"
 #include "equations/stretch_spring.glsl"
+#include "equations/turbulence.glsl"
 #include "equations/velocity_residual.glsl"
 
 // Scratch of particle i and its edge, vec4s; M, z and the others share room, as each integrator needs only its own.
@@ -29,6 +33,16 @@ const uint kChange = 6;       // xyz change of the velocity in the last iteratio
 const uint kKeptRightHandSide = 7;  // xyz, for the residual                                      (jacobi, point_jacobi)
 const uint kCoreDirection = 3;  // xyz                                                            (paper)
 
+// Of bodies, see bodies/run_bodies.glsl; and of the air.
+const uint kPushWeight = kScratchPerParticle;    // two vec4s: diagonal, off-diagonal; their w: momentum x and y
+const uint kPushRest = kPushWeight + 2;          // x momentum z, y target
+const uint kPushNormal = kPushWeight + 3;        // xyz, w weight
+const uint kPushBody = kPushWeight + 4;          // xyz velocity, w friction
+const uint kStart = kPushWeight + 5;             // xyz where it was before the move
+const uint kShift = kPushWeight + 6;             // xyz of the edge that moves it furthest
+const uint kDrag = kScratchPerParticle + (kBodies ? kBodyScratch : 0);  // x across, y along; then xyz the wind
+const uint kStride = kDrag + (kAir ? kAirScratch : 0);
+
 uint count;  // particles of the strand
 float maxStretch = 0.0;
 uint limitedEdges = 0;
@@ -38,10 +52,10 @@ float velocityResidual = 0.0;
 // With taps the scratch follows them in the same buffer.
 #ifdef RINGLET_TAPS
 uint slot(uint i, uint field) {
-  return kTapCount * parameters.particleCount + (strand.firstParticle + i) * kScratchPerParticle + field;
+  return kTapCount * parameters.particleCount + (strand.firstParticle + i) * kStride + field;
 }
 #else
-uint slot(uint i, uint field) { return (strand.firstParticle + i) * kScratchPerParticle + field; }
+uint slot(uint i, uint field) { return (strand.firstParticle + i) * kStride + field; }
 #endif
 vec3 scratchOf(uint i, uint field) { return scratch[slot(i, field)].xyz; }
 void setScratch(uint i, uint field, vec3 value) { scratch[slot(i, field)] = vec4(value, 0); }
@@ -51,9 +65,10 @@ vec3 velocity(uint i) { return velocities[strand.firstParticle + i].xyz; }
 void setPosition(uint i, vec3 p) { positions[strand.firstParticle + i] = vec4(p, 0); }
 void setVelocity(uint i, vec3 v) { velocities[strand.firstParticle + i] = vec4(v, 0); }
 // The solve's result: beside the velocities where it is iterated, in their place where it is not.
-vec3 solvedVelocity(uint i) { return kContacts ? solved[strand.firstParticle + i].xyz : velocity(i); }
+const bool kKeepsVelocities = kContacts || kBodies;
+vec3 solvedVelocity(uint i) { return kKeepsVelocities ? solved[strand.firstParticle + i].xyz : velocity(i); }
 void setSolved(uint i, vec3 v) {
-  if (kContacts) {
+  if (kKeepsVelocities) {
     solved[strand.firstParticle + i] = vec4(v, 0);
   } else {
     setVelocity(i, v);
@@ -148,6 +163,29 @@ void coreSweep(float coreScale) {
   }
 }
 
+// Along the strand at a particle: of length 1, or zero.
+vec3 tangentAt(uint i) {
+  return directionOf((i > 0 ? scratchOf(i - 1, kEdge) : vec3(0)) + (i + 1 < count ? scratchOf(i, kEdge) : vec3(0)));
+}
+
+// Drag and wind at the step's start.
+void feelAir(uint step) {
+  StepAir air = stepAir(step);
+  for (uint i = 0; i < count; ++i) {
+    vec3 wind = air.wind.xyz;
+    if (kTurbulent) {
+      for (uint k = 0; k < kWindWaves; ++k) {
+        WindWave mode = windWave(k);
+        wind += windOfMode(mode.wave.xyz, mode.amplitude.xyz, air.phases[k / 4][k % 4], position(i));
+      }
+    }
+    AirDrag drag =
+        airDrag(velocity(i) - wind, tangentAt(i), parameters.dragStrength, parameters.dragAlong, stepSeconds());
+    scratch[slot(i, kDrag)] = vec4(drag.across, drag.along, 0, 0);
+    setScratch(i, kDrag + 1, wind);
+  }
+}
+
 vec3 forceOn(uint i) {
   vec3 force = i + 1 < count ? scratchOf(i, kForce) : vec3(0);
   return i > 0 ? force - scratchOf(i - 1, kForce) : force;
@@ -156,11 +194,21 @@ vec3 rightHandSide(uint i) {
   float m = mass(i);
   vec3 sum = m * velocity(i) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
   if (withContacts()) sum += contactSystemOf(strand.firstParticle + i).momentum.xyz;
+  if (kAir) {
+    vec4 drag = scratch[slot(i, kDrag)];
+    sum += m * multiply(AirDrag(drag.x, drag.y), tangentAt(i), scratchOf(i, kDrag + 1));
+  }
+  if (kBodies) sum += vec3(scratch[slot(i, kPushWeight)].w, scratch[slot(i, kPushWeight + 1)].w, scratch[slot(i, kPushRest)].x);
   return sum;
 }
-// m + 2 D, as a matrix.
+// m and what contacts (2 D), the air and bodies add to it.
 Symmetric massOf(uint i) {
   Symmetric m = symmetricDiagonal(mass(i));
+  if (kAir) {
+    vec4 drag = scratch[slot(i, kDrag)];
+    m = add(m, airDragMatrix(AirDrag(drag.x, drag.y), tangentAt(i), mass(i)));
+  }
+  if (kBodies) m = add(m, Symmetric(scratchOf(i, kPushWeight), scratchOf(i, kPushWeight + 1)));
   if (withContacts()) {
     ContactSystem contact = contactSystemOf(strand.firstParticle + i);
     m.d += 2.0 * contact.diagonal.xyz;
@@ -197,6 +245,165 @@ void solveStrandBlock(uint step) {
       v = M * v + scratchOf(i - 1, kOffset);
     }
     setSolved(i, v);
+  }
+}
+
+// Bodies, as bodies/run_bodies.glsl has them.
+void clearPushes() {
+  for (uint i = 0; i < count; ++i) {
+    for (uint field = kPushWeight; field < kPushWeight + kBodyScratch; ++field) scratch[slot(i, field)] = vec4(0);
+  }
+}
+
+void push(uint i, float weight, vec3 n, float target, vec3 u, float friction) {
+  Symmetric sum = addOuter(Symmetric(scratchOf(i, kPushWeight), scratchOf(i, kPushWeight + 1)), weight, n);
+  vec3 momentum = vec3(scratch[slot(i, kPushWeight)].w, scratch[slot(i, kPushWeight + 1)].w, scratch[slot(i, kPushRest)].x) +
+                  (weight * target) * n;
+  bool isHeaviest = weight > scratch[slot(i, kPushNormal)].w;
+  scratch[slot(i, kPushWeight)] = vec4(sum.d, momentum.x);
+  scratch[slot(i, kPushWeight + 1)] = vec4(sum.o, momentum.y);
+  scratch[slot(i, kPushRest)] = vec4(momentum.z, isHeaviest ? target : scratch[slot(i, kPushRest)].y, 0, 0);
+  if (!isHeaviest) return;
+  scratch[slot(i, kPushNormal)] = vec4(n, weight);
+  scratch[slot(i, kPushBody)] = vec4(u, friction);
+}
+
+bool findPushes(uint step) {
+  float T = stepSeconds();
+  Room room = emptyRoom();
+  float fastest = 0.0;
+  for (uint i = 0; i < count; ++i) {
+    include(room, position(i));
+    fastest = max(fastest, dot(solvedVelocity(i), solvedVelocity(i)));
+  }
+  float reach = T * sqrt(fastest) + kTouchDistance;
+  bool asked = false;
+  for (uint b = nextNear(room, reach, step, parameters.bodyCount, 0); b < parameters.bodyCount;
+       b = nextNear(room, reach, step, parameters.bodyCount, b + 1)) {
+    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+    for (uint i = parameters.rootCount; i < count; ++i) {
+      vec3 v = solvedVelocity(i);
+      Touch touch = traceParticle(body.rest, placeAtStart(body, position(i)), placeAtEnd(body, position(i) + T * v));
+      bool isDeep = touch.surface.distance < -kDeep;
+      vec3 n = outward(body, touch.surface.normal);
+      if (isDeep) n = wayOutOfDepth(n, tangentAt(i));
+      vec3 u = bodyVelocityAt(body, position(i), T);
+      float target = dot(n, u) + leastParting(touch, T);
+      float deficit = target - dot(n, v);
+      if (!touch.found || !(deficit > 0.0)) continue;
+      push(i, (isDeep ? kDeepShare : 1.0) * bodyWeight(mass(i), deficit), n, target, u, body.rest.friction);
+      asked = true;
+    }
+    for (uint i = 0; i + 1 < count; ++i) {
+      vec3 a = position(i);
+      vec3 c = position(i + 1);
+      vec3 va = solvedVelocity(i);
+      vec3 vc = solvedVelocity(i + 1);
+      Touch touch = traceEdge(body.rest, placeAtStart(body, a), placeAtEnd(body, a + T * va), placeAtStart(body, c),
+                              placeAtEnd(body, c + T * vc));
+      vec3 n = outward(body, touch.surface.normal);
+      vec2 shares = vec2(1.0 - touch.along, touch.along);
+      vec3 u = bodyVelocityAt(body, shares.x * a + shares.y * c, T);
+      float deficit = dot(n, u) + leastParting(touch, T) - dot(n, shares.x * va + shares.y * vc);
+      if (!touch.found || !(deficit > 0.0)) continue;
+      vec2 part = shares * (deficit / dot(shares, shares));
+      if (!isPinned(i) && shares.x >= kLeastShare)
+        push(i, shares.x * bodyWeight(mass(i), deficit), n, dot(n, va) + part.x, u, body.rest.friction);
+      if (!isPinned(i + 1) && shares.y >= kLeastShare)
+        push(i + 1, shares.y * bodyWeight(mass(i + 1), deficit), n, dot(n, vc) + part.y, u, body.rest.friction);
+      asked = true;
+    }
+  }
+  return asked;
+}
+
+void rubStrand() {
+  for (uint i = parameters.rootCount; i < count; ++i) {
+    vec4 normal = scratch[slot(i, kPushNormal)];
+    vec4 body = scratch[slot(i, kPushBody)];
+    vec3 v = solvedVelocity(i);
+    float momentum = normal.w * (scratch[slot(i, kPushRest)].y - dot(normal.xyz, v));
+    setSolved(i, rubbed(v, body.xyz, normal.xyz, momentum, body.w, mass(i)));
+  }
+}
+
+void solveAmongBodies(uint step) {
+  clearPushes();
+  solveStrandBlock(step);
+  if (!findPushes(step)) return;
+  solveStrandBlock(step);
+  rubStrand();
+}
+
+void keepOut(uint step) {
+  float T = stepSeconds();
+  Room room = emptyRoom();
+  for (uint i = 0; i < count; ++i) {
+    include(room, position(i));
+    include(room, scratchOf(i, kStart));
+  }
+  for (uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0); b < parameters.bodyCount;
+       b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1)) {
+    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+    for (uint i = parameters.rootCount; i < count; ++i) {
+      vec3 start = scratchOf(i, kStart);
+      KeptOut kept = keptOut(body.rest, placeAtStart(body, start), placeAtEnd(body, position(i)));
+      if (!kept.moved) continue;
+      setPosition(i, outOfBody(body, kept.place));
+      vec3 n = outward(body, kept.normal);
+      setVelocity(i, velocity(i) - min(dot(n, velocity(i) - bodyVelocityAt(body, start, T)), 0.0) * n);
+    }
+  }
+  // Edges: the shift of a particle's furthest edge, and the change of velocity that goes with it.
+  for (uint i = 0; i < count; ++i) {
+    setScratch(i, kShift, vec3(0));
+    setScratch(i, kPushBody, vec3(0));
+  }
+  for (uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0); b < parameters.bodyCount;
+       b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1)) {
+    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+    for (uint i = 0; i + 1 < count; ++i) {
+      EdgeSurface deepest = edgeDistance(body.rest, placeAtEnd(body, position(i)), placeAtEnd(body, position(i + 1)));
+      if (!deepest.isWithin || deepest.surface.distance >= 0.0) continue;
+      vec3 n = outward(body, deepest.surface.normal);
+      vec2 shares = vec2(1.0 - deepest.along, deepest.along);
+      vec2 part = shares / dot(shares, shares);
+      float outBy = min(-deepest.surface.distance, kLeaveSpeed * T);
+      vec3 start = shares.x * scratchOf(i, kStart) + shares.y * scratchOf(i + 1, kStart);
+      vec3 v = shares.x * velocity(i) + shares.y * velocity(i + 1);
+      float inward = min(dot(n, v - bodyVelocityAt(body, start, T)), 0.0);
+      for (uint side = 0; side < 2; ++side) {
+        vec3 wanted = (part[side] * outBy) * n;
+        vec3 before = scratchOf(i + side, kShift);
+        if (isPinned(i + side) || dot(wanted, wanted) <= dot(before, before)) continue;
+        setScratch(i + side, kShift, wanted);
+        setScratch(i + side, kPushBody, (-part[side] * inward) * n);
+      }
+    }
+  }
+  for (uint i = parameters.rootCount; i < count; ++i) {
+    setPosition(i, position(i) + scratchOf(i, kShift));
+    setVelocity(i, velocity(i) + scratchOf(i, kPushBody));
+  }
+}
+
+// Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other.
+void keepAmongBodies(uint step) {
+  keepOut(step);
+  for (uint round = 1; round < kKeepOutRounds; ++round) {
+    vec3 shift = vec3(0);
+    bool limited = false;
+    vec3 before = position(0);
+    for (uint i = 1; i < count; ++i) {
+      vec3 here = position(i);
+      float share = isPinned(i) ? 0.0 : limitedEdgeShare(here - before, longestEdge(i - 1));
+      limited = limited || share < 0.0;
+      shift += share * (here - before);
+      if (!isPinned(i)) setPosition(i, here + shift);
+      before = here;
+    }
+    if (!limited) return;
+    keepOut(step);
   }
 }
 
@@ -305,9 +512,10 @@ void moveAndLimit(uint step) {
   vec3 velocityBefore = vec3(0);
   for (uint i = 0; i < count; ++i) {
     vec3 v = solvedVelocity(i);
+    if (kBodies) setScratch(i, kStart, position(i));
     if (isPinned(i)) {
       setPosition(i, pinAt(step + 1, i));
-      if (kContacts) setVelocity(i, v);
+      if (kKeepsVelocities) setVelocity(i, v);
     } else {
       vec4 edge = scratch[slot(i - 1, kEdge)];
       vec3 moved = edge.w * edge.xyz + T * (v - velocityBefore);
@@ -319,6 +527,7 @@ void moveAndLimit(uint step) {
     }
     velocityBefore = v;
   }
+  if (kBodies) keepAmongBodies(step);
 }
 
 void storeReport(uint strandIndex) {
@@ -363,12 +572,19 @@ void main() {
   for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
     if ((parameters.phases & kPhaseSprings) != 0) springs(step);
     if ((parameters.phases & kPhaseSolve) != 0) {
-      if (kIntegrator == kIntegratorJacobi) solveStrandBlock(step);
+      if (kIntegrator == kIntegratorJacobi) {
+        if (kAir) feelAir(step);
+        if (kBodies) {
+          solveAmongBodies(step);
+        } else {
+          solveStrandBlock(step);
+        }
+      }
       if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi();
       if (kIntegrator == kIntegratorPaper) loopAsThePaper();
     }
     if ((parameters.phases & kPhaseMove) == 0) continue;
-    if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kContacts) measureResidual();
+    if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kContacts && !kBodies && !kAir) measureResidual();
 #ifdef RINGLET_TAPS
     for (uint i = 0; i < count; ++i) RINGLET_TAP(kTapVelocity, i, vec4(solvedVelocity(i), 0));
 #endif

@@ -33,6 +33,17 @@ RINGLET_CONSTANT uint kBindVelocityTexels = 11;
 RINGLET_CONSTANT uint kBindParticleTexels = 12;  // 2 a particle
 RINGLET_CONSTANT uint kBindStrandTexels = 13;    // 7 a strand
 RINGLET_CONSTANT uint kBindContactSystemTexels = 14;  // 3 a particle
+// What hair stays out of, and the air it moves in:
+RINGLET_CONSTANT uint kBindBodies = 15;      // BodyRest[bodies]
+RINGLET_CONSTANT uint kBindBodyPoses = 16;   // BodyPose[steps + 1][bodies]
+RINGLET_CONSTANT uint kBindGridCells = 17;   // uvec4[cells]: the distances of a cell's corners, see gridDistance
+RINGLET_CONSTANT uint kBindAir = 18;         // StepAir[steps]
+RINGLET_CONSTANT uint kBindWindModes = 19;   // WindWave[kWindWaves]
+RINGLET_CONSTANT uint kBindBodyTexels = 20;  // 5 a body
+RINGLET_CONSTANT uint kBindBodyPoseTexels = 21;  // 4 a pose
+RINGLET_CONSTANT uint kBindGridCellTexels = 22;
+RINGLET_CONSTANT uint kBindAirTexels = 23;       // 4 a step
+RINGLET_CONSTANT uint kBindWindModeTexels = 24;  // 2 a mode
 
 // Integrators (specialization constant 2).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
@@ -43,6 +54,9 @@ RINGLET_CONSTANT uint kIntegratorPaper = 2;
 RINGLET_CONSTANT uint kMaxStepPoses = 341;
 RINGLET_CONSTANT uint kMaxRootCount = 3;
 RINGLET_CONSTANT uint kScratchPerParticle = 8;
+RINGLET_CONSTANT uint kBodyScratch = 7;  // more of it, where there are bodies
+RINGLET_CONSTANT uint kAirScratch = 2;   // or air
+RINGLET_CONSTANT uint kWindWaves = 12;   // modes of the turbulent wind: a multiple of 4
 
 // Parts of an outer step. A dispatch of the serial form may do only some: where one step of a long strand would exceed
 // what an invocation may loop on this device, its solve is spread over several dispatches.
@@ -114,6 +128,40 @@ struct StepPose {
                         // their shift that shifted roots have gone
 };
 
+// A body, constant. Boxes, spheres and capsules are boxes with rounded edges.
+struct BodyRest {
+  vec4 halfExtents;  // xyz: of the box within [m]; w: its rounding, or what hair keeps away from a plane or grid [m]
+  vec4 bounds;       // xyz: middle of a sphere about it, its own axes [m]; w: radius [m]
+  vec4 gridOrigin;   // xyz [m]; w: cell [m]
+  uint cells[3];     // of the grid
+  uint firstCell;
+  float friction;
+  uint shape;        // kShapeBox, kShapePlane or kShapeGrid
+  uint unused[2];
+};
+RINGLET_CONSTANT uint kShapeBox = 0;
+RINGLET_CONSTANT uint kShapePlane = 1;
+RINGLET_CONSTANT uint kShapeGrid = 2;
+
+// Where a body is, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step k.
+struct BodyPose {
+  vec4 position;  // xyz [m]; w: how far any of it moves in the step that ends here [m]
+  vec4 rotation;  // quaternion (x, y, z, w)
+  vec4 turn;      // from the pose before to this
+  vec4 velocity;  // xyz: of its origin in that step, relative to the head's translation [m/s]
+};
+
+// The air in a step, relative to the head's translation.
+struct StepAir {
+  vec4 wind;       // xyz: without turbulence [m/s]
+  vec4 phases[3];  // of its waves, at the head's origin [rad]
+};
+// A mode of the turbulent wind.
+struct WindWave {
+  vec4 wave;       // xyz [rad/m]
+  vec4 amplitude;  // xyz [m/s]
+};
+
 struct StepParameters {
   vec4 gravity;  // xyz [m/s^2]; w: the outer step T [s]
   float maxStretch;
@@ -133,6 +181,9 @@ struct StepParameters {
   uint phases;         // serial form: which parts of the step to do
   uint loopBegin;      // serial form: which of the solve's iterations (point_jacobi) or force loops (paper) to do
   uint loopEnd;
+  uint bodyCount;
+  float dragStrength;  // g / U^2, U the fall speed [1/m]
+  float dragAlong;     // share of drag that what passes along a strand has
 };
 
 // Bindings of the contact kernels, all in set 0.

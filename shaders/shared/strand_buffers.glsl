@@ -13,6 +13,9 @@ layout(constant_id = 3) const bool kOneSmoothing = false;  // alpha_b = alpha_c 
 layout(constant_id = 4) const bool kMeasureResidual = false;
 layout(constant_id = 5) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
 layout(constant_id = 6) const bool kContacts = false;    // the solve is iterated with the contacts' systems
+layout(constant_id = 8) const bool kBodies = false;      // there are some
+layout(constant_id = 9) const bool kAir = false;         // hair feels it
+layout(constant_id = 10) const bool kTurbulent = false;  // and it has waves
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -54,6 +57,9 @@ ContactSystem contactSystemOf(uint i) {
   return ContactSystem(vectorAt(contactSystemTexels, 3 * i), vectorAt(contactSystemTexels, 3 * i + 1),
                        vectorAt(contactSystemTexels, 3 * i + 2));
 }
+
+#include "shared/air_buffers.glsl"
+#include "shared/body_buffers.glsl"
 
 StrandRest strand;  // this invocation's
 

@@ -5,10 +5,14 @@
 
 #include <random>
 
-#include "tests/equations/body_fixtures.h"
+#include "tests/equations/strand_fixtures.h"
+#include "tests/support/sample_bodies.h"
 
 namespace ringlet::reference::test {
 namespace {
+
+using ringlet::test::gridBall;
+using ringlet::test::sampleBodies;
 
 using Vector = Vector3<double>;
 
@@ -24,7 +28,9 @@ TEST(BodyContact, AWayIsFollowedToItsFirstTouch) {
       double deepest = 1;  // of a fine look along the way
       for (int i = 0; i <= 1000; ++i)
         deepest = std::min(deepest, bodyDistance<double>(body, y0 + 0.001 * i * (y1 - y0)).distance);
-      if (deepest < -1e-3) EXPECT_TRUE(touch.found) << body.name;
+      if (deepest < -1e-3) {
+        EXPECT_TRUE(touch.found) << body.name;
+      }
       if (!touch.found) continue;
       ++touched;
       const double share = (touch.place - y0).norm() / (y1 - y0).norm();

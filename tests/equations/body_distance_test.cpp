@@ -5,10 +5,14 @@
 
 #include <random>
 
-#include "tests/equations/body_fixtures.h"
+#include "tests/equations/strand_fixtures.h"
+#include "tests/support/sample_bodies.h"
 
 namespace ringlet::reference::test {
 namespace {
+
+using ringlet::test::gridBall;
+using ringlet::test::sampleBodies;
 
 using Vector = Vector3<double>;
 

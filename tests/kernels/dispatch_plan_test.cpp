@@ -43,7 +43,7 @@ TEST(DispatchPlan, EveryStrandAndStepOnce) {
       settings.stepsPerFrame = 300;
       const auto ranges = planRanges(counts, limits, {});
       ASSERT_TRUE(ranges) << ranges.error().message;
-      const auto plan = planFrame(*ranges, limits, settings, 64);
+      const auto plan = planFrame(*ranges, limits, settings, 0, 64);
       ASSERT_TRUE(plan) << plan.error().message;
       std::vector<std::uint32_t> nextStep(counts.size(), 0), nextLoop(counts.size(), 0);
       for (const PlannedDispatch& d : *plan) {
@@ -85,7 +85,7 @@ TEST(DispatchPlan, RefusesWhatCannotBe) {
   settings.integrator = Integrator::paper;
   const auto ranges = planRanges(std::vector<std::uint32_t>{20000}, kLavapipe, {});
   ASSERT_TRUE(ranges);
-  EXPECT_NE(planFrame(*ranges, kLavapipe, settings, 64).error().message.find("20000 particles"),
+  EXPECT_NE(planFrame(*ranges, kLavapipe, settings, 0, 64).error().message.find("20000 particles"),
             std::string::npos);
 }
 

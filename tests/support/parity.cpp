@@ -168,16 +168,18 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
   const HairState start = randomState(c.groom, c.settings, c.seed);
 
   auto simulation =
-      Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel);
+      Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel, c.bodies);
   if (!simulation) return {{"create", INFINITY, simulation.error().message}};
   EXPECT_TRUE(simulation->setState(start));
-  EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1)));
+  const std::vector<double> end{c.settings.stepSeconds()};
+  const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
+  EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1), bodyPoses));
   const auto found = simulation->state();
   if (!found) return {{"state", INFINITY, found.error().message}};
 
-  ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before);
+  ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
   expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
-  expected.stepFrame(std::span(&head.next, 1));
+  expected.stepFrame(std::span(&head.next, 1), bodyPoses);
 
   double largestSpeed = 0;
   for (const auto& v : expected.velocities()) largestSpeed = std::max<double>(largestSpeed, v.norm());
@@ -224,22 +226,28 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
 FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
   const HairState start = randomState(c.groom, c.settings, c.seed);
   std::vector<HeadPose> poses;
+  std::vector<double> times;
   const auto pose = [&](int k) {
     const double t = k * c.settings.stepSeconds();
     return HeadPose{Vec3d{0.5 * t * t, 0, 0.2 * t}, fromRotationVector(Vec3d{0, 2, 0.5} * (t * t))};
   };
-  for (int k = 1; k <= c.settings.stepsPerFrame; ++k) poses.push_back(pose(k));
+  for (int k = 1; k <= c.settings.stepsPerFrame; ++k) {
+    poses.push_back(pose(k));
+    times.push_back(k * c.settings.stepSeconds());
+  }
+  const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, poses, times);
 
-  auto simulation = Simulation::create(device, c.groom, c.material, c.settings, pose(0), pose(-1), c.kernel);
+  auto simulation =
+      Simulation::create(device, c.groom, c.material, c.settings, pose(0), pose(-1), c.kernel, c.bodies);
   if (!simulation) return {"create", INFINITY, simulation.error().message};
   EXPECT_TRUE(simulation->setState(start));
-  EXPECT_TRUE(simulation->stepFrame(poses));
+  EXPECT_TRUE(simulation->stepFrame(poses, bodyPoses));
   const auto found = simulation->positions();
   if (!found) return {"positions", INFINITY, found.error().message};
 
-  ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1));
+  ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1), {}, c.bodies);
   expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
-  expected.stepFrame(poses);
+  expected.stepFrame(poses, bodyPoses);
   Comparison comparison("positions after a frame");
   for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
     for (std::size_t i = 0; i < c.groom.strand(s).size(); ++i) {

@@ -50,6 +50,7 @@ struct ParityCase {
   Settings settings;  // stepsPerFrame is taken as 1
   KernelChoice kernel;
   std::uint32_t seed = 1;
+  std::vector<Body> bodies{};
 };
 
 /// All fields of one step, device against reference::Simulation<float>, from the same random state.

@@ -15,6 +15,10 @@ inline constexpr double kOneStepOfLongStrands = 5.6e-6;
 // length: float positions have 3e-8 of it, the springs carry the error of one step into the next.
 inline constexpr double kOneFrame = 1e-5;
 
+// The same among bodies: to be measured.
+inline constexpr double kOneStepAmongBodies = 2e-6;
+inline constexpr double kOneFrameAmongBodies = 1e-5;
+
 // Residual of the velocity solve over its right-hand side. Velocities are rounded to 6e-8, L has up to 1,000
 // times the mass in stiff directions, and a row has four such terms: 2.4e-4.
 inline constexpr double kSolveResidual = 2.4e-4;
@@ -32,8 +36,8 @@ inline constexpr double kCalmEnergyRatio = 1e-8;
 // smoothing averages a few, and a chain of 256 turns adds up as their root: 1e-4 radians.
 inline constexpr double kFrameTurnDegrees = 0.01;
 
-// Half a second of shaken strands that meet, device against double, in metres: float positions a foot from the head
-// are right to 3e-8, and contacts pass on what a step is off by.
+// Half a second of shaken strands that meet, device against double, in metres: float positions a foot from
+// the head are right to 3e-8, and contacts pass on what a step is off by.
 inline constexpr double kMeetingMetres = 1e-6;
 
 // Lying still: how far a particle may wander in 10 s, share of the arc length.

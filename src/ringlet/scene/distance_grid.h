@@ -16,7 +16,7 @@ struct DistanceGrid {
   Vec3d origin;                           // of corner (0, 0, 0) [m]
   double cell = 0.01;                     // edge of a cell [m], above 0
   std::array<std::uint32_t, 3> counts{};  // cells along x, y, z, at least 1
-  std::vector<float> distances;  // (counts[0] + 1)(counts[1] + 1)(counts[2] + 1) corners, x fastest [m]
+  std::vector<float> distances{};  // (counts[0] + 1)(counts[1] + 1)(counts[2] + 1) corners, x fastest [m]
 
   std::size_t cellCount() const { return std::size_t{counts[0]} * counts[1] * counts[2]; }
   std::size_t cornerIndex(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {

@@ -11,7 +11,20 @@
 namespace ringlet {
 
 /// In the order of a step: contact_motion.comp and so on.
-enum class ContactKernel { motion, decide, count, scan, sum, scatter, order, query, touch, life, check, gather };
+enum class ContactKernel {
+  motion,
+  decide,
+  count,
+  scan,
+  sum,
+  scatter,
+  order,
+  query,
+  touch,
+  life,
+  check,
+  gather
+};
 inline constexpr std::size_t kContactKernelCount = 12;
 
 /// texels: records are read as texels (gpu::BindingKind).

@@ -1,4 +1,5 @@
-// Storage buffers filled at creation, and read back whole: the ways between host and device that solver/ uses.
+// Storage buffers filled at creation, and read back whole: the ways between host and device that solver/
+// uses.
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,7 @@ using gpu::Buffer;
 using gpu::BufferKind;
 
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
-                                        std::uint64_t scratchRecords, bool withContacts) {
+                                        std::uint64_t scratchRecords, bool withContacts, bool keepsSolved) {
   const std::uint64_t stateBytes = rest.points.size() * sizeof(layout::vec4);
   auto positions = createZero(device, stateBytes, "positions");
   if (!positions) return positions.error();
@@ -29,7 +29,7 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
       Buffer::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), BufferKind::stream, "poses");
   if (!poses) return poses.error();
   const std::uint64_t contactParticles = withContacts ? rest.points.size() : 0;
-  auto solved = createZero(device, contactParticles * sizeof(layout::vec4), "solved velocities");
+  auto solved = createZero(device, keepsSolved ? stateBytes : 0, "solved velocities");
   if (!solved) return solved.error();
   auto systems = createZero(device, contactParticles * sizeof(layout::ContactSystem), "contact systems");
   if (!systems) return systems.error();

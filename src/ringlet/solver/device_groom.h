@@ -20,8 +20,9 @@ struct DeviceGroom {
   gpu::Buffer solved, contactSystems, contactControl;  // empty without contacts
 
   /// `scratchRecords`: vec4s of scratch (serial form) and taps.
+  /// `keepsSolved`: a solve's result stands beside the velocities it began from.
   static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest, std::uint64_t scratchRecords,
-                                    bool withContacts);
+                                    bool withContacts, bool keepsSolved);
 
   /// The buffers in binding order (layout.h).
   std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {

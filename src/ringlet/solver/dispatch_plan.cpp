@@ -24,11 +24,13 @@ struct LoopCost {
   std::uint64_t solveLoops = 0;
 };
 
-LoopCost loopCost(const StrandRange& range, const Settings& settings) {
+LoopCost loopCost(const StrandRange& range, const Settings& settings, std::size_t bodyCount) {
   // Lanes: loops over the run count in full, though drivers unroll them. Serial: sweeps over the strand.
   const std::uint64_t run = range.shape.serial() ? range.longest : range.shape.particlesPerLane + 8;
   LoopCost cost;
-  cost.step = 20 * run;
+  // Of a body: in a lane, 17 looks at most for each particle and each edge, and as many in each of four
+  // rounds after the move; a long strand's particles are not all at it at once.
+  cost.step = 20 * run + bodyCount * run * (range.shape.serial() ? 24 : 106);
   if (settings.integrator == Integrator::pointJacobi) {
     cost.solveLoops = settings.pointIterations;
     cost.perSolveLoop = run + 1;
@@ -54,9 +56,9 @@ Error tooLong(const StrandRange& range, const Settings& settings, std::uint64_t 
 // Cuts a frame's steps for one range into pieces within the budget: several steps a dispatch where they fit,
 // else one, else (serial form only) one step in several.
 Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits,
-                                               const Settings& settings) {
+                                               const Settings& settings, std::size_t bodyCount) {
   const std::uint64_t budget = loopBudget(limits);
-  const LoopCost cost = loopCost(range, settings);
+  const LoopCost cost = loopCost(range, settings, bodyCount);
   const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   const std::uint32_t loops = static_cast<std::uint32_t>(cost.solveLoops);
@@ -169,12 +171,13 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
 }
 
 Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
-                                              const Settings& settings, std::uint32_t groupSize,
-                                              const SolvePass& pass) {
+                                              const Settings& settings, std::size_t bodyCount,
+                                              std::uint32_t groupSize, const SolvePass& pass) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
     // In lanes a pass may go on to a second step; the serial form does that in a dispatch of its own.
-    const std::uint64_t turns = (ranges[r].shape.serial() ? 1 : 2) * loopCost(ranges[r], settings).step;
+    const std::uint64_t turns =
+        (ranges[r].shape.serial() ? 1 : 2) * loopCost(ranges[r], settings, bodyCount).step;
     if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
     spreadOverGroups(plan, ranges[r], r, limits, groupSize, piecesOf(ranges[r].shape, pass));
   }
@@ -183,10 +186,10 @@ Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> range
 
 Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
                                                const DeviceLimits& limits, const Settings& settings,
-                                               std::uint32_t groupSize) {
+                                               std::size_t bodyCount, std::uint32_t groupSize) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
-    auto steps = planSteps(ranges[r], limits, settings);
+    auto steps = planSteps(ranges[r], limits, settings, bodyCount);
     if (!steps) return steps.error();
     spreadOverGroups(plan, ranges[r], r, limits, groupSize, *steps);
   }

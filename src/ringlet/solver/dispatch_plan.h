@@ -67,13 +67,13 @@ struct SolvePass {
 
 /// The dispatches of one pass, in order, as for planFrame. Fails where a step is too long for the device.
 Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
-                                              const Settings& settings, std::uint32_t groupSize,
-                                              const SolvePass& pass);
+                                              const Settings& settings, std::size_t bodyCount,
+                                              std::uint32_t groupSize, const SolvePass& pass);
 
 /// The dispatches of one frame, in order; those of one range depend on each other, those of different ranges
 /// do not. Fails where a step cannot be cut small enough for the device.
 Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
                                                const DeviceLimits& limits, const Settings& settings,
-                                               std::uint32_t groupSize);
+                                               std::size_t bodyCount, std::uint32_t groupSize);
 
 }  // namespace ringlet

@@ -1,5 +1,5 @@
-// The table of who may touch whom, as contact_query.comp looks it up: hashed, so that a look costs the same for any number
-// of neighbours.
+// The table of who may touch whom, as contact_query.comp looks it up: hashed, so that a look costs the same
+// for any number of neighbours.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace ringlet {
 
-/// A record for each strand: (first of its buckets, their number less one, 0, 0); then the buckets, each four strands or
-/// layout::kNoStrand. A strand s is in the first bucket with room from (s * 2654435761 >> 16) on, modulo their number, a
-/// power of two; buckets are at most half full on average, so one with room always comes. One record for a graph that
-/// allows every pair. Cost: linear in neighbours; 8 to 16 bytes each.
+/// A record for each strand: (first of its buckets, their number less one, 0, 0); then the buckets, each four
+/// strands or layout::kNoStrand. A strand s is in the first bucket with room from (s * 2654435761 >> 16) on,
+/// modulo their number, a power of two; buckets are at most half full on average, so one with room always
+/// comes. One record for a graph that allows every pair. Cost: linear in neighbours; 8 to 16 bytes each.
 std::vector<std::array<std::uint32_t, 4>> neighbourTable(const ContactGraph& graph);
 
 }  // namespace ringlet

@@ -11,11 +11,12 @@
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/rest_contacts.h"
-#include "ringlet/rest/strand_order.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/device_world.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/strand_kernels.h"
 
@@ -63,6 +64,7 @@ struct Simulation::Implementation {
   HeadHistory head;
 
   DeviceGroom buffers;
+  DeviceWorld world;
   std::vector<StrandRange> ranges;
   std::vector<PlannedDispatch> plan;
   std::vector<gpu::Kernel> kernels{};  // one a range
@@ -83,7 +85,7 @@ struct Simulation::Implementation {
   void dispatchAll(std::span<const PlannedDispatch> dispatches);
   Status runFrame();
   Status addContacts();
-  void writePoses(std::span<const HeadPose> stepPoses);
+  void writePoses(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses);
   Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
   Status placeAtRest();
 };
@@ -91,7 +93,9 @@ struct Simulation::Implementation {
 Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom,
                                       const Material& material, const Settings& settings,
                                       const HeadPose& start, const HeadPose& oneStepEarlier,
-                                      const KernelChoice& choice) {
+                                      const KernelChoice& choice, std::span<const Body> bodies) {
+  if (!bodies.empty() && settings.integrator != Integrator::jacobi)
+    return Error{"bodies need the integrator jacobi; this run has another"};
   // Strands that may meet stand near each other in memory.
   std::vector<std::uint32_t> order;
   if (settings.contacts.on) order = orderAlongCurve(groom);
@@ -103,16 +107,22 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
   auto ranges = planRanges(counts, limits, choice);
   if (!ranges) return ranges.error();
-  auto plan = planFrame(*ranges, limits, settings, kStrandGroupSize);
+  auto plan = planFrame(*ranges, limits, settings, bodies.size(), kStrandGroupSize);
   if (!plan) return plan.error();
 
   const bool anySerial =
       std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
   const std::uint64_t scratchPerParticle =
-      (anySerial ? layout::kScratchPerParticle : 0) + (choice.taps ? layout::kTapCount : 0);
-  auto buffers = DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle,
-                                     settings.contacts.on);
+      (anySerial ? layout::kScratchPerParticle + (bodies.empty() ? 0 : layout::kBodyScratch) +
+                       (settings.air.on ? layout::kAirScratch : 0)
+                 : 0) +
+      (choice.taps ? layout::kTapCount : 0);
+  auto buffers =
+      DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle, settings.contacts.on,
+                          settings.contacts.on || (anySerial && !bodies.empty()));
   if (!buffers) return buffers.error();
+  auto world = DeviceWorld::create(device.gpu(), bodies, settings, start);
+  if (!world) return world.error();
 
   std::unique_ptr<Implementation> self(new Implementation{device,
                                                           std::move(*rest),
@@ -121,19 +131,24 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           choice,
                                                           {oneStepEarlier, start},
                                                           std::move(*buffers),
+                                                          std::move(*world),
                                                           std::move(*ranges),
                                                           std::move(*plan)});
   const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
+  const bool fitsTexels =
+      self->buffers.fitsTexels(device.gpu()) && isSeenAsTexels(device.gpu(), self->world.largestBuffer());
   for (const StrandRange& range : self->ranges) {
-    auto kernel =
-        createStrandKernel(device.gpu(), range.shape,
-                           {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on,
-                            self->buffers.fitsTexels(device.gpu()), choice.residual});
+    auto kernel = createStrandKernel(
+        device.gpu(), range.shape,
+        {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on, fitsTexels,
+         choice.residual, !bodies.empty(), settings.air.on, self->world.isTurbulent()});
     if (!kernel) return kernel.error();
-    auto bindings = gpu::Bindings::create(*kernel, self->buffers.inBindingOrder());
+    auto buffersInOrder = self->buffers.inBindingOrder();
+    std::ranges::copy(self->world.inBindingOrder(), std::back_inserter(buffersInOrder));
+    auto bindings = gpu::Bindings::create(*kernel, buffersInOrder);
     if (!bindings) return bindings.error();
     self->kernels.push_back(std::move(*kernel));
     self->bindings.push_back(std::move(*bindings));
@@ -167,6 +182,9 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   p.phases = dispatch.phases;
   p.loopBegin = dispatch.loopBegin;
   p.loopEnd = dispatch.loopEnd;
+  p.bodyCount = static_cast<std::uint32_t>(world.bodyCount());
+  p.dragStrength = static_cast<float>(kStandardGravity / (settings.air.fallSpeed * settings.air.fallSpeed));
+  p.dragAlong = static_cast<float>(settings.air.alongShare);
   return p;
 }
 
@@ -208,7 +226,8 @@ Status Simulation::Implementation::recordFrame() {
 }
 
 Status Simulation::Implementation::recordPass(const SolvePass& pass) {
-  const auto dispatches = planPass(ranges, limitsOf(device.gpu()), settings, kStrandGroupSize, pass);
+  const auto dispatches =
+      planPass(ranges, limitsOf(device.gpu()), settings, world.bodyCount(), kStrandGroupSize, pass);
   if (!dispatches) return dispatches.error();
   dispatchAll(*dispatches);
   frame->barrier();
@@ -259,8 +278,12 @@ Status Simulation::Implementation::runFrame() {
   }
 }
 
-void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses) {
+void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses,
+                                            std::span<const BodyPose> bodyPoses) {
   const double T = settings.stepSeconds();
+  std::vector<HeadPose> heads{head.now};
+  heads.insert(heads.end(), stepPoses.begin(), stepPoses.end());
+  world.writeFrame(heads, bodyPoses, static_cast<double>(stepsDone) * T);
   const auto poses = buffers.mappedPoses();
   poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
@@ -295,10 +318,10 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Status Simulation::stepFrame(std::span<const HeadPose> stepPoses) {
+Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) {
   RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame),
                  "stepFrame takes one pose per outer step");
-  self_->writePoses(stepPoses);
+  self_->writePoses(stepPoses, bodyPoses);
   if (Status status = self_->runFrame(); !status) return status;
   self_->stepsDone += stepPoses.size();
   return {};
@@ -337,6 +360,11 @@ Status Simulation::setState(const HairState& state) {
   const auto pack = [](Vec3f v) { return packed(v); };
   return self_->uploadState(inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.positions, pack),
                             inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.velocities, pack));
+}
+
+void Simulation::placeBodies(std::span<const BodyPose> poses) {
+  RINGLET_ASSERT(poses.size() == self_->world.bodyCount(), "every body has a place");
+  self_->world.placeBodies(poses);
 }
 
 Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {

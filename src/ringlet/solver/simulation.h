@@ -14,6 +14,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
+#include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/compute_device.h"
@@ -69,12 +70,14 @@ struct KernelChoice {
 
 class Simulation {
  public:
-  /// Uploads a groom. The head starts at `start`, coming from `oneStepEarlier` (one outer step before), and
-  /// the hair moves with it. Fails, with what to do, on settings out of range, on a groom with fewer than one
-  /// strand or with non-finite points, and when the device lacks memory.
+  /// Uploads a groom, and the bodies it stays out of (Integrator::jacobi only). The head starts at `start`,
+  /// coming from `oneStepEarlier` (one outer step before), and the hair moves with it. Fails, with what to
+  /// do, on settings out of range, on a groom with fewer than one strand or with non-finite points, and when
+  /// the device lacks memory.
   static Result<Simulation> create(const ComputeDevice& device, const Groom& groom, const Material& material,
                                    const Settings& settings, const HeadPose& start,
-                                   const HeadPose& oneStepEarlier, const KernelChoice& kernel = {});
+                                   const HeadPose& oneStepEarlier, const KernelChoice& kernel = {},
+                                   std::span<const Body> bodies = {});
   static Result<Simulation> create(const ComputeDevice& device, const Groom& groom, const Material& material,
                                    const Settings& settings, const HeadPose& start = {}) {
     return create(device, groom, material, settings, start, start);
@@ -84,7 +87,8 @@ class Simulation {
   ~Simulation();
 
   /// One frame: settings.stepsPerFrame outer steps; stepPoses[k] is the head's pose at the end of step k.
-  Status stepFrame(std::span<const HeadPose> stepPoses);
+  /// bodyPoses: as bodyPosesOf gives them for these steps; without, all bodies are the head's.
+  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {});
   /// The same with the poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
@@ -99,6 +103,9 @@ class Simulation {
   /// the groom's axes [m]. For scenes that bring hair together which is apart at rest. Before the first
   /// frame.
   Status setRootShifts(std::span<const Vec3d> shifts);
+
+  /// Where the bodies are before the first frame; without, where they are at t = 0.
+  void placeBodies(std::span<const BodyPose> poses);
 
   const HeadPose& head() const;
   Result<SimulationReport> report() const;

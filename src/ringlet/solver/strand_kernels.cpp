@@ -51,7 +51,8 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   gpu::KernelDescription description;
   description.name = "strand_step " + shape.describe();
   description.spirv = spirvOf(shape, options.taps);
-  description.bindings = {storage, storage, storage, storage, storage, storage, uniform, storage,
+  description.bindings = {storage, storage, storage, storage, storage, storage, uniform, storage, storage,
+                          storage, texels,  texels,  texels,  texels,  texels,  storage, storage, storage,
                           storage, storage, texels,  texels,  texels,  texels,  texels};
   description.pushConstantBytes = sizeof(layout::StepParameters);
   description.constants = {{0, kStrandGroupSize},
@@ -60,7 +61,10 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
                            {4, options.residual ? 1u : 0u},
                            {5, options.bendVaries ? 1u : 0u},
                            {6, options.contacts ? 1u : 0u},
-                           {7, options.texels ? 1u : 0u}};
+                           {7, options.texels ? 1u : 0u},
+                           {8, options.bodies ? 1u : 0u},
+                           {9, options.air ? 1u : 0u},
+                           {10, options.turbulence ? 1u : 0u}};
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});

@@ -23,6 +23,9 @@ struct StrandKernelOptions {
   bool contacts = false;  // the solve is iterated with the contacts' systems
   bool texels = false;    // records are read as texels (gpu::BindingKind)
   bool residual = false;  // measure the residual of the velocity solve
+  bool bodies = false;    // there are some
+  bool air = false;       // hair feels it
+  bool turbulence = false;
 };
 
 Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,

@@ -1,25 +1,27 @@
-// Bodies the equation tests share.
+// Bodies that tests share.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "ringlet/scene/body.h"
-#include "tests/equations/strand_fixtures.h"
 
-namespace ringlet::reference::test {
+namespace ringlet::test {
 
 /// A sphere as a distance grid, 1.5 radii to either side.
 inline Body gridBall(double radius, double cell) {
-  DistanceGrid grid{.origin = Vec3d{-1.5, -1.5, -1.5} * radius, .cell = cell};
   const auto count = static_cast<std::uint32_t>(std::lround(3 * radius / cell));
-  grid.counts = {count, count, count};
-  for (std::uint32_t z = 0; z <= count; ++z)
-    for (std::uint32_t y = 0; y <= count; ++y)
+  DistanceGrid grid{
+      .origin = Vec3d{-1.5, -1.5, -1.5} * radius, .cell = cell, .counts = {count, count, count}};
+  for (std::uint32_t z = 0; z <= count; ++z) {
+    for (std::uint32_t y = 0; y <= count; ++y) {
       for (std::uint32_t x = 0; x <= count; ++x) {
         const Vec3d place = grid.origin + Vec3d{double(x), double(y), double(z)} * cell;
         grid.distances.push_back(static_cast<float>(length(place) - radius));
       }
+    }
+  }
   return {.name = "grid",
           .shape = BodyShape::grid,
           .grid = std::make_shared<const DistanceGrid>(std::move(grid))};
@@ -34,4 +36,4 @@ inline std::vector<Body> sampleBodies() {
           gridBall(0.1, 0.005)};
 }
 
-}  // namespace ringlet::reference::test
+}  // namespace ringlet::test

@@ -1,0 +1,284 @@
+// Bodies in the lanes form: what they ask of this lane's particles, in the velocity solve and after the move. Included by
+// kernels/strand_step.comp. Mirrored by reference/kernels/body_step.h. First all particles are looked at, and those that
+// may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one.
+#include "bodies/near_bodies.glsl"
+#include "equations/body_contact.glsl"
+
+// What all bodies together ask of particle k: weight v = momentum, in the solve; and of the heaviest of what they ask,
+// which rubs: xyz normal, w weight; xyz the body's velocity, w its friction; the speed asked for along the normal.
+Symmetric pushWeight[RUN];
+vec3 pushMomentum[RUN];
+vec4 pushNormal[RUN];
+vec4 pushBody[RUN];
+float pushTarget[RUN];
+// The same of the next lane's first particle, asked for by the edge to it.
+Symmetric nextWeight;
+vec3 nextMomentum;
+vec4 nextNormal;
+vec4 nextBody;
+float nextTarget;
+
+vec3 pStart[RUN];  // where particles were before the move
+
+// Particle k of the run; RUN is the next lane's first.
+vec3 picked(vec3 values[RUN], vec3 next, int k) {
+  vec3 value = next;
+  [[unroll]] for (int j = 0; j < RUN; ++j) value = j == k ? values[j] : value;
+  return value;
+}
+// Along the strand at particle k; edgeBefore: direction of the edge that ends at this lane's first.
+vec3 tangentAt(int k, vec3 edgeBefore) {
+  vec3 sum = vec3(0);
+  [[unroll]] for (int j = 0; j < RUN; ++j) {
+    if (j == k) sum = (j > 0 ? eHat[max(j - 1, 0)] : edgeBefore) + (isEdge(j) ? eHat[j] : vec3(0));
+  }
+  return directionOf(sum);
+}
+
+void clearPushes() {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    pushWeight[k] = symmetricDiagonal(0.0);
+    pushMomentum[k] = vec3(0);
+    pushNormal[k] = vec4(0);
+    pushBody[k] = vec4(0);
+    pushTarget[k] = 0.0;
+  }
+  nextWeight = symmetricDiagonal(0.0);
+  nextMomentum = vec3(0);
+  nextNormal = vec4(0);
+  nextBody = vec4(0);
+  nextTarget = 0.0;
+}
+
+void push(int k, float weight, vec3 n, float target, vec3 u, float friction) {
+  [[unroll]] for (int j = 0; j < RUN; ++j) {
+    float here = j == k ? weight : 0.0;
+    pushWeight[j] = addOuter(pushWeight[j], here, n);
+    pushMomentum[j] += (here * target) * n;
+    if (here > pushNormal[j].w) {
+      pushNormal[j] = vec4(n, here);
+      pushBody[j] = vec4(u, friction);
+      pushTarget[j] = target;
+    }
+  }
+  float beyond = k == RUN ? weight : 0.0;
+  nextWeight = addOuter(nextWeight, beyond, n);
+  nextMomentum += (beyond * target) * n;
+  if (beyond > nextNormal.w) {
+    nextNormal = vec4(n, beyond);
+    nextBody = vec4(u, friction);
+    nextTarget = target;
+  }
+}
+
+// What the lane before asks of this one's first particle.
+void passPushesOn() {
+  Symmetric weight = Symmetric(fromRootward(nextWeight.d, 1), fromRootward(nextWeight.o, 1));
+  vec3 momentum = fromRootward(nextMomentum, 1);
+  vec4 normal = fromRootward(nextNormal, 1);
+  vec4 body = fromRootward(nextBody, 1);
+  float target = fromRootward(nextTarget, 1);
+  if (lane == 0) return;
+  pushWeight[0] = add(pushWeight[0], weight);
+  pushMomentum[0] += momentum;
+  if (normal.w > pushNormal[0].w) {
+    pushNormal[0] = normal;
+    pushBody[0] = body;
+    pushTarget[0] = target;
+  }
+}
+
+float massAt(int k, float next) {
+  float mass = next;
+  [[unroll]] for (int j = 0; j < RUN; ++j) mass = j == k ? restEdge[j].x : mass;
+  return mass;
+}
+bool isPinnedAt(int k) { return first + k < parameters.rootCount; }
+
+// Everything that bodies ask, from positions and v, the velocities without them. Whether they ask anything of the strand.
+bool findPushes(uint step) {
+  float T = stepSeconds();
+  vec3 pNext = fromTipward(p[0], 1);
+  vec3 vNext = fromTipward(v[0], 1);
+  float massNext = fromTipward(vec3(restEdge[0].x), 1).x;
+  vec3 edgeBefore = fromRootward(eHat[RUN - 1], 1);
+  Room room = emptyRoom();
+  float fastest = 0.0;
+  [[unroll]] for (int k = 0; k <= RUN; ++k) {
+    if (k < RUN ? !isParticle(k) : !isEdge(RUN - 1)) continue;
+    include(room, k < RUN ? p[min(k, RUN - 1)] : pNext);
+    vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : vNext;
+    fastest = max(fastest, dot(velocity, velocity));
+  }
+  float reach = T * sqrt(fastest) + kTouchDistance;
+  uint asked = 0;
+  for (uint b = nextNear(room, reach, step, parameters.bodyCount, 0); b < parameters.bodyCount;
+       b = nextNear(room, reach, step, parameters.bodyCount, b + 1)) {
+    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+    uint particleBits = 0;
+    uint edgeBits = 0;
+    float roomBefore = 0.0;  // what is left to the body when particle k - 1 has gone its way
+    [[unroll]] for (int k = 0; k <= RUN; ++k) {
+      vec3 position = k < RUN ? p[min(k, RUN - 1)] : pNext;
+      vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : vNext;
+      float way = T * length(velocity - bodyVelocityAt(body, position, T));
+      float left = bodyDistance(body.rest, placeAtStart(body, position)).distance - 1.001 * way - 2.0 * kTouchDistance;
+      if (k < RUN && isFree(min(k, RUN - 1)) && left <= 0.0) particleBits |= 1u << k;
+      if (k > 0 && isEdge(max(k - 1, 0)) && left + roomBefore <= eLength[max(k - 1, 0)]) edgeBits |= 1u << (k - 1);
+      roomBefore = left;
+    }
+    while (particleBits != 0) {
+      int k = findLSB(particleBits);
+      particleBits &= particleBits - 1;
+      vec3 position = picked(p, pNext, k);
+      vec3 velocity = picked(v, vNext, k);
+      Touch touch = traceParticle(body.rest, placeAtStart(body, position), placeAtEnd(body, position + T * velocity));
+      bool isDeep = touch.surface.distance < -kDeep;
+      vec3 n = outward(body, touch.surface.normal);
+      if (isDeep) n = wayOutOfDepth(n, tangentAt(k, edgeBefore));
+      vec3 u = bodyVelocityAt(body, position, T);
+      float target = dot(n, u) + leastParting(touch, T);
+      float deficit = target - dot(n, velocity);
+      if (!touch.found || !(deficit > 0.0)) continue;
+      push(k, (isDeep ? kDeepShare : 1.0) * bodyWeight(massAt(k, massNext), deficit), n, target, u, body.rest.friction);
+      asked = 1;
+    }
+    while (edgeBits != 0) {
+      int k = findLSB(edgeBits);
+      edgeBits &= edgeBits - 1;
+      vec3 a = picked(p, pNext, k);
+      vec3 c = picked(p, pNext, k + 1);
+      vec3 va = picked(v, vNext, k);
+      vec3 vc = picked(v, vNext, k + 1);
+      Touch touch = traceEdge(body.rest, placeAtStart(body, a), placeAtEnd(body, a + T * va), placeAtStart(body, c),
+                              placeAtEnd(body, c + T * vc));
+      vec3 n = outward(body, touch.surface.normal);
+      vec2 shares = vec2(1.0 - touch.along, touch.along);
+      vec3 u = bodyVelocityAt(body, shares.x * a + shares.y * c, T);
+      float deficit = dot(n, u) + leastParting(touch, T) - dot(n, shares.x * va + shares.y * vc);
+      if (!touch.found || !(deficit > 0.0)) continue;
+      vec2 part = shares * (deficit / dot(shares, shares));
+      if (!isPinnedAt(k) && shares.x >= kLeastShare)
+        push(k, shares.x * bodyWeight(massAt(k, massNext), deficit), n, dot(n, va) + part.x, u, body.rest.friction);
+      if (!isPinnedAt(k + 1) && shares.y >= kLeastShare)
+        push(k + 1, shares.y * bodyWeight(massAt(k + 1, massNext), deficit), n, dot(n, vc) + part.y, u, body.rest.friction);
+      asked = 1;
+    }
+  }
+  passPushesOn();
+  return sumOverStrand(asked) > 0;
+}
+
+// Friction, from what the pushes came to at the solved velocities.
+void rubRun() {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    float momentum = pushNormal[k].w * (pushTarget[k] - dot(pushNormal[k].xyz, v[k]));
+    vec3 slowed = rubbed(v[k], pushBody[k].xyz, pushNormal[k].xyz, momentum, pushBody[k].w, restEdge[k].x);
+    if (isFree(k)) v[k] = slowed;
+  }
+}
+
+void keepParticlesOut(uint step, Room room) {
+  float T = stepSeconds();
+  for (uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0); b < parameters.bodyCount;
+       b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1)) {
+    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+    uint bits = 0;
+    [[unroll]] for (int k = 0; k < RUN; ++k) {
+      vec3 y1 = placeAtEnd(body, p[k]);
+      float way = length(y1 - placeAtStart(body, pStart[k]));
+      if (isFree(k) && bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance) bits |= 1u << k;
+    }
+    while (bits != 0) {
+      int k = findLSB(bits);
+      bits &= bits - 1;
+      vec3 start = picked(pStart, vec3(0), k);
+      KeptOut kept = keptOut(body.rest, placeAtStart(body, start), placeAtEnd(body, picked(p, vec3(0), k)));
+      vec3 place = outOfBody(body, kept.place);
+      vec3 n = outward(body, kept.normal);
+      vec3 inward = min(dot(n, picked(v, vec3(0), k) - bodyVelocityAt(body, start, T)), 0.0) * n;
+      [[unroll]] for (int j = 0; j < RUN; ++j) {
+        if (j == k && kept.moved) {
+          p[j] = place;
+          v[j] -= inward;
+        }
+      }
+    }
+  }
+}
+
+// Edges leave at kLeaveSpeed at most; of two edges the one that moves a particle further.
+void keepEdgesOut(uint step, Room room) {
+  float T = stepSeconds();
+  vec3 pNext = fromTipward(p[0], 1);
+  vec3 vNext = fromTipward(v[0], 1);
+  vec3 startNext = fromTipward(pStart[0], 1);
+  vec3 shift[RUN];
+  vec3 change[RUN];
+  [[unroll]] for (int k = 0; k < RUN; ++k) shift[k] = change[k] = vec3(0);
+  vec3 nextShift = vec3(0);
+  vec3 nextChange = vec3(0);
+  if (isEdge(RUN - 1)) include(room, pNext);
+  for (uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0); b < parameters.bodyCount;
+       b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1)) {
+    BodyStep body = bodyStep(step, parameters.bodyCount, b);
+    uint bits = 0;
+    float before = 0.0;
+    [[unroll]] for (int k = 0; k <= RUN; ++k) {
+      vec3 here = k < RUN ? p[min(k, RUN - 1)] : pNext;
+      float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
+      if (k > 0 && isEdge(max(k - 1, 0)) && distance + before <= 1.001 * length(here - p[max(k - 1, 0)])) bits |= 1u << (k - 1);
+      before = distance;
+    }
+    while (bits != 0) {
+      int k = findLSB(bits);
+      bits &= bits - 1;
+      EdgeSurface deepest =
+          edgeDistance(body.rest, placeAtEnd(body, picked(p, pNext, k)), placeAtEnd(body, picked(p, pNext, k + 1)));
+      if (!deepest.isWithin || deepest.surface.distance >= 0.0) continue;
+      vec3 n = outward(body, deepest.surface.normal);
+      vec2 shares = vec2(1.0 - deepest.along, deepest.along);
+      vec2 part = shares / dot(shares, shares);
+      float outBy = min(-deepest.surface.distance, kLeaveSpeed * T);
+      vec3 start = shares.x * picked(pStart, startNext, k) + shares.y * picked(pStart, startNext, k + 1);
+      vec3 velocity = shares.x * picked(v, vNext, k) + shares.y * picked(v, vNext, k + 1);
+      float inward = min(dot(n, velocity - bodyVelocityAt(body, start, T)), 0.0);
+      [[unroll]] for (int side = 0; side < 2; ++side) {
+        vec3 wanted = (part[side] * outBy) * n;
+        vec3 slowed = (-part[side] * inward) * n;
+        if (isPinnedAt(k + side)) continue;
+        [[unroll]] for (int j = 0; j < RUN; ++j) {
+          if (j == k + side && dot(wanted, wanted) > dot(shift[j], shift[j])) {
+            shift[j] = wanted;
+            change[j] = slowed;
+          }
+        }
+        if (k + side == RUN && dot(wanted, wanted) > dot(nextShift, nextShift)) {
+          nextShift = wanted;
+          nextChange = slowed;
+        }
+      }
+    }
+  }
+  vec3 rootwardShift = fromRootward(nextShift, 1);
+  vec3 rootwardChange = fromRootward(nextChange, 1);
+  if (lane > 0 && dot(rootwardShift, rootwardShift) > dot(shift[0], shift[0])) {
+    shift[0] = rootwardShift;
+    change[0] = rootwardChange;
+  }
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    p[k] += shift[k];
+    v[k] += change[k];
+  }
+}
+
+void keepRunOut(uint step) {
+  Room room = emptyRoom();
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    if (!isParticle(k)) continue;
+    include(room, pStart[k]);
+    include(room, p[k]);
+  }
+  keepParticlesOut(step, room);
+  keepEdgesOut(step, room);
+}

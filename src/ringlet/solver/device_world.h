@@ -1,0 +1,59 @@
+// DeviceWorld: what hair meets beside itself, on a device: bodies with their distance grids, and the air.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/scene/body.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/scene/wind.h"
+#include "shared/layout.h"
+
+namespace ringlet {
+
+class DeviceWorld {
+ public:
+  /// Fails, with the body's name, on one that is no body (a radius of 0, a grid without cells), and when the
+  /// device lacks memory. `start`: the head's pose now.
+  static Result<DeviceWorld> create(gpu::Device& device, std::span<const Body> bodies,
+                                    const Settings& settings, const HeadPose& start);
+
+  std::size_t bodyCount() const { return bodies_.size(); }
+  bool isTurbulent() const { return !waves_.empty(); }
+
+  /// In binding order, storage and texels: from kBindBodies on.
+  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
+    return {rests_, poses_, cells_, air_, waveBuffer_, rests_, poses_, cells_, air_, waveBuffer_};
+  }
+  std::uint64_t largestBuffer() const { return std::max(cells_.bytes(), poses_.bytes()); }
+
+  /// Where bodies are before the next step, in the world.
+  void placeBodies(std::span<const BodyPose> poses) { now_.assign(poses.begin(), poses.end()); }
+  /// A frame's poses and air. heads[0] is the head at the frame's start, heads[1 + k] at the end of step k;
+  /// `poses` as bodyPosesOf gives them, or none: then the head carries all. `seconds`: since the simulation
+  /// began.
+  void writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses, double seconds);
+
+ private:
+  DeviceWorld(gpu::Buffer rests, gpu::Buffer poses, gpu::Buffer cells, gpu::Buffer air, gpu::Buffer waves)
+      : rests_(std::move(rests)),
+        poses_(std::move(poses)),
+        cells_(std::move(cells)),
+        air_(std::move(air)),
+        waveBuffer_(std::move(waves)) {}
+  void writeAir(std::span<const HeadPose> heads, double seconds);
+
+  gpu::Buffer rests_, poses_, cells_, air_, waveBuffer_;
+  std::vector<Body> bodies_;
+  std::vector<layout::BodyRest> packed_;  // for their bounds
+  std::vector<BodyPose> now_;             // in the world
+  std::vector<WindMode> waves_;
+  AirSettings airSettings_;
+  double stepSeconds_ = 0;
+};
+
+}  // namespace ringlet

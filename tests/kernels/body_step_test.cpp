@@ -1,0 +1,94 @@
+// Bodies and air in the strand kernels, both forms, against the float reference: one step from random states
+// among bodies of every shape, and a frame against double. Mirrors shaders/bodies/*.glsl.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/gpu_test.h"
+#include "tests/support/parity.h"
+#include "tests/support/sample_bodies.h"
+#include "tests/support/tolerances.h"
+
+namespace ringlet::test {
+namespace {
+
+struct Variant {
+  const char* name;
+  KernelChoice kernel;
+};
+const Variant kVariants[] = {
+    {"automatic", {}},
+    {"lanes of 4", {KernelChoice::Form::automatic, 4}},
+    {"lanes of 8", {KernelChoice::Form::automatic, 8}},
+    {"serial", {KernelChoice::Form::serial}},
+};
+
+class BodyStep : public GpuTest {
+ protected:
+  void expectOneStep(const ParityCase& c, const std::string& label, double tolerance) {
+    const auto errors = oneStepErrors(device(), c);
+    fmt::print("{:<44} {}\n", label, toText(errors));
+    for (const FieldError& e : errors)
+      EXPECT_LE(e.error, tolerance) << label << ": " << e.field << "\n" << e.where;
+  }
+};
+
+// Each of the shapes below the roots, where strands of 25 cm hang into it or beside it, turned and moving.
+std::vector<Body> amongStrands(const Body& shape) {
+  Body body = shape;
+  body.place = {{0.02, -0.2, 0.03}, fromRotationVector(Vec3d{0.3, 0.2, -0.4})};
+  Body moving = body;
+  moving.place.position = {-0.05, 0, -0.04};
+  moving.motion = Motion{.kind = MotionKind::glide, .axis = {0, 1, 0}, .amplitude = 3, .start = {3, 0.7, 0}};
+  return {body, moving};
+}
+
+std::vector<int> lengths() { return {2, 3, 31, 64, 100, 16, 17, 64, 65, 5, 33, 128, 127}; }
+
+TEST_F(BodyStep, EveryShapeAgrees) {
+  for (const Body& shape : sampleBodies()) {
+    for (const Variant& variant : kVariants) {
+      ParityCase c{randomGroom(lengths(), 7), {}, {}, variant.kernel, 1, amongStrands(shape)};
+      c.settings.gravityPreload = 0.7;
+      expectOneStep(c, fmt::format("{}, {}", shape.name, variant.name), kOneStepAmongBodies);
+    }
+  }
+}
+
+TEST_F(BodyStep, ManyBodiesAgree) {
+  for (const Variant& variant : kVariants) {
+    ParityCase c{randomGroom(lengths(), 9), {}, {}, variant.kernel, 2};
+    for (const Body& shape : sampleBodies()) {
+      for (Body body : amongStrands(shape)) {
+        body.place.position += Vec3d{0.05, -0.02, 0.01} * static_cast<double>(c.bodies.size());
+        c.bodies.push_back(std::move(body));
+      }
+    }
+    expectOneStep(c, fmt::format("{} bodies, {}", c.bodies.size(), variant.name), kOneStepAmongBodies);
+  }
+}
+
+TEST_F(BodyStep, AirAgrees) {
+  for (const double turbulence : {0.0, 2.0}) {
+    for (const Variant& variant : kVariants) {
+      ParityCase c{randomGroom(lengths(), 11), {}, {}, variant.kernel, 3};
+      c.settings.air = {.on = true, .fallSpeed = 2, .wind = {5, 0, 1}, .gust = 0.5, .turbulence = turbulence};
+      expectOneStep(c, fmt::format("turbulence {}, {}", turbulence, variant.name), kOneStep);
+    }
+  }
+}
+
+TEST_F(BodyStep, AFrameAgreesWithDouble) {
+  for (const Body& shape : sampleBodies()) {
+    for (const Variant& variant : kVariants) {
+      ParityCase c{randomGroom(lengths(), 13), {}, {}, variant.kernel, 4, amongStrands(shape)};
+      c.bodies.pop_back();
+      c.settings.air = {.on = true, .fallSpeed = 3, .wind = {2, 0, 1}, .turbulence = 1};
+      const FieldError e = oneFrameError(device(), c);
+      fmt::print("one frame, {}, {:<12} {:.1e} of the arc length\n", shape.name, variant.name, e.error);
+      EXPECT_LE(e.error, kOneFrameAmongBodies) << variant.name << ": " << e.where;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ringlet::test
