@@ -21,7 +21,7 @@ inline constexpr double kLeaveSpeed = 0.2;  // [m/s]: what begins inside leaves 
 // What is deeper inside [m] leaves across its strand, which else would be stretched or crushed, held by this
 // share of the weight.
 inline constexpr double kDeep = 1e-3, kDeepShare = 0.04;
-inline constexpr double kBodyWeight = 500;    // of what holds a particle at its allowed speed, in its masses
+inline constexpr double kBodyWeight = 200;    // of what holds a particle at its allowed speed, in its masses
 inline constexpr double kFullDeficit = 0.01;  // [m/s]: of a deficit that gives half of that weight: without a
                                               // ramp, rounding would decide whether what just rests is held
 inline constexpr int kKeepOutRounds =
@@ -154,6 +154,15 @@ Vector3<Real> rubbed(const Vector3<Real>& velocity, const Vector3<Real>& bodyVel
   const Real speed = along.norm(), loss = coefficient * std::max(normalMomentum, Real(0)) / mass;
   if (!(speed > Real(0))) return velocity;
   return velocity - std::min(Real(1), loss / speed) * along;
+}
+
+/// What velocity into the body [m/s], relative to it and along n, hair loses that is put back by `shift` [m]:
+/// as much as the shift is worth, and never so much that it bounces.
+template <class Real>
+Vector3<Real> slowedInward(const Vector3<Real>& relative, const Vector3<Real>& normal, Real shift,
+                           Real seconds) {
+  const Real inward = std::max(Real(0), -normal.dot(relative));
+  return std::min(inward, std::max(Real(0), shift) / seconds) * normal;
 }
 
 }  // namespace ringlet::reference

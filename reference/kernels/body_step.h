@@ -161,9 +161,10 @@ void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bo
     for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
       const KeptOut<Real> kept = keptOut(*step.body, step.atStart(starts[i]), step.atEnd(positions[i]));
       if (!kept.moved) continue;
-      positions[i] = step.fromEnd(kept.place);
-      const Vector3<Real> n = step.outward(kept.normal);
-      velocities[i] -= std::min(n.dot(velocities[i] - step.velocityAt(starts[i])), Real(0)) * n;
+      const Vector3<Real> place = step.fromEnd(kept.place), n = step.outward(kept.normal);
+      velocities[i] += slowedInward<Real>(velocities[i] - step.velocityAt(starts[i]), n,
+                                          n.dot(place - positions[i]), step.seconds);
+      positions[i] = place;
     }
   }
   Field<Real> shifts(rest.particleCount(), Vector3<Real>::Zero());
@@ -179,13 +180,14 @@ void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bo
       const Real sum = shares[0] * shares[0] + shares[1] * shares[1];
       const Vector3<Real> start = shares[0] * starts[i] + shares[1] * starts[i + 1];
       const Vector3<Real> velocity = shares[0] * velocities[i] + shares[1] * velocities[i + 1];
-      const Real inward = std::min(n.dot(velocity - step.velocityAt(start)), Real(0));
+      const Vector3<Real> slowed =
+          slowedInward<Real>(velocity - step.velocityAt(start), n, out, step.seconds);
       for (std::size_t side = 0; side < 2; ++side) {
         const std::size_t k = i + side;
         const Vector3<Real> shift = shares[side] / sum * out * n;
         if (k < rest.pinnedCount() || shift.norm() <= shifts[k].norm()) continue;
         shifts[k] = shift;
-        changes[k] = -shares[side] / sum * inward * n;
+        changes[k] = shares[side] / sum * slowed;
       }
     }
   }

@@ -196,11 +196,12 @@ void keepParticlesOut(uint step, Room room) {
       KeptOut kept = keptOut(body.rest, placeAtStart(body, start), placeAtEnd(body, picked(p, vec3(0), k)));
       vec3 place = outOfBody(body, kept.place);
       vec3 n = outward(body, kept.normal);
-      vec3 inward = min(dot(n, picked(v, vec3(0), k) - bodyVelocityAt(body, start, T)), 0.0) * n;
+      vec3 slowed = slowedInward(picked(v, vec3(0), k) - bodyVelocityAt(body, start, T), n,
+                                 dot(n, place - picked(p, vec3(0), k)), T);
       [[unroll]] for (int j = 0; j < RUN; ++j) {
         if (j == k && kept.moved) {
           p[j] = place;
-          v[j] -= inward;
+          v[j] += slowed;
         }
       }
     }
@@ -242,20 +243,19 @@ void keepEdgesOut(uint step, Room room) {
       float outBy = min(-deepest.surface.distance, kLeaveSpeed * T);
       vec3 start = shares.x * picked(pStart, startNext, k) + shares.y * picked(pStart, startNext, k + 1);
       vec3 velocity = shares.x * picked(v, vNext, k) + shares.y * picked(v, vNext, k + 1);
-      float inward = min(dot(n, velocity - bodyVelocityAt(body, start, T)), 0.0);
+      vec3 slowed = slowedInward(velocity - bodyVelocityAt(body, start, T), n, outBy, T);
       [[unroll]] for (int side = 0; side < 2; ++side) {
         vec3 wanted = (part[side] * outBy) * n;
-        vec3 slowed = (-part[side] * inward) * n;
         if (isPinnedAt(k + side)) continue;
         [[unroll]] for (int j = 0; j < RUN; ++j) {
           if (j == k + side && dot(wanted, wanted) > dot(shift[j], shift[j])) {
             shift[j] = wanted;
-            change[j] = slowed;
+            change[j] = part[side] * slowed;
           }
         }
         if (k + side == RUN && dot(wanted, wanted) > dot(nextShift, nextShift)) {
           nextShift = wanted;
-          nextChange = slowed;
+          nextChange = part[side] * slowed;
         }
       }
     }

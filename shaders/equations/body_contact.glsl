@@ -11,7 +11,7 @@ const int kTraceTurns = 16;         // looks along a way; grazing ones give up a
 const float kLeaveSpeed = 0.2;      // [m/s]: what begins inside leaves no faster
 const float kDeep = 1e-3;           // [m]: what is deeper inside leaves across its strand, which else would be stretched
 const float kDeepShare = 0.04;      // or crushed, held by this share of the weight
-const float kBodyWeight = 500.0;    // of what holds a particle at its allowed speed, in its masses
+const float kBodyWeight = 200.0;    // of what holds a particle at its allowed speed, in its masses
 const float kFullDeficit = 0.01;    // [m/s]: of a deficit that gives half of that weight: without a ramp, rounding would
                                     // decide whether what just rests is held
 const uint kKeepOutRounds = 4;      // after the move, out of bodies and within the stretch limit, by turns
@@ -118,6 +118,12 @@ vec3 rubbed(vec3 velocity, vec3 bodyVelocity, vec3 normal, float normalMomentum,
   float speed = length(along);
   float loss = coefficient * max(normalMomentum, 0.0) / mass;
   return speed > 0.0 ? velocity - min(1.0, loss / speed) * along : velocity;
+}
+
+/// What velocity into the body [m/s], relative to it and along n, hair loses that is put back by `shift` [m]: as much as
+/// the shift is worth, and never so much that it bounces.
+vec3 slowedInward(vec3 relative, vec3 n, float shift, float T) {
+  return clamp(-dot(n, relative), 0.0, max(shift, 0.0) / T) * n;
 }
 
 /// A particle that began the step outside, at y0, and has moved to y1: out of the body, the way it came.

@@ -349,9 +349,11 @@ void keepOut(uint step) {
       vec3 start = scratchOf(i, kStart);
       KeptOut kept = keptOut(body.rest, placeAtStart(body, start), placeAtEnd(body, position(i)));
       if (!kept.moved) continue;
-      setPosition(i, outOfBody(body, kept.place));
+      vec3 place = outOfBody(body, kept.place);
       vec3 n = outward(body, kept.normal);
-      setVelocity(i, velocity(i) - min(dot(n, velocity(i) - bodyVelocityAt(body, start, T)), 0.0) * n);
+      setVelocity(i, velocity(i) + slowedInward(velocity(i) - bodyVelocityAt(body, start, T), n,
+                                                dot(n, place - position(i)), T));
+      setPosition(i, place);
     }
   }
   // Edges: the shift of a particle's furthest edge, and the change of velocity that goes with it.
@@ -371,13 +373,13 @@ void keepOut(uint step) {
       float outBy = min(-deepest.surface.distance, kLeaveSpeed * T);
       vec3 start = shares.x * scratchOf(i, kStart) + shares.y * scratchOf(i + 1, kStart);
       vec3 v = shares.x * velocity(i) + shares.y * velocity(i + 1);
-      float inward = min(dot(n, v - bodyVelocityAt(body, start, T)), 0.0);
+      vec3 slowed = slowedInward(v - bodyVelocityAt(body, start, T), n, outBy, T);
       for (uint side = 0; side < 2; ++side) {
         vec3 wanted = (part[side] * outBy) * n;
         vec3 before = scratchOf(i + side, kShift);
         if (isPinned(i + side) || dot(wanted, wanted) <= dot(before, before)) continue;
         setScratch(i + side, kShift, wanted);
-        setScratch(i + side, kPushBody, (-part[side] * inward) * n);
+        setScratch(i + side, kPushBody, part[side] * slowed);
       }
     }
   }
