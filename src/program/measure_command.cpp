@@ -246,11 +246,12 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<Typed>();
   CLI::App* command = app.add_subcommand("measure", "Measures the curl of a groom, and what became of it");
   command->footer(kExample);
-  command->add_option("REST", typed->rest, "The groom at rest: a .hair or .obj file")
+  command->add_option("REST", typed->rest, "The groom at rest: a .hair, .obj or .tfx file")
       ->required()
       ->type_name("FILE");
   command
-      ->add_option("OTHER", typed->other, "What became of it: a pose (.hair, .obj), a folder or a hair.usda")
+      ->add_option("OTHER", typed->other,
+                   "What became of it: a pose (.hair, .obj, .tfx), a folder or a hair.usda")
       ->type_name("PATH");
   command
       ->add_option("--unit", typed->metresPerUnit,
@@ -262,7 +263,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
       ->type_name("AXIS");
   command
       ->add_option("--against", typed->against,
-                   "Another pose of these strands (.hair, .obj), to compare with")
+                   "Another pose of these strands (.hair, .obj, .tfx), to compare with")
       ->type_name("FILE");
   command->add_flag("--strands", typed->strands, "Every strand by itself too");
   command->add_flag("--json", typed->json, "Print one JSON object instead of tables");

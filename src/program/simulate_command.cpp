@@ -151,7 +151,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("simulate", "Moves the hair of a groom and writes the animation");
   command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
 
-  command->add_option("GROOM", options.groom, "Strands to simulate: a .hair or .obj file")
+  command->add_option("GROOM", options.groom, "Strands to simulate: a .hair, .obj or .tfx file")
       ->required()
       ->type_name("FILE");
   command->add_option("-o,--output", options.folder, "Folder for the results, made if it is not there")

@@ -8,7 +8,9 @@
 
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/groom/tfx_file.h"
 #include "tests/groom/groom_samples.h"
+#include "tests/groom/tfx_bytes.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
@@ -90,6 +92,26 @@ TEST(BrokenFiles, HairHeader) {
   }
 }
 
+TEST(BrokenFiles, Tfx) {
+  const Reader read = [](const std::string& bytes) { return readTfx(test::bytesOf(bytes), "a.tfx"); };
+  spoilAndRead(test::TfxBytes{}.bytes(), std::string("\0\1\2\xff\x7f\x80", 6), 20000, read);
+}
+
+TEST(BrokenFiles, TfxHeader) {
+  const std::string valid = test::TfxBytes{}.bytes();
+  std::mt19937 random(7);
+  for (int i = 0; i < 20000; ++i) {
+    std::string bytes = valid;
+    for (std::size_t change = 1 + random() % 3; change > 0; --change) {
+      bytes[4 + random() % 16] = std::string("\0\1\2\3\4\x7f\x80\xff", 8)[random() % 8];
+    }
+    const Result<LoadedGroom> loaded = readTfx(test::bytesOf(bytes), "a.tfx");
+    if (loaded) {
+      ASSERT_TRUE(test::isUsable(loaded->groom)) << "file " << i;
+    }
+  }
+}
+
 TEST(BrokenFiles, Obj) {
   const std::string valid =
       "# hair\nv 1 2 3\nv 1.5 -2e-3 3\nv 2 2 2 1.0\nv 3 3 3\r\nv 4 4 4\nvt 0 0\nl 1/1 2/1 3/1\nl -2 -1\nl 4 "
@@ -104,6 +126,7 @@ TEST(BrokenFiles, Noise) {
     std::string bytes(random() % 300, '\0');
     for (char& c : bytes) c = static_cast<char>(random());
     EXPECT_FALSE(readHair(test::bytesOf(bytes), "a.hair")) << "file " << i;
+    EXPECT_FALSE(readTfx(test::bytesOf(bytes), "a.tfx")) << "file " << i;
     const Result<LoadedGroom> obj = readObj(test::bytesOf(bytes), "a.obj");
     if (obj) {
       ASSERT_TRUE(test::isUsable(obj->groom)) << "file " << i;

@@ -45,15 +45,15 @@ TEST(GroomFile, ChoosesByExtensionInAnyCase) {
 }
 
 TEST(GroomFile, SaysWhatIsSupported) {
-  for (const char* name : {"a.abc", "a", ".hair", "a.hair.gz", ""}) {
-    expectReadError(name, "supported are .hair and .obj");
+  for (const char* name : {"a.abc", "a", ".hair", ".tfx", "a.hair.gz", ""}) {
+    expectReadError(name, "supported are .hair, .obj and .tfx");
     expectWriteError(name, test::awkwardGroom(), "supported are .hair and .obj");
   }
 }
 
 TEST(GroomFile, RefusesWhatIsNoFile) {
   const auto folder = test::scratchFolder("groom_no_file");
-  for (const char* extension : {".hair", ".obj"}) {
+  for (const char* extension : {".hair", ".obj", ".tfx"}) {
     expectReadError(folder / ("missing" + std::string(extension)), "No such file");
     expectReadError(folder / "nowhere" / ("a" + std::string(extension)), "No such file");
     const auto inner = folder / ("folder" + std::string(extension));

@@ -48,6 +48,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"base", {"base"}},
       {"groom", {"base", "groom"}},
       {"scene", {"base", "scene"}},
+      {"bodies", {"base", "groom", "scene", "bodies"}},
       {"motion", {"base", "groom", "scene", "motion"}},
       {"rest", {"base", "groom", "scene", "rest"}},
       {"scenes", {"base", "groom", "scene", "rest", "scenes"}},

@@ -9,14 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/assert.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/groom/tfx_file.h"
 #include "ringlet/groom/whole_file.h"
 
 namespace ringlet {
 namespace {
 
-enum class Format { hair, obj };
+enum class Format { hair, obj, tfx };
 
 std::optional<Format> formatOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -25,25 +27,35 @@ std::optional<Format> formatOf(const std::filesystem::path& path) {
   }
   if (extension == ".hair") return Format::hair;
   if (extension == ".obj") return Format::obj;
+  if (extension == ".tfx") return Format::tfx;
   return std::nullopt;
 }
 
-Error unknownExtension(const std::filesystem::path& path, const char* attempt) {
+Error unknownExtension(const std::filesystem::path& path, const char* attempt, const char* supported) {
   const std::string extension = path.extension().string();
-  return {fmt::format("{}: cannot {} a groom: {}; supported are .hair and .obj", path.string(), attempt,
+  return {fmt::format("{}: cannot {} a groom: {}; supported are {}", path.string(), attempt,
                       extension.empty() ? std::string("the name has no extension")
-                                        : fmt::format("the extension '{}' is unknown", extension))};
+                                        : fmt::format("the extension '{}' is unknown", extension),
+                      supported)};
 }
 
 }  // namespace
 
 Result<LoadedGroom> readGroom(const std::filesystem::path& path) {
   const std::optional<Format> format = formatOf(path);
-  if (!format) return unknownExtension(path, "read");
+  if (!format) return unknownExtension(path, "read", ".hair, .obj and .tfx");
   try {
     Result<std::vector<std::byte>> bytes = readWholeFile(path);
     if (!bytes) return bytes.error();
-    return *format == Format::hair ? readHair(*bytes, path) : readObj(*bytes, path);
+    switch (*format) {
+      case Format::hair:
+        return readHair(*bytes, path);
+      case Format::obj:
+        return readObj(*bytes, path);
+      case Format::tfx:
+        return readTfx(*bytes, path);
+    }
+    RINGLET_ASSERT(false, "a format without a reader");
   } catch (const std::bad_alloc&) {
     return Error{fmt::format("{}: reading it needs more memory than there is", path.string())};
   }
@@ -51,8 +63,17 @@ Result<LoadedGroom> readGroom(const std::filesystem::path& path) {
 
 Status writeGroom(const std::filesystem::path& path, const Groom& groom) {
   const std::optional<Format> format = formatOf(path);
-  if (!format) return unknownExtension(path, "write");
-  return *format == Format::hair ? writeHair(path, groom) : writeObj(path, groom);
+  if (!format) return unknownExtension(path, "write", ".hair and .obj");
+  switch (*format) {
+    case Format::hair:
+      return writeHair(path, groom);
+    case Format::obj:
+      return writeObj(path, groom);
+    case Format::tfx:
+      return Error{fmt::format("{}: cannot write a groom: .tfx is only read; supported are .hair and .obj",
+                               path.string())};
+  }
+  RINGLET_ASSERT(false, "a format without a writer");
 }
 
 }  // namespace ringlet

@@ -1,5 +1,5 @@
-// Reads and writes grooms, choosing the format by the file's extension: .hair (hair_file.h) or .obj
-// (obj_file.h).
+// Reads and writes grooms, choosing the format by the file's extension: .hair (hair_file.h), .obj
+// (obj_file.h) or, to be read only, .tfx (tfx_file.h).
 #pragma once
 
 #include <filesystem>
@@ -17,8 +17,8 @@ namespace ringlet {
 Result<LoadedGroom> readGroom(const std::filesystem::path& path);
 
 /// Writes a groom so that reading it gives the same bits. An existing file is replaced only once all is
-/// written. Errors: unknown extension, a groom without strands, a strand of fewer than two particles or with
-/// one that is not finite, what the format cannot hold, a full disk.
+/// written. Errors: an extension other than .hair and .obj, a groom without strands, a strand of fewer than
+/// two particles or with one that is not finite, what the format cannot hold, a full disk.
 Status writeGroom(const std::filesystem::path& path, const Groom& groom);
 
 }  // namespace ringlet

@@ -15,7 +15,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -24,6 +23,7 @@
 #include <vector>
 
 #include "ringlet/groom/groom_check.h"
+#include "ringlet/groom/little_endian.h"
 #include "ringlet/groom/quoted.h"
 #include "ringlet/groom/whole_file.h"
 
@@ -39,29 +39,6 @@ constexpr std::uint32_t kHasSegments = 1, kHasPoints = 2, kHasThickness = 4, kHa
 constexpr std::uint32_t kKnownFlags = 31;
 constexpr std::size_t kMostSegments = 65535;  // they are u16
 constexpr std::uint64_t kPointSize = 12;
-
-// Numbers are put together byte by byte: with an odd strand count the points stand at odd multiples of two
-// bytes, and the machine's own byte order does not matter.
-std::uint32_t readU32(std::span<const std::byte> bytes, std::size_t offset) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < 4; ++i) value |= std::to_integer<std::uint32_t>(bytes[offset + i]) << (8 * i);
-  return value;
-}
-std::uint32_t readU16(std::span<const std::byte> bytes, std::size_t offset) {
-  const auto low = std::to_integer<std::uint32_t>(bytes[offset]);
-  const auto high = std::to_integer<std::uint32_t>(bytes[offset + 1]);
-  return low | high << 8;
-}
-float readF32(std::span<const std::byte> bytes, std::size_t offset) {
-  return std::bit_cast<float>(readU32(bytes, offset));
-}
-
-void appendU32(std::vector<std::byte>& bytes, std::uint32_t value) {
-  for (std::size_t i = 0; i < 4; ++i) bytes.push_back(static_cast<std::byte>(value >> (8 * i) & 0xff));
-}
-void appendF32(std::vector<std::byte>& bytes, float value) {
-  appendU32(bytes, std::bit_cast<std::uint32_t>(value));
-}
 
 struct Header {
   std::uint32_t strandCount, pointCount, flags, defaultSegments;

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -54,44 +52,12 @@ Error wrong(const std::string& name, std::size_t line, std::string_view found, s
 
 std::string shown(std::string_view word) { return word.empty() ? "the end of the line" : quoted(word); }
 
-// A finite number in any of C's decimal forms, whatever the locale; a leading plus is fine.
-std::optional<float> parseNumber(std::string_view word) {
-  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
-  float value = 0;
-  const char* const end = word.data() + word.size();
-  auto [stop, code] = std::from_chars(word.data(), end, value);
-  if (code == std::errc::result_out_of_range && stop == end) {
-    // Too large for a float is wrong; too near zero is as good as zero.
-    double wide = 0;
-    const bool isWide = std::from_chars(word.data(), end, wide).ec == std::errc();
-    const bool isTiny =
-        isWide ? std::abs(wide) < 1 : word.find("e-") != word.npos || word.find("E-") != word.npos;
-    if (!isTiny) return std::nullopt;
-    return static_cast<float>(wide);
-  }
-  if (code != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-// The point index of `i`, `i/t` or `i/t/n`.
-std::optional<std::int64_t> parseIndex(std::string_view word) {
-  const std::size_t slash = std::min(word.find('/'), word.size());
-  std::string_view number = word.substr(0, slash);
-  if (number.size() > 1 && number.front() == '+' && number[1] != '-') number.remove_prefix(1);
-  std::int64_t index = 0;
-  const char* const end = number.data() + number.size();
-  const auto [stop, code] = std::from_chars(number.data(), end, index);
-  const bool isIndex = code == std::errc() && stop == end;
-  if (!isIndex || word.find_first_not_of("-+/0123456789", slash) != word.npos) return std::nullopt;
-  return index;
-}
-
 Status readPoint(ObjText& text, ObjContent& content, const std::string& name) {
   std::array<float, 3> xyz{};
   for (float& value : xyz) {
     const std::size_t line = text.line();
     const std::string_view word = text.nextWord();
-    const std::optional<float> number = parseNumber(word);
+    const std::optional<float> number = parseObjNumber(word);
     if (!number) return wrong(name, line, shown(word), "three finite numbers after 'v'");
     value = *number;
   }
@@ -107,7 +73,7 @@ Status readPoint(ObjText& text, ObjContent& content, const std::string& name) {
 Status readPolyline(ObjText& text, ObjContent& content, const std::string& name) {
   Polyline polyline{content.indices.size(), 0, text.line()};
   for (std::string_view word = text.nextWord(); !word.empty(); word = text.nextWord()) {
-    const std::optional<std::int64_t> index = parseIndex(word);
+    const std::optional<std::int64_t> index = parseObjIndex(word);
     if (!index || *index == 0) {
       return wrong(name, text.line(), quoted(word), "a point's index: counted from 1, or from -1 back");
     }

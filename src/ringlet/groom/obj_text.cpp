@@ -1,6 +1,10 @@
 // Implements groom/obj_text.h.
 #include "ringlet/groom/obj_text.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
 namespace ringlet {
 namespace {
 
@@ -55,6 +59,36 @@ void ObjText::nextLine() {
     position_ += lineEndAt(position_);
     ++line_;
   }
+}
+
+std::optional<float> parseObjNumber(std::string_view word) {
+  if (word.size() > 1 && word.front() == '+' && word[1] != '-') word.remove_prefix(1);
+  float value = 0;
+  const char* const end = word.data() + word.size();
+  auto [stop, code] = std::from_chars(word.data(), end, value);
+  if (code == std::errc::result_out_of_range && stop == end) {
+    // Too large for a float is wrong; too near zero is as good as zero.
+    double wide = 0;
+    const bool isWide = std::from_chars(word.data(), end, wide).ec == std::errc();
+    const bool isTiny =
+        isWide ? std::abs(wide) < 1 : word.find("e-") != word.npos || word.find("E-") != word.npos;
+    if (!isTiny) return std::nullopt;
+    return static_cast<float>(wide);
+  }
+  if (code != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::int64_t> parseObjIndex(std::string_view word) {
+  const std::size_t slash = std::min(word.find('/'), word.size());
+  std::string_view number = word.substr(0, slash);
+  if (number.size() > 1 && number.front() == '+' && number[1] != '-') number.remove_prefix(1);
+  std::int64_t index = 0;
+  const char* const end = number.data() + number.size();
+  const auto [stop, code] = std::from_chars(number.data(), end, index);
+  const bool isIndex = code == std::errc() && stop == end;
+  if (!isIndex || word.find_first_not_of("-+/0123456789", slash) != word.npos) return std::nullopt;
+  return index;
 }
 
 }  // namespace ringlet

@@ -1,7 +1,9 @@
-// ObjText: cuts the text of an OBJ file into words, line by line.
+// ObjText: cuts the text of an OBJ file into words, line by line; and what its words say.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace ringlet {
@@ -28,5 +30,11 @@ class ObjText {
   std::string_view text_;
   std::size_t position_ = 0, line_ = 1;
 };
+
+/// A finite number in any of C's decimal forms, whatever the locale; a leading plus is fine.
+std::optional<float> parseObjNumber(std::string_view word);
+
+/// The point's index of `i`, `i/t`, `i//n` or `i/t/n`, as it stands there: from 1, or from -1 back.
+std::optional<std::int64_t> parseObjIndex(std::string_view word);
 
 }  // namespace ringlet

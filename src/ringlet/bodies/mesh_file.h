@@ -1,0 +1,24 @@
+// Meshes from OBJ files: the surfaces of bodies. (Strands in OBJ files are groom/obj_file.h.)
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "ringlet/base/result.h"
+#include "ringlet/bodies/triangle_mesh.h"
+
+namespace ringlet {
+
+/// Reads the faces of an OBJ file, all its objects together, as one mesh in metres; metresPerUnit, in
+/// [1e-6, 1000], says what its unit is. Polygons become triangles by a fan about their first point, which is
+/// right for convex ones and keeps every one closed. Triangles of fewer than three places are left out.
+/// Texture coordinates, normals, materials and lines are left aside. Errors, with the line: anything that
+/// breaks `v` or `f`; a file without triangles, an unreadable one, more than memory holds.
+Result<TriangleMesh> readObjMesh(const std::filesystem::path& path, double metresPerUnit);
+
+/// The same from the bytes of a file; `path` is for messages. Throws nothing but std::bad_alloc.
+Result<TriangleMesh> readObjMesh(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                                 double metresPerUnit);
+
+}  // namespace ringlet
