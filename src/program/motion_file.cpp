@@ -7,32 +7,14 @@
 #include <memory>
 #include <numbers>
 
-#include "ringlet/base/nearest_name.h"
 #include "ringlet/motion/bvh_file.h"
+#include "ringlet/motion/joint_name.h"
 
 namespace ringlet::program {
 namespace {
 
-constexpr double kTall = 1.7;            // of a skeleton in no known unit [m]
-constexpr double kFastestHead = 30;      // beyond it a turn is a jump [rad/s]
-constexpr std::size_t kNamesShown = 12;  // in a message
-
-Error noSuchJoint(const MotionFileChoice& choice, const BvhFile& file) {
-  std::vector<std::string> names;
-  for (const BvhJoint& joint : file.joints) {
-    if (!joint.name.empty()) names.push_back(joint.name);
-  }
-  const std::size_t near = nearestName(choice.joint, names);
-  if (near < names.size())
-    return Error{
-        fmt::format("{} has no joint {}; did you mean {}?", choice.path.string(), choice.joint, names[near])};
-  std::string shown;
-  for (std::size_t k = 0; k < std::min(names.size(), kNamesShown); ++k)
-    shown += fmt::format("{}{}", k > 0 ? ", " : "", names[k]);
-  return Error{
-      fmt::format("{} has no joint {}; it has {}{}", choice.path.string(), choice.joint, shown,
-                  names.size() > kNamesShown ? fmt::format(" and {} more", names.size() - kNamesShown) : "")};
-}
+constexpr double kTall = 1.7;        // of a skeleton in no known unit [m]
+constexpr double kFastestHead = 30;  // beyond it a turn is a jump [rad/s]
 
 // From Y up to Z up: X stays.
 HeadPose uprightAlongZ(const HeadPose& pose) {
@@ -52,7 +34,7 @@ Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::ve
   auto file = readBvh(choice.path);
   if (!file) return file.error();
   const auto joint = file->find(choice.joint);
-  if (!joint) return noSuchJoint(choice, *file);
+  if (!joint) return noSuchJoint(choice.path.string(), "joint", choice.joint, file->names());
   const auto skipped = static_cast<std::size_t>(choice.skippedFrames);
   if (skipped + 2 > file->frameCount()) {
     return Error{fmt::format("{} has {} frames; without the first {} too few are left to move along",
