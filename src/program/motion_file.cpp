@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ringlet/motion/bvh_file.h"
+#include "ringlet/motion/gltf_file.h"
 #include "ringlet/motion/joint_name.h"
 
 namespace ringlet::program {
@@ -22,15 +23,8 @@ HeadPose uprightAlongZ(const HeadPose& pose) {
   return {rotate(lift, pose.position), lift * pose.rotation * lift.conjugate()};
 }
 
-}  // namespace
-
-bool isMotionFile(const std::string& word) {
-  std::string extension = std::filesystem::path(word).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".bvh";
-}
-
-Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings) {
+Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, UpAxis up,
+                                std::vector<std::string>& warnings) {
   auto file = readBvh(choice.path);
   if (!file) return file.error();
   const auto joint = file->find(choice.joint);
@@ -59,8 +53,55 @@ Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::ve
   if (up == UpAxis::z) {
     for (HeadPose& pose : keys.poses) pose = uprightAlongZ(pose);
   }
+  return keys;
+}
+
+Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, UpAxis up,
+                               std::vector<std::string>& warnings) {
+  const std::string name = choice.path.string();
+  const auto file = readGltf(choice.path);
+  if (!file) return file.error();
+  const auto node = file->find(choice.joint);
+  if (!node) return noSuchJoint(name, "node", choice.joint, file->names());
+  if (file->animations.empty()) return Error{fmt::format("{} has no animation, so nothing moves", name)};
+  const auto animation = file->animationNamed(choice.animation);
+  if (!animation) return Error{fmt::format("{}: {}", name, animation.error().message)};
+  if (choice.animation.empty() && file->animations.size() > 1) {
+    warnings.push_back(fmt::format("{} has {} animations; the first, {}, is taken (--animation)", name,
+                                   file->animations.size(), (*animation)->name));
+  }
+  if (!file->moves(*node, *animation)) {
+    warnings.push_back(fmt::format("{}: nothing in its animation {} moves {}; it stands still", name,
+                                   (*animation)->name, choice.joint));
+  }
+  auto keys = file->motionOf(
+      *node, *animation, {.metresPerUnit = choice.metresPerUnit.value_or(1), .upIsZ = up == UpAxis::z}, {});
+  if (!keys) return Error{fmt::format("{}: {}", name, keys.error().message)};
+  if (keys->poses.size() < 2)
+    return Error{fmt::format("{}: its animation {} takes no time", name, (*animation)->name)};
+  if (const auto fastest = keys->fastestTurn(); fastest.speed > kFastestHead) {
+    warnings.push_back(fmt::format("{}: {:.3g} s after the first key {} turns at {:.0f} rad/s", name,
+                                   static_cast<double>(fastest.key) * keys->secondsPerKey, choice.joint,
+                                   fastest.speed));
+  }
+  return keys;
+}
+
+}  // namespace
+
+MotionFileKind motionFileKind(const std::string& word) {
+  std::string extension = std::filesystem::path(word).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".bvh") return MotionFileKind::bvh;
+  return extension == ".gltf" || extension == ".glb" ? MotionFileKind::gltf : MotionFileKind::none;
+}
+
+Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings) {
+  const bool isGltf = motionFileKind(choice.path.string()) == MotionFileKind::gltf;
+  auto keys = isGltf ? readGltfKeys(choice, up, warnings) : readBvhMotion(choice, up, warnings);
+  if (!keys) return keys.error();
   return Motion{.kind = MotionKind::keyframes,
-                .keyframes = std::make_shared<const Keyframes>(std::move(keys))};
+                .keyframes = std::make_shared<const Keyframes>(std::move(*keys))};
 }
 
 }  // namespace ringlet::program

@@ -49,8 +49,10 @@ double samplesFor(const GltfFile& file, std::size_t node, const GltfAnimation& a
   const double gap = secondsBetweenKeys(file, node, animation);
   if (!(gap > 0)) return kSampled;
   const double keys = 1 / gap;
-  if (keys > kFramesPerSecond) return std::min(keys, kMostSampled);
-  return keys * std::ceil(kSampled / keys - 0.01);  // so that every key is met
+  const double rate = keys > kFramesPerSecond ? std::min(keys, kMostSampled)
+                                              : keys * std::ceil(kSampled / keys - 0.01);  // meets every key
+  // 24.0001 is 24 with times in single precision; 23.976 is not.
+  return std::abs(rate - std::round(rate)) < 1e-4 * rate ? std::round(rate) : rate;
 }
 
 }  // namespace
@@ -194,9 +196,8 @@ Result<Keyframes> GltfFile::motionOf(std::size_t node, const GltfAnimation* anim
   double gaps = 0, step = 0;  // between poses, and one of them [s]
   if (span > 0) {
     const double rate = samplesPerSecond ? *samplesPerSecond : samplesFor(*this, node, *animation);
-    // As many as reach the end; where that is a whole number but for rounding, exactly to it.
     gaps = std::max(1.0, std::ceil(span * rate - 0.01));
-    step = std::abs(span * rate - gaps) < 0.01 ? span / gaps : 1 / rate;
+    step = 1 / rate;
   }
   if (!(gaps < kMostPoses)) {
     return Error{fmt::format("the animation takes {:.4g} s, {:.4g} poses; at most {} are taken", span, gaps,
