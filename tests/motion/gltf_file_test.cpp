@@ -282,6 +282,30 @@ TEST(GltfFile, ReadsModelsWithPictures) {
   for (const std::string& text : {file.text(), file.glb()}) EXPECT_EQ(parsed(text).nodes.size(), 1u);
 }
 
+// Compressed meshes are not read; what moves is, where that is not compressed too.
+TEST(GltfFile, MovesWhatIsNotCompressed) {
+  const auto compressed = [](const char* extension, bool isMoved) {
+    GltfBuilder file = bendingStrip(2, 5121, 5126);
+    file.root["extensionsRequired"] = {extension};
+    if (std::string(extension) == "KHR_draco_mesh_compression") {
+      file.root["meshes"][0]["primitives"][0]["extensions"][extension] = {{"bufferView", 0}};
+      file.root["accessors"][3].erase("bufferView");  // of the indices
+    } else {
+      file.root["bufferViews"][isMoved ? 1 : 5]["extensions"][extension] = {{"buffer", 0}};
+    }
+    return file.glb();
+  };
+  for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}) {
+    const GltfFile file = parsed(compressed(extension, true));
+    EXPECT_TRUE(file.motionOf(1, &file.animations[0], {}, {}));
+    ASSERT_TRUE(file.meshes[0].problem);
+    EXPECT_NE(file.meshes[0].problem->message.find(extension), std::string::npos);
+  }
+  const auto file = parseGltf(bytesOf(compressed("EXT_meshopt_compression", false)), "");
+  ASSERT_FALSE(file);
+  EXPECT_NE(file.error().message.find("EXT_meshopt_compression"), std::string::npos) << file.error().message;
+}
+
 TEST(GltfFile, SaysWhatIsWrong) {
   const auto with = [](auto&& change) {
     GltfBuilder file;

@@ -23,7 +23,7 @@ std::uint32_t numberAt(std::span<const std::byte> bytes, std::size_t at) {
   return number;
 }
 
-Status guardText(std::span<std::byte> bytes) {
+Status guardText(std::span<std::byte> bytes, bool hidesMeshes) {
   constexpr std::array<std::string_view, 7> kUnread{"images",  "textures",   "materials", "samplers",
                                                     "cameras", "extensions", "extras"};
   char* const text = reinterpret_cast<char*>(bytes.data());
@@ -41,19 +41,20 @@ Status guardText(std::span<std::byte> bytes) {
     const std::string_view word(text + start, size);
     if (word.find('\\') != std::string_view::npos)
       return Error{fmt::format("byte {}: a member's name is not plain", start)};
-    if (std::ranges::find(kUnread, word) != kUnread.end()) text[start] = '-';
+    if (std::ranges::find(kUnread, word) != kUnread.end() || (hidesMeshes && word == "meshes"))
+      text[start] = '-';
   }
   return {};
 }
 
 }  // namespace
 
-Result<GltfForm> guardGltf(std::span<std::byte> bytes) {
+Result<GltfForm> guardGltf(std::span<std::byte> bytes, bool hidesMeshes) {
   if (bytes.size() > kLargest)
     return Error{fmt::format("it has {} bytes; at most {} can be read", bytes.size(), kLargest)};
   constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
   if (bytes.size() < 4 || numberAt(bytes, 0) != kMagic) {
-    if (Status status = guardText(bytes); !status) return status.error();
+    if (Status status = guardText(bytes, hidesMeshes); !status) return status.error();
     return GltfForm::text;
   }
   if (bytes.size() < kHeader + kChunk)
@@ -71,7 +72,8 @@ Result<GltfForm> guardGltf(std::span<std::byte> bytes) {
     if (numberAt(bytes, static_cast<std::size_t>(second) + 4) == kBinary && size > whole - second - kChunk)
       return Error{fmt::format("its second chunk ends {} bytes beyond it", size - (whole - second - kChunk))};
   }
-  if (Status status = guardText(bytes.subspan(kHeader + kChunk, static_cast<std::size_t>(text))); !status)
+  if (Status status = guardText(bytes.subspan(kHeader + kChunk, static_cast<std::size_t>(text)), hidesMeshes);
+      !status)
     return status.error();
   return GltfForm::binary;
 }

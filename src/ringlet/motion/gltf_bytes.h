@@ -13,6 +13,7 @@ enum class GltfForm { text, binary };
 /// Tells the form. Checks the chunks of a .glb (TinyGLTF lets the second one end beyond the file) and how
 /// deep brackets are nested (it recurses into them); renames the members that name pictures and materials, so
 /// that it does not look at them (it takes their addresses unseen, and refuses files over them).
-Result<GltfForm> guardGltf(std::span<std::byte> bytes);
+/// `hidesMeshes`: those too.
+Result<GltfForm> guardGltf(std::span<std::byte> bytes, bool hidesMeshes);
 
 }  // namespace ringlet

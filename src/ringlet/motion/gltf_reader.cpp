@@ -30,6 +30,9 @@ namespace {
 
 namespace gltf = ringlet_tinygltf;
 
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+
 // In a message: what TinyGLTF says has many lines, and pieces of the file.
 std::string oneLine(std::string_view text) {
   constexpr std::size_t kLongest = 300;
@@ -98,6 +101,9 @@ Result<std::span<const unsigned char>> viewedBytes(const gltf::Model& model, int
   const auto v = indexOf(view, model.bufferViews.size());
   if (!v) return Error{fmt::format("there is no buffer view {}", view)};
   const gltf::BufferView& found = model.bufferViews[*v];
+  if (found.extensions.contains(kMeshopt))
+    return Error{fmt::format("buffer view {} is compressed by {}, which is not read; write it without", view,
+                             kMeshopt)};
   const auto b = indexOf(found.buffer, model.buffers.size());
   if (!b) return Error{fmt::format("buffer view {} is of buffer {}, which is not there", view, found.buffer)};
   const std::vector<unsigned char>& data = model.buffers[*b].data;
@@ -376,9 +382,12 @@ Status readInfluences(const gltf::Model& model, const gltf::Primitive& from, std
   return {};
 }
 
+Error dracoProblem() {
+  return Error{fmt::format("it is compressed by {}, which is not read; write it without", kDraco)};
+}
+
 Status readPrimitive(const gltf::Model& model, const gltf::Primitive& from, GltfMesh& mesh) {
-  if (from.extensions.contains("KHR_draco_mesh_compression"))
-    return Error{"it is compressed by KHR_draco_mesh_compression, which is not read; write it without"};
+  if (from.extensions.contains(kDraco)) return dracoProblem();
   const auto position = from.attributes.find("POSITION");
   if (position == from.attributes.end()) return Error{"it has no POSITION"};
   const auto points = readAccessor(model, position->second, 3, "POSITION");
@@ -455,6 +464,47 @@ bool passPicture(gltf::Image*, const int, std::string*, std::string*, int, int, 
   return true;
 }
 
+// A file as TinyGLTF sees it, or why not. `required`: the extensions it cannot be read without.
+struct Parsed {
+  gltf::Model model;
+  std::optional<Error> problem;
+  std::vector<std::string> required;
+};
+
+Parsed parse(std::span<const std::byte> bytes, const std::filesystem::path& folder, bool hidesMeshes) {
+  Parsed parsed;
+  std::vector<std::byte> guarded(bytes.begin(), bytes.end());
+  const auto form = guardGltf(guarded, hidesMeshes);
+  if (!form) {
+    parsed.problem = form.error();
+    return parsed;
+  }
+  gltf::TinyGLTF reader;
+  reader.SetFsCallbacks({isAnywhere, asItIs, readBeside, writeNothing, nullptr});
+  reader.SetImageLoader(passPicture, nullptr);
+  std::string error, warning;
+  const auto size = static_cast<unsigned>(guarded.size());
+  const bool isRead =
+      *form == GltfForm::binary
+          ? reader.LoadBinaryFromMemory(&parsed.model, &error, &warning,
+                                        reinterpret_cast<const unsigned char*>(guarded.data()), size,
+                                        folder.string())
+          : reader.LoadASCIIFromString(&parsed.model, &error, &warning,
+                                       reinterpret_cast<const char*>(guarded.data()), size, folder.string());
+  for (const std::string& extension : parsed.model.extensionsRequired)
+    parsed.required.push_back(oneLine(extension));
+  const std::string& version = parsed.model.asset.version;
+  if (!isRead) {
+    parsed.problem = Error{error.empty() ? "its text is not glTF's" : oneLine(error)};
+    if (!parsed.required.empty())
+      parsed.problem->message += fmt::format(" (it requires {})", fmt::join(parsed.required, ", "));
+  } else if (!version.starts_with("2.")) {
+    parsed.problem =
+        Error{fmt::format("it is of version {}; version 2 can be read", ringlet::quoted(version))};
+  }
+  return parsed;
+}
+
 Result<GltfFile> fileOf(const gltf::Model& model) {
   GltfFile file;
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
@@ -480,27 +530,19 @@ Result<GltfFile> fileOf(const gltf::Model& model) {
 }  // namespace
 
 Result<GltfFile> parseGltf(std::span<const std::byte> bytes, const std::filesystem::path& folder) try {
-  std::vector<std::byte> guarded(bytes.begin(), bytes.end());
-  const auto form = guardGltf(guarded);
-  if (!form) return form.error();
-  gltf::TinyGLTF reader;
-  reader.SetFsCallbacks({isAnywhere, asItIs, readBeside, writeNothing, nullptr});
-  reader.SetImageLoader(passPicture, nullptr);
-  gltf::Model model;
-  std::string error, warning;
-  const auto size = static_cast<unsigned>(guarded.size());
-  const bool isRead =
-      *form == GltfForm::binary
-          ? reader.LoadBinaryFromMemory(&model, &error, &warning,
-                                        reinterpret_cast<const unsigned char*>(guarded.data()), size,
-                                        folder.string())
-          : reader.LoadASCIIFromString(&model, &error, &warning,
-                                       reinterpret_cast<const char*>(guarded.data()), size, folder.string());
-  if (!isRead) return Error{error.empty() ? "its text is not glTF's" : oneLine(error)};
-  if (!model.asset.version.starts_with("2."))
-    return Error{
-        fmt::format("it is of version {}; version 2 can be read", ringlet::quoted(model.asset.version))};
-  return fileOf(model);
+  Parsed parsed = parse(bytes, folder, false);
+  const bool hidesMeshes =
+      parsed.problem && std::ranges::find(parsed.required, kDraco) != parsed.required.end();
+  // TinyGLTF refuses indices that are in no buffer, as Draco's are. Skeletons move without them.
+  if (hidesMeshes) parsed = parse(bytes, folder, true);
+  if (parsed.problem) return *parsed.problem;
+  if (hidesMeshes) {
+    for (gltf::Node& node : parsed.model.nodes) node.mesh = std::min(node.mesh, 0);
+    parsed.model.meshes.resize(1);
+  }
+  auto file = fileOf(parsed.model);
+  if (file && hidesMeshes) file->meshes.front().problem = dracoProblem();
+  return file;
 } catch (const std::bad_alloc&) {
   return Error{"there is not enough memory for it"};
 } catch (const std::exception& problem) {
