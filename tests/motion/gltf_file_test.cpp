@@ -361,6 +361,14 @@ TEST(GltfFile, SaysWhatIsWrong) {
     EXPECT_NE(file.error().message.find(expected), std::string::npos)
         << expected << ": " << file.error().message;
   }
+  GltfBuilder sample = bendingStrip(1, 5121, 5126);
+  std::string longer = sample.glb();
+  const std::size_t second = longer.find(std::string("BIN\0", 4)) - 4;
+  longer[second] = static_cast<char>(longer[second] + 8);
+  const auto beyond = parseGltf(bytesOf(longer), "");
+  ASSERT_FALSE(beyond);
+  EXPECT_NE(beyond.error().message.find("second chunk ends 8 bytes beyond"), std::string::npos)
+      << beyond.error().message;
   const GltfFile flat = parsed(with([](json& root) { root["nodes"][1]["scale"] = {0, 1, 1}; }));
   const auto motion = flat.motionOf(0, &flat.animations[0], {}, {});
   ASSERT_FALSE(motion);
