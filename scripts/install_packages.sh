@@ -9,6 +9,7 @@ packages=(
   libeigen3-dev libgtest-dev libbenchmark-dev                        # reference, tests, benchmarks
   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev   # the program and its outputs
   libtomlplusplus-dev                                                # material files
+  libtinygltf-dev                                                    # glTF motion
 )
 
 missing=()

@@ -7,32 +7,15 @@
 #include <memory>
 #include <numbers>
 
-#include "ringlet/base/nearest_name.h"
 #include "ringlet/motion/bvh_file.h"
+#include "ringlet/motion/gltf_file.h"
+#include "ringlet/motion/joint_name.h"
 
 namespace ringlet::program {
 namespace {
 
-constexpr double kTall = 1.7;            // of a skeleton in no known unit [m]
-constexpr double kFastestHead = 30;      // beyond it a turn is a jump [rad/s]
-constexpr std::size_t kNamesShown = 12;  // in a message
-
-Error noSuchJoint(const MotionFileChoice& choice, const BvhFile& file) {
-  std::vector<std::string> names;
-  for (const BvhJoint& joint : file.joints) {
-    if (!joint.name.empty()) names.push_back(joint.name);
-  }
-  const std::size_t near = nearestName(choice.joint, names);
-  if (near < names.size())
-    return Error{
-        fmt::format("{} has no joint {}; did you mean {}?", choice.path.string(), choice.joint, names[near])};
-  std::string shown;
-  for (std::size_t k = 0; k < std::min(names.size(), kNamesShown); ++k)
-    shown += fmt::format("{}{}", k > 0 ? ", " : "", names[k]);
-  return Error{
-      fmt::format("{} has no joint {}; it has {}{}", choice.path.string(), choice.joint, shown,
-                  names.size() > kNamesShown ? fmt::format(" and {} more", names.size() - kNamesShown) : "")};
-}
+constexpr double kTall = 1.7;        // of a skeleton in no known unit [m]
+constexpr double kFastestHead = 30;  // beyond it a turn is a jump [rad/s]
 
 // From Y up to Z up: X stays.
 HeadPose uprightAlongZ(const HeadPose& pose) {
@@ -40,19 +23,12 @@ HeadPose uprightAlongZ(const HeadPose& pose) {
   return {rotate(lift, pose.position), lift * pose.rotation * lift.conjugate()};
 }
 
-}  // namespace
-
-bool isMotionFile(const std::string& word) {
-  std::string extension = std::filesystem::path(word).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".bvh";
-}
-
-Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings) {
+Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, UpAxis up,
+                                std::vector<std::string>& warnings) {
   auto file = readBvh(choice.path);
   if (!file) return file.error();
   const auto joint = file->find(choice.joint);
-  if (!joint) return noSuchJoint(choice, *file);
+  if (!joint) return noSuchJoint(choice.path.string(), "joint", choice.joint, file->names());
   const auto skipped = static_cast<std::size_t>(choice.skippedFrames);
   if (skipped + 2 > file->frameCount()) {
     return Error{fmt::format("{} has {} frames; without the first {} too few are left to move along",
@@ -77,8 +53,55 @@ Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::ve
   if (up == UpAxis::z) {
     for (HeadPose& pose : keys.poses) pose = uprightAlongZ(pose);
   }
+  return keys;
+}
+
+Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, UpAxis up,
+                               std::vector<std::string>& warnings) {
+  const std::string name = choice.path.string();
+  const auto file = readGltf(choice.path);
+  if (!file) return file.error();
+  const auto node = file->find(choice.joint);
+  if (!node) return noSuchJoint(name, "node", choice.joint, file->names());
+  if (file->animations.empty()) return Error{fmt::format("{} has no animation, so nothing moves", name)};
+  const auto animation = file->animationNamed(choice.animation);
+  if (!animation) return Error{fmt::format("{}: {}", name, animation.error().message)};
+  if (choice.animation.empty() && file->animations.size() > 1) {
+    warnings.push_back(fmt::format("{} has {} animations; the first, {}, is taken (--animation)", name,
+                                   file->animations.size(), (*animation)->name));
+  }
+  if (!file->moves(*node, *animation)) {
+    warnings.push_back(fmt::format("{}: nothing in its animation {} moves {}; it stands still", name,
+                                   (*animation)->name, choice.joint));
+  }
+  auto keys = file->motionOf(
+      *node, *animation, {.metresPerUnit = choice.metresPerUnit.value_or(1), .upIsZ = up == UpAxis::z}, {});
+  if (!keys) return Error{fmt::format("{}: {}", name, keys.error().message)};
+  if (keys->poses.size() < 2)
+    return Error{fmt::format("{}: its animation {} takes no time", name, (*animation)->name)};
+  if (const auto fastest = keys->fastestTurn(); fastest.speed > kFastestHead) {
+    warnings.push_back(fmt::format("{}: {:.3g} s after the first key {} turns at {:.0f} rad/s", name,
+                                   static_cast<double>(fastest.key) * keys->secondsPerKey, choice.joint,
+                                   fastest.speed));
+  }
+  return keys;
+}
+
+}  // namespace
+
+MotionFileKind motionFileKind(const std::string& word) {
+  std::string extension = std::filesystem::path(word).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".bvh") return MotionFileKind::bvh;
+  return extension == ".gltf" || extension == ".glb" ? MotionFileKind::gltf : MotionFileKind::none;
+}
+
+Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings) {
+  const bool isGltf = motionFileKind(choice.path.string()) == MotionFileKind::gltf;
+  auto keys = isGltf ? readGltfKeys(choice, up, warnings) : readBvhMotion(choice, up, warnings);
+  if (!keys) return keys.error();
   return Motion{.kind = MotionKind::keyframes,
-                .keyframes = std::make_shared<const Keyframes>(std::move(keys))};
+                .keyframes = std::make_shared<const Keyframes>(std::move(*keys))};
 }
 
 }  // namespace ringlet::program

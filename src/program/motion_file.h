@@ -13,17 +13,21 @@
 namespace ringlet::program {
 
 struct MotionFileChoice {
-  std::filesystem::path path;  // .bvh
-  std::string joint = "Head";
-  std::optional<double> metresPerUnit;  // unset: so that the skeleton is 1.7 m tall
-  int skippedFrames = 0;                // at the start: a T-pose
+  std::filesystem::path path;
+  std::string joint = "Head";           // glTF calls it a node
+  std::optional<double> metresPerUnit;  // unset: so that a BVH skeleton is 1.7 m tall; glTF is in metres
+  int skippedFrames = 0;                // BVH: at the start, a T-pose
+  std::string animation;                // glTF: a name or a number from 0; empty: the first
 };
 
-/// Whether a word after --motion names a file and no built-in motion.
-bool isMotionFile(const std::string& word);
+enum class MotionFileKind { none, bvh, gltf };
 
-/// The joint's way, upright along `up`. Warnings say what unit was taken, and where the head turns faster
-/// than any. Fails with the names of the joints where the joint is not there.
+/// What a word after --motion names, by its extension: .bvh, .gltf, .glb; or no file but a built-in motion.
+MotionFileKind motionFileKind(const std::string& word);
+
+/// The joint's way, upright along `up`. Warnings say what was taken for granted (a unit, one animation of
+/// several), where the head turns faster than any, and that it does not move at all. Fails with the names of
+/// the joints where the joint is not there.
 Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings);
 
 }  // namespace ringlet::program

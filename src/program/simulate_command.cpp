@@ -68,17 +68,24 @@ void resolve(Typed& typed) {
   options.up = typed.up == "Z" ? UpAxis::z : UpAxis::y;
   const Vec3d up = options.up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
   settings.gravity = up * -typed.gravity;
-  if (isMotionFile(typed.motion)) {
+  if (const MotionFileKind kind = motionFileKind(typed.motion); kind != MotionFileKind::none) {
     if (typed.amplitude || typed.frequency)
       throw CLI::ValidationError(typed.amplitude ? "--amplitude" : "--frequency",
                                  "a motion from a file has its own");
+    if (kind == MotionFileKind::gltf && typed.motionFile.skippedFrames > 0)
+      throw CLI::ValidationError("--skip-frames",
+                                 "a glTF animation has times and no frames; cut it where it is made");
+    if (kind == MotionFileKind::bvh && !typed.motionFile.animation.empty())
+      throw CLI::ValidationError("--animation", "a .bvh file has only one");
     options.motionFile = typed.motionFile;
     options.motionFile->path = typed.motion;
     options.choosesFrames = !typed.frameCount;
   } else {
     if (typed.motionFileGiven)
-      throw CLI::ValidationError("--motion",
-                                 "only a .bvh file has a --joint, --motion-unit and --skip-frames");
+      throw CLI::ValidationError(
+          "--motion",
+          "only a .bvh, .gltf or .glb file has a --joint, --motion-unit, --skip-frames and "
+          "--animation");
     options.motion = motionByName(typed.motion, up).value();
     options.motion.amplitude = typed.amplitude.value_or(options.motion.amplitude);
     options.motion.frequency = typed.frequency.value_or(options.motion.frequency);
@@ -181,21 +188,26 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   const CLI::Validator motionName = oneOf(motionNameList());
   command
       ->add_option("--motion", typed->motion,
-                   "How the head moves: " + motionNames() + "; or a .bvh file (default shake)")
+                   "How the head moves: " + motionNames() + "; or a .bvh, .gltf or .glb file (default shake)")
       ->check(CLI::Validator(
-          [motionName](std::string& word) { return isMotionFile(word) ? "" : motionName(word); }, "NAME"))
+          [motionName](std::string& word) {
+            return motionFileKind(word) != MotionFileKind::none ? "" : motionName(word);
+          },
+          "NAME"))
       ->type_name("NAME|FILE")
       ->group(scene);
   const auto ofMotionFile = [&](CLI::Option* option, const char* type) {
     option->type_name(type)->group(scene)->each(
         [typed](const std::string&) { typed->motionFileGiven = true; });
   };
-  ofMotionFile(command->add_option("--joint", typed->motionFile.joint,
-                                   "Joint of the .bvh file that is the head (default Head)"),
+  ofMotionFile(command->add_option(
+                   "--joint", typed->motionFile.joint,
+                   "Joint of the .bvh file, node of the .gltf or .glb, that is the head (default Head)"),
                "NAME");
   ofMotionFile(command
                    ->add_option("--motion-unit", typed->motionFile.metresPerUnit,
-                                "Metres per unit of the .bvh file (default: its skeleton is 1.7 m tall)")
+                                "Metres per unit of the motion's file (default: a .bvh skeleton is 1.7 m "
+                                "tall, glTF is in metres)")
                    ->check(between(1e-6, 1000)),
                "METRES");
   ofMotionFile(
@@ -204,6 +216,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
                        "Frames at the start of the .bvh file to leave out, as a T-pose is (default 0)")
           ->check(wholeBetween(0, kMostFrames)),
       "N");
+  ofMotionFile(command->add_option(
+                   "--animation", typed->motionFile.animation,
+                   "Animation of the .gltf or .glb file, by name or number from 0 (default: the first)"),
+               "NAME");
   command
       ->add_option("--amplitude", typed->amplitude,
                    "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "

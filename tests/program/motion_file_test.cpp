@@ -1,11 +1,11 @@
-// `ringlet simulate --motion FILE.bvh`: the groom follows a joint of a motion capture, and mistakes are
-// sentences.
+// `ringlet simulate --motion FILE.bvh` and FILE.gltf: the groom follows a joint, and mistakes are sentences.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
+#include "tests/motion/gltf_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -26,6 +26,71 @@ void writeFiles(const std::filesystem::path& folder) {
          "OFFSET 0 2 0\nCHANNELS 1 Zrotation\nEnd Site\n{\nOFFSET 0 0 0\n}\n}\n}\nMOTION\nFrames:14\nFrame "
          "Time: 0.0416666667\n-40 0 0 170\n";
   for (int k = 0; k <= 12; ++k) bvh << k << " 0 0 " << 7.5 * k << "\n";
+}
+
+// The same head, in metres: 12 cm to the side in half a second, upright; and a second animation.
+test::GltfBuilder gltfHead() {
+  test::GltfBuilder file;
+  const int head = file.node({{"name", "rig:Head"}});
+  file.node({{"name", "Hips"}, {"translation", {0, 0.02, 0}}, {"children", {head}}});
+  std::vector<double> seconds, values;
+  for (int k = 0; k <= 12; ++k) {
+    seconds.push_back(k / 24.0 + 1);
+    values.insert(values.end(), {k * 0.01, 0, 0});
+  }
+  file.channel(0, head, "translation", "LINEAR", seconds, values);
+  return file;
+}
+
+TEST(MotionFile, TheGroomFollowsTheNodeOfAGltf) {
+  const auto folder = scratchFolder("motion_file_gltf");
+  writeFiles(folder);
+  std::ofstream(folder / "walk.GLB", std::ios::binary) << gltfHead().glb();
+  std::ofstream(folder / "walk.gltf") << gltfHead().text();
+  struct Case {
+    std::vector<std::string> options;
+    double y, z, scale;
+  };
+  for (const Case& c : {Case{{"--motion", "walk.GLB"}, 2, 0, 1},
+                        Case{{"--motion", "walk.gltf", "--motion-unit", "0.5"}, 1, 0, 0.5},
+                        Case{{"--motion", "walk.gltf", "--up", "Z", "--joint", "rig:head"}, 0, 2, 1}}) {
+    std::vector<std::string> arguments{"simulate",  "groom.obj", "--gravity", "0",     "--backend",
+                                       "reference", "-o",        "out",       "--json"};
+    arguments.insert(arguments.end(), c.options.begin(), c.options.end());
+    const auto result = runProgram(folder, arguments);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const json out = json::parse(result.out, nullptr, false);
+    EXPECT_EQ(out["frames"], 12) << "as long as the animation, from its first key";
+    EXPECT_EQ(out["warnings"], json::array());
+    const auto last = readGroom(folder / "out/last.obj");
+    ASSERT_TRUE(last) << last.error().message;
+    EXPECT_NEAR(last->groom.points[0].x, 12 * c.scale, 1e-4);
+    EXPECT_NEAR(last->groom.points[0].y, c.y, 1e-4);
+    EXPECT_NEAR(last->groom.points[0].z, c.z, 1e-4);
+  }
+}
+
+TEST(MotionFile, SaysWhichAnimationOfAGltfItTook) {
+  const auto folder = scratchFolder("motion_file_gltf_warnings");
+  writeFiles(folder);
+  auto file = gltfHead();
+  file.channel(1, 1, "translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0});
+  file.node({{"name", "Stone"}});
+  std::ofstream(folder / "two.glb", std::ios::binary) << file.glb();
+  const auto warningsOf = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments{"simulate",  "groom.obj", "--motion", "two.glb", "--frames", "1",
+                                       "--backend", "reference", "-o",       "out",     "--json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const auto result = runProgram(folder, arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return json::parse(result.out, nullptr, false)["warnings"].dump();
+  };
+  EXPECT_NE(warningsOf({}).find("has 2 animations; the first, take0, is taken"), std::string::npos)
+      << warningsOf({});
+  EXPECT_EQ(warningsOf({"--animation", "take1"}), "[]");
+  EXPECT_NE(
+      warningsOf({"--animation", "1", "--joint", "Stone"}).find("nothing in its animation take1 moves Stone"),
+      std::string::npos);
 }
 
 TEST(MotionFile, TheGroomFollowsTheJoint) {
@@ -64,6 +129,11 @@ TEST(MotionFile, MistakesAreOneSentence) {
   const auto folder = scratchFolder("motion_file_mistakes");
   writeFiles(folder);
   std::ofstream(folder / "broken.bvh") << "HIERARCHY\nJOINT";
+  std::ofstream(folder / "walk.glb", std::ios::binary) << gltfHead().glb();
+  std::ofstream(folder / "cut.glb", std::ios::binary) << gltfHead().glb().substr(0, 500);
+  test::GltfBuilder still;
+  still.node({{"name", "Head"}});
+  std::ofstream(folder / "still.gltf") << still.text();
   struct Case {
     std::vector<std::string> options;
     int exitCode;
@@ -75,9 +145,18 @@ TEST(MotionFile, MistakesAreOneSentence) {
            Case{{"--motion", "walk.BVH", "--skip-frames", "13"}, 1, "too few are left"},
            Case{{"--motion", "walk.BVH", "--amplitude", "1"}, 2, "a motion from a file has its own"},
            Case{{"--motion", "walk.BVH", "--motion-unit", "0"}, 2, "must be a number from"},
-           Case{{"--motion", "nod", "--joint", "Head"}, 2, "only a .bvh file has a --joint"},
+           Case{{"--motion", "nod", "--joint", "Head"}, 2, "only a .bvh, .gltf or .glb file has a --joint"},
            Case{{"--motion", "missing.bvh"}, 1, "missing.bvh"},
            Case{{"--motion", "broken.bvh"}, 1, "broken.bvh is no BVH motion: line 2: \"ROOT\" should stand"},
+           Case{{"--motion", "walk.BVH", "--animation", "run"}, 2, "a .bvh file has only one"},
+           Case{
+               {"--motion", "walk.glb", "--skip-frames", "1"}, 2, "a glTF animation has times and no frames"},
+           Case{{"--motion", "walk.glb", "--joint", "Haed"}, 1, "walk.glb has no node Haed; "},
+           Case{{"--motion", "walk.glb", "--joint", "LeftWrist"}, 1, "it has rig:Head, Hips"},
+           Case{{"--motion", "walk.glb", "--animation", "run"}, 1, "has no animation run; it has take0"},
+           Case{{"--motion", "still.gltf"}, 1, "still.gltf has no animation"},
+           Case{{"--motion", "missing.gltf"}, 1, "missing.gltf"},
+           Case{{"--motion", "cut.glb"}, 1, "cut.glb is no glTF: it says it has"},
            Case{{"--motion", "nodd"}, 2, "did you mean nod?"},
        }) {
     std::vector<std::string> arguments{"simulate", "groom.obj", "--backend", "reference", "-o", "out"};

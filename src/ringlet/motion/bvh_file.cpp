@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <new>
@@ -12,6 +11,7 @@
 
 #include "ringlet/groom/quoted.h"
 #include "ringlet/groom/whole_file.h"
+#include "ringlet/motion/joint_name.h"
 
 namespace ringlet {
 namespace {
@@ -177,12 +177,6 @@ Status readMotion(Words& words, BvhFile& file) {
   return {};
 }
 
-std::string lower(std::string_view text) {
-  std::string result;
-  for (char c : text) result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
-
 }  // namespace
 
 double BvhFile::height() const {
@@ -193,16 +187,13 @@ double BvhFile::height() const {
   return high - low;
 }
 
-std::optional<std::size_t> BvhFile::find(std::string_view name) const {
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (!name.empty() && joints[j].name == name) return j;
-  }
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const std::string own = lower(joints[j].name), wanted = lower(name);
-    if (!wanted.empty() && (own == wanted || own.ends_with(":" + wanted))) return j;
-  }
-  return std::nullopt;
+std::vector<std::string> BvhFile::names() const {
+  std::vector<std::string> all;
+  for (const BvhJoint& joint : joints) all.push_back(joint.name);
+  return all;
 }
+
+std::optional<std::size_t> BvhFile::find(std::string_view name) const { return findJoint(names(), name); }
 
 Keyframes BvhFile::motionOf(std::size_t joint, double metresPerUnit, std::size_t firstFrame) const {
   std::vector<std::size_t> chain{joint};  // from the joint to the root

@@ -38,6 +38,8 @@ struct BvhFile {
   std::size_t frameCount() const { return channelCount > 0 ? values.size() / channelCount : 0; }
   /// From the lowest joint to the highest, in the skeleton's rest pose; 0 for a skeleton of one point.
   double height() const;
+  /// Of all joints; the ends of limbs have empty ones.
+  std::vector<std::string> names() const;
   /// A joint by its name; else, whatever the case, by what stands after a colon ("mixamorig:Head").
   std::optional<std::size_t> find(std::string_view name) const;
   /// The joint's poses from a frame on, which must be there. Cost: linear in frames and the joint's depth.

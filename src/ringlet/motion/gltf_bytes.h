@@ -1,0 +1,19 @@
+// gltf_bytes: makes the bytes of a glTF file safe for TinyGLTF 2.7 to read, which trusts some of them.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "ringlet/base/result.h"
+
+namespace ringlet {
+
+enum class GltfForm { text, binary };
+
+/// Tells the form. Checks the chunks of a .glb (TinyGLTF lets the second one end beyond the file) and how
+/// deep brackets are nested (it recurses into them); renames the members that name pictures and materials, so
+/// that it does not look at them (it takes their addresses unseen, and refuses files over them).
+/// `hidesMeshes`: those too.
+Result<GltfForm> guardGltf(std::span<std::byte> bytes, bool hidesMeshes);
+
+}  // namespace ringlet
