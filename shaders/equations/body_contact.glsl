@@ -11,7 +11,7 @@ const int kTraceTurns = 16;         // looks along a way; grazing ones give up a
 const float kLeaveSpeed = 0.2;      // [m/s]: what begins inside leaves no faster
 const float kDeep = 1e-3;           // [m]: what is deeper inside leaves across its strand, which else would be stretched
 const float kDeepShare = 0.04;      // or crushed, held by this share of the weight
-const float kBodyWeight = 200.0;    // of what holds a particle at its allowed speed, in its masses
+const float kBodyWeight = 500.0;    // of what holds a particle at its allowed speed, in its masses
 const float kFullDeficit = 0.01;    // [m/s]: of a deficit that gives half of that weight: without a ramp, rounding would
                                     // decide whether what just rests is held
 const uint kKeepOutRounds = 4;      // after the move, out of bodies and within the stretch limit, by turns
