@@ -22,8 +22,8 @@ struct MotionFileChoice {
 /// Whether a word after --motion names a file and no built-in motion.
 bool isMotionFile(const std::string& word);
 
-/// The joint's way, upright along `up`. Warnings say what unit was taken, and where the head turns faster
-/// than any. Fails with the names of the joints where the joint is not there.
+/// The joint's way, upright along `up`. Warnings, of which none is said twice, say what unit was taken, and
+/// where the head turns faster than any. Fails with the names of the joints where the joint is not there.
 Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings);
 
 }  // namespace ringlet::program

@@ -117,6 +117,37 @@ std::optional<Motion> motionByName(std::string_view name, Vec3d up) {
   return std::nullopt;
 }
 
+std::string motionName(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::still:
+      return "still";
+    case MotionKind::shake:
+      return "shake";
+    case MotionKind::nod:
+      return "nod";
+    case MotionKind::spin:
+      return "spin";
+    case MotionKind::glide:
+      return "glide";
+    case MotionKind::walk:
+      return "walk";
+    case MotionKind::turn:
+      return "turn";
+    case MotionKind::jump:
+      return "jump";
+    case MotionKind::whip:
+      return "whip";
+    case MotionKind::keyframes:
+      break;
+  }
+  return "keyframes";
+}
+
+bool isToAndFro(MotionKind kind) {
+  return kind == MotionKind::shake || kind == MotionKind::nod || kind == MotionKind::walk ||
+         kind == MotionKind::jump;
+}
+
 std::string motionNames() { return "still, shake, nod, spin, glide, walk, turn, jump, whip"; }
 
 }  // namespace ringlet

@@ -59,6 +59,12 @@ struct Motion {
 /// unknown name.
 std::optional<Motion> motionByName(std::string_view name, Vec3d up);
 
+/// Its name; "keyframes" is none that motionByName knows.
+std::string motionName(MotionKind kind);
+
+/// Whether it goes on and on, with a frequency, and may be over at some time.
+bool isToAndFro(MotionKind kind);
+
 /// The names motionByName knows, separated by commas, for messages and --help.
 std::string motionNames();
 
