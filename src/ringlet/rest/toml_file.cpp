@@ -27,21 +27,37 @@ bool isOfWord(char c) {
 }
 
 // All but those of decimal numbers, which may be many: the only one of a word, between two digits.
-std::size_t dotsOfKeys(std::string_view text) {
+std::size_t dotsOfKeys(std::string_view line) {
   std::size_t count = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
+  for (std::size_t at = 0; at < line.size(); ++at) {
     std::size_t dots = 0, end = at;
     bool isDecimal = false;
-    for (; end < text.size() && isOfWord(text[end]); ++end) {
-      if (text[end] != '.') continue;
+    for (; end < line.size() && isOfWord(line[end]); ++end) {
+      if (line[end] != '.') continue;
       ++dots;
       isDecimal =
-          dots == 1 && end > at && isDigit(text[end - 1]) && end + 1 < text.size() && isDigit(text[end + 1]);
+          dots == 1 && end > at && isDigit(line[end - 1]) && end + 1 < line.size() && isDigit(line[end + 1]);
     }
     count += isDecimal ? 0 : dots;
     at = std::max(at, end);
   }
   return count;
+}
+
+// How deep keys may nest at the most: those with values may be in each other, of headings there is one.
+std::size_t nestingOf(std::string_view text) {
+  std::size_t withValues = 0, heading = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string_view line = text.substr(at, end - at);
+    if (line.find_first_of("={") != std::string_view::npos) {
+      withValues += dotsOfKeys(line);
+    } else {
+      heading = std::max(heading, dotsOfKeys(line));
+    }
+    at = end + 1;
+  }
+  return withValues + heading;
 }
 
 Error tooLarge(const std::string& name, std::uintmax_t size, const char* what) {
@@ -69,7 +85,7 @@ std::string adviceOnKey(std::string_view word, const std::string& table, std::sp
 
 Result<toml::table> parseToml(std::string_view text, const std::string& name, const char* what) {
   if (text.size() > kLargestTomlFile) return tooLarge(name, text.size(), what);
-  if (const std::size_t dotCount = dotsOfKeys(text); dotCount > kMostDots) {
+  if (const std::size_t dotCount = nestingOf(text); dotCount > kMostDots) {
     return Error{
         fmt::format("{}: found {} dots; expected {}, which has {} at most", name, dotCount, what, kMostDots)};
   }

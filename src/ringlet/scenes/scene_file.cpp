@@ -124,6 +124,7 @@ class SceneReader {
       readFields(*table, "output", outputFields(), scene.output);
 
     if (!problems_.empty()) return problems_.error(name_);
+    if (!missing_.empty()) return missing_.error(name_);
     for (const std::string& sentence : unusualNumbers(scene.material.material, scene.material.dials))
       scene.warnings.push_back(fmt::format("{}: {}", name_, sentence));
     return scene;
@@ -249,7 +250,7 @@ class SceneReader {
     const toml::table* table = tableOf(file, "", "groom");
     if (!table) {
       if (!file.get("groom"))
-        problems_.add(1, "found no groom; expected [groom], with file or generate, the name of a generator");
+        missing_.add(1, "found no groom; expected [groom], with file or generate, the name of a generator");
       return;
     }
     readFields(*table, "groom", groomFields(), groom);
@@ -258,7 +259,7 @@ class SceneReader {
       problems_.add(std::max(lineOf(*path), lineOf(*generator)),
                     "found groom.file and groom.generate; expected one of the two");
     } else if (!path && !generator) {
-      problems_.add(lineOf(*table), "found neither groom.file nor groom.generate; expected one of the two");
+      missing_.add(lineOf(*table), "found neither groom.file nor groom.generate; expected one of the two");
     } else {
       refuseForeign(*table, "groom", groomFields(), path ? "file" : groom.generate, "a groom from");
     }
@@ -315,11 +316,13 @@ class SceneReader {
           stray = node;
       }
       if (stray || mustMove)
-        problems_.add(lineOf(stray ? *stray : table),
-                      fmt::format("found no way to move in [{}]; expected {}", name, kThreeMotions));
+        missing_.add(lineOf(stray ? *stray : table),
+                     fmt::format("found no way to move in [{}]; expected {}", name, kThreeMotions));
       motion.kind = "still";
       return;
     }
+    if (keys && motion.keys.empty())
+      problems_.addFound(*keys, name + ".key", fmt::format("at least one key, as in [[{}.key]]", name));
     refuseForeign(table, name, motionFields(), kind ? motion.kind : path ? "file" : "keys", "a motion by");
     if (motion.axis && !(length(*motion.axis) > 0))
       problems_.addFound(*table.get("axis"), name + ".axis", "a direction, whose length is above 0");
@@ -331,7 +334,7 @@ class SceneReader {
     const std::string which = fmt::format("key {} of {}", motion.keys.size() + 1, name);
     const toml::node* time = table.get("time");
     if (!time) {
-      problems_.add(lineOf(table), fmt::format("found no time of {}; expected one, in seconds", which));
+      missing_.add(lineOf(table), fmt::format("found no time of {}; expected one, in seconds", which));
     } else if (!motion.keys.empty() && !(key.time > motion.keys.back().time)) {
       problems_.add(lineOf(*time), fmt::format("found the time {} of {}; expected one after that of the key "
                                                "before, {}",
@@ -365,15 +368,16 @@ class SceneReader {
   void readBody(const toml::table& table, const SceneFile& scene, SceneBody& body) {
     readFields(table, "body", bodyFields(), body);
     if (!table.get("shape")) {
-      problems_.add(lineOf(table), fmt::format("found a body without a shape; expected shape = one of {}",
-                                               bodyFields()[1].choices));
+      missing_.add(lineOf(table), fmt::format("found a body without a shape; expected shape = one of {}",
+                                              bodyFields()[1].choices));
     }
     refuseForeign(table, "body", bodyFields(), body.shape, "the shape");
     const toml::node *path = table.get("file"), *generator = table.get("generate");
     if (body.shape == "mesh" && !path == !generator) {
-      problems_.add(lineOf(path ? *path : table),
-                    fmt::format("found a mesh with {}; expected one of file and generate",
-                                path ? "both a file and a generator" : "neither a file nor a generator"));
+      (path ? problems_ : missing_)
+          .add(lineOf(path ? *path : table),
+               fmt::format("found a mesh with {}; expected one of file and generate",
+                           path ? "both a file and a generator" : "neither a file nor a generator"));
     }
     readMoves(table, scene, body);
   }
@@ -402,7 +406,7 @@ class SceneReader {
 
   const std::string& name_;
   const std::filesystem::path& folder_;
-  TomlProblems problems_;
+  TomlProblems problems_, missing_;  // what is missing may be there, but mistyped: it is told last
 };
 
 }  // namespace
