@@ -292,11 +292,13 @@ void checkMaterialOptions(const MaterialChoice& choice, Integrator integrator) {
 
 Result<Material> chooseMaterial(const MaterialChoice& choice, Settings& settings,
                                 std::vector<std::string>& warnings) {
-  LoadedMaterial loaded;
+  LoadedMaterial loaded = choice.loaded.value_or(LoadedMaterial{});
   if (!choice.name.empty()) {
     auto found = loadMaterial(choice.name);
     if (!found) return found.error();
     loaded = std::move(*found);
+  }
+  if (!choice.name.empty() || choice.loaded) {
     if (settings.integrator == Integrator::paper) {
       warnings.push_back(
           "the paper's integrator has spring constants of its own; of the material only its "

@@ -9,6 +9,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/rest/material.h"
+#include "ringlet/rest/material_file.h"
 #include "ringlet/scene/settings.h"
 
 namespace ringlet::program {
@@ -18,7 +19,8 @@ void addMaterialCommand(CLI::App& app, int& exitCode);
 
 /// The material as asked for on a command line.
 struct MaterialChoice {
-  std::string name;                                          // a preset or a file; empty: Material{}
+  std::string name;                      // a preset or a file; empty: Material{}
+  std::optional<LoadedMaterial> loaded;  // already, from a scene file; counts where there is no name
   std::optional<double> hold, bounce, springBack, curlKeep;  // each instead of the file's own dial
   std::optional<double> maxStretch;                          // instead of the file's bounce
 };

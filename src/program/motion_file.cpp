@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "ringlet/motion/bvh_file.h"
 #include "ringlet/motion/gltf_file.h"
@@ -34,17 +36,20 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, UpAxis up,
     return Error{fmt::format("{} has {} frames; without the first {} too few are left to move along",
                              choice.path.string(), file->frameCount(), skipped)};
   }
+  const auto warn = [&](std::string sentence) {
+    if (std::ranges::find(warnings, sentence) == warnings.end()) warnings.push_back(std::move(sentence));
+  };
   const double height = file->height();
   const double unit = choice.metresPerUnit.value_or(height > 0 ? kTall / height : 0.01);
   if (!choice.metresPerUnit) {
-    warnings.push_back(fmt::format(
+    warn(fmt::format(
         "{} names no unit; its skeleton of {:.4g} units is taken to be {} m tall, --motion-unit {:.4g}",
         choice.path.string(), height, kTall, unit));
   }
 
   Keyframes keys = file->motionOf(*joint, unit, skipped);
   if (const auto fastest = keys.fastestTurn(); fastest.speed > kFastestHead) {
-    warnings.push_back(
+    warn(
         fmt::format("{}: from frame {} to the next {} turns at {:.0f} rad/s; where the first frame is a pose "
                     "apart from the "
                     "motion, leave it out with --skip-frames 1",

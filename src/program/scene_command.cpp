@@ -4,10 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "program/command_line.h"
@@ -17,9 +19,12 @@
 #include "program/run_report.h"
 #include "program/simulate_run.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/groom/whole_file.h"
 #include "ringlet/measure/frame_turn.h"
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/scenes/builtin_scene.h"
+#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
 namespace {
@@ -32,6 +37,8 @@ constexpr const char* kExample =
     "  ringlet scene curtain --contacts off\n"
     "  ringlet scene flip --prune none\n"
     "  ringlet measure out/groom.obj out            measures what was written once more\n"
+    "  ringlet scene flip --write flip.toml         then edit it and: ringlet simulate flip.toml -o out\n"
+    "  ringlet scene --keys                         all that a scene file may say\n"
     "\n"
     "Every frame is measured, the groom at rest counting as the one before the first. A scene is stepped as "
     "often as\n"
@@ -49,7 +56,8 @@ constexpr const char* kExample =
     "frame "
     "in one\n"
     "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
-    "seconds preload.\n";
+    "seconds preload.\nWith --keys: keys, of each table key type unit range default only_with effect. With "
+    "--write: scene outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
     "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head) measure contacts also where "
@@ -70,7 +78,8 @@ struct Typed {
   RunOptions run;
   RunNames names{.material = "scene"};
   std::string core = "on", framesOn = "smoothed";
-  bool list = false, json = false, quiet = false;
+  std::filesystem::path file;  // to write the scene to
+  bool list = false, keys = false, json = false, quiet = false;
 };
 
 // What a scene measures beside the run's own numbers.
@@ -118,6 +127,39 @@ std::string measureText(const SceneNumbers& numbers, const Settings& settings) {
                         shown(numbers.frameTurn, 2), 1 / settings.stepSeconds());
   }
   return text;
+}
+
+// Every key of a scene file, table by table.
+void printKeys(bool asJson) {
+  nlohmann::ordered_json keys = nlohmann::json::array();
+  std::string table;
+  if (!asJson)
+    fmt::print(
+        "A scene file is TOML; [[...]] may stand several times. Paths are relative to the file. Beside what\n"
+        "stands here [material] takes all keys of a material file: `ringlet material --list`.\n");
+  for (const SceneKey& key : sceneKeys()) {
+    keys.push_back({{"table", key.table},
+                    {"key", key.key},
+                    {"type", key.type},
+                    {"unit", key.unit},
+                    {"range", key.range},
+                    {"default", key.standard},
+                    {"only_with", key.onlyWith},
+                    {"effect", key.effect}});
+    if (asJson) continue;
+    if (key.table != table) {
+      const bool isList = key.table == "body" || key.table == "motion.key";
+      fmt::print("\n{}\n", isList ? "[[" + key.table + "]]" : "[" + key.table + "]");
+    }
+    table = key.table;
+    // The unit stands in the range, where there is one.
+    const std::string unit = key.range.empty() && !key.unit.empty() ? " " + key.unit : "";
+    fmt::print("  {:<26} {}\n  {:<26} {}{}{}{}; default {}.{}\n", key.key, key.effect, "",
+               static_cast<char>(std::toupper(static_cast<unsigned char>(key.type[0]))), key.type.substr(1),
+               unit, key.range.empty() ? "" : " " + key.range, key.standard,
+               key.onlyWith.empty() ? "" : " Only with " + key.onlyWith + ".");
+  }
+  if (asJson) printJson({{"keys", keys}});
 }
 
 Error inScene(const Typed& typed, const Error& cause) {
@@ -174,10 +216,34 @@ nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, con
   return json;
 }
 
+// The scene as a file, its groom beside it.
+Result<int> writeScene(const Typed& typed, const BuiltinScene& scene) {
+  const std::filesystem::path folder = typed.file.parent_path(),
+                              groom = folder / (typed.file.stem().string() + "-groom.obj");
+  const std::string heading = fmt::format(
+      "# The built-in scene {}. {}\n# ringlet simulate {} -o out\n# What is left out keeps its default; "
+      "`ringlet "
+      "scene --keys` prints every key.\n",
+      scene.name, scene.summary, typed.file.filename().string());
+  const std::string text = sceneText(sceneFileOf(scene, groom), folder, heading);
+  if (Status written = writeObj(groom, scene.groom); !written) return written.error();
+  if (Status written = writeWholeFile(typed.file, std::as_bytes(std::span<const char>(text))); !written)
+    return written.error();
+  for (const std::string& warning : scene.warnings)
+    fmt::print(stderr, "ringlet scene: warning: {}\n", warning);
+  if (typed.json) {
+    printJson({{"scene", scene.name}, {"outputs", {typed.file.string(), groom.string()}}});
+  } else if (!typed.quiet) {
+    fmt::print("{}: {} and {}\n", scene.name, typed.file.string(), groom.string());
+  }
+  return kExitFine;
+}
+
 Result<int> runScene(Typed& typed) {
   auto scene = makeScene(typed.name, typed.scene);
   if (!scene) return scene.error();
   applyContactOptions(typed.contacts, scene->settings.contacts);
+  if (!typed.file.empty()) return writeScene(typed, *scene);
   RunOptions& options = typed.run;
   options.measuresContacts = scene->showsContacts || scene->settings.contacts.on;
   options.frameCount = scene->frameCount();
@@ -219,8 +285,8 @@ Result<int> runScene(Typed& typed) {
 }
 
 int run(Typed& typed) {
-  if (typed.list) {
-    printList(typed.json);
+  if (typed.list || typed.keys) {
+    typed.list ? printList(typed.json) : printKeys(typed.json);
     return kExitFine;
   }
   auto exitCode = runScene(typed);
@@ -229,12 +295,15 @@ int run(Typed& typed) {
   return kExitFailed;
 }
 
-// Throws CLI11's error for what makes no sense with --list: everything but --json.
-void checkList(const CLI::App& command) {
+// Throws CLI11's error for what makes no sense with --list or --keys: everything but --json.
+void checkList(const CLI::App& command, bool list) {
+  const std::string own = list ? "--list" : "--keys";
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
-    if (option->count() > 0 && name != "--list" && name != "--json")
-      throw CLI::ValidationError(name, "--list only says which scenes there are; leave this out");
+    if (option->count() > 0 && name != own && name != "--json") {
+      throw CLI::ValidationError(name, fmt::format("{} only says which {} there are; leave this out", own,
+                                                   list ? "scenes" : "keys"));
+    }
   }
 }
 
@@ -267,6 +336,8 @@ void resolve(Typed& typed) {
   typed.run.onReference = typed.names.backend == "reference";
   if (typed.run.onReference && !typed.run.device.empty())
     throw CLI::ValidationError("--device", "only --backend gpu has a device");
+  if (!typed.file.empty() && !typed.run.folder.empty())
+    throw CLI::ValidationError("--output", "with --write nothing is run; leave one of the two out");
   typed.run.showProgress = !typed.quiet;
 }
 
@@ -281,6 +352,12 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->check(oneOf(sceneNames()))
       ->type_name("NAME");
   command->add_flag("--list", typed->list, "Print the scenes and what each shows");
+  command->add_flag("--keys", typed->keys, "Print every key of a scene file");
+  command
+      ->add_option("--write", typed->file,
+                   "Do not run the scene but write it as a scene file, its groom beside it (FILE-groom.obj)")
+      ->check(endsIn({".toml"}))
+      ->type_name("FILE");
   command->add_option("-o,--output", typed->run.folder, "Folder for the animation (default: none is written)")
       ->type_name("DIR");
 
@@ -354,7 +431,7 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");
 
   command->callback([typed, command, &exitCode] {
-    typed->list ? checkList(*command) : resolve(*typed);
+    typed->list || typed->keys ? checkList(*command, typed->list) : resolve(*typed);
     exitCode = run(*typed);
   });
 }

@@ -1,21 +1,26 @@
-// Implements simulate_command.h: options to SimulateOptions. The run is simulate_run.cpp, what is said of it
-// run_report.cpp.
+// Implements simulate_command.h: a scene file and options to SimulateOptions. The run is simulate_run.cpp,
+// what is said of it run_report.cpp.
 #include "program/simulate_command.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
+#include "program/load_scene.h"
 #include "program/material_command.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
+#include "ringlet/scenes/scene_fields.h"
+#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
 namespace {
@@ -26,6 +31,7 @@ constexpr const char* kExample =
     "  ringlet make head -o head.obj && ringlet simulate head.obj --motion shake --frames 48 -o out\n"
     "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
     "  ringlet simulate head.obj --motion walk.bvh --skip-frames 1 -o out\n"
+    "  ringlet simulate scene.toml --frames 24 -o out\n"
     "\n"
     "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "
     "frame, in the\n"
@@ -46,105 +52,180 @@ constexpr const char* kExitHelp =
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
     "Ctrl-C.";
 
-// The command line as typed; names become values in resolve().
+// The command line as typed; what is left out is the scene file's, or the default.
 struct Typed {
-  SimulateOptions options;
-  std::string integrator = "jacobi", motion = "shake", up = "Y", backend = "gpu", kernel = "auto";
-  std::optional<int> stepsPerFrame;
-  std::optional<int> frameCount;
-  std::optional<double> preload, amplitude, frequency;
-  MotionFileChoice motionFile;
-  bool motionFileGiven = false;  // any of its options
-  double gravity = 9.81;
+  std::filesystem::path input, folder;
+  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames;
+  std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload,
+      width;
+  std::optional<std::string> motion, joint, animation, up, integrator;
+  MaterialChoice material;
   ContactChoice contacts;
-  bool noChebyshev = false, json = false, quiet = false;
-  bool iterationsGiven = false;
+  std::string backend = "gpu", device, kernel = "auto";
+  bool measuresContacts = false, noChebyshev = false, json = false, quiet = false;
 };
 
-// What one option means for another. Throws CLI11's error for what makes no sense together.
-void resolve(Typed& typed) {
-  SimulateOptions& options = typed.options;
-  Settings& settings = options.settings;
-  options.up = typed.up == "Z" ? UpAxis::z : UpAxis::y;
-  const Vec3d up = options.up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
-  settings.gravity = up * -typed.gravity;
-  if (const MotionFileKind kind = motionFileKind(typed.motion); kind != MotionFileKind::none) {
-    if (typed.amplitude || typed.frequency)
-      throw CLI::ValidationError(typed.amplitude ? "--amplitude" : "--frequency",
-                                 "a motion from a file has its own");
-    if (kind == MotionFileKind::gltf && typed.motionFile.skippedFrames > 0)
-      throw CLI::ValidationError("--skip-frames",
-                                 "a glTF animation has times and no frames; cut it where it is made");
-    if (kind == MotionFileKind::bvh && !typed.motionFile.animation.empty())
-      throw CLI::ValidationError("--animation", "a .bvh file has only one");
-    options.motionFile = typed.motionFile;
-    options.motionFile->path = typed.motion;
-    options.choosesFrames = !typed.frameCount;
-  } else {
-    if (typed.motionFileGiven)
-      throw CLI::ValidationError(
-          "--motion",
-          "only a .bvh, .gltf or .glb file has a --joint, --motion-unit, --skip-frames and "
-          "--animation");
-    options.motion = motionByName(typed.motion, up).value();
-    options.motion.amplitude = typed.amplitude.value_or(options.motion.amplitude);
-    options.motion.frequency = typed.frequency.value_or(options.motion.frequency);
-  }
-  options.frameCount = typed.frameCount.value_or(options.frameCount);
+template <class Value>
+void replace(Value& value, const auto& typed) {
+  if (typed) value = *typed;
+}
 
-  // The paper's own scheme is explicit: it needs short steps, and knows no preload.
-  const bool isPaper = typed.integrator == "paper", isPoint = typed.integrator == "point_jacobi";
-  settings.integrator = integratorByName(typed.integrator);
-  options.choosesSteps = !typed.stepsPerFrame;
-  settings.stepsPerFrame = typed.stepsPerFrame.value_or(1);
-  settings.gravityPreload = typed.preload.value_or(isPaper ? 0 : 1);
-  settings.chebyshev = !typed.noChebyshev;
-  if (!isPoint && (typed.iterationsGiven || typed.noChebyshev)) {
+// A groom by itself is a scene as well: one whose head shakes.
+Result<SceneFile> readInput(const Typed& typed) {
+  if (isSceneFile(typed.input)) return readScene(typed.input);
+  SceneFile scene;
+  scene.groom.file = typed.input;
+  scene.motion.kind = "shake";
+  return scene;
+}
+
+// The motion as typed in place of the file's. Throws CLI11's error for what makes no sense together.
+void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
+  if (typed.motion) {
+    SceneMotion other{.preRollSeconds = motion.preRollSeconds, .roots = motion.roots};
+    if (motionFileKind(*typed.motion) != MotionFileKind::none) {
+      other.file = *typed.motion;
+    } else {
+      other.kind = *typed.motion;
+    }
+    motion = std::move(other);
+  }
+  if (motion.kind.empty() && (typed.amplitude || typed.frequency)) {
+    throw CLI::ValidationError(
+        typed.amplitude ? "--amplitude" : "--frequency",
+        motion.file.empty() ? "a motion by keys has its own" : "a motion from a file has its own");
+  }
+  const MotionFileKind kind = motionFileKind(motion.file.string());
+  if (kind == MotionFileKind::none &&
+      (typed.joint || typed.motionUnit || typed.skipFrames || typed.animation)) {
+    throw CLI::ValidationError(
+        "--motion",
+        "only a .bvh, .gltf or .glb file has a --joint, --motion-unit, --skip-frames and --animation");
+  }
+  if (kind == MotionFileKind::gltf && typed.skipFrames.value_or(0) > 0)
+    throw CLI::ValidationError("--skip-frames", "a glTF animation has times and no frames; cut it where it is made");
+  if (kind == MotionFileKind::bvh && typed.animation)
+    throw CLI::ValidationError("--animation", "a .bvh file has only one");
+  replace(motion.amplitude, typed.amplitude);
+  replace(motion.frequency, typed.frequency);
+  replace(motion.joint, typed.joint);
+  replace(motion.animation, typed.animation);
+  replace(motion.metresPerUnit, typed.motionUnit);
+  replace(motion.skipFrames, typed.skipFrames);
+  replace(motion.preRollSeconds, typed.preRoll);
+}
+
+// What was typed in place of what the file says.
+void applyOptions(const Typed& typed, SceneFile& scene) {
+  replace(scene.groom.metresPerUnit, typed.unit);
+  replace(scene.groom.up, typed.up);
+  applyMotionOptions(typed, scene.motion);
+
+  SceneSimulation& simulation = scene.simulation;
+  if (typed.frames) simulation.seconds.reset();
+  replace(simulation.frames, typed.frames);
+  replace(simulation.framesPerSecond, typed.framesPerSecond);
+  replace(simulation.gravity, typed.gravity);
+  replace(simulation.preload, typed.preload);
+  replace(simulation.integrator, typed.integrator);
+  replace(simulation.stepsPerFrame, typed.stepsPerFrame);
+  replace(simulation.iterations, typed.iterations);
+  replace(simulation.roots, typed.roots);
+  if (typed.noChebyshev) simulation.chebyshev = false;
+  if (typed.material.bounce) simulation.maxStretch.reset();  // they say the same
+  applyContactOptions(typed.contacts, scene.contacts);
+  if (!typed.folder.empty()) scene.output.folder = typed.folder;
+  replace(scene.output.width, typed.width);
+}
+
+// Throws CLI11's error for what makes no sense together.
+void checkOptions(const Typed& typed, const SceneFile& scene) {
+  if (scene.output.folder.empty()) throw CLI::RequiredError("--output");
+  if (scene.simulation.integrator != "point_jacobi" && (typed.iterations || typed.noChebyshev)) {
     throw CLI::ValidationError(typed.noChebyshev ? "--no-chebyshev" : "--iterations",
                                "only --integrator point_jacobi has iterations");
   }
-  checkMaterialOptions(options.material, settings.integrator);
+  checkMaterialOptions(typed.material, integratorByName(scene.simulation.integrator));
   checkContactOptions(typed.contacts);
-  applyContactOptions(typed.contacts, settings.contacts);
-  if (!settings.contacts.on && !options.measuresContacts)
+  if (!scene.contacts.on && !typed.measuresContacts)
     refuseContactOptions(typed.contacts, "only with --contacts on or --measure-contacts");
-
-  options.onReference = typed.backend == "reference";
-  if (options.onReference && (!options.device.empty() || typed.kernel != "auto")) {
+  if (typed.backend == "reference" && (!typed.device.empty() || typed.kernel != "auto")) {
     throw CLI::ValidationError(typed.kernel != "auto" ? "--kernel" : "--device",
                                "only --backend gpu has a device and kernels");
   }
+}
+
+// All but the bodies, which must be read.
+SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
+  SimulateOptions options;
+  options.groom = scene.groom;
+  options.up = scene.groom.up == "Z" ? UpAxis::z : UpAxis::y;
+  options.motion = motionOf(scene.motion, upOf(scene.groom));
+  if (!scene.motion.file.empty()) options.motionFile = motionFileOf(scene.motion);
+  options.rootShift = scene.motion.roots.shift;
+  options.preRollSeconds = scene.motion.preRollSeconds;
+
+  const SceneSimulation& simulation = scene.simulation;
+  options.settings = settingsOf(scene);
+  options.choosesSteps = !simulation.stepsPerFrame;
+  options.choosesFrames = !simulation.frames && !simulation.seconds;
+  if (simulation.seconds)
+    options.frameCount =
+        std::max(1, static_cast<int>(std::lround(*simulation.seconds * simulation.framesPerSecond)));
+  replace(options.frameCount, simulation.frames);
+
+  options.material = typed.material;
+  if (scene.hasMaterial) options.material.loaded = scene.material;
+  if (!options.material.maxStretch) options.material.maxStretch = simulation.maxStretch;
+
+  options.folder = scene.output.folder;
+  options.width = scene.output.width;
+  const auto writes = [&](const char* file) {
+    return std::ranges::find(scene.output.files, file) != scene.output.files.end();
+  };
+  options.writesUsd = writes("hair.usda");
+  options.writesLast = writes("last.obj");
+  options.writesSheet = writes("sheet.png");
+  options.warnings = scene.warnings;
+
+  options.measuresContacts = typed.measuresContacts;
+  options.onReference = typed.backend == "reference";
+  options.device = typed.device;
   using Form = KernelChoice::Form;
   options.kernel.residual = typed.json;
   options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
                         : typed.kernel == "serial" ? Form::serial
                                                    : Form::automatic;
   options.showProgress = !typed.quiet;
+  return options;
 }
 
-std::vector<std::string> motionNameList() {
-  std::vector<std::string> names;
-  std::string all = motionNames();
-  for (std::size_t at = 0, comma; at < all.size(); at = comma + 2) {
-    comma = std::min(all.find(", ", at), all.size());
-    names.push_back(all.substr(at, comma - at));
-  }
-  return names;
+int fail(const Error& error) {
+  fmt::print(stderr, "ringlet simulate: {}\n", error.message);
+  return kExitFailed;
 }
 
-int run(Typed& typed) {
-  auto outcome = runSimulation(typed.options);
-  if (!outcome) {
-    fmt::print(stderr, "ringlet simulate: {}\n", outcome.error().message);
-    return kExitFailed;
-  }
-  const int exitCode = tellTroubles("simulate", *outcome, typed.options.frameCount);
-  RunNames names{typed.integrator, typed.backend};
-  if (!typed.options.material.name.empty()) names.material = typed.options.material.name;
+int run(const Typed& typed) {
+  if (typed.folder.empty() && !isSceneFile(typed.input)) throw CLI::RequiredError("--output");
+  auto scene = readInput(typed);
+  if (!scene) return fail(scene.error());
+  applyOptions(typed, *scene);
+  checkOptions(typed, *scene);
+  SimulateOptions options = optionsOf(typed, *scene);
+  auto bodies = loadBodies(*scene, options.warnings);
+  if (!bodies) return fail(bodies.error());
+  options.bodies = std::move(*bodies);
+
+  auto outcome = runSimulation(options);
+  if (!outcome) return fail(outcome.error());
+  const int exitCode = tellTroubles("simulate", *outcome, options.frameCount);
+  RunNames names{scene->simulation.integrator, typed.backend};
+  if (scene->hasMaterial) names.material = "scene";
+  if (!typed.material.name.empty()) names.material = typed.material.name;
   if (typed.json) {
-    printJson(runJson(names, typed.options.settings, *outcome));
+    printJson(runJson(names, options.settings, *outcome));
   } else if (!typed.quiet) {
-    fmt::print("{}", runText(names, typed.options.settings, *outcome));
+    fmt::print("{}", runText(names, options.settings, *outcome));
   }
   return exitCode;
 }
@@ -153,39 +234,40 @@ int run(Typed& typed) {
 
 void addSimulateCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<Typed>();
-  SimulateOptions& options = typed->options;
-  Settings& settings = options.settings;
   CLI::App* command = app.add_subcommand("simulate", "Moves the hair of a groom and writes the animation");
   command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
 
-  command->add_option("GROOM", options.groom, "Strands to simulate: a .hair, .obj or .tfx file")
+  command
+      ->add_option(
+          "GROOM", typed->input,
+          "Strands to simulate: a .hair, .obj or .tfx file; or a scene file, .toml, whose keys `ringlet scene "
+          "--keys` prints and the options here override")
       ->required()
       ->type_name("FILE");
-  command->add_option("-o,--output", options.folder, "Folder for the results, made if it is not there")
-      ->required()
+  command
+      ->add_option("-o,--output", typed->folder,
+                   "Folder for the results, made if it is not there; a scene file may say it")
       ->type_name("DIR");
 
   // What moves.
   const char* scene = "Scene";
-  command
-      ->add_option("--frames", typed->frameCount,
-                   "Frames to simulate (default 48, or a motion file's length)")
+  command->add_option("--frames", typed->frames, "Frames to simulate (default 48, or a motion file's length)")
       ->check(wholeBetween(1, kMostFrames))
       ->type_name("N")
       ->group(scene);
   command
       ->add_option(
-          "--pre-roll", options.preRollSeconds,
+          "--pre-roll", typed->preRoll,
           "Seconds the hair moves before the first frame, so that it begins settled; before its file "
           "begins, the head glides into its first pose (default 0)")
       ->check(between(0, 3600))
       ->type_name("S")
       ->group(scene);
-  command->add_option("--fps", settings.framesPerSecond, "Frames per second (default 24)")
+  command->add_option("--fps", typed->framesPerSecond, "Frames per second (default 24)")
       ->check(between(0.001, 1e6))
       ->type_name("F")
       ->group(scene);
-  const CLI::Validator motionName = oneOf(motionNameList());
+  const CLI::Validator motionName = oneOf(namesIn(motionNames()));
   command
       ->add_option("--motion", typed->motion,
                    "How the head moves: " + motionNames() + "; or a .bvh, .gltf or .glb file (default shake)")
@@ -197,43 +279,44 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("NAME|FILE")
       ->group(scene);
   const auto ofMotionFile = [&](CLI::Option* option, const char* type) {
-    option->type_name(type)->group(scene)->each(
-        [typed](const std::string&) { typed->motionFileGiven = true; });
+    option->type_name(type)->group(scene);
   };
   ofMotionFile(command->add_option(
-                   "--joint", typed->motionFile.joint,
+                   "--joint", typed->joint,
                    "Joint of the .bvh file, node of the .gltf or .glb, that is the head (default Head)"),
                "NAME");
   ofMotionFile(command
-                   ->add_option("--motion-unit", typed->motionFile.metresPerUnit,
+                   ->add_option("--motion-unit", typed->motionUnit,
                                 "Metres per unit of the motion's file (default: a .bvh skeleton is 1.7 m "
                                 "tall, glTF is in metres)")
                    ->check(between(1e-6, 1000)),
                "METRES");
   ofMotionFile(
       command
-          ->add_option("--skip-frames", typed->motionFile.skippedFrames,
+          ->add_option("--skip-frames", typed->skipFrames,
                        "Frames at the start of the .bvh file to leave out, as a T-pose is (default 0)")
           ->check(wholeBetween(0, kMostFrames)),
       "N");
   ofMotionFile(command->add_option(
-                   "--animation", typed->motionFile.animation,
+                   "--animation", typed->animation,
                    "Animation of the .gltf or .glb file, by name or number from 0 (default: the first)"),
                "NAME");
   command
       ->add_option("--amplitude", typed->amplitude,
                    "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "
-                   "glide metres/s (1), walk metres (0.025), turn radians, once (pi)")
+                   "glide metres/s (1), walk metres (0.025), turn radians, once (pi), jump metres (0.2), "
+                   "whip radians (1)")
       ->check(between(-1000, 1000))
       ->type_name("A")
       ->group(scene);
-  command->add_option("--frequency", typed->frequency, "Shakes (default 2), nods or strides (1) per second")
+  command
+      ->add_option("--frequency", typed->frequency,
+                   "Shakes (default 2), nods, strides or jumps (1) per second")
       ->check(between(0, 1000))
       ->type_name("HZ")
       ->group(scene);
   command
-      ->add_option("--unit", options.metresPerUnit,
-                   "Metres per unit of the groom's file (default 0.01: centimetres)")
+      ->add_option("--unit", typed->unit, "Metres per unit of the groom's file (default 0.01: centimetres)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES")
       ->group(scene);
@@ -253,11 +336,11 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->group(scene);
 
   // What hair is made of.
-  addMaterialOptions(command, options.material, "Material");
+  addMaterialOptions(command, typed->material, "Material");
 
   addContactOptions(command, typed->contacts, "off");
   command
-      ->add_flag("--measure-contacts", options.measuresContacts,
+      ->add_flag("--measure-contacts", typed->measuresContacts,
                  "Measure after every step how deep hairs are in each other and count those that cross, with "
                  "contacts on or off: some 6 us a particle and step of dense hair, on the CPU")
       ->group("Contacts");
@@ -276,17 +359,14 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(wholeBetween(1, 340))
       ->type_name("N")
       ->group(solver);
-  command
-      ->add_option("--iterations", settings.pointIterations, "point_jacobi: iterations a step (default 100)")
+  command->add_option("--iterations", typed->iterations, "point_jacobi: iterations a step (default 100)")
       ->check(wholeBetween(1, 60'000))
       ->type_name("N")
-      ->group(solver)
-      ->each([typed](const std::string&) { typed->iterationsGiven = true; });
+      ->group(solver);
   command->add_flag("--no-chebyshev", typed->noChebyshev, "point_jacobi: plain iterations, not accelerated")
       ->group(solver);
   command
-      ->add_option("--roots", settings.rootCount,
-                   "Particles at the root that follow the head, 1 to 3 (default 1)")
+      ->add_option("--roots", typed->roots, "Particles at the root that follow the head, 1 to 3 (default 1)")
       ->check(wholeBetween(1, 3))
       ->type_name("N")
       ->group(solver);
@@ -301,7 +381,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->group(machine);
   command
       ->add_option(
-          "--device", options.device,
+          "--device", typed->device,
           "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, else "
           "the best)")
       ->type_name("D")
@@ -315,17 +395,14 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   // What is said and written.
   const char* output = "Output";
-  command->add_option("--width", options.width, "Diameter of strands in hair.usda, metres (default 0.0005)")
+  command->add_option("--width", typed->width, "Diameter of strands in hair.usda, metres (default 0.0005)")
       ->check(between(1e-9, 1))
       ->type_name("METRES")
       ->group(output);
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary")->group(output);
   command->add_flag("--quiet", typed->quiet, "No progress bar and no summary")->group(output);
 
-  command->callback([typed, &exitCode] {
-    resolve(*typed);
-    exitCode = run(*typed);
-  });
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
 }
 
 }  // namespace ringlet::program

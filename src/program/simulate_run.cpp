@@ -13,14 +13,15 @@
 
 #include "program/backend.h"
 #include "program/interruption.h"
+#include "program/load_scene.h"
 #include "program/progress_bar.h"
-#include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/output/finite_points.h"
 #include "ringlet/output/positions_hash.h"
 #include "ringlet/output/sheet.h"
 #include "ringlet/output/usd_writer.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
 namespace {
@@ -176,29 +177,40 @@ class Stepper {
 };
 
 // A failure in the middle of a run, with what it leaves.
-Error afterFrames(int frameCount, const Error& cause, const std::filesystem::path& folder) {
-  if (frameCount == 0 || folder.empty()) return cause;
+Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
+  if (frameCount == 0 || options.folder.empty() || !options.writesUsd) return cause;
   return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
-                           (folder / "hair.usda.partial").string())};
+                           (options.folder / "hair.usda.partial").string())};
 }
 
 // The writers of a run, so that the loop below reads as what happens to a frame.
 struct Writers {
-  UsdWriter usd;
-  Sheet sheet;
+  std::optional<UsdWriter> usd;
+  std::optional<Sheet> sheet;
+  bool writesLast;
   std::vector<Vec3f> lastPoints;  // [file unit]
 
   Status addFrame(int frame, std::vector<Vec3f> points) {
-    sheet.offer(frame, points);
+    if (sheet) sheet->offer(frame, points);
     lastPoints = std::move(points);
-    return usd.addFrame(lastPoints);
+    return usd ? usd->addFrame(lastPoints) : Status{};
   }
 
   Result<std::vector<std::filesystem::path>> finish(const std::filesystem::path& folder, const Groom& groom) {
-    if (Status done = usd.finish(); !done) return done.error();
-    if (Status done = writeObj(folder / "last.obj", groom, lastPoints); !done) return done.error();
-    if (Status done = sheet.write(folder / "sheet.png"); !done) return done.error();
-    return std::vector{folder / "hair.usda", folder / "last.obj", folder / "sheet.png"};
+    std::vector<std::filesystem::path> written;
+    if (usd) {
+      if (Status done = usd->finish(); !done) return done.error();
+      written.push_back(folder / "hair.usda");
+    }
+    if (writesLast) {
+      written.push_back(folder / "last.obj");
+      if (Status done = writeObj(written.back(), groom, lastPoints); !done) return done.error();
+    }
+    if (sheet) {
+      written.push_back(folder / "sheet.png");
+      if (Status done = sheet->write(written.back()); !done) return done.error();
+    }
+    return written;
   }
 };
 
@@ -208,14 +220,19 @@ Result<Writers> openWriters(const RunInput& input, const RunOptions& options) {
   std::filesystem::create_directories(options.folder, code);
   if (code)
     return Error{fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message())};
-  auto usd = UsdWriter::create(options.folder / "hair.usda", input.groom,
-                               {.framesPerSecond = input.settings.framesPerSecond,
-                                .metresPerUnit = metresPerUnit,
-                                .up = options.up,
-                                .diameter = static_cast<float>(options.width / metresPerUnit),
-                                .frameCount = options.frameCount});
-  if (!usd) return usd.error();
-  return Writers{std::move(*usd), Sheet(input.groom, options.frameCount, options.up), {}};
+  Writers writers{{}, {}, options.writesLast, {}};
+  if (options.writesUsd) {
+    auto usd = UsdWriter::create(options.folder / "hair.usda", input.groom,
+                                 {.framesPerSecond = input.settings.framesPerSecond,
+                                  .metresPerUnit = metresPerUnit,
+                                  .up = options.up,
+                                  .diameter = static_cast<float>(options.width / metresPerUnit),
+                                  .frameCount = options.frameCount});
+    if (!usd) return usd.error();
+    writers.usd.emplace(std::move(*usd));
+  }
+  if (options.writesSheet) writers.sheet.emplace(input.groom, options.frameCount, options.up);
+  return writers;
 }
 
 }  // namespace
@@ -252,11 +269,11 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
       progress.show(frame);
       const std::vector<HeadPose> poses = posesOfFrame(input.motion, input.settings, frame);
       if (Status stepped = stepper->stepFrame(poses); !stepped)
-        return afterFrames(frame, stepped.error(), options.folder);
+        return afterFrames(frame, stepped.error(), options);
       {
         Stopwatch watch(readback);
         auto read = (*backend)->positions();
-        if (!read) return afterFrames(frame, read.error(), options.folder);
+        if (!read) return afterFrames(frame, read.error(), options);
         positions = std::move(*read);
       }
       Stopwatch watch(writing);
@@ -264,7 +281,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
       mostReplaced = std::max(mostReplaced, replaceNonfinite(groom, points));
       if (observer) {
         if (Status seen = observer(points, poses.back()); !seen)
-          return afterFrames(frame, seen.error(), options.folder);
+          return afterFrames(frame, seen.error(), options);
       }
       if (writers) {
         if (Status added = writers->addFrame(frame + 1, std::move(points)); !added) return added.error();
@@ -307,19 +324,24 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
 }
 
 Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
-  auto loaded = readGroom(options.groom);
+  auto loaded = loadGroom(options.groom);
   if (!loaded) return loaded.error();
-  loaded->groom.metresPerUnit = options.metresPerUnit;
-  std::vector<std::string> warnings = loaded->warnings;
+  std::vector<std::string> warnings = options.warnings;
+  warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
   Settings settings = options.settings;
   const auto material = chooseMaterial(options.material, settings, warnings);
   if (!material) return material.error();
   if (options.motionFile) {
+    const Motion stated = options.motion;
     auto motion = readMotionFile(*options.motionFile, options.up, warnings);
     if (!motion) return motion.error();
     options.motion = std::move(*motion);
+    options.motion.start = stated.start;
+    options.motion.roots = stated.roots;
+  }
+  if (options.choosesFrames && options.motion.keyframes) {
     const double frames = options.motion.keyframes->seconds() * settings.framesPerSecond;
-    if (options.choosesFrames) options.frameCount = static_cast<int>(std::clamp(frames + 1e-6, 1.0, 1e6));
+    options.frameCount = static_cast<int>(std::clamp(frames + 1e-6, 1.0, 1e6));
   }
   if (options.choosesSteps) {
     const auto steps = chooseStepsPerFrame(loaded->groom, *material, settings);
@@ -327,7 +349,9 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
     settings.stepsPerFrame = options.settings.stepsPerFrame = *steps;
   }
 
-  auto outcome = runHair({loaded->groom, *material, settings, options.motion}, options);
+  const std::vector<Vec3d> shifts = rootShiftsOf(options.rootShift, loaded->groom.strandCount());
+  auto outcome =
+      runHair({loaded->groom, *material, settings, options.motion, shifts, options.bodies}, options);
   if (!outcome) return outcome.error();
   outcome->warnings.insert(outcome->warnings.begin(), warnings.begin(), warnings.end());
   return outcome;

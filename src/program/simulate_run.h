@@ -1,4 +1,4 @@
-// One run of hair: steps it frame by frame, writes what comes out. `ringlet simulate` reads it from a file
+// One run of hair: steps it frame by frame, writes what comes out. `ringlet simulate` reads it from files
 // first.
 #pragma once
 
@@ -15,15 +15,18 @@
 #include "ringlet/base/result.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/output/up_axis.h"
+#include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/scenes/scene_file.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::program {
 
 /// Where hair is stepped, how long, and what is kept of it.
 struct RunOptions {
-  std::filesystem::path folder;  // for the results; empty: nothing is written
+  std::filesystem::path folder;                                  // for the results; empty: nothing is written
+  bool writesUsd = true, writesLast = true, writesSheet = true;  // hair.usda, last.obj, sheet.png
   int frameCount = 48;
   double preRollSeconds = 0;  // before the first frame, not written
   UpAxis up = UpAxis::y;
@@ -37,14 +40,16 @@ struct RunOptions {
 
 /// What the user asked for, checked.
 struct SimulateOptions : RunOptions {
-  std::filesystem::path groom;
-  double metresPerUnit = 0.01;  // of the groom's file, and of what is written
+  SceneGroom groom;
   Motion motion;
   std::optional<MotionFileChoice> motionFile;  // in its place
-  bool choosesFrames = false;                  // frameCount is to be the file's length
-  Settings settings;                           // but maxStretch, which is the material's
-  bool choosesSteps = false;                   // settings.stepsPerFrame is to be chosen for the groom
+  Vec3d rootShift{};                           // rootShiftsOf (scenes/scene_parts.h) [m]
+  std::vector<Body> bodies;
+  bool choosesFrames = false;  // frameCount is to be the length of the file or the keys
+  Settings settings;           // but maxStretch, which is the material's
+  bool choosesSteps = false;   // settings.stepsPerFrame is to be chosen for the groom
   MaterialChoice material;
+  std::vector<std::string> warnings;  // of what was read so far
 };
 
 /// What came of it. Times are wall clock, per finished frame [ms].
@@ -74,6 +79,7 @@ struct RunInput {
   const Motion& motion;
   std::span<const Vec3d>
       rootShifts{};  // of each strand's root beside the head (HeadPose::shift) [m], or none
+  std::span<const Body> bodies{};
 };
 
 /// Sees every frame: points in the groom's unit, in its order, finite; and where the head is.

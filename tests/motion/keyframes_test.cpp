@@ -79,5 +79,76 @@ TEST(Keyframes, FindTheFastestTurn) {
   EXPECT_EQ(keys.fastestTurn().key, 6u);
 }
 
+// An artist's few keys: they are met at their times, stayed at before the first and after the last, and
+// passed without a jolt.
+Keyframes artists() {
+  Keyframes keys;
+  keys.times = {0.5, 0.6, 1.5, 1.75, 4};
+  keys.restsAtEnds = true;
+  for (std::size_t k = 0; k < keys.times.size(); ++k) {
+    const auto x = static_cast<double>(k);
+    Quatd turn = fromRotationVector(Vec3d{0.5 * x, -0.4 * x * x, 0.2});
+    if (k % 2 == 1) turn = {-turn.x, -turn.y, -turn.z, -turn.w};  // the same rotation
+    keys.poses.push_back({{std::sin(x), 0.3 * x, -x}, turn});
+  }
+  return keys;
+}
+
+double apart(const HeadPose& a, const HeadPose& b) {
+  return length(a.position - b.position) +
+         length(rotate(a.rotation, Vec3d{1, 2, 3}) - rotate(b.rotation, Vec3d{1, 2, 3}));
+}
+
+TEST(Keyframes, OfTheirOwnTimesAreMetAndPassedWithoutAJolt) {
+  const Keyframes keys = artists();
+  EXPECT_EQ(keys.seconds(), 4);
+  for (std::size_t k = 0; k < keys.times.size(); ++k)
+    EXPECT_LT(apart(keys.poseAt(keys.times[k]), keys.poses[k]), 1e-12) << k;
+  EXPECT_EQ(apart(keys.poseAt(-3), keys.poses.front()), 0);
+  EXPECT_EQ(apart(keys.poseAt(0.4), keys.poses.front()), 0);
+  EXPECT_EQ(apart(keys.poseAt(100), keys.poses.back()), 0);
+  const double h = 1e-6;
+  for (double t : keys.times) {
+    const Vec3d before = (keys.poseAt(t).position - keys.poseAt(t - h).position) / h;
+    const Vec3d after = (keys.poseAt(t + h).position - keys.poseAt(t).position) / h;
+    EXPECT_LT(length(after - before), 1e-3) << t;
+    const auto seen = [&](double at) { return rotate(keys.poseAt(at).rotation, Vec3d{1, 2, 3}); };
+    EXPECT_LT(length((seen(t + h) - seen(t)) - (seen(t) - seen(t - h))) / h, 1e-3) << t;
+  }
+}
+
+TEST(Keyframes, OfTheirOwnTimesMayBeLinear) {
+  Keyframes keys = artists();
+  keys.interpolation = Keyframes::Interpolation::linear;
+  const HeadPose middle = keys.poseAt(1.05);
+  EXPECT_LT(length(middle.position - (keys.poses[1].position + keys.poses[2].position) * 0.5), 1e-12);
+  EXPECT_LT(apart({{}, middle.rotation}, {{}, slerp(keys.poses[1].rotation, keys.poses[2].rotation, 0.5)}),
+            1e-12);
+}
+
+// Equal times, given one by one, are equal times: positions on the same cubic.
+TEST(Keyframes, OfEqualTimesGoTheSameWay) {
+  Keyframes equal{0.1, {}};
+  for (int k = 0; k < 12; ++k)
+    equal.poses.push_back(
+        {{std::sin(0.9 * k), 0, std::cos(2.0 * k)}, fromRotationVector(Vec3d{0.1 * k, 0, 0})});
+  Keyframes own = equal;
+  for (std::size_t k = 0; k < own.poses.size(); ++k) own.times.push_back(equal.timeOf(k));
+  for (double t = -1; t < 1.5; t += 0.0137) {
+    EXPECT_LT(length(own.poseAt(t).position - equal.poseAt(t).position), 1e-12) << t;
+    EXPECT_LT(apart(own.poseAt(t), equal.poseAt(t)), 1.25e-4)
+        << "the cube of half the turn from key to key: " << t;
+  }
+  EXPECT_NEAR(own.fastestTurn().speed, 1, 1e-9);
+}
+
+// Where the file rests at its ends, the steady motion of a head that comes gliding does not.
+TEST(Keyframes, OfTheirOwnTimesMayComeGliding) {
+  Keyframes keys = turning(3, 0.1, 8);
+  for (std::size_t k = 0; k < keys.poses.size(); ++k) keys.times.push_back(0.1 * static_cast<double>(k) + 2);
+  for (double t = 1.9; t < 2.7; t += 0.0037)
+    EXPECT_LT(apart(keys.poseAt(t), turning(3, 0.1, 8).poseAt(t - 2)), 1e-3) << t;
+}
+
 }  // namespace
 }  // namespace ringlet::test

@@ -170,11 +170,14 @@ TEST(MaterialFile, WhatIsNoTomlIsNamedWithItsLine) {
 }
 
 TEST(MaterialFile, NestingWithoutEndIsRefused) {
-  for (const char* piece : {"a.", "[", "a = {", "[a.", "x = [", "[[a]]\n"}) {
+  for (const char* piece : {"a.", "[", "a = {", "[a.", "x = [", "[[a]]\n", "1.1 . ", "[{a.b.c.d = \n"}) {
     std::string text;
     while (text.size() < 500000) text += piece;
     EXPECT_NE(errorOf(text + "a = 1\n"), "") << piece;
-    EXPECT_NE(errorOf(text.substr(0, 8000) + "a = 1\n"), "") << piece;
+    for (std::size_t size : {8000u, 4000u, 12000u}) {
+      EXPECT_NE(errorOf(text.substr(0, size) + "a = 1\n"), "") << piece;
+      EXPECT_NE(errorOf("[" + text.substr(0, size) + "a]\n" + text.substr(0, size) + "a = 1\n"), "") << piece;
+    }
   }
   EXPECT_NE(errorOf(std::string(2 << 20, '#')).find("2097152 bytes"), std::string::npos);
 }

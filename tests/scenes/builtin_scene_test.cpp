@@ -59,7 +59,7 @@ TEST(BuiltinScene, AWalkIsPeriodicAndStaysOnTheSpot) {
 }
 
 TEST(BuiltinScene, AMotionWithAnEndIsOverByThen) {
-  for (const char* name : {"shake", "nod", "walk"}) {
+  for (const char* name : {"shake", "nod", "walk", "jump"}) {
     Motion motion = *motionByName(name, {0, 1, 0});
     motion.untilSeconds = 2.1;
     EXPECT_GT(distance(motion.poseAt(1.1), HeadPose{}), 1e-3) << name;
@@ -74,6 +74,35 @@ TEST(BuiltinScene, ATurnGoesRoundOnceAndStays) {
   EXPECT_EQ(distance(turn.poseAt(1), turn.poseAt(5)), 0);
   const Vec3d crown = rotate(turn.poseAt(1).rotation, Vec3d{0, 1, 0});
   EXPECT_LT(length(crown - Vec3d{0, -1, 0}), 1e-12) << "upside down";
+}
+
+TEST(BuiltinScene, AJumpCrouchesLeapsAndLands) {
+  const Vec3d up{0, 0, 1};
+  const Motion jump = *motionByName("jump", up);
+  EXPECT_EQ(distance(jump.poseAt(-1), HeadPose{}), 0);
+  const double start = 3, period = 1 / jump.frequency;
+  EXPECT_LT(length(jump.poseAt(start).position), 1e-12) << "stands";
+  EXPECT_LT(length(jump.poseAt(start + period / 2).position - up * jump.amplitude), 1e-12)
+      << "at its highest";
+  double lowest = 0;
+  const double h = 1e-4;
+  for (double t = 0; t < 4; t += h) {
+    const Vec3d p = jump.poseAt(t).position;
+    lowest = std::min(lowest, p.z);
+    EXPECT_LT(length(jump.poseAt(t + h).position + jump.poseAt(t - h).position - p * 2.0) / (h * h), 20.0)
+        << "no jolt beyond 2 g: " << t;
+  }
+  EXPECT_NEAR(lowest, -0.2 * jump.amplitude, 0.01 * jump.amplitude) << "crouches";
+}
+
+TEST(BuiltinScene, AWhipGoesToTheSideAndBack) {
+  const Motion whip = *motionByName("whip", {0, 1, 0});
+  EXPECT_EQ(distance(whip.poseAt(-1), HeadPose{}), 0);
+  EXPECT_LT(distance(whip.poseAt(1e-3), HeadPose{}), 1e-6);
+  const Vec3d face = rotate(whip.poseAt(whip.easeSeconds).rotation, Vec3d{0, 0, 1});
+  EXPECT_NEAR(std::atan2(face.x, face.z), whip.amplitude, 1e-12);
+  EXPECT_LT(distance(whip.poseAt(2 * whip.easeSeconds), HeadPose{}), 1e-12);
+  EXPECT_LT(distance(whip.poseAt(9), HeadPose{}), 1e-12);
 }
 
 TEST(RootMotion, GoesOutAndBackSmoothly) {

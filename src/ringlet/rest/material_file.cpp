@@ -12,58 +12,18 @@
 #include "ringlet/groom/quoted.h"
 #include "ringlet/groom/whole_file.h"
 #include "ringlet/rest/material_parameters.h"
-
-// Errors come as values. toml++ 3.3 asserts what a file can break ("[,"), and with NDEBUG lets the compiler
-// assume it; its own error, which comes next, is what is wanted.
-#define TOML_EXCEPTIONS 0
-#define TOML_ASSERT(condition) static_cast<void>(0)
-#pragma push_macro("NDEBUG")
-#undef NDEBUG
-#include <toml++/toml.h>
-#pragma pop_macro("NDEBUG")
+#include "ringlet/rest/material_table.h"
+#include "ringlet/rest/toml_file.h"
 
 namespace ringlet {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 1
-                                        << 20;  // [bytes] a material has some thousand; more is another file
-// Keys nest a table per dot, and toml++ 3.3 recurses through them without a limit: 8,000 are too deep for a
-// stack of 8 MiB with sanitizers. A material with the longest profiles has 1,100 dots.
-constexpr std::ptrdiff_t kMostDots = 4096;
 constexpr const char* kFromRest = "rest";  // for a length that is measured on the rest curl
 
-// A key and the table it belongs in, "" for the file itself.
-struct KnownKey {
-  std::string table, key;
-  std::string fullName() const { return table.empty() ? key : table + "." + key; }
-};
+constexpr const char* kWhat = "a material";
 
-std::vector<KnownKey> knownKeys() {
-  std::vector<KnownKey> keys{{"", "preset"}, {"", "dials"}, {"", "variation"}, {"", "profile"}};
-  for (const auto& parameter : materialParameters()) keys.push_back({"", parameter.key});
-  for (const auto& parameter : dialParameters()) keys.push_back({"dials", parameter.key});
-  for (const auto& parameter : variationParameters()) keys.push_back({"variation", parameter.key});
-  for (const auto& parameter : profileParameters()) keys.push_back({"profile", parameter.key});
-  return keys;
-}
-
-// What the user may have meant by a key of a table: the nearest of all keys, those of the same table first,
-// or what the table may hold.
-std::string adviceOnKey(std::string_view word, const std::string& table) {
-  std::vector<KnownKey> keys = knownKeys();
-  const auto others = std::stable_partition(keys.begin(), keys.end(),
-                                            [&](const KnownKey& key) { return key.table == table; });
-  std::vector<std::string> names;
-  for (const KnownKey& key : keys) names.push_back(key.key);
-  const std::size_t nearest = nearestName(word, names);
-  names.resize(static_cast<std::size_t>(others - keys.begin()));
-  if (nearest == keys.size()) return fmt::format("expected {}", fmt::join(names, ", "));
-  const KnownKey& meant = keys[nearest];
-  if (table.empty() || !meant.table.empty()) return fmt::format("did you mean {}?", meant.fullName());
-  // What follows a table's heading belongs to it, also at the end of a file.
-  return fmt::format("did you mean {}, which stands above all tables? [{}] takes {}", meant.key, table,
-                     fmt::join(names, ", "));
-}
+// The table of that key below another: "dials" or "material.dials".
+std::string below(const std::string& table, const char* key) { return KnownKey{table, key}.fullName(); }
 
 // "straight, wavy, ...; did you mean NAME?"
 std::string presetsNear(std::string_view word) {
@@ -73,59 +33,31 @@ std::string presetsNear(std::string_view word) {
                      nearest < names.size() ? fmt::format("; did you mean {}?", names[nearest]) : "");
 }
 
-// A value as it may stand in a message: "the text 'soft'", "the number 5".
-std::string found(const toml::node& node) {
-  if (const auto* text = node.as_string()) return "the text " + ringlet::quoted(text->get());
-  if (const auto* number = node.as_integer()) return fmt::format("the number {}", number->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("the number {}", number->get());
-  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
-  if (node.is_array()) return fmt::format("a list of {}", node.as_array()->size());
-  if (node.is_table()) return "a table";
-  return "a date or time";
-}
-
-std::uint32_t lineOf(const toml::node& node) { return node.source().begin.line; }
-
-// Walks a parsed file and keeps the topmost problem.
+// Walks a table.
 class MaterialReader {
  public:
-  explicit MaterialReader(const std::string& name) : name_(name) {}
+  MaterialReader(const std::string& name, TomlProblems& problems) : name_(name), problems_(problems) {}
 
-  Result<LoadedMaterial> read(const toml::table& file) {
-    LoadedMaterial loaded;
+  void read(const toml::table& file, LoadedMaterial& loaded) {
     readPreset(file, loaded.material);
-    readNumbers(file, "", materialParameters(), loaded.material);
+    readNumbers(file, name_, materialParameters(), loaded.material);
     if (const toml::table* table = tableOf(file, "dials"))
-      readNumbers(*table, "dials", dialParameters(), loaded.dials);
+      readNumbers(*table, below(name_, "dials"), dialParameters(), loaded.dials);
     if (const toml::table* table = tableOf(file, "variation"))
-      readNumbers(*table, "variation", variationParameters(), loaded.material.variation);
+      readNumbers(*table, below(name_, "variation"), variationParameters(), loaded.material.variation);
     if (const toml::table* table = tableOf(file, "profile")) readProfiles(*table, loaded.material);
-    refuseUnknownKeys(file, "");
 
     // What one line alone does not show: the two elongations.
-    if (message_.empty()) {
+    if (problems_.empty()) {
       if (Status status = checkMaterial(loaded.material); !status) {
         const toml::node* high = file.get("core_elongation_high");
         const toml::node* low = file.get("core_elongation_low");
-        add(lineOf(high ? *high : low ? *low : file), status.error().message);
+        problems_.add(lineOf(high ? *high : low ? *low : file), status.error().message);
       }
     }
-    if (!message_.empty()) return Error{fmt::format("{}: line {}: {}", name_, line_, message_)};
-    for (const std::string& sentence : unusualNumbers(loaded.material, loaded.dials))
-      loaded.warnings.push_back(fmt::format("{}: {}", name_, sentence));
-    return loaded;
   }
 
  private:
-  void add(std::uint32_t line, std::string message) {
-    if (!message_.empty() && line >= line_) return;
-    line_ = line;
-    message_ = std::move(message);
-  }
-  void addFound(const toml::node& node, const std::string& key, const std::string& expected) {
-    add(lineOf(node), fmt::format("found {} for {}; expected {}", found(node), key, expected));
-  }
-
   void readPreset(const toml::table& file, Material& material) {
     const toml::node* node = file.get("preset");
     if (!node) return;
@@ -134,30 +66,17 @@ class MaterialReader {
     if (preset) {
       material = *preset;
     } else {
-      addFound(*node, "preset", "one of " + presetsNear(text ? text->get() : ""));
+      problems_.addFound(*node, below(name_, "preset"), "one of " + presetsNear(text ? text->get() : ""));
     }
   }
 
   const toml::table* tableOf(const toml::table& file, const char* key) {
     const toml::node* node = file.get(key);
     if (!node) return nullptr;
-    if (!node->is_table()) addFound(*node, key, fmt::format("a table, as in [{}]", key));
-    if (node->is_table()) refuseUnknownKeys(*node->as_table(), key);
+    const std::string name = below(name_, key);
+    if (!node->is_table()) problems_.addFound(*node, name, fmt::format("a table, as in [{}]", name));
+    if (node->is_table()) problems_.addUnknownKeys(*node->as_table(), name, knownMaterialKeys(name_));
     return node->as_table();
-  }
-
-  void refuseUnknownKeys(const toml::table& table, const std::string& name) {
-    const std::vector<KnownKey> keys = knownKeys();
-    for (const auto& [key, node] : table) {
-      const std::string_view word = key.str();
-      const bool isKnown = std::any_of(keys.begin(), keys.end(), [&](const KnownKey& known) {
-        return known.table == name && known.key == word;
-      });
-      if (isKnown) continue;
-      const std::string where = name.empty() ? "" : " in [" + name + "]";
-      add(key.source().begin.line,
-          fmt::format("found the unknown key {}{}; {}", quoted(word), where, adviceOnKey(word, name)));
-    }
   }
 
   template <class Owner>
@@ -176,11 +95,10 @@ class MaterialReader {
         parameter.set(owner, value);
         continue;
       }
-      const std::string key = KnownKey{tableName, parameter.key}.fullName();
-      addFound(*node, key,
-               fmt::format("a {}number {}{}", parameter.isWhole() ? "whole " : "",
-                           rangeText(parameter.allowed, parameter.unit),
-                           parameter.canBeUnset() ? fmt::format(", or \"{}\"", kFromRest) : ""));
+      problems_.addFound(*node, below(tableName, parameter.key),
+                         fmt::format("a {}number {}{}", parameter.isWhole() ? "whole " : "",
+                                     rangeText(parameter.allowed, parameter.unit),
+                                     parameter.canBeUnset() ? fmt::format(", or \"{}\"", kFromRest) : ""));
     }
   }
 
@@ -188,24 +106,24 @@ class MaterialReader {
     for (const ProfileParameter& parameter : profileParameters()) {
       const toml::node* node = table.get(parameter.key);
       if (!node) continue;
-      const std::string key = fmt::format("profile.{}", parameter.key),
+      const std::string key = below(below(name_, "profile"), parameter.key),
                         expected = "a list of points [share of the arc length, factor]";
       Profile profile;
       const toml::array* points = node->as_array();
       if (!points) {
-        addFound(*node, key, expected);
+        problems_.addFound(*node, key, expected);
         continue;
       }
       for (const toml::node& item : *points) {
         const toml::array* pair = item.as_array();
         if (!pair || pair->size() != 2 || !(*pair)[0].is_number() || !(*pair)[1].is_number()) {
-          addFound(item, fmt::format("point {} of {}", profile.points.size() + 1, key), expected);
+          problems_.addFound(item, fmt::format("point {} of {}", profile.points.size() + 1, key), expected);
           break;
         }
         profile.points.push_back(
             {(*pair)[0].value<double>().value_or(-1), (*pair)[1].value<double>().value_or(-1)});
         if (Status status = checkProfile(parameter, profile); !status) {
-          add(lineOf(item), status.error().message);
+          problems_.add(lineOf(item), status.error().message);
           break;
         }
       }
@@ -213,67 +131,107 @@ class MaterialReader {
     }
   }
 
-  const std::string& name_;
-  std::uint32_t line_ = 0;
-  std::string message_;
+  const std::string& name_;  // of the table
+  TomlProblems& problems_;
 };
 
-Error tooLarge(const std::string& name, std::uintmax_t size) {
-  return {
-      fmt::format("{}: found {} bytes; expected a material, which has {} at most", name, size, kLargestFile)};
-}
-
-// The shortest decimal that reads back as the same bits, always with a point or an exponent.
-std::string tomlNumber(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
+template <class Owner>
+void writeNumber(std::string& text, const Parameter<Owner>& parameter, const Owner& owner) {
+  const std::optional<double> value = parameter.of(owner);
+  if (!value) {
+    text += fmt::format("\"{}\"\n", kFromRest);
+  } else if (parameter.isWhole()) {
+    text += fmt::format("{:.0f}\n", *value);
+  } else {
+    text += tomlNumber(*value) + "\n";
+  }
 }
 
 template <class Owner>
 void writeNumbers(std::string& text, std::span<const Parameter<Owner>> parameters, const Owner& owner) {
   for (const Parameter<Owner>& parameter : parameters) {
-    const std::optional<double> value = parameter.of(owner);
     text += fmt::format(
         "\n# {}\n# {}; usual is {}{}.\n{} = ", parameter.effect, rangeText(parameter.allowed, parameter.unit),
         rangeText(parameter.usual, parameter.unit),
         parameter.canBeUnset() ? fmt::format(", or \"{}\": measured on the rest curl", kFromRest) : "",
         parameter.key);
-    if (!value) {
-      text += fmt::format("\"{}\"\n", kFromRest);
-    } else if (parameter.isWhole()) {
-      text += fmt::format("{:.0f}\n", *value);
-    } else {
-      text += tomlNumber(*value) + "\n";
-    }
+    writeNumber(text, parameter, owner);
   }
+}
+
+// Those that are not the default, under a heading.
+template <class Owner>
+void writeOthers(std::string& text, const std::string& heading, std::span<const Parameter<Owner>> parameters,
+                 const Owner& owner) {
+  std::string lines;
+  for (const Parameter<Owner>& parameter : parameters) {
+    if (parameter.of(owner) == parameter.defaultValue()) continue;
+    lines += fmt::format("{} = ", parameter.key);
+    writeNumber(lines, parameter, owner);
+    lines.insert(lines.size() - 1,
+                 fmt::format("  # {}{}",
+                             parameter.unit == std::string("1") ? "" : fmt::format("[{}] ", parameter.unit),
+                             parameter.effect));
+  }
+  if (!lines.empty()) text += fmt::format("\n[{}]\n{}", heading, lines);
+}
+
+std::string pointsText(const Profile& profile) {
+  std::vector<std::string> points;
+  for (const Profile::Point& point : profile.points)
+    points.push_back(fmt::format("[{}, {}]", tomlNumber(point.s), tomlNumber(point.factor)));
+  return fmt::format("[{}]", fmt::join(points, ", "));
 }
 
 }  // namespace
 
+std::vector<KnownKey> knownMaterialKeys(const std::string& table) {
+  std::vector<KnownKey> keys;
+  for (const char* key : {"preset", "dials", "variation", "profile"}) keys.push_back({table, key});
+  for (const auto& parameter : materialParameters()) keys.push_back({table, parameter.key});
+  for (const auto& parameter : dialParameters()) keys.push_back({below(table, "dials"), parameter.key});
+  for (const auto& parameter : variationParameters())
+    keys.push_back({below(table, "variation"), parameter.key});
+  for (const auto& parameter : profileParameters()) keys.push_back({below(table, "profile"), parameter.key});
+  return keys;
+}
+
+void readMaterialTable(const toml::table& table, const std::string& name, LoadedMaterial& loaded,
+                       TomlProblems& problems) {
+  MaterialReader(name, problems).read(table, loaded);
+}
+
+std::string materialTableText(const Material& material, const MaterialDials& dials, const std::string& name) {
+  std::string text;
+  writeOthers(text, name, materialParameters(), material);
+  writeOthers(text, below(name, "dials"), dialParameters(), dials);
+  writeOthers(text, below(name, "variation"), variationParameters(), material.variation);
+  std::string profiles;
+  for (const ProfileParameter& parameter : profileParameters()) {
+    if (const Profile& profile = material.*parameter.member; !profile.points.empty())
+      profiles += fmt::format("{} = {}  # {}\n", parameter.key, pointsText(profile), parameter.effect);
+  }
+  if (!profiles.empty()) text += fmt::format("\n[{}]\n{}", below(name, "profile"), profiles);
+  return text;
+}
+
 Result<LoadedMaterial> parseMaterial(std::string_view text, const std::string& name) {
-  if (text.size() > kLargestFile) return tooLarge(name, text.size());
-  if (const auto dotCount = std::count(text.begin(), text.end(), '.'); dotCount > kMostDots) {
-    return Error{fmt::format("{}: found {} dots; expected a material, which has {} at most", name, dotCount,
-                             kMostDots)};
-  }
-  const toml::parse_result parsed = toml::parse(text);
-  if (!parsed) {
-    const toml::parse_error& error = parsed.error();
-    return Error{
-        fmt::format("{}: line {}: found no TOML: {}", name, error.source().begin.line, error.description())};
-  }
-  return MaterialReader(name).read(parsed.table());
+  const auto file = parseToml(text, name, kWhat);
+  if (!file) return file.error();
+  LoadedMaterial loaded;
+  TomlProblems problems;
+  readMaterialTable(*file, "", loaded, problems);
+  problems.addUnknownKeys(*file, "", knownMaterialKeys(""));
+  if (!problems.empty()) return problems.error(name);
+  for (const std::string& sentence : unusualNumbers(loaded.material, loaded.dials))
+    loaded.warnings.push_back(fmt::format("{}: {}", name, sentence));
+  return loaded;
 }
 
 Result<LoadedMaterial> readMaterial(const std::filesystem::path& path) {
-  // Before memory is asked for.
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  if (!ignored && size > kLargestFile) return tooLarge(path.string(), size);
-  auto bytes = readWholeFile(path);
-  if (!bytes) return bytes.error();
-  return parseMaterial({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+  const auto text = readTomlText(path, kWhat);
+  if (!text) return text.error();
+  return parseMaterial(*text, path.string());
 }
 
 bool isMaterialFile(const std::filesystem::path& name) {
@@ -306,12 +264,10 @@ std::string materialText(const Material& material, const MaterialDials& dials) {
       "\n# How a strand changes from root to tip; straight lines between points, no points: 1 everywhere.\n";
   text += "[profile]\n";
   for (const ProfileParameter& parameter : profileParameters()) {
-    std::vector<std::string> points;
-    for (const Profile::Point& point : (material.*parameter.member).points)
-      points.push_back(fmt::format("[{}, {}]", tomlNumber(point.s), tomlNumber(point.factor)));
-    text += fmt::format("\n# {}\n# Factors {}; usual is {}.\n{} = [{}]\n", parameter.effect,
-                        rangeText(parameter.allowed, parameter.unit),
-                        rangeText(parameter.usual, parameter.unit), parameter.key, fmt::join(points, ", "));
+    text +=
+        fmt::format("\n# {}\n# Factors {}; usual is {}.\n{} = {}\n", parameter.effect,
+                    rangeText(parameter.allowed, parameter.unit), rangeText(parameter.usual, parameter.unit),
+                    parameter.key, pointsText(material.*parameter.member));
   }
   return text;
 }

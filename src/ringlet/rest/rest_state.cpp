@@ -304,6 +304,7 @@ Status checkSettings(const Settings& s, const Material& material) {
       {"gravity.z", s.gravity.z, -1e4, 1e4},
       {"maxStretch", s.maxStretch, 1, 100},
       {"rootCount", double(s.rootCount), 1, double(layout::kMaxRootCount)},
+      {"teleportDistance", s.teleportDistance, 0, 1e6},
       {"pointIterations", double(s.pointIterations), 1, 60000},
       {"forceLoops", double(s.forceLoops), 1, 1000},
       {"dampingLoops", double(s.dampingLoops), 1, 1000},

@@ -1,6 +1,7 @@
-// Keyframes: a head's motion as poses at equal times, with a smooth way between them.
+// Keyframes: a head's motion as poses at times, with a smooth way between them.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "ringlet/scene/head_pose.h"
@@ -9,14 +10,31 @@ namespace ringlet {
 
 /// At least one pose. Their `shift` is not used.
 struct Keyframes {
-  double secondsPerKey = 1.0 / 24;  // above 0
-  std::vector<HeadPose> poses;
+  /// Between keys. Files of many keys a second have equal times; an artist's few have times of their own.
+  enum class Interpolation {
+    cubic,   // a cubic through the keys, whose velocity is continuous
+    linear,  // straight on, and slerp
+  };
 
-  /// From the first pose to the last.
-  double seconds() const { return secondsPerKey * static_cast<double>(poses.size() - 1); }
-  /// Positions on the cubic through four keys (Catmull and Rom 1974), whose velocity is continuous; rotations
-  /// by slerp between two. Before the first key the head glides into it at the velocity it goes on with, and
-  /// begins to turn a third of a second before; after the last it stays. Cost: constant.
+  double secondsPerKey = 1.0 / 24;  // above 0; of equal times, from 0 on
+  std::vector<HeadPose> poses;
+  std::vector<double> times{};  // of each pose [s], rising; or none: they are equal
+  Interpolation interpolation = Interpolation::cubic;
+  bool restsAtEnds = false;  // before the first key the head stays where it is, eases out of it and, where
+                             // the way is cubic, into the last; false: it comes and goes as it will
+
+  /// When pose k is reached [s].
+  double timeOf(std::size_t k) const {
+    return times.empty() ? secondsPerKey * static_cast<double>(k) : times[k];
+  }
+  /// When the last pose is reached.
+  double seconds() const { return timeOf(poses.size() - 1); }
+  /// Cubic, between equal times: positions on the cubic through four keys (Catmull and Rom 1974); rotations
+  /// by slerp between two. Between times of their own: both on cubics whose velocity at a key is that of the
+  /// parabola through it and its neighbours, rotations as the quaternions' four numbers, which suits keys up
+  /// to half a turn apart. Before the first key, unless it rests there, the head glides into it at the
+  /// velocity it goes on with, and begins to turn a third of a second before; after the last it stays. Cost:
+  /// constant for equal times, else the logarithm of the number of keys.
   HeadPose poseAt(double t) const;
   /// The fastest turn between two neighbouring keys [rad/s], and which is the first of the two.
   struct Turn {

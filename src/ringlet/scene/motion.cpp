@@ -31,6 +31,15 @@ constexpr double kTurningPerBob = 2.8;    // [rad/m]
 constexpr double kNoddingPerBob = 1.4;    // [rad/m]
 constexpr double kNoddingAfterBob = 0.8;  // the head follows the body [rad]
 
+// A jump's height over one period, as a share of its highest: a sum of two cosines, which stands at 0,
+// crouches, leaps to 1, crouches as it lands and stands again, without a jerk.
+//
+//              .-.
+//             :   :
+//     0 -.   :     :   .-
+//         `-'       `-'
+double leap(double angle) { return 0.2 - 0.5 * std::cos(angle) + 0.3 * std::cos(2 * angle); }
+
 constexpr Vec3d kSide{1, 0, 0};  // X, whichever of Y and Z is up
 
 }  // namespace
@@ -72,6 +81,13 @@ HeadPose Motion::poseAt(double t) const {
     case MotionKind::turn:
       pose.rotation = fromRotationVector(axis * (amplitude * ease(t, easeSeconds)));
       break;
+    case MotionKind::jump:
+      pose.position += axis * (amplitude * leap(angle) * size);
+      break;
+    case MotionKind::whip:
+      pose.rotation = fromRotationVector(
+          axis * (amplitude * (ease(t, easeSeconds) - ease(t - easeSeconds, easeSeconds))));
+      break;
     case MotionKind::keyframes: {
       const HeadPose key = keyframes->poseAt(t);
       pose.position += key.position;
@@ -95,9 +111,43 @@ std::optional<Motion> motionByName(std::string_view name, Vec3d up) {
   if (name == "turn") {
     return Motion{.kind = MotionKind::turn, .axis = kSide, .amplitude = std::numbers::pi, .easeSeconds = 1};
   }
+  if (name == "jump")
+    return Motion{.kind = MotionKind::jump, .axis = up, .amplitude = 0.2, .frequency = 1, .easeSeconds = 0.5};
+  if (name == "whip") return Motion{.kind = MotionKind::whip, .axis = up, .amplitude = 1};
   return std::nullopt;
 }
 
-std::string motionNames() { return "still, shake, nod, spin, glide, walk, turn"; }
+std::string motionName(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::still:
+      return "still";
+    case MotionKind::shake:
+      return "shake";
+    case MotionKind::nod:
+      return "nod";
+    case MotionKind::spin:
+      return "spin";
+    case MotionKind::glide:
+      return "glide";
+    case MotionKind::walk:
+      return "walk";
+    case MotionKind::turn:
+      return "turn";
+    case MotionKind::jump:
+      return "jump";
+    case MotionKind::whip:
+      return "whip";
+    case MotionKind::keyframes:
+      break;
+  }
+  return "keyframes";
+}
+
+bool isToAndFro(MotionKind kind) {
+  return kind == MotionKind::shake || kind == MotionKind::nod || kind == MotionKind::walk ||
+         kind == MotionKind::jump;
+}
+
+std::string motionNames() { return "still, shake, nod, spin, glide, walk, turn, jump, whip"; }
 
 }  // namespace ringlet

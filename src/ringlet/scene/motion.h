@@ -22,6 +22,8 @@ enum class MotionKind {
   glide,      // moves along `axis` at constant speed, from the first instant
   walk,       // on the spot, `axis` up: bobs at every step, sways and turns from leg to leg, nods a little
   turn,       // turns about `axis` once, in easeSeconds, and stays there
+  jump,       // crouches, leaps along `axis` and lands, again and again
+  whip,       // turns about `axis` once, in easeSeconds, and back in as long
   keyframes,  // as `keyframes` say, which starts and ends as it will
 };
 
@@ -39,14 +41,15 @@ struct RootMotion {
 struct Motion {
   MotionKind kind = MotionKind::still;
   Vec3d axis{1, 0, 0};        // unit vector: direction of travel, or axis of turning
-  double amplitude = 0.1;     // shake, walk (of its bob) [m]; nod, turn [rad]; spin [rad/s]; glide [m/s]
-  double frequency = 2;       // shake, nod [Hz]; walk: strides, of two steps each [Hz]
+  double amplitude = 0.1;     // shake, walk (of its bob), jump (its height) [m]; nod, turn, whip [rad]; spin
+                              // [rad/s]; glide [m/s]
+  double frequency = 2;       // shake, nod, jump [Hz]; walk: strides, of two steps each [Hz]
   double easeSeconds = 0.25;  // all but glide: amplitude or speed grows smoothly from 0 over this time
-  double untilSeconds =
-      std::numeric_limits<double>::infinity();   // shake, nod, walk: over by then, eased out as it eased in
-  Vec3d start{};                                 // position of the head at t = 0 [m]
-  RootMotion roots{};                            // of those that have a shift of their own
-  std::shared_ptr<const Keyframes> keyframes{};  // where `kind` says so; `start` is added
+  double untilSeconds = std::numeric_limits<double>::infinity();  // shake, nod, walk, jump: over by then,
+                                                                  // eased out as it eased in
+  Vec3d start{};                                                  // position of the head at t = 0 [m]
+  RootMotion roots{};                                             // of those that have a shift of their own
+  std::shared_ptr<const Keyframes> keyframes{};                   // where `kind` says so; `start` is added
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;
@@ -55,6 +58,12 @@ struct Motion {
 /// The motion a name stands for with its default size, for a head whose up axis is `up`; nothing for an
 /// unknown name.
 std::optional<Motion> motionByName(std::string_view name, Vec3d up);
+
+/// Its name; "keyframes" is none that motionByName knows.
+std::string motionName(MotionKind kind);
+
+/// Whether it goes on and on, with a frequency, and may be over at some time.
+bool isToAndFro(MotionKind kind);
 
 /// The names motionByName knows, separated by commas, for messages and --help.
 std::string motionNames();

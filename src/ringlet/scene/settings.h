@@ -24,12 +24,14 @@ struct Settings {
   double maxStretch =
       1.1;            // longest an edge may become, as a multiple of the groom's edge; 1 is inextensible
   int rootCount = 1;  // particles at the root that follow the head, 1..3
-  int pointIterations = 100;  // pointJacobi: iterations per outer step
-  bool chebyshev = true;      // pointJacobi: Chebyshev-accelerated rather than plain
-  int forceLoops = 15;        // paper: force loops per outer step
-  int dampingLoops = 10;      // paper: damping loops per force loop
-  ContactSettings contacts;   // between strands; jacobi only
-  AirSettings air;            // jacobi only
+  double teleportDistance = 1;  // [m a frame], 0: never; a head that jumps further in one frame carries the
+                                // hair along rigidly
+  int pointIterations = 100;    // pointJacobi: iterations per outer step
+  bool chebyshev = true;        // pointJacobi: Chebyshev-accelerated rather than plain
+  int forceLoops = 15;          // paper: force loops per outer step
+  int dampingLoops = 10;        // paper: damping loops per force loop
+  ContactSettings contacts;     // between strands; jacobi only
+  AirSettings air;              // jacobi only
 
   double stepSeconds() const { return 1 / (framesPerSecond * stepsPerFrame); }
 };

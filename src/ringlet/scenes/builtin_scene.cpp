@@ -11,6 +11,7 @@
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/scene_grooms.h"
+#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet {
 namespace {
@@ -167,14 +168,6 @@ const Recipe* recipeOf(std::string_view name) {
   return nullptr;
 }
 
-// The roots of the first half go one way, the others the other; none where nothing moves.
-std::vector<Vec3d> shiftsOf(Vec3d shift, std::size_t strandCount) {
-  std::vector<Vec3d> shifts;
-  if (length(shift) == 0) return shifts;
-  for (std::size_t s = 0; s < strandCount; ++s) shifts.push_back(2 * s < strandCount ? shift : shift * -1.0);
-  return shifts;
-}
-
 Status checkOptions(std::string_view name, const SceneOptions& options) {
   if (options.strands && (*options.strands < 1 || *options.strands > kMostStrands)) {
     return Error{fmt::format("{} with {} strands: it takes 1 to {}", name, *options.strands, kMostStrands)};
@@ -238,7 +231,7 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
                      .material = recipe->material(),
                      .settings = {},
                      .motion = recipe->motion,
-                     .rootShifts = shiftsOf(recipe->rootShift, strandCount),
+                     .rootShifts = rootShiftsOf(recipe->rootShift, strandCount),
                      .seconds = options.seconds.value_or(recipe->seconds),
                      .showsContacts = recipe->showsContacts,
                      .showsFrames = recipe->showsFrames,

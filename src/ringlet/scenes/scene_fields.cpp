@@ -1,0 +1,452 @@
+// Implements scenes/scene_fields.h.
+#include "ringlet/scenes/scene_fields.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "ringlet/scene/motion.h"
+
+namespace ringlet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr NumberRange kPlace{-1e6, 1e6};    // [m]
+constexpr NumberRange kDegrees{-1e6, 1e6};  // any turn
+constexpr NumberRange kUnit{1e-6, 1000};    // [m]
+constexpr NumberRange kSeed{0, 4294967295.0};
+constexpr NumberRange kShare{0, 1};
+constexpr NumberRange kSeconds{0, 3600};
+constexpr double kMostOverlaps = 1e6;
+constexpr const char* kGenerated = "curl, swatch, head";
+constexpr const char* kVarying = "swatch, head";
+constexpr const char* kToAndFro = "shake, nod, walk, jump";
+constexpr const char* kTurnHelp = "Turned about X first, then Y, then Z, the axes of what it is placed in.";
+
+}  // namespace
+
+std::vector<std::string> namesIn(std::string_view list) {
+  std::vector<std::string> names;
+  for (std::size_t at = 0; at < list.size();) {
+    const std::size_t comma = std::min(list.find(", ", at), list.size());
+    names.emplace_back(list.substr(at, comma - at));
+    at = comma + 2;
+  }
+  return names;
+}
+
+std::span<const SceneField<SceneGroom>> groomFields() {
+  using G = SceneGroom;
+  static const SceneField<G> all[] = {
+      {"file", "", "none", "The strands: a .hair or .obj file, as `ringlet simulate` takes it.", &G::file},
+      {"generate",
+       "",
+       "none",
+       "In place of a file: what `ringlet make` makes.",
+       &G::generate,
+       {},
+       kGenerated},
+      {"unit", "m", "", "Metres per unit of the file, and of what is written.", &G::metresPerUnit, kUnit},
+      {"up",
+       "",
+       "",
+       "The axis of the groom that points up; all positions of the scene are along its axes.",
+       &G::up,
+       {},
+       "Y, Z"},
+      {"scale",
+       "1",
+       "",
+       "Size of the groom in the head's frame, a factor on the file's.",
+       &G::scale,
+       {1e-6, 1e6}},
+      {"rotate_degrees", "deg", "",
+       "How the groom is turned in the head's frame, about X first, then Y, then Z.", &G::rotateDegrees,
+       kDegrees},
+      {"offset", "m", "", "How the groom is then moved in the head's frame.", &G::offset, kPlace},
+      {"strands", "", "", "How many.", &G::strands, {1, 1e6}, "", "head"},
+      {"particles",
+       "",
+       "",
+       "Of each strand; a curl keeps its shape from four a turn on.",
+       &G::particles,
+       {2, 65536},
+       "",
+       kGenerated},
+      {"columns", "", "", "Curls along X.", &G::columns, {1, 10000}, "", "swatch"},
+      {"rows", "", "", "Curls along Z.", &G::rows, {1, 10000}, "", "swatch"},
+      {"spacing", "m", "", "Distance between neighbours.", &G::spacing, {1e-6, 10}, "", "swatch"},
+      {"scalp_radius", "m", "", "Radius of the head.", &G::scalpRadius, {1e-6, 10}, "", "head"},
+      {"radius", "m", "", "Radius of a curl.", &G::radius, {1e-6, 1}, "", kGenerated},
+      {"turns",
+       "",
+       "",
+       "Of a curl, from root to tip; 0 for straight hair.",
+       &G::turns,
+       {0, 1000},
+       "",
+       kGenerated},
+      {"length", "m", "", "Of a curl, not of its wound strand.", &G::length, {1e-6, 10}, "", kGenerated},
+      {"phase", "rad", "", "Where about its axis a curl begins.", &G::phase, {-1e6, 1e6}, "", kGenerated},
+      {"hand", "", "", "Which way curls wind.", &G::hand, {}, "right, left", kGenerated},
+      {"vary_radius",
+       "1",
+       "",
+       "Largest relative difference of the radius.",
+       &G::varyRadius,
+       {0, 0.9},
+       "",
+       kVarying},
+      {"vary_length",
+       "1",
+       "",
+       "Largest relative difference of the length.",
+       &G::varyLength,
+       {0, 0.9},
+       "",
+       kVarying},
+      {"vary_phase", "1", "", "Largest difference of the phase, as a share of a turn.", &G::varyPhase, kShare,
+       "", kVarying},
+      {"other_hand", "1", "", "Share of strands that wind the other way.", &G::otherHand, kShare, "",
+       kVarying},
+      {"seed", "", "", "Another seed, another groom.", &G::seed, kSeed, "", kVarying},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneMotion>> motionFields() {
+  using M = SceneMotion;
+  static const SceneField<M> all[] = {
+      {"kind",
+       "",
+       "none",
+       "A built-in motion; with none of kind, file and keys the head is still.",
+       &M::kind,
+       {},
+       motionNames()},
+      {"amplitude",
+       "m, rad or rad/s",
+       "the kind's",
+       "Its size: shake, walk, jump m; nod, turn, whip rad; spin rad/s; glide m/s.",
+       &M::amplitude,
+       {-1000, 1000},
+       "",
+       "shake, nod, spin, glide, walk, turn, jump, whip"},
+      {"frequency",
+       "Hz",
+       "the kind's",
+       "How often: shakes, nods, jumps, strides.",
+       &M::frequency,
+       {0, 1000},
+       "",
+       kToAndFro},
+      {"axis",
+       "",
+       "the kind's",
+       "Direction of travel, or axis of turning; of any length above 0.",
+       &M::axis,
+       {-1e6, 1e6},
+       "",
+       "shake, nod, spin, glide, walk, turn, jump, whip"},
+      {"ease", "s", "the kind's",
+       "The size grows smoothly from 0 over this time; a turn takes it, a whip twice.", &M::easeSeconds,
+       kSeconds, "", "shake, nod, spin, walk, turn, jump, whip"},
+      {"until",
+       "s",
+       "never",
+       "Over by then, eased out as it eased in.",
+       &M::untilSeconds,
+       {0, kInfinity},
+       "",
+       kToAndFro},
+      {"file", "", "none",
+       "In place of a kind: a .bvh, .gltf or .glb file, whose joint is followed through the world.", &M::file},
+      {"joint", "", "", "Joint of the file; glTF calls it a node.", &M::joint, {}, "", "file"},
+      {"animation", "", "the first", "Of a glTF file: which, by name or number from 0.", &M::animation, {}, "", "file"},
+      {"unit", "m", "a BVH skeleton is 1.7 m tall, glTF is in metres", "Metres per unit of the file.", &M::metresPerUnit, kUnit,
+       "", "file"},
+      {"skip_frames",
+       "",
+       "",
+       "Frames at the start of the file to leave out, as a T-pose is.",
+       &M::skipFrames,
+       {0, 1e6},
+       "",
+       "file"},
+      {"interpolation",
+       "",
+       "",
+       "Between keys: cubic passes them without a jolt, linear goes straight.",
+       &M::interpolation,
+       {},
+       "cubic, linear",
+       "keys"},
+      {"start", "m", "", "Added to every position.", &M::start, kPlace},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneMotion>> headMotionFields() {
+  using M = SceneMotion;
+  static const SceneField<M> all[] = {
+      {"pre_roll", "s", "", "How long hair moves before the first frame, so that it begins settled.",
+       &M::preRollSeconds, kSeconds},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneKeyframe>> keyframeFields() {
+  using K = SceneKeyframe;
+  static const SceneField<K> all[] = {
+      {"time", "s", "required", "When; later than that of the key before.", &K::time, {-1e6, 1e6}},
+      {"position", "m", "", "Where.", &K::position, kPlace},
+      {"rotate_degrees", "deg", "[0, 0, 0]", kTurnHelp, &K::rotateDegrees, kDegrees},
+      {"quaternion",
+       "",
+       "none",
+       "[x, y, z, w] in place of rotate_degrees, of any length above 0.",
+       &K::quaternion,
+       {-1e6, 1e6}},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneRoots>> rootsFields() {
+  using R = SceneRoots;
+  static const SceneField<R> all[] = {
+      {"shift", "m", "",
+       "How far the roots of the first half of the strands go beside the head; the others' go the other way.",
+       &R::shift, kPlace},
+      {"frequency", "Hz", "", "To and fro as a sine; 0: there, and stays.", &R::frequency, {0, 1000}},
+      {"ease", "s", "", "The shift grows smoothly from 0 over this time, and shrinks so at the end.",
+       &R::easeSeconds, kSeconds},
+      {"until",
+       "s",
+       "",
+       "Roots are back in their places by then; inf: never.",
+       &R::untilSeconds,
+       {0, kInfinity}},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneSimulation>> simulationFields() {
+  using S = SceneSimulation;
+  static const SceneField<S> all[] = {
+      {"fps", "1/s", "", "Frames per second.", &S::framesPerSecond, {0.001, 1e6}},
+      {"frames", "", "48, or the length of the motion's file or keys", "How many.", &S::frames, {1, 1e6}},
+      {"seconds", "s", "none", "In place of frames: how long.", &S::seconds, {0.001, 36000}},
+      {"steps_per_frame",
+       "",
+       "enough for this groom and material",
+       "Outer steps a frame.",
+       &S::stepsPerFrame,
+       {1, 340}},
+      {"gravity", "m/s^2", "", "Downwards.", &S::gravity, {-1000, 1000}},
+      {"preload", "1", "1; 0 for paper", "Share of gravity balanced in the rest pose.", &S::preload, kShare},
+      {"max_stretch",
+       "1",
+       "1 + material.dials.bounce",
+       "Longest an edge may become, as a multiple of the groom's edge.",
+       &S::maxStretch,
+       {1, 100}},
+      {"teleport_distance",
+       "m",
+       "",
+       "A head that jumps further in one frame carries the hair along rigidly; 0: never.",
+       &S::teleportDistance,
+       {0, 1e6}},
+      {"roots", "", "", "Particles at the root that follow the head.", &S::roots, {1, 3}},
+      {"integrator",
+       "",
+       "",
+       "How a step finds the new velocities.",
+       &S::integrator,
+       {},
+       "jacobi, point_jacobi, paper"},
+      {"iterations", "", "", "Of a step.", &S::iterations, {1, 60000}, "", "point_jacobi"},
+      {"chebyshev", "", "", "Whether these are accelerated.", &S::chebyshev, {}, "", "point_jacobi"},
+      {"force_loops", "", "", "Of a step.", &S::forceLoops, {1, 1000}, "", "paper"},
+      {"damping_loops", "", "", "Of a force loop.", &S::dampingLoops, {1, 1000}, "", "paper"},
+  };
+  return all;
+}
+
+std::span<const SceneField<ContactSettings>> contactFields() {
+  using C = ContactSettings;
+  static const SceneField<C> all[] = {
+      {"on", "", "true where [contacts] stands", "Whether strands push each other away; jacobi only.",
+       &C::on},
+      {"radius",
+       "m",
+       "half the mean distance of neighbouring roots",
+       "Of the spheres by which strands feel each other.",
+       &C::radius,
+       {1e-6, 1}},
+      {"fill_gaps", "", "",
+       "Whether strands cut coarser than two radii get a larger radius, so that nothing slips between.",
+       &C::fillGaps},
+      {"spacing",
+       "1",
+       "",
+       "Spheres stand this share of two radii apart along a strand: less keeps more of them.",
+       &C::spacing,
+       {0.01, 1}},
+      {"prune_pairs", "", "", "Whether only strands that are near at rest may touch.", &C::prunePairs},
+      {"enlargement",
+       "1",
+       "",
+       "Factor on radii while overlaps at rest are counted.",
+       &C::enlargement,
+       {1, 100}},
+      {"min_overlaps",
+       "",
+       "",
+       "Overlapping spheres at rest from which on two strands may touch.",
+       &C::minOverlaps,
+       {1, kMostOverlaps}},
+      {"max_neighbours",
+       "",
+       "",
+       "Most strands that one may touch, those with the most overlaps; 0: no bound.",
+       &C::maxNeighbours,
+       {0, kMostOverlaps}},
+      {"drop_share", "1", "", "Share of the pairs then left that is dropped at random.", &C::dropShare,
+       kShare},
+      {"seed", "", "", "Of drop_share.", &C::seed, kSeed},
+      {"stiffness",
+       "w / R",
+       "",
+       "Of two spheres that touch: the weight of one over the sum of their radii.",
+       &C::stiffness,
+       {0, 1e7}},
+      {"damping_ratio", "1", "", "Along the contact's normal; 1 is critical.", &C::dampingRatio, {0, 100}},
+      {"friction", "1", "",
+       "Damping of strands that slide along each other, as a share of that between strands that meet.",
+       &C::friction, kShare},
+      {"ramp_seconds", "s", "", "From first touch to full stiffness.", &C::rampSeconds, {0, 10}},
+      {"stiffness_release_seconds",
+       "s",
+       "",
+       "From parting until stiffness has faded.",
+       &C::stiffnessReleaseSeconds,
+       {0, 10}},
+      {"damping_release_seconds", "s", "", "And then damping.", &C::dampingReleaseSeconds, {0, 10}},
+      {"break_factor",
+       "1",
+       "",
+       "Parted further than this times its rest distance, a contact is over.",
+       &C::breakFactor,
+       {1, 10}},
+      {"iterations",
+       "",
+       "",
+       "Solves of a step in which strands hear of each other.",
+       &C::iterations,
+       {1, 1000}},
+  };
+  return all;
+}
+
+std::span<const SceneField<AirSettings>> airFields() {
+  using A = AirSettings;
+  static const SceneField<A> all[] = {
+      {"on", "", "true where [air] stands", "Whether there is air; jacobi only.", &A::on},
+      {"fall_speed",
+       "m/s",
+       "",
+       "At which air carries hair's weight: less, and wind takes more.",
+       &A::fallSpeed,
+       {0.01, 1000}},
+      {"along_share", "1", "", "What air does along a strand, as a share of what it does across.",
+       &A::alongShare, kShare},
+      {"wind", "m/s", "", "Even wind.", &A::wind, {-1000, 1000}},
+      {"gust", "1", "", "The wind swells by up to this share of itself.", &A::gust, {0, 10}},
+      {"gust_seconds", "s", "", "From gust to gust, on average.", &A::gustSeconds, {0.01, 1000}},
+      {"turbulence",
+       "m/s",
+       "",
+       "Root mean square of each component of the turbulent wind.",
+       &A::turbulence,
+       {0, 1000}},
+      {"eddy_size", "m", "", "Of its largest eddies.", &A::eddySize, {0.001, 1000}},
+      {"seed", "", "", "Of gusts and turbulence.", &A::seed, kSeed},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneBody>> bodyFields() {
+  using B = SceneBody;
+  static const SceneField<B> all[] = {
+      {"name", "", "its number", "For messages.", &B::name},
+      {"shape",
+       "",
+       "required",
+       "A plane is the half space below Y = 0, a capsule's line is along Y; all are solid.",
+       &B::shape,
+       {},
+       "sphere, capsule, plane, box, mesh"},
+      {"radius",
+       "m",
+       "",
+       "Of a sphere, or about a capsule's line.",
+       &B::radius,
+       {1e-6, 1e6},
+       "",
+       "sphere, capsule"},
+      {"length",
+       "m",
+       "",
+       "Of a capsule's line, its middle at the origin.",
+       &B::length,
+       {0, 1e6},
+       "",
+       "capsule"},
+      {"half_extents",
+       "m",
+       "",
+       "Of a box, to either side of the origin.",
+       &B::halfExtents,
+       {1e-6, 1e6},
+       "",
+       "box"},
+      {"file", "", "none", "The mesh: an .obj file of closed surfaces.", &B::file, {}, "", "mesh"},
+      {"generate",
+       "",
+       "none",
+       "In place of a file: the mesh of the generated head.",
+       &B::generate,
+       {},
+       "head",
+       "mesh"},
+      {"unit", "m", "the groom's", "Metres per unit of the mesh's file.", &B::metresPerUnit, kUnit, "",
+       "mesh"},
+      {"cells",
+       "",
+       "",
+       "Of the mesh's distance grid, along its longest side: more is finer and slower to make.",
+       &B::cells,
+       {4, 512},
+       "",
+       "mesh"},
+      {"scale", "1", "", "Size of the mesh, a factor on the file's.", &B::scale, {1e-6, 1e6}, "", "mesh"},
+      {"thickness", "m", "", "Hair keeps this much further away.", &B::thickness, kShare},
+      {"friction", "1", "", "Coulomb's coefficient of hair on it.", &B::friction, {0, 100}},
+      {"position", "m", "", "Where its origin is, in the frame of what carries it.", &B::position, kPlace},
+      {"rotate_degrees", "deg", "", kTurnHelp, &B::rotateDegrees, kDegrees},
+      {"joint", "", "none", "The joint of the head's motion file that carries it, in place of the head.",
+       &B::joint},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneOutput>> outputFields() {
+  using O = SceneOutput;
+  static const SceneField<O> all[] = {
+      {"folder", "", "none; -o says it", "For the results, made if it is not there.", &O::folder},
+      {"width", "m", "", "Diameter of strands in hair.usda.", &O::width, {1e-9, 1}},
+      {"files", "", "all", "What is written.", &O::files, {}, "hair.usda, last.obj, sheet.png"},
+  };
+  return all;
+}
+
+}  // namespace ringlet

@@ -1,0 +1,429 @@
+// Implements scenes/scene_file.h: reading. Writing and listing are scene_text.cpp.
+#include "ringlet/scenes/scene_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "ringlet/base/nearest_name.h"
+#include "ringlet/rest/material_table.h"
+#include "ringlet/rest/toml_file.h"
+#include "ringlet/scenes/scene_fields.h"
+#include "ringlet/scenes/scene_text.h"
+
+namespace ringlet {
+namespace {
+
+constexpr const char* kWhat = "a scene";
+constexpr const char* kThreeMotions = "one of kind, file and keys";
+
+template <class Owner>
+void addKeys(std::vector<KnownKey>& keys, const std::string& table,
+             std::span<const SceneField<Owner>> fields) {
+  for (const auto& field : fields) keys.push_back({table, field.key});
+}
+
+const std::vector<KnownKey>& knownKeys() {
+  static const std::vector<KnownKey> all = [] {
+    std::vector<KnownKey> keys;
+    for (const char* table :
+         {"groom", "material", "motion", "simulation", "contacts", "air", "body", "output"})
+      keys.push_back({"", table});
+    addKeys(keys, "groom", groomFields());
+    keys.push_back({"material", "file"});
+    std::ranges::copy(knownMaterialKeys("material"), std::back_inserter(keys));
+    addKeys(keys, "motion", motionFields());
+    addKeys(keys, "motion", headMotionFields());
+    keys.push_back({"motion", "key"});
+    keys.push_back({"motion", "roots"});
+    addKeys(keys, "motion.key", keyframeFields());
+    addKeys(keys, "motion.roots", rootsFields());
+    addKeys(keys, "simulation", simulationFields());
+    addKeys(keys, "contacts", contactFields());
+    addKeys(keys, "air", airFields());
+    addKeys(keys, "body", bodyFields());
+    keys.push_back({"body", "moves"});
+    addKeys(keys, "body.moves", motionFields());
+    keys.push_back({"body.moves", "key"});
+    addKeys(keys, "body.moves.key", keyframeFields());
+    addKeys(keys, "output", outputFields());
+    return keys;
+  }();
+  return all;
+}
+
+// "; did you mean NAME?", or nothing.
+std::string nearest(std::string_view word, const std::vector<std::string>& names) {
+  const std::size_t index = nearestName(word, names);
+  return index < names.size() ? fmt::format("; did you mean {}?", names[index]) : "";
+}
+
+std::string oneOf(const std::string& choices, std::string_view word) {
+  return fmt::format("one of {}{}", choices, nearest(word, namesIn(choices)));
+}
+
+bool isAmong(const std::string& name, const std::string& list) {
+  const auto names = namesIn(list);
+  return std::ranges::find(names, name) != names.end();
+}
+
+// As many numbers as an array holds, all in a range; nothing for anything else.
+template <std::size_t count>
+std::optional<std::array<double, count>> numbersOf(const toml::node& node, const NumberRange& allowed) {
+  const toml::array* list = node.as_array();
+  if (!list || list->size() != count) return std::nullopt;
+  std::array<double, count> numbers{};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(*list)[i].is_number()) return std::nullopt;
+    numbers[i] = (*list)[i].template value<double>().value_or(NAN);
+    if (!allowed.contains(numbers[i])) return std::nullopt;
+  }
+  return numbers;
+}
+
+template <class T>
+struct Unwrapped {
+  using Type = T;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> {
+  using Type = T;
+};
+
+// Walks a parsed file.
+class SceneReader {
+ public:
+  SceneReader(const std::string& name, const std::filesystem::path& folder) : name_(name), folder_(folder) {}
+
+  Result<SceneFile> read(const toml::table& file) {
+    SceneFile scene;
+    problems_.addUnknownKeys(file, "", knownKeys());
+    readGroom(file, scene.groom);
+    readMaterial(file, scene);
+    if (const toml::table* table = tableOf(file, "", "motion")) readHeadMotion(*table, scene.motion);
+    readSimulation(file, scene.simulation);
+    if (const toml::table* table = tableOf(file, "", "contacts")) {
+      scene.contacts.on = true;
+      readFields(*table, "contacts", contactFields(), scene.contacts);
+    }
+    if (const toml::table* table = tableOf(file, "", "air")) {
+      scene.air.on = true;
+      readFields(*table, "air", airFields(), scene.air);
+    }
+    for (const toml::table* table : tablesOf(file, "", "body")) {
+      scene.bodies.emplace_back();
+      readBody(*table, scene, scene.bodies.back());
+    }
+    if (const toml::table* table = tableOf(file, "", "output"))
+      readFields(*table, "output", outputFields(), scene.output);
+
+    if (!problems_.empty()) return problems_.error(name_);
+    if (!missing_.empty()) return missing_.error(name_);
+    for (const std::string& sentence : unusualNumbers(scene.material.material, scene.material.dials))
+      scene.warnings.push_back(fmt::format("{}: {}", name_, sentence));
+    return scene;
+  }
+
+ private:
+  // A table below another, its keys checked; nothing where there is none.
+  const toml::table* tableOf(const toml::table& owner, const std::string& ownerName, const char* key) {
+    const toml::node* node = owner.get(key);
+    if (!node) return nullptr;
+    const std::string name = KnownKey{ownerName, key}.fullName();
+    if (!node->is_table()) {
+      problems_.addFound(*node, name, fmt::format("a table, as in [{}]", name));
+      return nullptr;
+    }
+    if (name != "material") problems_.addUnknownKeys(*node->as_table(), name, knownKeys());
+    return node->as_table();
+  }
+
+  // Several of them, each headed by [[name]].
+  std::vector<const toml::table*> tablesOf(const toml::table& owner, const std::string& ownerName,
+                                           const char* key) {
+    const toml::node* node = owner.get(key);
+    if (!node) return {};
+    const std::string name = KnownKey{ownerName, key}.fullName();
+    std::vector<const toml::table*> tables;
+    const toml::array* list = node->as_array();
+    if (!list) problems_.addFound(*node, name, fmt::format("a list of tables, as in [[{}]]", name));
+    for (std::size_t i = 0; list && i < list->size(); ++i) {
+      const toml::node& item = (*list)[i];
+      if (!item.is_table()) {
+        problems_.addFound(item, name, fmt::format("a list of tables, as in [[{}]]", name));
+        continue;
+      }
+      problems_.addUnknownKeys(*item.as_table(), name, knownKeys());
+      tables.push_back(item.as_table());
+    }
+    return tables;
+  }
+
+  template <class Owner>
+  void readFields(const toml::table& table, const std::string& name,
+                  std::span<const SceneField<Owner>> fields, Owner& owner) {
+    for (const SceneField<Owner>& field : fields) {
+      const toml::node* node = table.get(field.key);
+      if (!node) continue;
+      const std::string key = KnownKey{name, field.key}.fullName();
+      std::visit(
+          [&](auto member) {
+            using Value = typename Unwrapped<std::remove_reference_t<decltype(owner.*member)>>::Type;
+            if (std::optional<Value> value = valueOf<Value>(*node, field.allowed, field.choices)) {
+              owner.*member = std::move(*value);
+              return;
+            }
+            const auto* text = node->as_string();
+            const bool mayBeNear = text && !field.choices.empty() && std::is_same_v<Value, std::string>;
+            problems_.addFound(*node, key, mayBeNear ? oneOf(field.choices, text->get()) : expectedOf(field));
+          },
+          field.member);
+    }
+  }
+
+  // What a node says, if it is of that type and range.
+  template <class Value>
+  std::optional<Value> valueOf(const toml::node& node, const NumberRange& allowed,
+                               const std::string& choices) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      return node.value_exact<bool>();
+    } else if constexpr (std::is_integral_v<Value>) {
+      const auto number = node.value_exact<std::int64_t>();
+      if (!number || !allowed.contains(static_cast<double>(*number))) return std::nullopt;
+      return static_cast<Value>(*number);
+    } else if constexpr (std::is_same_v<Value, double>) {
+      const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+      return number && allowed.contains(*number) ? number : std::nullopt;
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+      auto text = node.value_exact<std::string>();
+      return text && !text->empty() && (choices.empty() || isAmong(*text, choices)) ? text : std::nullopt;
+    } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+      const auto text = node.value_exact<std::string>();
+      if (!text || text->empty()) return std::nullopt;
+      return folder_ / *text;
+    } else if constexpr (std::is_same_v<Value, Vec3d>) {
+      const auto numbers = numbersOf<3>(node, allowed);
+      if (!numbers) return std::nullopt;
+      return Vec3d{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+    } else if constexpr (std::is_same_v<Value, Quatd>) {
+      const auto numbers = numbersOf<4>(node, allowed);
+      if (!numbers) return std::nullopt;
+      return Quatd{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+    } else {
+      static_assert(std::is_same_v<Value, std::vector<std::string>>);
+      const toml::array* list = node.as_array();
+      if (!list) return std::nullopt;
+      std::vector<std::string> texts;
+      for (const toml::node& item : *list) {
+        auto text = valueOf<std::string>(item, allowed, choices);
+        if (!text) return std::nullopt;
+        texts.push_back(std::move(*text));
+      }
+      return texts;
+    }
+  }
+
+  // Keys that only others have: `mode` is the kind, shape or source of this one ("" where that is wrong
+  // already), `what` says of what.
+  template <class Owner>
+  void refuseForeign(const toml::table& table, const std::string& name,
+                     std::span<const SceneField<Owner>> fields, const std::string& mode,
+                     const std::string& what) {
+    if (mode.empty()) return;
+    for (const SceneField<Owner>& field : fields) {
+      const toml::node* node = table.get(field.key);
+      if (!node || field.onlyWith.empty() || isAmong(mode, field.onlyWith)) continue;
+      problems_.add(
+          lineOf(*node),
+          fmt::format("found {} with {} {}; only {} {} it", KnownKey{name, field.key}.fullName(), what, mode,
+                      field.onlyWith, namesIn(field.onlyWith).size() > 1 ? "have" : "has"));
+    }
+  }
+
+  void readGroom(const toml::table& file, SceneGroom& groom) {
+    const toml::table* table = tableOf(file, "", "groom");
+    if (!table) {
+      if (!file.get("groom"))
+        missing_.add(1, "found no groom; expected [groom], with file or generate, the name of a generator");
+      return;
+    }
+    readFields(*table, "groom", groomFields(), groom);
+    const toml::node *path = table->get("file"), *generator = table->get("generate");
+    if (path && generator) {
+      problems_.add(std::max(lineOf(*path), lineOf(*generator)),
+                    "found groom.file and groom.generate; expected one of the two");
+    } else if (!path && !generator) {
+      missing_.add(lineOf(*table), "found neither groom.file nor groom.generate; expected one of the two");
+    } else {
+      refuseForeign(*table, "groom", groomFields(), path ? "file" : groom.generate, "a groom from");
+    }
+  }
+
+  void readMaterial(const toml::table& file, SceneFile& scene) {
+    const toml::table* table = tableOf(file, "", "material");
+    if (!table) return;
+    scene.hasMaterial = true;
+    problems_.addUnknownKeys(*table, "material", knownKeys());
+    if (const toml::node* node = table->get("file")) {
+      const auto path = valueOf<std::filesystem::path>(*node, {}, "");
+      if (!path) {
+        problems_.addFound(*node, "material.file", "a path");
+      } else if (const toml::node* preset = table->get("preset")) {
+        problems_.add(std::max(lineOf(*node), lineOf(*preset)),
+                      "found material.file and material.preset; expected one of the two");
+      } else if (auto loaded = ringlet::readMaterial(*path)) {
+        scene.material = std::move(*loaded);
+        scene.material.warnings.clear();  // told of the whole below
+      } else {
+        problems_.add(lineOf(*node), loaded.error().message);
+      }
+    }
+    readMaterialTable(*table, "material", scene.material, problems_);
+  }
+
+  void readHeadMotion(const toml::table& table, SceneMotion& motion) {
+    readMotion(table, "motion", motion, false);
+    readFields(table, "motion", headMotionFields(), motion);
+    if (const toml::table* roots = tableOf(table, "motion", "roots"))
+      readFields(*roots, "motion.roots", rootsFields(), motion.roots);
+  }
+
+  // mustMove: there has to be a kind, a file or keys.
+  void readMotion(const toml::table& table, const std::string& name, SceneMotion& motion, bool mustMove) {
+    motion.kind.clear();
+    readFields(table, name, motionFields(), motion);
+    for (const toml::table* key : tablesOf(table, name, "key")) readKeyframe(*key, name + ".key", motion);
+
+    const toml::node *kind = table.get("kind"), *path = table.get("file"), *keys = table.get("key");
+    const int count = (kind ? 1 : 0) + (path ? 1 : 0) + (keys ? 1 : 0);
+    if (count > 1) {
+      const toml::node& second = *(keys ? keys : path);
+      problems_.add(lineOf(second), fmt::format("found two ways for {} to move; expected {}",
+                                                name == "motion" ? "the head" : "the body", kThreeMotions));
+      return;
+    }
+    if (count == 0) {
+      // What is left says how, but not what.
+      const toml::node* stray = nullptr;
+      for (const auto& field : motionFields()) {
+        if (const toml::node* node = table.get(field.key); node && !field.onlyWith.empty() && !stray)
+          stray = node;
+      }
+      if (stray || mustMove)
+        missing_.add(lineOf(stray ? *stray : table),
+                     fmt::format("found no way to move in [{}]; expected {}", name, kThreeMotions));
+      motion.kind = "still";
+      return;
+    }
+    if (keys && motion.keys.empty())
+      problems_.addFound(*keys, name + ".key", fmt::format("at least one key, as in [[{}.key]]", name));
+    refuseForeign(table, name, motionFields(), kind ? motion.kind : path ? "file" : "keys", "a motion by");
+    if (motion.axis && !(length(*motion.axis) > 0))
+      problems_.addFound(*table.get("axis"), name + ".axis", "a direction, whose length is above 0");
+  }
+
+  void readKeyframe(const toml::table& table, const std::string& name, SceneMotion& motion) {
+    SceneKeyframe key;
+    readFields(table, name, keyframeFields(), key);
+    const std::string which = fmt::format("key {} of {}", motion.keys.size() + 1, name);
+    const toml::node* time = table.get("time");
+    if (!time) {
+      missing_.add(lineOf(table), fmt::format("found no time of {}; expected one, in seconds", which));
+    } else if (!motion.keys.empty() && !(key.time > motion.keys.back().time)) {
+      problems_.add(lineOf(*time), fmt::format("found the time {} of {}; expected one after that of the key "
+                                               "before, {}",
+                                               key.time, which, motion.keys.back().time));
+    }
+    if (const toml::node* quaternion = table.get("quaternion")) {
+      const Quatd q = key.quaternion.value_or(Quatd{});
+      if (table.get("rotate_degrees")) {
+        problems_.add(
+            std::max(lineOf(*quaternion), lineOf(*table.get("rotate_degrees"))),
+            fmt::format("found a quaternion and rotate_degrees of {}; expected one of the two", which));
+      } else if (!(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w > 0)) {
+        problems_.addFound(*quaternion, name + ".quaternion", "[x, y, z, w], of a length above 0");
+      }
+    }
+    motion.keys.push_back(key);
+  }
+
+  void readSimulation(const toml::table& file, SceneSimulation& simulation) {
+    const toml::table* table = tableOf(file, "", "simulation");
+    if (!table) return;
+    readFields(*table, "simulation", simulationFields(), simulation);
+    const toml::node *frames = table->get("frames"), *seconds = table->get("seconds");
+    if (frames && seconds) {
+      problems_.add(std::max(lineOf(*frames), lineOf(*seconds)),
+                    "found simulation.frames and simulation.seconds; expected one of the two");
+    }
+    refuseForeign(*table, "simulation", simulationFields(), simulation.integrator, "the integrator");
+  }
+
+  void readBody(const toml::table& table, const SceneFile& scene, SceneBody& body) {
+    readFields(table, "body", bodyFields(), body);
+    if (!table.get("shape")) {
+      missing_.add(lineOf(table), fmt::format("found a body without a shape; expected shape = one of {}",
+                                              bodyFields()[1].choices));
+    }
+    refuseForeign(table, "body", bodyFields(), body.shape, "the shape");
+    const toml::node *path = table.get("file"), *generator = table.get("generate");
+    if (body.shape == "mesh" && !path == !generator) {
+      (path ? problems_ : missing_)
+          .add(lineOf(path ? *path : table),
+               fmt::format("found a mesh with {}; expected one of file and generate",
+                           path ? "both a file and a generator" : "neither a file nor a generator"));
+    }
+    readMoves(table, scene, body);
+  }
+
+  // "head", "still", or a motion of its own; or a joint.
+  void readMoves(const toml::table& table, const SceneFile& scene, SceneBody& body) {
+    const toml::node *moves = table.get("moves"), *joint = table.get("joint");
+    if (moves && joint) {
+      problems_.add(std::max(lineOf(*moves), lineOf(*joint)),
+                    "found body.moves and body.joint; expected one of the two");
+    } else if (joint && scene.motion.file.empty()) {
+      problems_.add(lineOf(*joint), "found body.joint, but the head follows no file; expected motion.file");
+    }
+    if (!moves) return;
+    if (const auto* text = moves->as_string(); text && text->get() == "still") {
+      body.motion = SceneMotion{.kind = "still"};
+    } else if (moves->is_table()) {
+      problems_.addUnknownKeys(*moves->as_table(), "body.moves", knownKeys());
+      readMotion(*moves->as_table(), "body.moves", body.motion.emplace(), true);
+    } else if (!text || text->get() != "head") {
+      problems_.addFound(*moves, "body.moves",
+                         "\"head\", \"still\" or a motion, as in { kind = \"spin\" }" +
+                             nearest(text ? text->get() : "", {"head", "still"}));
+    }
+  }
+
+  const std::string& name_;
+  const std::filesystem::path& folder_;
+  TomlProblems problems_, missing_;  // what is missing may be there, but mistyped: it is told last
+};
+
+}  // namespace
+
+bool isSceneFile(const std::filesystem::path& path) { return isMaterialFile(path); }
+
+Result<SceneFile> parseScene(std::string_view text, const std::string& name,
+                             const std::filesystem::path& folder) {
+  const auto file = parseToml(text, name, kWhat);
+  if (!file) return file.error();
+  return SceneReader(name, folder).read(*file);
+}
+
+Result<SceneFile> readScene(const std::filesystem::path& path) {
+  const auto text = readTomlText(path, kWhat);
+  if (!text) return text.error();
+  return parseScene(*text, path.string(), path.parent_path());
+}
+
+}  // namespace ringlet

@@ -1,0 +1,181 @@
+// Scene files: TOML that says all of a simulation, the groom, what it is made of, how the head moves, bodies,
+// air, and what is written. `ringlet scene --keys` prints every key; they stand in scene_fields.cpp, once.
+//
+//     [groom]
+//     file = "head.obj"           # paths are relative to the scene file
+//
+//     [material]                  # all that a material file may hold
+//     preset = "ringlet"
+//
+//     [motion]
+//     kind = "nod"
+//
+//     [[body]]
+//     shape = "sphere"
+//     radius = 0.088
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/groom/generate.h"
+#include "ringlet/rest/material_file.h"
+#include "ringlet/scene/air.h"
+#include "ringlet/scene/contact_settings.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet {
+
+/// Where the hair comes from, and where in the head's frame it is. Names are those of the file's keys.
+struct SceneGroom {
+  std::filesystem::path file;
+  std::string generate;  // curl, swatch or head, in place of a file
+
+  // Generated (groom/generate.h).
+  int strands = HeadParameters{}.strandCount, particles = CurlParameters{}.particleCount;
+  int columns = SwatchParameters{}.columnCount, rows = SwatchParameters{}.rowCount;
+  double radius = CurlParameters{}.radius, turns = CurlParameters{}.turns, length = CurlParameters{}.length;
+  double phase = CurlParameters{}.phase;
+  std::string hand = "right";
+  double spacing = SwatchParameters{}.spacing, scalpRadius = HeadParameters{}.scalpRadius;
+  double varyRadius = Variation{}.radius, varyLength = Variation{}.length, varyPhase = Variation{}.phase;
+  double otherHand = Variation{}.leftHandedShare;
+  std::uint32_t seed = 1;
+
+  double metresPerUnit = 0.01;
+  std::string up = "Y";  // or Z
+
+  // Into the head's frame: scaled, then turned, then moved.
+  double scale = 1;
+  Vec3d rotateDegrees{}, offset{};  // [m]
+};
+
+struct SceneKeyframe {
+  double time = 0;   // [s]
+  Vec3d position{};  // [m]
+  std::optional<Vec3d> rotateDegrees{};
+  std::optional<Quatd> quaternion{};  // in its place, of any length above 0
+};
+
+/// Roots that move beside the head (scene/motion.h).
+struct SceneRoots {
+  Vec3d shift{};  // of the roots of the first half of the strands; the others' go the other way [m]
+  double frequency = 0, easeSeconds = 1, untilSeconds = 0;
+};
+
+/// One of three: a built-in motion, a file, keys. What is unset is the built-in motion's own.
+struct SceneMotion {
+  std::string kind{};
+  std::optional<double> amplitude{}, frequency{}, easeSeconds{}, untilSeconds{};
+  std::optional<Vec3d> axis{};
+
+  std::filesystem::path file{};
+  std::string joint = "Head";
+  std::string animation{};  // of a glTF file: a name or a number; empty: the first
+  std::optional<double> metresPerUnit{};
+  int skipFrames = 0;
+
+  std::vector<SceneKeyframe> keys{};  // by rising time
+  std::string interpolation = "cubic";
+
+  Vec3d start{};  // [m], added to all
+
+  // Of the head's only.
+  double preRollSeconds = 0;
+  SceneRoots roots{};
+};
+
+struct SceneSimulation {
+  double framesPerSecond = Settings{}.framesPerSecond;
+  std::optional<int> frames;
+  std::optional<double> seconds;  // in its place
+  std::optional<int> stepsPerFrame;
+  double gravity = 9.81;  // downwards [m/s^2]
+  std::optional<double> preload, maxStretch;
+  std::string integrator = "jacobi";
+  int roots = Settings{}.rootCount;
+  double teleportDistance = Settings{}.teleportDistance;
+  int iterations = Settings{}.pointIterations;
+  bool chebyshev = Settings{}.chebyshev;
+  int forceLoops = Settings{}.forceLoops, dampingLoops = Settings{}.dampingLoops;
+};
+
+struct SceneBody {
+  std::string name;
+  std::string shape;  // sphere, capsule, plane, box, mesh
+  double radius = 0.1, length = 0.1;
+  Vec3d halfExtents{0.1, 0.1, 0.1};
+
+  // Of a mesh.
+  std::filesystem::path file;
+  std::string generate;                 // head, in place of a file
+  std::optional<double> metresPerUnit;  // unset: the groom's
+  int cells = 64;                       // of its distance grid, along its longest side
+  double scale = 1;
+
+  double thickness = 0, friction = 0.2;
+  Vec3d position{}, rotateDegrees{};  // [m]
+
+  std::string joint;                  // of the head's motion file; or
+  std::optional<SceneMotion> motion;  // its own, in the world; neither: the head carries it
+};
+
+struct SceneOutput {
+  std::filesystem::path folder;
+  double width = 0.0005;
+  std::vector<std::string> files{"hair.usda", "last.obj", "sheet.png"};
+};
+
+/// What a file says, checked as far as one can without opening what it names (but a material's file).
+struct SceneFile {
+  SceneGroom groom;
+  LoadedMaterial material;
+  bool hasMaterial = false;  // false: the default one
+  SceneMotion motion{.kind = "still"};
+  SceneSimulation simulation;
+  ContactSettings contacts;
+  AirSettings air;
+  std::vector<SceneBody> bodies;
+  SceneOutput output;
+  std::vector<std::string> warnings;  // sentences for a person, each with the file's name
+};
+
+/// A key, as a person wants to know it.
+struct SceneKey {
+  std::string table, key;
+  std::string type;      // "number", "[x, y, z]", "one of Y, Z"
+  std::string unit;      // "" for none
+  std::string range;     // "from 0 to 1 m", "" for any
+  std::string standard;  // what holds without it, in words where it is no value
+  std::string onlyWith;  // the kinds, shapes or sources that have it, "" for all
+  std::string effect;    // one sentence
+};
+
+/// Every key but a material's own (rest/material_parameters.h), table by table.
+std::vector<SceneKey> sceneKeys();
+
+/// Whether a path names a scene file: it ends in .toml.
+bool isSceneFile(const std::filesystem::path& path);
+
+/// Paths are relative to the file. Errors, each with file and line, what was found and what was expected: no
+/// file or no TOML, an unknown key (with the nearest known one), a value of another type or out of its range,
+/// keys that make no sense together. Of several the topmost.
+Result<SceneFile> readScene(const std::filesystem::path& path);
+
+/// The same from text; `name` stands for the file in messages, paths are relative to `folder`.
+Result<SceneFile> parseScene(std::string_view text, const std::string& name,
+                             const std::filesystem::path& folder = {});
+
+/// TOML of all that is not the default, every key with its comment, below the lines of `heading`; parseScene
+/// gives back the same bits. Paths below `folder` are written relative to it. Not for a preset's or a file's
+/// name: the material's numbers stand in their place.
+std::string sceneText(const SceneFile& scene, const std::filesystem::path& folder = {},
+                      const std::string& heading = "");
+
+}  // namespace ringlet

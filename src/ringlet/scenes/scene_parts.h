@@ -1,0 +1,45 @@
+// From what a scene file states to what is stepped, as far as no other file is needed; and back, of built-in
+// scenes.
+#pragma once
+
+#include <filesystem>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/scene/body.h"
+#include "ringlet/scene/motion.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/scenes/builtin_scene.h"
+#include "ringlet/scenes/scene_file.h"
+
+namespace ringlet {
+
+/// Turned about X first, then Y, then Z, axes that stay.
+Quatd turnOfDegrees(Vec3d degrees);
+
+Vec3d upOf(const SceneGroom& groom);
+
+/// Of a groom with a generator, in its unit, not yet placed. Errors: as for makeHead.
+Result<Groom> generatedGroom(const SceneGroom& groom);
+
+/// Into the head's frame: scaled, turned, moved. One that stays where it is keeps its bits.
+void placeGroom(const SceneGroom& scene, Groom& groom);
+
+/// A built-in motion or keys, not a file's.
+Motion motionOf(const SceneMotion& motion, Vec3d up);
+
+/// Each strand's shift of its root (Simulation::setRootShifts); none where nothing shifts.
+std::vector<Vec3d> rootShiftsOf(Vec3d shift, std::size_t strandCount);
+
+/// All but framesPerSecond's company: stepsPerFrame (1 where it is to be chosen), maxStretch (the
+/// material's).
+Settings settingsOf(const SceneFile& scene);
+
+/// Everything but what must be read: `grid` of a mesh, and the motion of a joint or a file.
+Body bodyOf(const SceneBody& body, std::size_t index, Vec3d up);
+
+/// A built-in scene with its groom in a file; what the file does not hold is the sentence it shows.
+SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& groom);
+
+}  // namespace ringlet
