@@ -73,6 +73,12 @@ class Simulation {
                           : std::vector<BodyPose>(bodyPoses.begin(), bodyPoses.end());
     RINGLET_ASSERT(carried.size() == stepPoses.size() * bodies_.size(),
                    "every body has a pose in every step");
+    if (settings_.jumps(length(stepPoses.back().position - head_.position))) {
+      carryTo(stepPoses.back());
+      bodyPoses_.assign(carried.end() - static_cast<std::ptrdiff_t>(bodies_.size()), carried.end());
+      report_.steps += stepPoses.size();
+      return;
+    }
     for (std::size_t k = 0; k < stepPoses.size(); ++k)
       stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()));
   }
@@ -126,6 +132,23 @@ class Simulation {
         velocities_.push_back((now * point - before * point) / T);
       }
     }
+  }
+
+  // Rigidly: seen from the head, hair and head go on as they were.
+  void carryTo(const HeadPose& next) {
+    const Rotation<double> before = toEigen<double>(head_.rotation), now = toEigen<double>(next.rotation);
+    const Rotation<double> turned = (now * before.conjugate()).normalized();
+    for (Field<Real>* field : {&positions_, &velocities_}) {
+      for (Vector3<Real>& v : *field) v = (turned * v.template cast<double>()).template cast<Real>();
+    }
+    const Vector3<double> step = turned * toEigen<double>(head_.position - previousHead_.position);
+    const Rotation<double> earlier = (turned * toEigen<double>(previousHead_.rotation)).normalized();
+    previousHead_ = {next.position - Vec3d{step.x(), step.y(), step.z()},
+                     {earlier.x(), earlier.y(), earlier.z(), earlier.w()},
+                     next.shift};
+    head_ = next;
+    contacts_.live.clear();
+    contacts_.changes.clear();
   }
 
   void stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses) {

@@ -12,6 +12,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
+#include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/simulation.h"
@@ -25,14 +26,17 @@ struct BackendInput {
   const Settings& settings;
   HeadPose start, oneStepEarlier;
   std::span<const Vec3d> rootShifts;  // of each strand's root beside the head (HeadPose::shift) [m], or none
+  std::span<const Body> bodies;
+  std::span<const BodyPose> bodyStarts;  // where they are before the first step
 };
 
 class Backend {
  public:
   virtual ~Backend() = default;
 
-  /// One frame, finished when this returns; stepPoses[k] is the head's pose at the end of step k.
-  virtual Status stepFrame(std::span<const HeadPose> stepPoses) = 0;
+  /// One frame, finished when this returns; stepPoses[k] is the head's pose at the end of step k, bodyPoses
+  /// what bodyPosesOf gives for these steps.
+  virtual Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) = 0;
   /// Groom order, relative to the head's origin, along world axes [m].
   virtual Result<std::vector<Vec3f>> positions() = 0;
   virtual Result<SimulationReport> report() = 0;

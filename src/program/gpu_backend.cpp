@@ -11,7 +11,9 @@ class GpuBackend : public Backend {
   GpuBackend(ComputeDevice device, Simulation simulation)
       : device_(std::move(device)), simulation_(std::move(simulation)) {}
 
-  Status stepFrame(std::span<const HeadPose> stepPoses) override { return simulation_.stepFrame(stepPoses); }
+  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) override {
+    return simulation_.stepFrame(stepPoses, bodyPoses);
+  }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<SimulationReport> report() override { return simulation_.report(); }
   Result<ContactReport> contactReport() override { return simulation_.contactReport(); }
@@ -40,8 +42,9 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
   auto device = ComputeDevice::open(deviceChoice);
   if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
   auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
-                                       input.oneStepEarlier, kernel);
+                                       input.oneStepEarlier, kernel, input.bodies);
   if (!simulation) return simulation.error();
+  simulation->placeBodies(input.bodyStarts);
   if (!input.rootShifts.empty()) {
     if (Status shifted = simulation->setRootShifts(input.rootShifts); !shifted) return shifted.error();
   }

@@ -3,6 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <utility>
+
+#include "ringlet/bodies/head_mesh.h"
+#include "ringlet/bodies/mesh_file.h"
+#include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scenes/scene_parts.h"
@@ -10,12 +16,26 @@
 namespace ringlet::program {
 namespace {
 
-// TO BE FILLED IN when mesh bodies come: reads or generates the mesh of `scene` (file or generate, scale, and
-// metresPerUnit, which where it is unset is `groom`'s), makes its distance grid of scene.cells along its
-// longest side and gives it to `body`, which has all the rest.
-Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, Body& body) {
-  static_cast<void>(scene), static_cast<void>(groom), static_cast<void>(body);
-  return Error{"mesh bodies are not built in yet"};
+// The distance grid of a mesh, read or made.
+Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, Body& body,
+                    std::vector<std::string>& warnings) {
+  TriangleMesh mesh;
+  if (scene.generate == "head") {
+    HeadParameters head;
+    head.scalpRadius = groom.scalpRadius;
+    mesh = makeHeadMesh(head);
+  } else {
+    auto read = readObjMesh(scene.file, scene.metresPerUnit.value_or(groom.metresPerUnit));
+    if (!read) return read.error();
+    mesh = std::move(*read);
+  }
+  for (Vec3d& point : mesh.points) point = point * scene.scale;
+  auto made = makeDistanceGrid(mesh, {.cells = scene.cells});
+  if (!made) return made.error();
+  for (const std::string& warning : made->warnings)
+    warnings.push_back(fmt::format("the body {}: {}", body.name, warning));
+  body.grid = std::make_shared<const DistanceGrid>(std::move(made->grid));
+  return {};
 }
 
 // The way of a joint or of a body's own file.
@@ -72,7 +92,7 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, std::vector<std::st
     const SceneBody& stated = scene.bodies[i];
     Body body = bodyOf(stated, i, upOf(scene.groom));
     Status loaded = loadMotion(stated, scene, body, warnings);
-    if (loaded && stated.shape == "mesh") loaded = loadMeshBody(stated, scene.groom, body);
+    if (loaded && stated.shape == "mesh") loaded = loadMeshBody(stated, scene.groom, body, warnings);
     if (!loaded) return Error{fmt::format("the body {}: {}", body.name, loaded.error().message)};
     bodies.push_back(std::move(body));
   }

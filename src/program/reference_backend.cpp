@@ -17,13 +17,15 @@ class ReferenceBackend : public Backend {
   ReferenceBackend(const BackendInput& input, const ContactReport& atRest, std::vector<std::string> warnings)
       : warnings_(std::move(warnings)),
         contactsAtRest_(atRest),
-        simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier) {
+        simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier, {},
+                    input.bodies) {
+    simulation_.placeBodies(input.bodyStarts);
     if (!input.rootShifts.empty()) simulation_.setRootShifts(input.rootShifts);
   }
 
-  Status stepFrame(std::span<const HeadPose> stepPoses) override {
+  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) override {
     const auto start = std::chrono::steady_clock::now();
-    simulation_.stepFrame(stepPoses);
+    simulation_.stepFrame(stepPoses, bodyPoses);
     milliseconds_ +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return {};
@@ -75,6 +77,11 @@ class ReferenceBackend : public Backend {
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input) {
+  for (const Body& body : input.bodies) {
+    if (Status checked = checkBody(body); !checked) return checked.error();
+  }
+  if (!input.bodies.empty() && input.settings.integrator != Integrator::jacobi)
+    return Error{kBodiesNeedJacobi};
   auto rest = buildRestState(input.groom, input.material, input.settings);
   if (!rest) return rest.error();
   ContactReport contacts;

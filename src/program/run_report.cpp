@@ -79,6 +79,11 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["velocity_residual"] =
       outcome.velocityResidual ? nlohmann::ordered_json(*outcome.velocityResidual) : nlohmann::ordered_json();
   addContactKeys(json, outcome);
+  json["deepest_penetration_mm"] = outcome.bodyNumbers
+                                       ? nlohmann::ordered_json(1000 * outcome.bodyNumbers->deepest)
+                                       : nlohmann::ordered_json();
+  json["inside_bodies"] =
+      outcome.bodyNumbers ? nlohmann::ordered_json(outcome.bodyNumbers->inside) : nlohmann::ordered_json();
   json["device"] = outcome.device;
   json["driver"] = outcome.driver;
   json["kernel"] = outcome.kernel;
@@ -110,6 +115,15 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
       fmt::format("  longest edge  {:.4f} x its length in the groom; the limit touched {:.3g} % of edges\n",
                   outcome.report.maxEdgeStretch, 100 * outcome.report.limitedShare);
   text += contactText(outcome, settings.contacts);
+  if (const auto& bodies = outcome.bodyNumbers) {
+    text += fmt::format("  bodies        deepest {:.3g} mm", 1000 * bodies->deepest);
+    if (bodies->strand >= 0)
+      text += fmt::format(" (strand {} particle {}, frame {})", bodies->strand, bodies->particle,
+                          bodies->frame + 1);
+    text += bodies->inside > 0
+                ? fmt::format("; {} particles began inside and are there still\n", bodies->inside)
+                : "\n";
+  }
   for (const auto& path : outcome.outputs) {
     text += fmt::format("  {}  {}\n", path == outcome.outputs.front() ? "written     " : "            ",
                         path.string());

@@ -41,14 +41,34 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The head's pose at the end of every step of a frame (0 is the first); times are exact quotients, so they do
-// not drift.
-std::vector<HeadPose> posesOfFrame(const Motion& motion, const Settings& settings, int frame) {
-  std::vector<HeadPose> poses;
+// Where head and bodies are at the end of every step of a frame.
+struct FramePoses {
+  std::vector<HeadPose> heads;
+  std::vector<BodyPose> bodies;  // as bodyPosesOf gives them
+
+  /// Steps [first, first + count) of them.
+  Status step(Backend& backend, std::size_t first, std::size_t count) const {
+    const std::size_t each = bodies.size() / heads.size();
+    return backend.stepFrame(std::span(heads).subspan(first, count),
+                             std::span(bodies).subspan(first * each, count * each));
+  }
+  Status step(Backend& backend) const { return step(backend, 0, heads.size()); }
+  std::span<const BodyPose> bodiesAtEnd() const {
+    return std::span(bodies).last(bodies.size() / heads.size());
+  }
+};
+
+// Times are exact quotients, so they do not drift.
+FramePoses posesOfFrame(const RunInput& input, int frame) {
+  const Settings& settings = input.settings;
+  FramePoses poses;
+  std::vector<double> times;
   for (int step = 1; step <= settings.stepsPerFrame; ++step) {
     const double steps = static_cast<double>(frame) * settings.stepsPerFrame + step;
-    poses.push_back(motion.poseAt(steps / (settings.framesPerSecond * settings.stepsPerFrame)));
+    times.push_back(steps / (settings.framesPerSecond * settings.stepsPerFrame));
+    poses.heads.push_back(input.motion.poseAt(times.back()));
   }
+  poses.bodies = bodyPosesOf(input.bodies, poses.heads, times);
   return poses;
 }
 
@@ -60,10 +80,11 @@ std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head
   return points;
 }
 
-// The paper's loops solve no system, contacts one of other terms, and the reference does not measure.
+// The paper's loops solve no system; contacts, air and bodies have one of other terms; the reference does not
+// measure.
 bool measuresResidual(const RunInput& input, const RunOptions& options) {
   return options.kernel.residual && !options.onReference && !input.settings.contacts.on &&
-         input.settings.integrator != Integrator::paper;
+         !input.settings.air.on && input.bodies.empty() && input.settings.integrator != Integrator::paper;
 }
 
 // The same steps, each a frame of its own: so that each can be looked at.
@@ -81,12 +102,11 @@ int preRollFrames(const RunInput& input, const RunOptions& options) {
 Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOptions& options) {
   const double start = -preRollFrames(input, options) / input.settings.framesPerSecond;
   const Settings settings = options.measuresContacts ? stepByStep(input.settings) : input.settings;
-  const BackendInput made{input.groom,
-                          input.material,
-                          settings,
-                          input.motion.poseAt(start),
-                          input.motion.poseAt(start - settings.stepSeconds()),
-                          input.rootShifts};
+  const HeadPose head = input.motion.poseAt(start);
+  const std::vector<BodyPose> bodies = bodyPosesOf(input.bodies, std::span(&head, 1), std::span(&start, 1));
+  const BackendInput made{
+      input.groom,      input.material, settings, head, input.motion.poseAt(start - settings.stepSeconds()),
+      input.rootShifts, input.bodies,   bodies};
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
@@ -96,11 +116,10 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
 // The motion up to the first frame, so that hair begins it as it moves.
 Status preRoll(Backend& backend, const RunInput& input, const RunOptions& options) {
   for (int frame = -preRollFrames(input, options); frame < 0 && !wasInterrupted(); ++frame) {
-    const std::vector<HeadPose> poses = posesOfFrame(input.motion, input.settings, frame);
-    const std::size_t together = options.measuresContacts ? 1 : poses.size();  // as makeBackend says
-    for (std::size_t step = 0; step < poses.size(); step += together) {
-      if (Status stepped = backend.stepFrame(std::span(poses).subspan(step, together)); !stepped)
-        return stepped;
+    const FramePoses poses = posesOfFrame(input, frame);
+    const std::size_t together = options.measuresContacts ? 1 : poses.heads.size();  // as makeBackend says
+    for (std::size_t step = 0; step < poses.heads.size(); step += together) {
+      if (Status stepped = poses.step(backend, step, together); !stepped) return stepped;
     }
   }
   return {};
@@ -119,15 +138,15 @@ class Stepper {
     return stepper;
   }
 
-  Status stepFrame(std::span<const HeadPose> poses) {
+  Status stepFrame(const FramePoses& poses) {
     if (!watch_) {
       Stopwatch stopwatch(stepping_);
-      return backend_->stepFrame(poses);
+      return poses.step(*backend_);
     }
-    for (std::size_t step = 0; step < poses.size(); ++step) {
+    for (std::size_t step = 0; step < poses.heads.size(); ++step) {
       {
         Stopwatch stopwatch(stepping_);
-        if (Status stepped = backend_->stepFrame(poses.subspan(step, 1)); !stepped) return stepped;
+        if (Status stepped = poses.step(*backend_, step, 1); !stepped) return stepped;
       }
       if (Status seen = look(); !seen) return seen;
     }
@@ -260,14 +279,16 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   if (!stepper) return stepper.error();
 
   // Frames, until all are done or Ctrl-C comes.
-  double readback = 0, writing = 0;  // [ms]
+  double readback = 0, writing = 0, watching = 0;  // [ms]
+  std::optional<BodyWatch> bodyWatch;
+  if (!input.bodies.empty()) bodyWatch.emplace(groom, input.bodies, input.settings.rootCount);
   std::size_t mostReplaced = 0;
   std::vector<Vec3f> positions;
   {
     ProgressBar progress(options.frameCount, options.showProgress);
     for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
       progress.show(frame);
-      const std::vector<HeadPose> poses = posesOfFrame(input.motion, input.settings, frame);
+      const FramePoses poses = posesOfFrame(input, frame);
       if (Status stepped = stepper->stepFrame(poses); !stepped)
         return afterFrames(frame, stepped.error(), options);
       {
@@ -276,11 +297,15 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
         if (!read) return afterFrames(frame, read.error(), options);
         positions = std::move(*read);
       }
+      if (bodyWatch) {
+        Stopwatch watch(watching);
+        bodyWatch->look(positions, poses.heads.back(), poses.bodiesAtEnd());
+      }
       Stopwatch watch(writing);
-      std::vector<Vec3f> points = toFile(positions, poses.back(), groom.metresPerUnit);
+      std::vector<Vec3f> points = toFile(positions, poses.heads.back(), groom.metresPerUnit);
       mostReplaced = std::max(mostReplaced, replaceNonfinite(groom, points));
       if (observer) {
-        if (Status seen = observer(points, poses.back()); !seen)
+        if (Status seen = observer(points, poses.heads.back()); !seen)
           return afterFrames(frame, seen.error(), options);
       }
       if (writers) {
@@ -314,6 +339,10 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   for (const auto& [stage, milliseconds] : stagesBefore) outcome.stages[stage] -= milliseconds;
   outcome.stages["readback"] = readback;
   outcome.stages["write"] = writing;
+  if (bodyWatch) {
+    outcome.stages["measure_bodies"] = watching;
+    outcome.bodyNumbers = bodyWatch->numbers();
+  }
   if (Status told = stepper->tell(outcome); !told) return told.error();
   const double frames = std::max(outcome.frameCount, 1);
   for (auto& [stage, milliseconds] : outcome.stages) milliseconds /= frames;
@@ -321,6 +350,14 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   outcome.warnings = stepper->warnings();
   for (const std::string& message : (*backend)->deviceMessages()) outcome.warnings.push_back(message);
   return outcome;
+}
+
+// Where keys are further apart than a head goes, it jumps: on a smooth way it would only be fast.
+static void cutJumps(const Settings& settings, Motion& motion) {
+  if (!motion.keyframes || settings.teleportDistance <= 0) return;
+  Keyframes keys = *motion.keyframes;
+  keys.cutSpeed = settings.teleportDistance * settings.framesPerSecond;
+  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
 }
 
 Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
@@ -339,6 +376,7 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
     options.motion.start = stated.start;
     options.motion.roots = stated.roots;
   }
+  cutJumps(settings, options.motion);
   if (options.choosesFrames && options.motion.keyframes) {
     const double frames = options.motion.keyframes->seconds() * settings.framesPerSecond;
     options.frameCount = static_cast<int>(std::clamp(frames + 1e-6, 1.0, 1e6));

@@ -13,6 +13,7 @@
 #include "program/material_command.h"
 #include "program/motion_file.h"
 #include "ringlet/base/result.h"
+#include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/body.h"
@@ -64,6 +65,7 @@ struct SimulateOutcome {
   std::optional<ContactReport> contacts;   // where they are on; contacts and momentumError of the worst frame
                                            // where contacts are measured, else of the last
   std::optional<ContactNumbers> contactNumbers;  // where they are measured
+  std::optional<BodyNumbers> bodyNumbers;        // where there are bodies; of every frame
   std::string device, driver, kernel;
   std::string positionsHash;  // of the last frame
   bool interrupted = false;

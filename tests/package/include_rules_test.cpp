@@ -51,10 +51,10 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"bodies", {"base", "groom", "scene", "bodies"}},
       {"motion", {"base", "groom", "scene", "motion"}},
       {"rest", {"base", "groom", "scene", "rest"}},
-      {"scenes", {"base", "groom", "scene", "rest", "scenes"}},
+      {"scenes", {"base", "groom", "scene", "rest", "bodies", "scenes"}},
       {"gpu", {"base", "gpu"}},
       {"solver", {"base", "groom", "scene", "rest", "gpu", "solver"}},
-      {"measure", {"base", "groom", "rest", "scene", "measure"}},
+      {"measure", {"base", "groom", "rest", "scene", "bodies", "measure"}},
       {"output", {"base", "groom", "gpu", "output"}},
   };
   for (const auto& entry : fs::directory_iterator(kRoot / "src/ringlet")) {

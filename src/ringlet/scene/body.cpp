@@ -1,9 +1,43 @@
 // Implements scene/body.h.
 #include "ringlet/scene/body.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "ringlet/base/assert.h"
 
 namespace ringlet {
+
+Status checkBody(const Body& body) {
+  const auto fail = [&](const std::string& what) {
+    return Error{fmt::format("the body {} {}", body.name.empty() ? "without a name" : body.name, what)};
+  };
+  const bool isRound = body.shape == BodyShape::sphere || body.shape == BodyShape::capsule;
+  if (isRound && !(body.radius > 0 && body.radius <= 1000))
+    return fail(fmt::format("has a radius of {} m; it takes more than 0 and at most 1000", body.radius));
+  if (body.shape == BodyShape::capsule && !(body.length >= 0 && body.length <= 1000))
+    return fail(fmt::format("has a length of {} m; it takes 0 to 1000", body.length));
+  const Vec3d& half = body.halfExtents;
+  if (body.shape == BodyShape::box && !(std::min({half.x, half.y, half.z}) > 0 && length(half) <= 1000))
+    return fail(fmt::format("has half extents of {} x {} x {} m; each takes more than 0, and at most 1000",
+                            half.x, half.y, half.z));
+  if (!(body.thickness >= 0 && body.thickness <= 1))
+    return fail(fmt::format("keeps hair {} m away; it takes 0 to 1", body.thickness));
+  if (!(body.friction >= 0 && body.friction <= 100))
+    return fail(fmt::format("has a friction of {}; it takes 0 to 100", body.friction));
+  if (body.shape != BodyShape::grid) return {};
+  const DistanceGrid* grid = body.grid.get();
+  if (!grid || grid->cellCount() == 0 || !(grid->cell > 0)) return fail("has no distance grid");
+  const std::size_t corners = grid->cornerIndex(grid->counts[0], grid->counts[1], grid->counts[2]) + 1;
+  if (grid->distances.size() != corners)
+    return fail(
+        fmt::format("has a distance grid of {} corners; its cells have {}", grid->distances.size(), corners));
+  for (const float distance : grid->distances)
+    if (!std::isfinite(distance)) return fail("has a distance grid with distances that are no numbers");
+  return {};
+}
 
 BodyPose Body::poseAt(double t, const HeadPose& head) const {
   const HeadPose carrier = motion ? motion->poseAt(t) : head;

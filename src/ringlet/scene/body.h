@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/scene/distance_grid.h"
 #include "ringlet/scene/head_pose.h"
@@ -43,6 +44,12 @@ struct Body {
   /// Where it is in the world, t seconds after the start, with the head at `head`.
   BodyPose poseAt(double t, const HeadPose& head) const;
 };
+
+/// Fails, with the body's name, on one that is no body: a radius of 0, a grid without cells, a number out of
+/// its range.
+Status checkBody(const Body& body);
+
+inline constexpr const char* kBodiesNeedJacobi = "bodies need the integrator jacobi; this run has another";
 
 /// poses[step * bodies.size() + body], at the end of each step: stepPoses[k] is the head's at `times[k]` [s].
 std::vector<BodyPose> bodyPosesOf(std::span<const Body> bodies, std::span<const HeadPose> stepPoses,

@@ -51,8 +51,10 @@ Numbers numbersOf(const Keyframes& keys, std::size_t k, Quatd like) {
 
 // How fast the numbers of key k change as it is passed [1/s].
 Numbers speedAt(const Keyframes& keys, std::size_t k, Quatd like) {
-  const bool isFirst = k == 0, isLast = k + 1 == keys.poses.size();
-  if ((isFirst || isLast) && keys.restsAtEnds) return {{}, {0, 0, 0, 0}};
+  const bool atStart = k == 0, atEnd = k + 1 == keys.poses.size();
+  if ((atStart || atEnd) && keys.restsAtEnds) return {{}, {0, 0, 0, 0}};
+  const bool isFirst = atStart || keys.isCut(k - 1), isLast = atEnd || keys.isCut(k);
+  if (isFirst && isLast) return {{}, {0, 0, 0, 0}};
   const auto mean = [&](std::size_t from) {
     return (numbersOf(keys, from + 1, like) + numbersOf(keys, from, like) * -1) *
            (1 / (keys.timeOf(from + 1) - keys.timeOf(from)));
@@ -77,6 +79,16 @@ HeadPose between(const Keyframes& keys, std::size_t k, double t) {
   return {at.position, normalized(at.rotation)};
 }
 
+// t seconds after key k, from which the head jumps to the next: on as it came.
+HeadPose beforeCut(const Keyframes& keys, std::size_t k, double t) {
+  HeadPose pose{keys.poses[k].position, keys.poses[k].rotation};
+  if (k > 0 && !keys.isCut(k - 1)) {
+    const double seconds = keys.timeOf(k) - keys.timeOf(k - 1);
+    pose.position += (pose.position - keys.poses[k - 1].position) * (t / seconds);
+  }
+  return pose;
+}
+
 }  // namespace
 
 HeadPose Keyframes::poseAt(double t) const {
@@ -94,6 +106,7 @@ HeadPose Keyframes::poseAt(double t) const {
     const auto next = std::upper_bound(times.begin(), times.end(), t);
     if (next == times.end()) return {poses.back().position, poses.back().rotation};
     const auto k = static_cast<std::size_t>(next - times.begin()) - 1;
+    if (isCut(k)) return beforeCut(*this, k, t - times[k]);
     return between(*this, k, t - times[k]);
   }
   const double along = t / secondsPerKey;
@@ -101,10 +114,11 @@ HeadPose Keyframes::poseAt(double t) const {
   if (!(along < last)) return {poses.back().position, poses.back().rotation};
   const auto k = static_cast<std::size_t>(along);
   const double s = along - static_cast<double>(k);
+  if (isCut(k)) return beforeCut(*this, k, s * secondsPerKey);
   if (restsAtEnds || interpolation == Interpolation::linear) return between(*this, k, s * secondsPerKey);
   const Vec3d p1 = poses[k].position, p2 = poses[k + 1].position;
-  const Vec3d p0 = k > 0 ? poses[k - 1].position : p1 * 2.0 - p2;
-  const Vec3d p3 = k + 2 < poses.size() ? poses[k + 2].position : p2 * 2.0 - p1;
+  const Vec3d p0 = k > 0 && !isCut(k - 1) ? poses[k - 1].position : p1 * 2.0 - p2;
+  const Vec3d p3 = k + 2 < poses.size() && !isCut(k + 1) ? poses[k + 2].position : p2 * 2.0 - p1;
   const Vec3d position =
       p1 +
       ((p2 - p0) + ((p0 * 2.0 - p1 * 5.0 + p2 * 4.0 - p3) + ((p1 - p2) * 3.0 + p3 - p0) * s) * s) * (0.5 * s);

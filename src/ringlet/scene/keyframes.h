@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "ringlet/scene/head_pose.h"
@@ -23,6 +24,14 @@ struct Keyframes {
   bool restsAtEnds = false;  // before the first key the head stays where it is, eases out of it and, where
                              // the way is cubic, into the last; false: it comes and goes as it will
 
+  /// From key to key faster than this the head is not seen to move: it goes on as it came until the next key,
+  /// and is there then [m/s].
+  double cutSpeed = std::numeric_limits<double>::infinity();
+
+  /// Whether the head jumps from key k to the next.
+  bool isCut(std::size_t k) const {
+    return length(poses[k + 1].position - poses[k].position) > cutSpeed * (timeOf(k + 1) - timeOf(k));
+  }
   /// When pose k is reached [s].
   double timeOf(std::size_t k) const {
     return times.empty() ? secondsPerKey * static_cast<double>(k) : times[k];

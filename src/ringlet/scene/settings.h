@@ -33,6 +33,8 @@ struct Settings {
   ContactSettings contacts;     // between strands; jacobi only
   AirSettings air;              // jacobi only
 
+  /// Of a head that goes from here to there in one frame.
+  bool jumps(double distance) const { return teleportDistance > 0 && distance > teleportDistance; }
   double stepSeconds() const { return 1 / (framesPerSecond * stepsPerFrame); }
 };
 

@@ -425,7 +425,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        "",
        "Of the mesh's distance grid, along its longest side: more is finer and slower to make.",
        &B::cells,
-       {4, 512},
+       {8, 256},
        "",
        "mesh"},
       {"scale", "1", "", "Size of the mesh, a factor on the file's.", &B::scale, {1e-6, 1e6}, "", "mesh"},

@@ -23,35 +23,6 @@ layout::vec4 packed(Vec3d v, double w = 0) {
 }
 layout::vec4 packed(Quatd q) { return packed(Vec3d{q.x, q.y, q.z}, q.w); }
 
-Status checkBody(const Body& body) {
-  const auto fail = [&](const std::string& what) {
-    return Error{fmt::format("the body {} {}", body.name.empty() ? "without a name" : body.name, what)};
-  };
-  const bool isRound = body.shape == BodyShape::sphere || body.shape == BodyShape::capsule;
-  if (isRound && !(body.radius > 0 && body.radius <= 1000))
-    return fail(fmt::format("has a radius of {} m; it takes more than 0 and at most 1000", body.radius));
-  if (body.shape == BodyShape::capsule && !(body.length >= 0 && body.length <= 1000))
-    return fail(fmt::format("has a length of {} m; it takes 0 to 1000", body.length));
-  const Vec3d& half = body.halfExtents;
-  if (body.shape == BodyShape::box && !(std::min({half.x, half.y, half.z}) > 0 && length(half) <= 1000))
-    return fail(fmt::format("has half extents of {} x {} x {} m; each takes more than 0, and at most 1000",
-                            half.x, half.y, half.z));
-  if (!(body.thickness >= 0 && body.thickness <= 1))
-    return fail(fmt::format("keeps hair {} m away; it takes 0 to 1", body.thickness));
-  if (!(body.friction >= 0 && body.friction <= 100))
-    return fail(fmt::format("has a friction of {}; it takes 0 to 100", body.friction));
-  if (body.shape != BodyShape::grid) return {};
-  const DistanceGrid* grid = body.grid.get();
-  if (!grid || grid->cellCount() == 0 || !(grid->cell > 0)) return fail("has no distance grid");
-  const std::size_t corners = grid->cornerIndex(grid->counts[0], grid->counts[1], grid->counts[2]) + 1;
-  if (grid->distances.size() != corners)
-    return fail(
-        fmt::format("has a distance grid of {} corners; its cells have {}", grid->distances.size(), corners));
-  for (const float distance : grid->distances)
-    if (!std::isfinite(distance)) return fail("has a distance grid with distances that are no numbers");
-  return {};
-}
-
 layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
   layout::BodyRest rest{};
   rest.friction = static_cast<float>(body.friction);
@@ -181,6 +152,12 @@ void DeviceWorld::writeFrame(std::span<const HeadPose> heads, std::span<const Bo
       now_[b] = next;
     }
   }
+}
+
+void DeviceWorld::endFrame(const HeadPose& head, std::span<const BodyPose> poses) {
+  const std::size_t count = bodies_.size();
+  for (std::size_t b = 0; b < count; ++b)
+    now_[b] = poses.empty() ? bodies_[b].poseAt(0, head) : poses[poses.size() - count + b];
 }
 
 // Of a step the air at its end, where the head was when it began: that is where positions are from.

@@ -17,8 +17,7 @@ namespace ringlet {
 
 class DeviceWorld {
  public:
-  /// Fails, with the body's name, on one that is no body (a radius of 0, a grid without cells), and when the
-  /// device lacks memory. `start`: the head's pose now.
+  /// Fails where checkBody does, and when the device lacks memory. `start`: the head's pose now.
   static Result<DeviceWorld> create(gpu::Device& device, std::span<const Body> bodies,
                                     const Settings& settings, const HeadPose& start);
 
@@ -37,6 +36,8 @@ class DeviceWorld {
   /// `poses` as bodyPosesOf gives them, or none: then the head carries all. `seconds`: since the simulation
   /// began.
   void writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses, double seconds);
+  /// A frame that is not stepped: bodies are at once where they end, `poses` as above.
+  void endFrame(const HeadPose& head, std::span<const BodyPose> poses);
 
  private:
   DeviceWorld(gpu::Buffer rests, gpu::Buffer poses, gpu::Buffer cells, gpu::Buffer air, gpu::Buffer waves)

@@ -43,6 +43,14 @@ struct HeadHistory {
 
   Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
   Quatd turn() const { return now.rotation * oneStepEarlier.rotation.conjugate(); }
+  // To a place elsewhere, as fast and turning as before, seen from the head.
+  void jump(const HeadPose& to) {
+    const Quatd turned = normalized(to.rotation * now.rotation.conjugate());
+    const Vec3d step = rotate(turned, now.position - oneStepEarlier.position);
+    const Quatd turn = turned * this->turn() * turned.conjugate();
+    now = to;
+    oneStepEarlier = {to.position - step, normalized(turn.conjugate() * to.rotation), to.shift};
+  }
 };
 
 std::string describe(std::span<const StrandRange> ranges, std::uint32_t subgroupSize) {
@@ -86,6 +94,7 @@ struct Simulation::Implementation {
   Status runFrame();
   Status addContacts();
   void writePoses(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses);
+  Status carryTo(const HeadPose& end);
   Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
   Status placeAtRest();
 };
@@ -94,8 +103,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                       const Material& material, const Settings& settings,
                                       const HeadPose& start, const HeadPose& oneStepEarlier,
                                       const KernelChoice& choice, std::span<const Body> bodies) {
-  if (!bodies.empty() && settings.integrator != Integrator::jacobi)
-    return Error{"bodies need the integrator jacobi; this run has another"};
+  if (!bodies.empty() && settings.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
   // Strands that may meet stand near each other in memory.
   std::vector<std::uint32_t> order;
   if (settings.contacts.on) order = orderAlongCurve(groom);
@@ -301,6 +309,26 @@ Status Simulation::Implementation::uploadState(std::span<const layout::vec4> pos
   return buffers.velocities.upload(std::as_bytes(velocities));
 }
 
+// Rigidly: seen from the head nothing changes.
+Status Simulation::Implementation::carryTo(const HeadPose& end) {
+  const Quatd turned = normalized(end.rotation * head.now.rotation.conjugate());
+  const bool turns = length(Vec3d{turned.x, turned.y, turned.z}) > 1e-12;
+  head.jump(end);
+  if (!turns) return {};
+  const std::size_t count = rest.points.size();
+  auto positions = downloadAll<layout::vec4>(buffers.positions, count);
+  if (!positions) return positions.error();
+  auto velocities = downloadAll<layout::vec4>(buffers.velocities, count);
+  if (!velocities) return velocities.error();
+  for (auto* values : {&*positions, &*velocities}) {
+    for (layout::vec4& v : *values) v = packed(rotate(turned, static_cast<Vec3d>(unpacked(v))));
+  }
+  if (contacts) {
+    if (Status status = contacts->forget(); !status) return status;
+  }
+  return uploadState(*positions, *velocities);
+}
+
 // The rest pose carried by the head, turning with it.
 Status Simulation::Implementation::placeAtRest() {
   std::vector<layout::vec4> positions, velocities;
@@ -321,6 +349,12 @@ Simulation::~Simulation() = default;
 Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) {
   RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame),
                  "stepFrame takes one pose per outer step");
+  if (const HeadPose& end = stepPoses.back();
+      self_->settings.jumps(length(end.position - self_->head.now.position))) {
+    self_->world.endFrame(end, bodyPoses);
+    self_->stepsDone += stepPoses.size();
+    return self_->carryTo(end);
+  }
   self_->writePoses(stepPoses, bodyPoses);
   if (Status status = self_->runFrame(); !status) return status;
   self_->stepsDone += stepPoses.size();

@@ -87,7 +87,9 @@ class Simulation {
   ~Simulation();
 
   /// One frame: settings.stepsPerFrame outer steps; stepPoses[k] is the head's pose at the end of step k.
-  /// bodyPoses: as bodyPosesOf gives them for these steps; without, all bodies are the head's.
+  /// Where the head jumps (Settings::teleportDistance) hair is carried along and stands still for this frame,
+  /// seen from the head; it then goes on as it was. bodyPoses: as bodyPosesOf gives them for these steps;
+  /// without, all bodies are the head's.
   Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {});
   /// The same with the poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
