@@ -21,11 +21,11 @@ inline constexpr double kLeaveSpeed = 0.2;  // [m/s]: what begins inside leaves 
 // What is deeper inside [m] leaves across its strand, which else would be stretched or crushed, held by this
 // share of the weight.
 inline constexpr double kDeep = 1e-3, kDeepShare = 0.04;
-inline constexpr double kBodyWeight = 500;    // of what holds a particle at its allowed speed, in its masses
+inline constexpr double kBodyWeight = 200;    // of what holds a particle at its allowed speed, in its masses
 inline constexpr double kFullDeficit = 0.01;  // [m/s]: of a deficit that gives half of that weight: without a
                                               // ramp, rounding would decide whether what just rests is held
-inline constexpr int kKeepOutRounds =
-    4;  // after the move, out of bodies and within the stretch limit, by turns
+// After the move, out of bodies and within the stretch limit, by turns, until edges are short enough.
+inline constexpr int kKeepOutRounds = 8;
 inline constexpr double kLeastShare = 0.2;  // an edge touched nearer its other end does not move this one
 
 /// Where a way first touches.
@@ -144,16 +144,25 @@ Vector3<Real> wayOutOfDepth(const Vector3<Real>& n, const Vector3<Real>& t) {
   return across.norm() > Real(0.05) ? Vector3<Real>(across.normalized()) : n;
 }
 
-/// Coulomb's friction: the velocity along the surface, relative to the body, less what a momentum of
-/// `coefficient` times the normal one [kg m/s] takes off; it stops, and does not turn back.
+/// Coulomb's friction takes at most `coefficient` times the normal momentum from what slides at u along the
+/// surface. Nearly all of it as a weight in the solve that does so at the velocity found without: a strand
+/// feels as a whole what holds one of its particles, which else would be torn from it.
 template <class Real>
-Vector3<Real> rubbed(const Vector3<Real>& velocity, const Vector3<Real>& bodyVelocity,
-                     const Vector3<Real>& normal, Real normalMomentum, Real coefficient, Real mass) {
-  const Vector3<Real> relative = velocity - bodyVelocity;
-  const Vector3<Real> along = relative - normal.dot(relative) * normal;
-  const Real speed = along.norm(), loss = coefficient * std::max(normalMomentum, Real(0)) / mass;
-  if (!(speed > Real(0))) return velocity;
-  return velocity - std::min(Real(1), loss / speed) * along;
+Real frictionWeight(const Vector3<Real>& sliding, Real normalMomentum, Real coefficient, Real mass) {
+  const Real most = coefficient * std::max(normalMomentum, Real(0));
+  return std::min(most / std::max(sliding.norm(), Real(1e-6)), mass * Real(kBodyWeight));
+}
+
+/// And what that left, from each particle by itself, so that what stops, stops: a body `weight` slower than
+/// needed takes w / (m + w) of a velocity, and a momentum of m w / (m + w) of it; where w is m or more, the
+/// rest of what is allowed, w^2 / (m + w), is enough for the rest of the velocity.
+template <class Real>
+Vector3<Real> rubbed(const Vector3<Real>& velocity, const Vector3<Real>& sliding, Real weight,
+                     Real normalMomentum, Real coefficient, Real mass) {
+  const Real speed = sliding.norm();
+  const Real left = coefficient * std::max(normalMomentum, Real(0)) - weight * speed;
+  if (!(speed > Real(0)) || !(left > Real(0))) return velocity;
+  return velocity - std::min(Real(1), left / mass / speed) * sliding;
 }
 
 /// What velocity into the body [m/s], relative to it and along n, hair loses that is put back by `shift` [m]:

@@ -47,7 +47,13 @@ struct BodyPush {
   Real target = 0;                                     // speed along the normal [m/s]
   Vector3<Real> normal = Vector3<Real>::Zero(), bodyVelocity = Vector3<Real>::Zero();
   Real friction = 0;
+  Real rubbing = 0;  // friction's weight along the surface [kg]
 
+  Real normalMomentum(const Vector3<Real>& v) const { return heaviest * (target - normal.dot(v)); }
+  Vector3<Real> sliding(const Vector3<Real>& v) const {
+    const Vector3<Real> relative = v - bodyVelocity;
+    return relative - normal.dot(relative) * normal;
+  }
   void add(Real w, const Vector3<Real>& n, Real speed, const Vector3<Real>& u, Real coefficient) {
     const Vector3<double> direction = n.template cast<double>();
     weight += double(w) * direction * direction.transpose();
@@ -114,15 +120,31 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
   return any;
 }
 
-/// Friction, from what the pushes came to at the solved velocities.
+/// Friction's weights, from what the pushes came to at the velocities solved without it.
+template <class Real>
+void addFriction(const RestStrand<Real>& rest, std::vector<BodyPush<Real>>& pushes,
+                 FieldView<Real> velocities) {
+  for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
+    BodyPush<Real>& push = pushes[i];
+    const Vector3<Real>& v = velocities[i];
+    push.rubbing =
+        frictionWeight<Real>(push.sliding(v), push.normalMomentum(v), push.friction, rest.masses[i]);
+    const Vector3<double> n = push.normal.template cast<double>();
+    const Matrix3<double> along = Matrix3<double>::Identity() - n * n.transpose();
+    push.weight += double(push.rubbing) * along;
+    push.momentum += double(push.rubbing) * along * push.bodyVelocity.template cast<double>();
+  }
+}
+
+/// And what is left of it, at the velocities solved with it.
 template <class Real>
 void rub(const RestStrand<Real>& rest, const std::vector<BodyPush<Real>>& pushes,
          FieldView<Real> velocities) {
   for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
     const BodyPush<Real>& push = pushes[i];
-    const Real momentum = push.heaviest * (push.target - push.normal.dot(velocities[i]));
+    const Vector3<Real> v = velocities[i];
     velocities[i] =
-        rubbed(velocities[i], push.bodyVelocity, push.normal, momentum, push.friction, rest.masses[i]);
+        rubbed<Real>(v, push.sliding(v), push.rubbing, push.normalMomentum(v), push.friction, rest.masses[i]);
   }
 }
 

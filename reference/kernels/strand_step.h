@@ -307,7 +307,8 @@ StrandSystem withPushes(const StrandSystem& system, const std::vector<BodyPush<R
   return pushed;
 }
 
-/// Integrator::jacobi: the strand as block; and once more where that would go into a body.
+/// Integrator::jacobi: the strand as block; where that would go into a body once more, and again with
+/// friction.
 template <class Real>
 void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
                       FieldView<Real> positions, const StrandSystem& system, StepScratch<Real>& scratch,
@@ -317,8 +318,13 @@ void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<R
   Field<Real> found;
   for (const Vector3<double>& v : velocities) found.push_back(v.template cast<Real>());
   if (!findPushes(rest, bodies, positions, found, scratch.pushes)) return;
-  solveStrand(withPushes(system, scratch.pushes), scratch.solve, velocities);
-  for (std::size_t i = 0; i < found.size(); ++i) found[i] = velocities[i].template cast<Real>();
+  const auto solveAgain = [&] {
+    solveStrand(withPushes(system, scratch.pushes), scratch.solve, velocities);
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = velocities[i].template cast<Real>();
+  };
+  solveAgain();
+  addFriction<Real>(rest, scratch.pushes, found);
+  solveAgain();
   rub<Real>(rest, scratch.pushes, found);
   for (std::size_t i = 0; i < found.size(); ++i) velocities[i] = found[i].template cast<double>();
 }

@@ -11,6 +11,7 @@ vec3 pushMomentum[RUN];
 vec4 pushNormal[RUN];
 vec4 pushBody[RUN];
 float pushTarget[RUN];
+float rubbing[RUN];  // friction's weight along the surface
 // The same of the next lane's first particle, asked for by the edge to it.
 Symmetric nextWeight;
 vec3 nextMomentum;
@@ -42,6 +43,7 @@ void clearPushes() {
     pushNormal[k] = vec4(0);
     pushBody[k] = vec4(0);
     pushTarget[k] = 0.0;
+    rubbing[k] = 0.0;
   }
   nextWeight = symmetricDiagonal(0.0);
   nextMomentum = vec3(0);
@@ -169,11 +171,26 @@ bool findPushes(uint step) {
   return sumOverStrand(asked) > 0;
 }
 
-// Friction, from what the pushes came to at the solved velocities.
+float normalMomentum(int k) { return pushNormal[k].w * (pushTarget[k] - dot(pushNormal[k].xyz, v[k])); }
+vec3 slidingVelocity(int k) {
+  vec3 relative = v[k] - pushBody[k].xyz;
+  return relative - dot(pushNormal[k].xyz, relative) * pushNormal[k].xyz;
+}
+
+// Friction's weights, from what the pushes came to at the velocities solved without it.
+void addFriction() {
+  [[unroll]] for (int k = 0; k < RUN; ++k) {
+    vec3 n = pushNormal[k].xyz;
+    rubbing[k] = isFree(k) ? frictionWeight(slidingVelocity(k), normalMomentum(k), pushBody[k].w, restEdge[k].x) : 0.0;
+    pushWeight[k] = addOuter(addDiagonal(pushWeight[k], rubbing[k]), -rubbing[k], n);
+    pushMomentum[k] += rubbing[k] * (pushBody[k].xyz - dot(n, pushBody[k].xyz) * n);
+  }
+}
+
+// And what is left of it, at the velocities solved with it.
 void rubRun() {
   [[unroll]] for (int k = 0; k < RUN; ++k) {
-    float momentum = pushNormal[k].w * (pushTarget[k] - dot(pushNormal[k].xyz, v[k]));
-    vec3 slowed = rubbed(v[k], pushBody[k].xyz, pushNormal[k].xyz, momentum, pushBody[k].w, restEdge[k].x);
+    vec3 slowed = rubbed(v[k], slidingVelocity(k), rubbing[k], normalMomentum(k), pushBody[k].w, restEdge[k].x);
     if (isFree(k)) v[k] = slowed;
   }
 }

@@ -11,10 +11,10 @@ const int kTraceTurns = 16;         // looks along a way; grazing ones give up a
 const float kLeaveSpeed = 0.2;      // [m/s]: what begins inside leaves no faster
 const float kDeep = 1e-3;           // [m]: what is deeper inside leaves across its strand, which else would be stretched
 const float kDeepShare = 0.04;      // or crushed, held by this share of the weight
-const float kBodyWeight = 500.0;    // of what holds a particle at its allowed speed, in its masses
+const float kBodyWeight = 200.0;    // of what holds a particle at its allowed speed, in its masses
 const float kFullDeficit = 0.01;    // [m/s]: of a deficit that gives half of that weight: without a ramp, rounding would
                                     // decide whether what just rests is held
-const uint kKeepOutRounds = 4;      // after the move, out of bodies and within the stretch limit, by turns
+const uint kKeepOutRounds = 8;      // after the move, out of bodies and within the stretch limit, by turns
 const float kLeastShare = 0.2;      // an edge touched nearer its other end does not move this one
 
 /// Where a way first touches.
@@ -110,14 +110,18 @@ vec3 wayOutOfDepth(vec3 n, vec3 t) {
   return size > 0.05 ? across / size : n;
 }
 
-/// Coulomb's friction: the velocity along the surface, relative to the body, less what a momentum of `coefficient` times
-/// the normal one takes off; it stops, and does not turn back.
-vec3 rubbed(vec3 velocity, vec3 bodyVelocity, vec3 normal, float normalMomentum, float coefficient, float mass) {
-  vec3 relative = velocity - bodyVelocity;
-  vec3 along = relative - dot(normal, relative) * normal;
-  float speed = length(along);
-  float loss = coefficient * max(normalMomentum, 0.0) / mass;
-  return speed > 0.0 ? velocity - min(1.0, loss / speed) * along : velocity;
+/// Coulomb's friction, nearly all of it as a weight in the solve that takes `coefficient` times the normal momentum from
+/// what slides as fast as was found without: a strand feels as a whole what holds one of its particles.
+float frictionWeight(vec3 sliding, float normalMomentum, float coefficient, float mass) {
+  float most = coefficient * max(normalMomentum, 0.0);
+  return min(most / max(length(sliding), 1e-6), mass * kBodyWeight);
+}
+
+/// And what that left, from each particle by itself, so that what stops, stops.
+vec3 rubbed(vec3 velocity, vec3 sliding, float weight, float normalMomentum, float coefficient, float mass) {
+  float speed = length(sliding);
+  float left = coefficient * max(normalMomentum, 0.0) - weight * speed;
+  return speed > 0.0 && left > 0.0 ? velocity - min(1.0, left / mass / speed) * sliding : velocity;
 }
 
 /// What velocity into the body [m/s], relative to it and along n, hair loses that is put back by `shift` [m]: as much as

@@ -187,19 +187,18 @@ vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN -
 #include "integrators/point_jacobi.glsl"
 #include "integrators/residual.glsl"
 
-// The strand as block; and once more where that would go into a body. One loop, so that there is one solve in the code.
+// The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is one
+// solve in the code.
 void solveAmongBodies(uint step, vec3 pinned[3]) {
   vec3 before[RUN] = v;
   clearPushes();
   bool pushed = false;
-  for (uint turn = 0; turn < (pushed ? 2 : 1); ++turn) {
+  for (uint turn = 0; turn < (pushed ? 3 : 1); ++turn) {
     v = before;
     solveStrandBlock(pinned);
-    if (turn == 0) {
-      pushed = findPushes(step);
-    } else {
-      rubRun();
-    }
+    if (turn == 0) pushed = findPushes(step);
+    if (turn == 1) addFriction();
+    if (turn == 2) rubRun();
   }
 }
 

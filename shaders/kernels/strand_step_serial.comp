@@ -35,7 +35,7 @@ const uint kCoreDirection = 3;  // xyz                                          
 
 // Of bodies, see bodies/run_bodies.glsl; and of the air.
 const uint kPushWeight = kScratchPerParticle;    // two vec4s: diagonal, off-diagonal; their w: momentum x and y
-const uint kPushRest = kPushWeight + 2;          // x momentum z, y target
+const uint kPushRest = kPushWeight + 2;          // x momentum z, y target, z friction's weight
 const uint kPushNormal = kPushWeight + 3;        // xyz, w weight
 const uint kPushBody = kPushWeight + 4;          // xyz velocity, w friction
 const uint kStart = kPushWeight + 5;             // xyz where it was before the move
@@ -317,13 +317,36 @@ bool findPushes(uint step) {
   return asked;
 }
 
+float normalMomentum(uint i) {
+  vec4 normal = scratch[slot(i, kPushNormal)];
+  return normal.w * (scratch[slot(i, kPushRest)].y - dot(normal.xyz, solvedVelocity(i)));
+}
+vec3 slidingVelocity(uint i) {
+  vec3 n = scratchOf(i, kPushNormal);
+  vec3 relative = solvedVelocity(i) - scratchOf(i, kPushBody);
+  return relative - dot(n, relative) * n;
+}
+
+void addFriction() {
+  for (uint i = parameters.rootCount; i < count; ++i) {
+    vec3 n = scratchOf(i, kPushNormal);
+    vec4 body = scratch[slot(i, kPushBody)];
+    vec4 diagonal = scratch[slot(i, kPushWeight)];
+    vec4 offDiagonal = scratch[slot(i, kPushWeight + 1)];
+    vec4 rest = scratch[slot(i, kPushRest)];
+    float weight = frictionWeight(slidingVelocity(i), normalMomentum(i), body.w, mass(i));
+    Symmetric sum = addOuter(addDiagonal(Symmetric(diagonal.xyz, offDiagonal.xyz), weight), -weight, n);
+    vec3 momentum = vec3(diagonal.w, offDiagonal.w, rest.x) + weight * (body.xyz - dot(n, body.xyz) * n);
+    scratch[slot(i, kPushWeight)] = vec4(sum.d, momentum.x);
+    scratch[slot(i, kPushWeight + 1)] = vec4(sum.o, momentum.y);
+    scratch[slot(i, kPushRest)] = vec4(momentum.z, rest.y, weight, 0);
+  }
+}
+
 void rubStrand() {
   for (uint i = parameters.rootCount; i < count; ++i) {
-    vec4 normal = scratch[slot(i, kPushNormal)];
-    vec4 body = scratch[slot(i, kPushBody)];
-    vec3 v = solvedVelocity(i);
-    float momentum = normal.w * (scratch[slot(i, kPushRest)].y - dot(normal.xyz, v));
-    setSolved(i, rubbed(v, body.xyz, normal.xyz, momentum, body.w, mass(i)));
+    setSolved(i, rubbed(solvedVelocity(i), slidingVelocity(i), scratch[slot(i, kPushRest)].z, normalMomentum(i),
+                        scratch[slot(i, kPushBody)].w, mass(i)));
   }
 }
 
@@ -331,6 +354,8 @@ void solveAmongBodies(uint step) {
   clearPushes();
   solveStrandBlock(step);
   if (!findPushes(step)) return;
+  solveStrandBlock(step);
+  addFriction();
   solveStrandBlock(step);
   rubStrand();
 }

@@ -34,9 +34,9 @@ int wholeNumber(const std::string& text) {
 void addContactOptions(CLI::App* command, ContactChoice& choice, const std::string& defaultState) {
   const char* group = "Contacts";
   command
-      ->add_option("--contacts", choice.state,
-                   "Whether strands push each other away, on or off (default " + defaultState +
-                       "); jacobi only")
+      ->add_option(
+          "--contacts", choice.state,
+          "Whether strands push each other away, on or off (default " + defaultState + "); jacobi only")
       ->check(oneOf({"on", "off"}))
       ->type_name("STATE")
       ->group(group);

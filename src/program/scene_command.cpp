@@ -60,7 +60,8 @@ constexpr const char* kExample =
     "--write: scene outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
-    "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head) measure contacts also where "
+    "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head) measure contacts "
+    "also where "
     "these are\n"
     "off; others where they are on. All but flip and head do without pruning, because their hair is apart at "
     "rest.\n"
@@ -192,8 +193,8 @@ Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOpt
     turn.look(points, scene.groom.metresPerUnit, head.rotation);
     return {};
   };
-  const auto outcome =
-      runHair({scene.groom, scene.material, settings, scene.motion, scene.rootShifts}, options, look);
+  const auto outcome = runHair(
+      {scene.groom, scene.material, settings, scene.motion, scene.rootShifts, scene.bodies}, options, look);
   if (!outcome) return outcome.error();
   return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
 }
@@ -261,7 +262,8 @@ Result<int> runScene(Typed& typed) {
   if (Status seen = look(scene->groom.points, scene->motion.poseAt(0)); !seen)
     return inScene(typed, seen.error());
   auto outcome =
-      runHair({scene->groom, scene->material, settings, scene->motion, scene->rootShifts}, options, look);
+      runHair({scene->groom, scene->material, settings, scene->motion, scene->rootShifts, scene->bodies},
+              options, look);
   if (!outcome) return inScene(typed, outcome.error());
   outcome->warnings.insert(outcome->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
   if (Status written = writeGroom(*scene, options, *outcome); !written)

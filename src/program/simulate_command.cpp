@@ -103,7 +103,8 @@ void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
         "only a .bvh, .gltf or .glb file has a --joint, --motion-unit, --skip-frames and --animation");
   }
   if (kind == MotionFileKind::gltf && typed.skipFrames.value_or(0) > 0)
-    throw CLI::ValidationError("--skip-frames", "a glTF animation has times and no frames; cut it where it is made");
+    throw CLI::ValidationError("--skip-frames",
+                               "a glTF animation has times and no frames; cut it where it is made");
   if (kind == MotionFileKind::bvh && typed.animation)
     throw CLI::ValidationError("--animation", "a .bvh file has only one");
   replace(motion.amplitude, typed.amplitude);
@@ -238,10 +239,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
 
   command
-      ->add_option(
-          "GROOM", typed->input,
-          "Strands to simulate: a .hair, .obj or .tfx file; or a scene file, .toml, whose keys `ringlet scene "
-          "--keys` prints and the options here override")
+      ->add_option("GROOM", typed->input,
+                   "Strands to simulate: a .hair, .obj or .tfx file; or a scene file, .toml, whose keys "
+                   "`ringlet scene "
+                   "--keys` prints and the options here override")
       ->required()
       ->type_name("FILE");
   command

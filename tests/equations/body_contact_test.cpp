@@ -101,13 +101,23 @@ TEST(BodyContact, LeavesNoFasterThanAllowed) {
   EXPECT_NEAR(leastParting(traceParticle<double>(ball, outside, Vector::Zero()), 0.005), -0.1 / 0.005, 1e-6);
 }
 
+// One particle of 1 kg that slides at u: what weight and rest take together is Coulomb's, or all it has.
 TEST(BodyContact, FrictionTakesAShareAndStops) {
-  const Vector n(0, 1, 0), body(1, 0, 0);
-  const Vector fast(3, 0.5, 0);
-  // 0.4 of a momentum of 2 on 1 kg: 0.8 m/s of the 2 m/s it slides.
-  EXPECT_LT((rubbed<double>(fast, body, n, 2, 0.4, 1) - Vector(2.2, 0.5, 0)).norm(), 1e-14);
-  EXPECT_LT((rubbed<double>(fast, body, n, 20, 0.4, 1) - Vector(1, 0.5, 0)).norm(), 1e-14);
-  EXPECT_EQ(rubbed<double>(fast, body, n, -1, 0.4, 1), fast);
+  const Vector sliding(2, 0, 0);
+  for (const double pressed : {0.0, 0.5, 2.0, 4.9, 5.1, 20.0, 1e4}) {
+    const double weight = frictionWeight<double>(sliding, pressed, 0.4, 1);
+    const Vector solved = sliding / (1 + weight);
+    const Vector left = rubbed<double>(solved, solved, weight, pressed, 0.4, 1);
+    // Sliding on, it has lost less than Coulomb's, and in the limit of little friction all of that.
+    if (0.4 * pressed < 2) {
+      EXPECT_GE(2 - left.x(), 0.4 * pressed * 2 / (2 + 0.4 * pressed) - 1e-12) << pressed;
+      EXPECT_LE(2 - left.x(), 0.4 * pressed + 1e-12) << pressed;
+      EXPECT_GT(left.x(), 0) << pressed;
+    } else {
+      EXPECT_NEAR(left.x(), 0, 1e-12) << pressed;
+    }
+  }
+  EXPECT_EQ((rubbed<double>(sliding, sliding, 0, -1, 0.4, 1)), sliding);
 }
 
 }  // namespace

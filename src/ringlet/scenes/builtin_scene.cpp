@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
+#include "ringlet/bodies/head_mesh.h"
+#include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/scene_grooms.h"
@@ -61,6 +64,7 @@ struct Recipe {
   bool showsContacts = false;
   Vec3d rootShift{};  // of the roots of the first half of the strands; the others go the other way [m]
   ContactSettings contacts{};  // but on, which is for the asking
+  bool hasHead = false;        // below the hair
 };
 
 // Hair that meets hair: nothing slips between particles, and where it comes together from apart, every pair
@@ -157,6 +161,18 @@ const std::vector<Recipe>& recipes() {
        2,
        false,
        true},
+      {"walk_head",
+       "The generated head of 1,500 curls on a head of its own that walks: hair stays out of it.",
+       wholeHead,
+       ringletMaterial,
+       motionByName("walk", up).value(),
+       1,
+       4.4,
+       false,
+       true,
+       {},
+       {},
+       true},
   };
   return all;
 }
@@ -166,6 +182,15 @@ const Recipe* recipeOf(std::string_view name) {
     if (recipe.name == name) return &recipe;
   }
   return nullptr;
+}
+
+// The generated head as a body; the scalp's radius is that of the groom, which has the default one.
+Result<Body> headBody() {
+  auto made = makeDistanceGrid(makeHeadMesh());
+  if (!made) return made.error();
+  return Body{.name = "head",
+              .shape = BodyShape::grid,
+              .grid = std::make_shared<const DistanceGrid>(std::move(made->grid))};
 }
 
 Status checkOptions(std::string_view name, const SceneOptions& options) {
@@ -241,6 +266,13 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
   if (!options.core) scene.material.coreStiffness = 0;
   if (options.bendStiffness) scene.material.bendStiffness = *options.bendStiffness;
   if (!options.smoothedFrames) scene.material.bendSmoothingLength = 0;
+
+  if (recipe->hasHead) {
+    if (options.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
+    auto head = headBody();
+    if (!head) return head.error();
+    scene.bodies.push_back(std::move(*head));
+  }
 
   const bool isPaper = options.integrator == Integrator::paper;
   Settings& settings = scene.settings;

@@ -10,6 +10,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
+#include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
 
@@ -19,7 +20,7 @@ namespace ringlet {
 struct SceneOptions {
   std::optional<int> particles{};  // of each strand, in [2, 65536]
   std::optional<int> strands{};    // in [1, 100000]: copies side by side; swatches, of which a scene may have
-                                 // two (then of each), take whole rows; two_curls has its two
+                                   // two (then of each), take whole rows; two_curls has its two
   std::optional<double> preload{};             // share of gravity balanced in the rest pose
   std::optional<double> bendStiffness{};       // K_b [w], a material's range; not for `paper`
   std::optional<bool> contacts{};              // on or off
@@ -39,6 +40,7 @@ struct BuiltinScene {
   Motion motion;
   std::vector<Vec3d> rootShifts{};  // of each strand's root beside the head (Simulation::setRootShifts) [m],
                                     // or none
+  std::vector<Body> bodies{};  // what hair stays out of: in walk_head the generated head (bodies/head_mesh.h)
   double seconds = 0;
   bool showsContacts = false;         // what it shows is hair that meets hair (measure/contact_watch.h)
   bool showsFrames = false;           // what it shows is how strand frames turn (measure/frame_turn.h)
@@ -48,7 +50,7 @@ struct BuiltinScene {
 };
 
 /// hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release, and those of hair that meets hair:
-/// two_curls, curtain, pile, fall, flip, head.
+/// two_curls, curtain, pile, fall, flip, head, walk_head.
 std::vector<std::string> sceneNames();
 
 /// What it shows, in a sentence; empty for an unknown name.

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "ringlet/base/assert.h"
+
 namespace ringlet {
 namespace {
 
@@ -161,6 +163,16 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
   if (!scene.rootShifts.empty()) {
     file.motion.roots = {scene.rootShifts.front(), motion.roots.frequency, motion.roots.easeSeconds,
                          motion.roots.untilSeconds};
+  }
+
+  for (const Body& body : scene.bodies) {
+    RINGLET_ASSERT(body.shape == BodyShape::grid, "built-in scenes have no bodies but the generated head");
+    SceneBody head;
+    head.name = body.name;
+    head.shape = "mesh";
+    head.generate = "head";
+    head.friction = body.friction;
+    file.bodies.push_back(std::move(head));
   }
 
   const Settings& settings = scene.settings;

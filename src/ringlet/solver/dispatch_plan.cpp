@@ -28,9 +28,11 @@ LoopCost loopCost(const StrandRange& range, const Settings& settings, std::size_
   // Lanes: loops over the run count in full, though drivers unroll them. Serial: sweeps over the strand.
   const std::uint64_t run = range.shape.serial() ? range.longest : range.shape.particlesPerLane + 8;
   LoopCost cost;
-  // Of a body: in a lane, 17 looks at most for each particle and each edge, and as many in each of four
-  // rounds after the move; a long strand's particles are not all at it at once.
-  cost.step = 20 * run + bodyCount * run * (range.shape.serial() ? 24 : 106);
+  // Of a body in the way: in a lane, 17 looks at most for each particle and each edge, and as many in each of
+  // eight rounds after the move; of more than four bodies no run is in the way of all. A long strand's
+  // particles are not all at it at once.
+  const std::uint64_t inTheWay = std::min<std::uint64_t>(bodyCount, 4);
+  cost.step = 20 * run + inTheWay * run * (range.shape.serial() ? 24 : 178) + 30 * bodyCount;
   if (settings.integrator == Integrator::pointJacobi) {
     cost.solveLoops = settings.pointIterations;
     cost.perSolveLoop = run + 1;
