@@ -16,6 +16,7 @@
 namespace ringlet::reference {
 
 inline constexpr double kTouchDistance = 1e-5;  // [m]: nearer counts as touching; a tenth of a hair
+inline constexpr double kOutside = 1e-4;    // [m]: no deeper counts as outside, and is put outside at once
 inline constexpr int kTraceTurns = 16;      // looks along a way; grazing ones give up and count as touching
 inline constexpr double kLeaveSpeed = 0.2;  // [m/s]: what begins inside leaves no faster
 // What is deeper inside [m] leaves across its strand, which else would be stretched or crushed, held by this
@@ -24,6 +25,9 @@ inline constexpr double kDeep = 1e-3, kDeepShare = 0.04;
 inline constexpr double kBodyWeight = 200;    // of what holds a particle at its allowed speed, in its masses
 inline constexpr double kFullDeficit = 0.01;  // [m/s]: of a deficit that gives half of that weight: without a
                                               // ramp, rounding would decide whether what just rests is held
+// Of a strand whose root is in a body, so many particles may be under its skin, root included: these are not
+// pushed.
+inline constexpr std::size_t kMostBuried = 4;
 // After the move, out of bodies and within the stretch limit, by turns, until edges are short enough.
 inline constexpr int kKeepOutRounds = 8;
 inline constexpr double kLeastShare = 0.2;  // an edge touched nearer its other end does not move this one
@@ -81,8 +85,8 @@ EdgeSurface<Real> edgeDistance(const Body& body, const Vector3<Real>& a, const V
   const Surface<Real> atA = bodyDistance(body, a), atB = bodyDistance(body, b);
   const Real slopeA = atA.normal.dot(edge), slopeB = atB.normal.dot(edge);
   EdgeSurface<Real> result;
-  result.isWithin = slopeA < Real(0) && slopeB > Real(0) && atA.distance >= Real(-kTouchDistance) &&
-                    atB.distance >= Real(-kTouchDistance);
+  result.isWithin = slopeA < Real(0) && slopeB > Real(0) && atA.distance >= Real(-kOutside) &&
+                    atB.distance >= Real(-kOutside);
   if (result.isWithin) {
     // Where its two slopes meet, which far from a thin body is it; then as a cubic, which near a round one
     // is.

@@ -72,6 +72,16 @@ Vector3<Real> strandDirection(FieldView<Real> positions, std::size_t i) {
   return directionOr<Real>(sum, zero);
 }
 
+/// How many of its first particles are under the body's skin.
+template <class Real>
+std::size_t buriedCount(const BodyStep<Real>& step, FieldView<Real> positions) {
+  std::size_t count = 0;
+  while (count < std::min(kMostBuried, positions.size()) &&
+         bodyDistance(*step.body, step.atStart(positions[count])).distance < Real(-kOutside))
+    ++count;
+  return count;
+}
+
 /// Of all particles, from where they are and the velocities they would have without bodies. Whether there is
 /// any.
 template <class Real>
@@ -84,7 +94,8 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
     const Real T = step.seconds, friction = static_cast<Real>(body.friction);
     const auto start = [&](std::size_t i) { return step.atStart(positions[i]); };
     const auto end = [&](std::size_t i) { return step.atEnd(positions[i] + T * free[i]); };
-    for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
+    for (std::size_t i = std::max(rest.pinnedCount(), buriedCount(step, positions)); i < rest.particleCount();
+         ++i) {
       const Touch<Real> touch = traceParticle(body, start(i), end(i));
       if (!touch.found) continue;
       const bool isDeep = touch.surface.distance < Real(-kDeep);
@@ -156,7 +167,7 @@ struct KeptOut {
 };
 template <class Real>
 KeptOut<Real> keptOut(const Body& body, const Vector3<Real>& y0, Vector3<Real> y1) {
-  if (bodyDistance(body, y0).distance < Real(-kTouchDistance)) return {};
+  if (bodyDistance(body, y0).distance < Real(-kOutside)) return {};
   const Touch<Real> touch = traceParticle(body, y0, y1);
   if (!touch.found) return {};
   const Vector3<Real> came = y1;
@@ -164,13 +175,13 @@ KeptOut<Real> keptOut(const Body& body, const Vector3<Real>& y0, Vector3<Real> y
   const Real beyond = touch.surface.normal.dot(y1 - touch.place) + touch.surface.distance;
   Vector3<Real> normal = touch.surface.normal;
   y1 -= std::min(beyond, Real(0)) * normal;
-  for (int turn = 0; turn < 2; ++turn) {
+  for (int turn = 0; turn < 3; ++turn) {
     const Surface<Real> surface = bodyDistance(body, y1);
     if (surface.distance >= Real(0)) continue;
     y1 -= surface.distance * surface.normal;
     normal = surface.normal;
   }
-  if (bodyDistance(body, y1).distance < Real(-kTouchDistance)) y1 = touch.place;
+  if (bodyDistance(body, y1).distance < Real(-kOutside)) y1 = touch.place;
   return {(y1 - came).norm() > Real(0), y1, normal};
 }
 

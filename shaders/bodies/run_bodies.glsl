@@ -120,12 +120,15 @@ bool findPushes(uint step) {
     uint particleBits = 0;
     uint edgeBits = 0;
     float roomBefore = 0.0;  // what is left to the body when particle k - 1 has gone its way
+    bool isBuried = lane == 0;
     [[unroll]] for (int k = 0; k <= RUN; ++k) {
       vec3 position = k < RUN ? p[min(k, RUN - 1)] : pNext;
       vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : vNext;
       float way = T * length(velocity - bodyVelocityAt(body, position, T));
-      float left = bodyDistance(body.rest, placeAtStart(body, position)).distance - 1.001 * way - 2.0 * kTouchDistance;
-      if (k < RUN && isFree(min(k, RUN - 1)) && left <= 0.0) particleBits |= 1u << k;
+      float distance = bodyDistance(body.rest, placeAtStart(body, position)).distance;
+      float left = distance - 1.001 * way - 2.0 * kTouchDistance;
+      isBuried = isBuried && k < kMostBuried && distance < -kOutside;
+      if (k < RUN && isFree(min(k, RUN - 1)) && left <= 0.0 && !isBuried) particleBits |= 1u << k;
       if (k > 0 && isEdge(max(k - 1, 0)) && left + roomBefore <= eLength[max(k - 1, 0)]) edgeBits |= 1u << (k - 1);
       roomBefore = left;
     }

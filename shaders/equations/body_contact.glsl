@@ -7,6 +7,7 @@
 #include "shared/body_buffers.glsl"
 
 const float kTouchDistance = 1e-5;  // [m]: nearer counts as touching; a tenth of a hair
+const float kOutside = 1e-4;        // [m]: no deeper counts as outside, and is put outside at once
 const int kTraceTurns = 16;         // looks along a way; grazing ones give up and count as touching
 const float kLeaveSpeed = 0.2;      // [m/s]: what begins inside leaves no faster
 const float kDeep = 1e-3;           // [m]: what is deeper inside leaves across its strand, which else would be stretched
@@ -14,7 +15,10 @@ const float kDeepShare = 0.04;      // or crushed, held by this share of the wei
 const float kBodyWeight = 200.0;    // of what holds a particle at its allowed speed, in its masses
 const float kFullDeficit = 0.01;    // [m/s]: of a deficit that gives half of that weight: without a ramp, rounding would
                                     // decide whether what just rests is held
-const uint kKeepOutRounds = 8;      // after the move, out of bodies and within the stretch limit, by turns
+const uint kMostBuried = 4;         // of a strand whose root is in a body, so many particles may be under its skin, root
+                                    // included: these are not pushed
+const uint kKeepOutRounds = 8;      // after the move, out of bodies and within the stretch limit, by turns, until edges
+                                    // are short enough
 const float kLeastShare = 0.2;      // an edge touched nearer its other end does not move this one
 
 /// Where a way first touches.
@@ -64,7 +68,7 @@ EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
   Surface atB = bodyDistance(body, b);
   float slopeA = dot(atA.normal, edge);
   float slopeB = dot(atB.normal, edge);
-  bool isWithin = slopeA < 0.0 && slopeB > 0.0 && min(atA.distance, atB.distance) >= -kTouchDistance;
+  bool isWithin = slopeA < 0.0 && slopeB > 0.0 && min(atA.distance, atB.distance) >= -kOutside;
   // Where its two slopes meet, which far from a thin body is it; then as a cubic, which near a round one is.
   float first = clamp((atB.distance - slopeB - atA.distance) / min(slopeA - slopeB, -1e-20), 0.0, 1.0);
   Surface there = bodyDistance(body, a + first * edge);
@@ -137,20 +141,20 @@ struct KeptOut {
   vec3 normal;
 };
 KeptOut keptOut(BodyRest body, vec3 y0, vec3 y1) {
-  bool isOutside = bodyDistance(body, y0).distance >= -kTouchDistance;
+  bool isOutside = bodyDistance(body, y0).distance >= -kOutside;
   Touch touch = traceParticle(body, y0, y1);
   // Onto the plane where it touched, then out of what curves beyond it; else back to the place itself.
   float beyond = dot(touch.surface.normal, y1 - touch.place) + touch.surface.distance;
   vec3 normal = touch.surface.normal;
   vec3 y = y1 - min(beyond, 0.0) * normal;
-  [[unroll]] for (int turn = 0; turn < 2; ++turn) {
+  [[unroll]] for (int turn = 0; turn < 3; ++turn) {
     Surface surface = bodyDistance(body, y);
     if (surface.distance < 0.0) {
       y -= surface.distance * surface.normal;
       normal = surface.normal;
     }
   }
-  if (bodyDistance(body, y).distance < -kTouchDistance) y = touch.place;
+  if (bodyDistance(body, y).distance < -kOutside) y = touch.place;
   return KeptOut(isOutside && touch.found && y != y1, y, normal);
 }
 

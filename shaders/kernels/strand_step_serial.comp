@@ -281,7 +281,10 @@ bool findPushes(uint step) {
   for (uint b = nextNear(room, reach, step, parameters.bodyCount, 0); b < parameters.bodyCount;
        b = nextNear(room, reach, step, parameters.bodyCount, b + 1)) {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
-    for (uint i = parameters.rootCount; i < count; ++i) {
+    uint buried = 0;
+    while (buried < min(kMostBuried, count) &&
+           bodyDistance(body.rest, placeAtStart(body, position(buried))).distance < -kOutside) ++buried;
+    for (uint i = max(buried, parameters.rootCount); i < count; ++i) {
       vec3 v = solvedVelocity(i);
       Touch touch = traceParticle(body.rest, placeAtStart(body, position(i)), placeAtEnd(body, position(i) + T * v));
       bool isDeep = touch.surface.distance < -kDeep;

@@ -1,0 +1,49 @@
+// Tests measure/body_watch.h and bodies/body_distance.h.
+#include "ringlet/measure/body_watch.h"
+
+#include <gtest/gtest.h>
+
+#include "ringlet/bodies/body_distance.h"
+#include "tests/support/sample_bodies.h"
+
+namespace ringlet::test {
+namespace {
+
+TEST(BodyDistance, OfEveryShape) {
+  const auto bodies = sampleBodies();
+  EXPECT_NEAR(distanceTo(bodies[0], {0.3, 0, 0.4}), 0.4, 1e-15);
+  EXPECT_NEAR(distanceTo(bodies[1], {0, 0.25, 0}), 0.1, 1e-15);
+  EXPECT_NEAR(distanceTo(bodies[1], {0.02, 0.05, 0}), -0.03, 1e-15);
+  EXPECT_NEAR(distanceTo(bodies[2], {9, -0.25, 4}), -0.25, 1e-15);
+  EXPECT_NEAR(distanceTo(bodies[3], {0.11, 0.14, 0}), 0.04, 1e-15);  // 3, 4, 5 less 1 cm kept away
+  EXPECT_NEAR(distanceTo(bodies[3], {0, 0, 0.05}), -0.02, 1e-15);
+  EXPECT_NEAR(distanceTo(bodies[4], {0.05, 0.05, 0.05}), 0.05 * std::sqrt(3.0) - 0.1, 1e-4);
+  // With a pose: turned and moved.
+  const BodyPose pose{{1, 2, 3}, fromRotationVector(Vec3d{0, 0, 1.5707963267948966})};
+  EXPECT_NEAR(distanceTo(bodies[2], pose, {0.5, 0, 0}), 0.5, 1e-12);  // its Y points along -X
+}
+
+TEST(BodyWatch, CountsWhatWasOutside) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  groom.addStrand(std::vector<Vec3f>{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  const std::vector<Body> bodies{{.radius = 0.1}};
+  const std::vector<BodyPose> poses{{{5, 0, 0}, {}}};
+  BodyWatch watch(groom, bodies, 1);
+  const HeadPose head{{5, 0, 0}, {}};
+  watch.look(groom.points, head,
+             poses);  // particle 1 is in the middle: it began there; the root does not count
+  EXPECT_EQ(watch.numbers().deepest, 0);
+  EXPECT_EQ(watch.numbers().inside, 1u);
+  watch.look(std::vector<Vec3f>{{0, 0, 0}, {0.5f, 0, 0}, {0.07f, 0, 0}, {2, 0, 0}}, head, poses);
+  EXPECT_NEAR(watch.numbers().deepest, 0.03, 1e-8);
+  EXPECT_EQ(watch.numbers().particle, 2);
+  EXPECT_EQ(watch.numbers().frame, 1);
+  EXPECT_EQ(watch.numbers().inside, 0u);
+  watch.look(std::vector<Vec3f>{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, head, poses);
+  EXPECT_NEAR(watch.numbers().deepest, 0.1, 1e-12);
+  EXPECT_EQ(watch.numbers().particle, 1);
+}
+
+}  // namespace
+}  // namespace ringlet::test
