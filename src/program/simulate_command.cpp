@@ -44,8 +44,11 @@ constexpr const char* kExample =
     "stages_ms (per frame, by stage) max_edge_stretch limited_share nonfinite velocity_residual (of the "
     "velocity solve,\n"
     "worst strand and step; measuring it takes a few per cent of the step's time; null for paper, with "
-    "contacts\n"
-    "and for reference) device driver kernel backend positions_hash integrator material steps_per_frame fps\n"
+    "contacts,\n"
+    "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
+    "at a\n"
+    "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
+    "device driver kernel backend positions_hash integrator material steps_per_frame fps\n"
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
