@@ -103,6 +103,34 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_EQ(offsets.at("StepPose").size(), 3u);
   EXPECT_EQ(reflection.strides.at("StepPose"), sizeof(layout::StepPose));
 
+  EXPECT_SAME_OFFSET(BodyRest, halfExtents);
+  EXPECT_SAME_OFFSET(BodyRest, bounds);
+  EXPECT_SAME_OFFSET(BodyRest, gridOrigin);
+  EXPECT_SAME_OFFSET(BodyRest, cells);
+  EXPECT_SAME_OFFSET(BodyRest, firstCell);
+  EXPECT_SAME_OFFSET(BodyRest, friction);
+  EXPECT_SAME_OFFSET(BodyRest, shape);
+  EXPECT_SAME_OFFSET(BodyRest, unused);
+  EXPECT_EQ(offsets.at("BodyRest").size(), 8u);
+  EXPECT_EQ(reflection.strides.at("BodyRest"), sizeof(layout::BodyRest));
+  EXPECT_EQ(sizeof(layout::BodyRest), 5 * sizeof(layout::vec4)) << "read as texels";
+
+  EXPECT_SAME_OFFSET(BodyPose, position);
+  EXPECT_SAME_OFFSET(BodyPose, rotation);
+  EXPECT_SAME_OFFSET(BodyPose, turn);
+  EXPECT_SAME_OFFSET(BodyPose, velocity);
+  EXPECT_EQ(offsets.at("BodyPose").size(), 4u);
+  EXPECT_EQ(reflection.strides.at("BodyPose"), sizeof(layout::BodyPose));
+
+  EXPECT_SAME_OFFSET(StepAir, wind);
+  EXPECT_SAME_OFFSET(StepAir, phases);
+  EXPECT_EQ(offsets.at("StepAir").size(), 2u);
+  EXPECT_EQ(reflection.strides.at("StepAir"), sizeof(layout::StepAir));
+  EXPECT_SAME_OFFSET(WindWave, wave);
+  EXPECT_SAME_OFFSET(WindWave, amplitude);
+  EXPECT_EQ(offsets.at("WindWave").size(), 2u);
+  EXPECT_EQ(reflection.strides.at("WindWave"), sizeof(layout::WindWave));
+
   EXPECT_SAME_OFFSET(StepParameters, gravity);
   EXPECT_SAME_OFFSET(StepParameters, maxStretch);
   EXPECT_SAME_OFFSET(StepParameters, coreRelaxedShare);
@@ -121,7 +149,10 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_SAME_OFFSET(StepParameters, phases);
   EXPECT_SAME_OFFSET(StepParameters, loopBegin);
   EXPECT_SAME_OFFSET(StepParameters, loopEnd);
-  EXPECT_EQ(offsets.at("StepParameters").size(), 18u);
+  EXPECT_SAME_OFFSET(StepParameters, bodyCount);
+  EXPECT_SAME_OFFSET(StepParameters, dragStrength);
+  EXPECT_SAME_OFFSET(StepParameters, dragAlong);
+  EXPECT_EQ(offsets.at("StepParameters").size(), 21u);
   EXPECT_LE(sizeof(layout::StepParameters), 128u) << "Vulkan guarantees 128 bytes of push constants";
 }
 

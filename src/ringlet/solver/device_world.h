@@ -1,6 +1,7 @@
 // DeviceWorld: what hair meets beside itself, on a device: bodies with their distance grids, and the air.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
