@@ -1,4 +1,4 @@
-// motion/skinned_mesh.h, triangle_tree.h and scalp.h: against closed forms, a rigid motion, and all triangles
+// motion/skinned_mesh.h, triangle_finder.h and scalp.h: against closed forms, a rigid motion, and all triangles
 // one by one.
 #include "ringlet/motion/scalp.h"
 
@@ -10,7 +10,7 @@
 #include <random>
 
 #include "ringlet/motion/skinned_mesh.h"
-#include "ringlet/motion/triangle_tree.h"
+#include "ringlet/motion/triangle_finder.h"
 #include "tests/motion/gltf_samples.h"
 
 namespace ringlet::test {
@@ -208,11 +208,11 @@ TEST(SkinnedMesh, SurvivesBrokenFiles) {
   }
 }
 
-TEST(TriangleTree, FindsTheNearestOfAll) {
+TEST(TriangleFinder, FindsTheNearestOfAll) {
   const auto mesh = meshOf(travellingTriangles(300));
   ASSERT_TRUE(mesh);
   const std::vector<Vec3d> points = mesh->pointsAt(0);
-  const TriangleTree tree(points, mesh->triangles());
+  const TriangleFinder tree(points, mesh->triangles());
   for (Vec3d p : randomPlaces(500, {0, 1.5, 0}, 0.2)) {
     double least = INFINITY;
     for (const auto& [a, b, c] : mesh->triangles()) {
@@ -225,11 +225,11 @@ TEST(TriangleTree, FindsTheNearestOfAll) {
   }
   EXPECT_FALSE(tree.nearestTo({NAN, 0, 0}));
   const std::array<std::uint32_t, 3> flat[] = {{0, 0, 1}};
-  EXPECT_FALSE(TriangleTree(points, flat).nearestTo({})) << "it has no area";
+  EXPECT_FALSE(TriangleFinder(points, flat).nearestTo({})) << "it has no area";
 }
 
 // Nothing on a triangle is nearer: moving along an edge from the place found, inwards, leads away.
-TEST(TriangleTree, NearestPlacesAreNearest) {
+TEST(TriangleFinder, NearestPlacesAreNearest) {
   const Vec3d a{0, 0, 0}, b{1, 0.2, 0}, c{0.3, 0.9, 0.4};
   for (Vec3d p : randomPlaces(2000, {0.4, 0.4, 0.1}, 1.5)) {
     const auto w = nearestWeights(p, a, b, c);

@@ -7,7 +7,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/motion/affine.h"
-#include "ringlet/motion/triangle_tree.h"
+#include "ringlet/motion/triangle_finder.h"
 
 namespace ringlet {
 namespace {
@@ -36,7 +36,7 @@ Result<Scalp> Scalp::bind(std::shared_ptr<const SkinnedMesh> mesh, std::span<con
                           double farthest) {
   RINGLET_ASSERT(mesh, "a scalp is a mesh");
   const std::vector<Vec3d> points = mesh->pointsAt(t0);
-  const TriangleTree tree(points, mesh->triangles());
+  const TriangleFinder tree(points, mesh->triangles());
   Scalp scalp;
   std::size_t lostCount = 0, worst = 0;
   double worstDistance = -1;

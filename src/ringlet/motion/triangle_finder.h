@@ -1,4 +1,4 @@
-// TriangleTree: the triangle nearest to a point, among many.
+// TriangleFinder: the triangle nearest to a point, among many.
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@ struct TrianglePlace {
 /// The place of a triangle nearest to p, exactly. Weights of a corner or an edge have zeros.
 std::array<double, 3> nearestWeights(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
 
-class TriangleTree {
+class TriangleFinder {
  public:
   /// Triangles without an area, or not finite, are left out. Cost: n log n.
-  TriangleTree(std::span<const Vec3d> points, std::span<const std::array<std::uint32_t, 3>> triangles);
+  TriangleFinder(std::span<const Vec3d> points, std::span<const std::array<std::uint32_t, 3>> triangles);
 
   /// Nothing where there are no triangles, or p is not finite. The same for the same triangles, always.
   std::optional<TrianglePlace> nearestTo(Vec3d p) const;

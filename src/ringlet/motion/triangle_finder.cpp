@@ -1,5 +1,5 @@
-// Implements motion/triangle_tree.h.
-#include "ringlet/motion/triangle_tree.h"
+// Implements motion/triangle_finder.h.
+#include "ringlet/motion/triangle_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ std::array<double, 3> nearestWeights(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
   return {va / sum, vb / sum, vc / sum};
 }
 
-TriangleTree::TriangleTree(std::span<const Vec3d> points,
+TriangleFinder::TriangleFinder(std::span<const Vec3d> points,
                            std::span<const std::array<std::uint32_t, 3>> triangles) {
   for (std::size_t k = 0; k < triangles.size(); ++k) {
     const auto [i, j, l] = triangles[k];
@@ -61,7 +61,7 @@ TriangleTree::TriangleTree(std::span<const Vec3d> points,
 }
 
 // Halves by number along the longest side of the boxes' centres, so that depth is a logarithm.
-void TriangleTree::build(std::size_t begin, std::size_t end) {
+void TriangleFinder::build(std::size_t begin, std::size_t end) {
   const std::size_t own = parts_.size();
   Part part{triangles_[begin].a, triangles_[begin].a, begin, end, 0};
   for (std::size_t k = begin; k < end; ++k) {
@@ -85,7 +85,7 @@ void TriangleTree::build(std::size_t begin, std::size_t end) {
   build(middle, end);
 }
 
-std::optional<TrianglePlace> TriangleTree::nearestTo(Vec3d p) const {
+std::optional<TrianglePlace> TriangleFinder::nearestTo(Vec3d p) const {
   if (parts_.empty() || !isFinite(p)) return std::nullopt;
   TrianglePlace best;
   double least = INFINITY;              // squared
