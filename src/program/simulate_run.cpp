@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -41,16 +42,19 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Where head and bodies are at the end of every step of a frame.
+// Where head, bodies and roots are at the end of every step of a frame.
 struct FramePoses {
   std::vector<HeadPose> heads;
   std::vector<BodyPose> bodies;  // as bodyPosesOf gives them
+  std::vector<BodyPose> roots;   // as Simulation::stepFrame takes them
 
   /// Steps [first, first + count) of them.
   Status step(Backend& backend, std::size_t first, std::size_t count) const {
-    const std::size_t each = bodies.size() / heads.size();
-    return backend.stepFrame(std::span(heads).subspan(first, count),
-                             std::span(bodies).subspan(first * each, count * each));
+    const auto ofSteps = [&](const std::vector<BodyPose>& poses) {
+      const std::size_t each = poses.size() / heads.size();
+      return std::span(poses).subspan(first * each, count * each);
+    };
+    return backend.stepFrame(std::span(heads).subspan(first, count), ofSteps(bodies), ofSteps(roots));
   }
   Status step(Backend& backend) const { return step(backend, 0, heads.size()); }
   std::span<const BodyPose> bodiesAtEnd() const {
@@ -67,6 +71,8 @@ FramePoses posesOfFrame(const RunInput& input, int frame) {
     const double steps = static_cast<double>(frame) * settings.stepsPerFrame + step;
     times.push_back(steps / (settings.framesPerSecond * settings.stepsPerFrame));
     poses.heads.push_back(input.motion.poseAt(times.back()));
+    if (input.scalp)
+      std::ranges::copy(input.scalp->rootPosesAt(times.back()), std::back_inserter(poses.roots));
   }
   poses.bodies = bodyPosesOf(input.bodies, poses.heads, times);
   return poses;
@@ -104,9 +110,11 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   const Settings settings = options.measuresContacts ? stepByStep(input.settings) : input.settings;
   const HeadPose head = input.motion.poseAt(start);
   const std::vector<BodyPose> bodies = bodyPosesOf(input.bodies, std::span(&head, 1), std::span(&start, 1));
-  const BackendInput made{
-      input.groom,      input.material, settings, head, input.motion.poseAt(start - settings.stepSeconds()),
-      input.rootShifts, input.bodies,   bodies};
+  const double earlier = start - settings.stepSeconds();
+  std::vector<BodyPose> roots, rootsEarlier;
+  if (input.scalp) roots = input.scalp->rootPosesAt(start), rootsEarlier = input.scalp->rootPosesAt(earlier);
+  const BackendInput made{input.groom,      input.material, settings, head,  input.motion.poseAt(earlier),
+                          input.rootShifts, input.bodies,   bodies,   roots, rootsEarlier};
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
@@ -388,8 +396,16 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
   }
 
   const std::vector<Vec3d> shifts = rootShiftsOf(options.rootShift, loaded->groom.strandCount());
-  auto outcome =
-      runHair({loaded->groom, *material, settings, options.motion, shifts, options.bodies}, options);
+  std::optional<HeadScalp> scalp;
+  if (!options.scalp.file.empty()) {
+    auto bound =
+        loadScalp(options.scalp, loaded->groom, options.motion, options.motionFile, options.up, warnings);
+    if (!bound) return bound.error();
+    scalp = std::move(*bound);
+  }
+  auto outcome = runHair(
+      {loaded->groom, *material, settings, options.motion, shifts, options.bodies, scalp ? &*scalp : nullptr},
+      options);
   if (!outcome) return outcome.error();
   outcome->warnings.insert(outcome->warnings.begin(), warnings.begin(), warnings.end());
   return outcome;
