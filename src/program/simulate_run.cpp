@@ -287,7 +287,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   if (!stepper) return stepper.error();
 
   // Frames, until all are done or Ctrl-C comes.
-  double readback = 0, writing = 0, watching = 0;  // [ms]
+  double readback = 0, writing = 0, watching = 0, following = 0;  // [ms]
   std::optional<BodyWatch> bodyWatch;
   if (!input.bodies.empty()) bodyWatch.emplace(groom, input.bodies, input.settings.rootCount);
   std::size_t mostReplaced = 0;
@@ -296,7 +296,10 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
     ProgressBar progress(options.frameCount, options.showProgress);
     for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
       progress.show(frame);
-      const FramePoses poses = posesOfFrame(input, frame);
+      const FramePoses poses = [&] {
+        Stopwatch watch(following);
+        return posesOfFrame(input, frame);
+      }();
       if (Status stepped = stepper->stepFrame(poses); !stepped)
         return afterFrames(frame, stepped.error(), options);
       {
@@ -347,6 +350,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   for (const auto& [stage, milliseconds] : stagesBefore) outcome.stages[stage] -= milliseconds;
   outcome.stages["readback"] = readback;
   outcome.stages["write"] = writing;
+  if (input.scalp) outcome.stages["scalp"] = following;
   if (bodyWatch) {
     outcome.stages["measure_bodies"] = watching;
     outcome.bodyNumbers = bodyWatch->numbers();
