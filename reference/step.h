@@ -53,6 +53,8 @@ class Simulation {
                                            materialOfStrand(material, s), paper, settings));
     }
     rootShifts_.assign(groom.strandCount(), Vector3<double>::Zero());
+    rootPoses_.assign(groom.strandCount(), BodyPose{});
+    previousRootPoses_ = rootPoses_;
     systems_.resize(groom.strandCount());
     taps_.resize(groom.strandCount());
     if (settings.contacts.on) {
@@ -66,8 +68,12 @@ class Simulation {
       : Simulation(groom, material, settings, start, start) {}
 
   /// Outer steps; stepPoses[k] is the head's pose at the end of step k. A frame is settings.stepsPerFrame of
-  /// them. bodyPoses: as bodyPosesOf gives them; without, all bodies are the head's.
-  void stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {}) {
+  /// them. bodyPoses: as bodyPosesOf gives them; without, all bodies are the head's. rootPoses[step * strands
+  /// + strand]: each strand's own pose in the head's frame; without, they stay.
+  void stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
+                 std::span<const BodyPose> rootPoses = {}) {
+    RINGLET_ASSERT(rootPoses.empty() || rootPoses.size() == stepPoses.size() * rest_.size(),
+                   "every strand has a pose in every step");
     const std::vector<BodyPose> carried =
         bodyPoses.empty() ? bodyPosesOf(bodies_, stepPoses, std::vector<double>(stepPoses.size()))
                           : std::vector<BodyPose>(bodyPoses.begin(), bodyPoses.end());
@@ -76,11 +82,28 @@ class Simulation {
     if (settings_.jumps(length(stepPoses.back().position - head_.position))) {
       carryTo(stepPoses.back());
       bodyPoses_.assign(carried.end() - static_cast<std::ptrdiff_t>(bodies_.size()), carried.end());
+      if (!rootPoses.empty())
+        rootPoses_.assign(rootPoses.end() - static_cast<std::ptrdiff_t>(rest_.size()), rootPoses.end());
+      previousRootPoses_ = rootPoses_;
       report_.steps += stepPoses.size();
       return;
     }
-    for (std::size_t k = 0; k < stepPoses.size(); ++k)
-      stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()));
+    for (std::size_t k = 0; k < stepPoses.size(); ++k) {
+      const std::vector<BodyPose> roots =
+          rootPoses.empty() ? rootPoses_
+                            : std::vector<BodyPose>(
+                                  rootPoses.begin() + static_cast<std::ptrdiff_t>(k * rest_.size()),
+                                  rootPoses.begin() + static_cast<std::ptrdiff_t>((k + 1) * rest_.size()));
+      stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
+    }
+  }
+  /// Strands' own poses before the first step and one step earlier; puts the hair there, at rest.
+  void placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
+    RINGLET_ASSERT(now.size() == rest_.size() && oneStepEarlier.size() == rest_.size(),
+                   "every strand has a pose");
+    rootPoses_.assign(now.begin(), now.end());
+    previousRootPoses_.assign(oneStepEarlier.begin(), oneStepEarlier.end());
+    placeAtRest();
   }
   /// Where bodies are before the first step; without, where they are at t = 0.
   void placeBodies(std::span<const BodyPose> poses) { bodyPoses_.assign(poses.begin(), poses.end()); }
@@ -124,14 +147,29 @@ class Simulation {
 
  private:
   void placeAtRest() {
-    const Rotation<Real> now = toEigen<Real>(head_.rotation), before = toEigen<Real>(previousHead_.rotation);
-    const Real T = static_cast<Real>(settings_.stepSeconds());
-    for (const RestStrand<Real>& rest : rest_) {
-      for (const Vector3<Real>& point : rest.points) {
-        positions_.push_back(now * point);
-        velocities_.push_back((now * point - before * point) / T);
+    const double T = settings_.stepSeconds();
+    positions_.clear();
+    velocities_.clear();
+    for (std::size_t s = 0; s < rest_.size(); ++s) {
+      const Carried now = carried(head_, rootPoses_[s]),
+                    before = carried(previousHead_, previousRootPoses_[s]);
+      for (const Vector3<Real>& point : rest_[s].points) {
+        const Vector3<double> x = point.template cast<double>();
+        const Vector3<double> here = now.origin + now.rotation * x;
+        positions_.push_back(here.template cast<Real>());
+        velocities_.push_back(((here - before.origin - before.rotation * x) / T).template cast<Real>());
       }
     }
+  }
+
+  // A strand, by the head and its own pose: x = origin + rotation x_groom, relative to the head's origin.
+  struct Carried {
+    Rotation<double> rotation;
+    Vector3<double> origin;
+  };
+  static Carried carried(const HeadPose& head, const BodyPose& root) {
+    const Rotation<double> turn = toEigen<double>(head.rotation);
+    return {turn * toEigen<double>(root.rotation), turn * toEigen<double>(root.position)};
   }
 
   // Rigidly: seen from the head, hair and head go on as they were.
@@ -151,11 +189,12 @@ class Simulation {
     contacts_.changes.clear();
   }
 
-  void stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses) {
+  void stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses,
+                const std::vector<BodyPose>& roots) {
     const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
     const AirStep<Real> air = airStep(next);
     for (std::size_t s = 0; s < rest_.size(); ++s) {
-      const HeadStep<Real> head = headStep(next, s);
+      const HeadStep<Real> head = headStep(next, s, roots[s]);
       const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
       prepareStrand(rest_[s], settings_, head, air, positions, velocities, scratch_, taps_[s], systems_[s]);
       solveVelocities(rest_[s], settings_, head, bodies, systems_[s], scratch_, taps_[s], positions,
@@ -170,7 +209,7 @@ class Simulation {
       solveContacts(settings_.contacts.iterations, firstPoint_, systems_, solveOne, contacts_, velocities_);
     }
     for (std::size_t s = 0; s < rest_.size(); ++s) {
-      moveStrand(rest_[s], settings_, headStep(next, s), bodies, strandOf(positions_, s),
+      moveStrand(rest_[s], settings_, headStep(next, s, roots[s]), bodies, strandOf(positions_, s),
                  strandOf(velocities_, s), scratch_, taps_[s]);
       record(rest_[s], taps_[s]);
     }
@@ -178,6 +217,8 @@ class Simulation {
     ++report_.steps;
     previousHead_ = head_;
     head_ = next;
+    previousRootPoses_ = rootPoses_;
+    rootPoses_ = roots;
     bodyPoses_.assign(bodyPoses.begin(), bodyPoses.end());
   }
 
@@ -211,15 +252,18 @@ class Simulation {
   }
 
   // For strand s. In double: the head's velocity is a small difference of positions that may be large.
-  HeadStep<Real> headStep(const HeadPose& next, std::size_t s) const {
+  HeadStep<Real> headStep(const HeadPose& next, std::size_t s, const BodyPose& nextRoot) const {
     const double T = settings_.stepSeconds();
     const Vec3d velocityNow = (head_.position - previousHead_.position) / T;
     const Vec3d velocityNext = (next.position - head_.position) / T;
-    return {.before = toEigen<double>(previousHead_.rotation),
-            .now = toEigen<double>(head_.rotation),
-            .next = toEigen<double>(next.rotation),
+    const Carried carriedNow = carried(head_, rootPoses_[s]), carriedNext = carried(next, nextRoot);
+    return {.before = carried(previousHead_, previousRootPoses_[s]).rotation,
+            .now = carriedNow.rotation,
+            .next = carriedNext.rotation,
             .velocityChange = toEigen<Real>(velocityNext - velocityNow),
             .seconds = static_cast<Real>(T),
+            .originNow = carriedNow.origin,
+            .originNext = carriedNext.origin,
             .shiftNow = head_.shift * rootShifts_[s],
             .shiftNext = next.shift * rootShifts_[s]};
   }
@@ -236,9 +280,10 @@ class Simulation {
   }
 
   Settings settings_;
-  HeadPose previousHead_, head_;           // poses n - 1 and n
-  Field<double> rootShifts_;               // at HeadPose::shift 1 [m]
-  std::vector<std::uint32_t> firstPoint_;  // as in Groom
+  HeadPose previousHead_, head_;                         // poses n - 1 and n
+  Field<double> rootShifts_;                             // at HeadPose::shift 1 [m]
+  std::vector<BodyPose> previousRootPoses_, rootPoses_;  // of strands in the head's frame, n - 1 and n
+  std::vector<std::uint32_t> firstPoint_;                // as in Groom
   std::vector<Body> bodies_;
   std::vector<WindMode> windModes_;
   std::vector<BodyPose> bodyPoses_;  // at pose n, in the world

@@ -22,14 +22,16 @@
 
 namespace ringlet::reference {
 
-/// What the head does in the step from n to n + 1.
+/// What the head, and the strand's own pose in its frame, do in the step from n to n + 1.
 template <class Real>
 struct HeadStep {
   Rotation<double> before, now,
       next;  // rotations of poses n - 1, n, n + 1: their differences over T need the digits
   Vector3<Real> velocityChange;  // of its translation: V_{n+1} - V_n [m/s]
   Real seconds = 0;              // T
-  // Where the strand's roots are beside the head, poses n and n + 1, the groom's axes [m].
+  // Where the groom's origin is carried to, poses n and n + 1, relative to the head's origin, world axes [m].
+  Vector3<double> originNow = Vector3<double>::Zero(), originNext = Vector3<double>::Zero();
+  // Where the strand's roots are beside that, poses n and n + 1, the groom's axes [m].
   Vector3<double> shiftNow = Vector3<double>::Zero(), shiftNext = Vector3<double>::Zero();
 
   Rotation<Real> rotation() const { return now.template cast<Real>(); }
@@ -39,11 +41,12 @@ struct HeadStep {
   }
   /// Where the head and the shift carry a pinned particle x of the groom to [m], and how fast [m/s].
   Vector3<Real> carriedPlace(const Vector3<Real>& x) const {
-    return next.template cast<Real>() * Vector3<Real>(x + shiftNext.template cast<Real>());
+    return originNext.template cast<Real>() +
+           next.template cast<Real>() * Vector3<Real>(x + shiftNext.template cast<Real>());
   }
   Vector3<Real> carriedVelocity(const Vector3<Real>& x) const {
-    return velocityBetween(now * (x.template cast<double>() + shiftNow),
-                           next * (x.template cast<double>() + shiftNext));
+    return velocityBetween(originNow + now * (x.template cast<double>() + shiftNow),
+                           originNext + next * (x.template cast<double>() + shiftNext));
   }
 
  private:

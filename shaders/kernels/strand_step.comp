@@ -342,7 +342,8 @@ void main() {
   uint strandIndex = parameters.strandBegin + invocation / kLanes;
   // No early return: the lanes of an idle strand repeat the last one and store nothing, so that every shuffle is whole.
   bool idle = strandIndex >= parameters.strandEnd;
-  strand = strandRest(min(strandIndex, parameters.strandEnd - 1));
+  strandAt = min(strandIndex, parameters.strandEnd - 1);
+  strand = strandRest(strandAt);
   if (idle) strand.particleCount = 0;
   first = lane * RUN;
   loadStrand();

@@ -597,7 +597,8 @@ void springs(uint step) {
 void main() {
   uint strandIndex = parameters.strandBegin + gl_GlobalInvocationID.x;
   if (strandIndex >= parameters.strandEnd || (kContacts && control.isHalted != 0)) return;
-  strand = strandRest(strandIndex);
+  strandAt = strandIndex;
+  strand = strandRest(strandAt);
   count = strand.particleCount;
   for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
     if ((parameters.phases & kPhaseSprings) != 0) springs(step);

@@ -44,6 +44,9 @@ RINGLET_CONSTANT uint kBindBodyPoseTexels = 21;  // 4 a pose
 RINGLET_CONSTANT uint kBindGridCellTexels = 22;
 RINGLET_CONSTANT uint kBindAirTexels = 23;       // 4 a step
 RINGLET_CONSTANT uint kBindWindModeTexels = 24;  // 2 a mode
+// Where roots are that move beside the head, each strand's its own way:
+RINGLET_CONSTANT uint kBindRootPoses = 25;       // RootPose[steps + 1][strands]
+RINGLET_CONSTANT uint kBindRootPoseTexels = 26;  // 4 a pose
 
 // Integrators (specialization constant 2).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
@@ -128,6 +131,15 @@ struct StepPose {
                         // their shift that shifted roots have gone
 };
 
+// What carries a strand's roots, the head and the strand's own pose in the head's frame together: where it brings the
+// groom's origin, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step k.
+struct RootPose {
+  vec4 position;  // xyz [m]
+  vec4 rotation;  // quaternion (x, y, z, w)
+  vec4 turn;      // from the pose before to this
+  vec4 velocity;  // xyz: of the groom's origin in the step that ends here, relative to the head's translation [m/s]
+};
+
 // A body, constant. Boxes, spheres and capsules are boxes with rounded edges.
 struct BodyRest {
   vec4 halfExtents;  // xyz: of the box within [m]; w: its rounding, or what hair keeps away from a plane or grid [m]
@@ -184,6 +196,7 @@ struct StepParameters {
   uint bodyCount;
   float dragStrength;  // g / U^2, U the fall speed [1/m]
   float dragAlong;     // share of drag that what passes along a strand has
+  uint strandCount;    // of the whole groom: stride of the root poses
 };
 
 // Bindings of the contact kernels, all in set 0.

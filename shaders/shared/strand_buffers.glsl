@@ -16,6 +16,7 @@ layout(constant_id = 6) const bool kContacts = false;    // the solve is iterate
 layout(constant_id = 8) const bool kBodies = false;      // there are some
 layout(constant_id = 9) const bool kAir = false;         // hair feels it
 layout(constant_id = 10) const bool kTurbulent = false;  // and it has waves
+layout(constant_id = 11) const bool kMovingRoots = false;  // strands have poses of their own
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -62,27 +63,11 @@ ContactSystem contactSystemOf(uint i) {
 #include "shared/body_buffers.glsl"
 
 StrandRest strand;  // this invocation's
+uint strandAt;      // and which it is, device order
 
 float stepSeconds() { return parameters.gravity.w; }
 
-// The head in outer step `step`.
-vec4 rotationAtStart(uint step) { return poses[step].rotation; }
-vec4 rotationAtEnd(uint step) { return poses[step + 1].rotation; }
-vec3 headVelocityChange(uint step) { return poses[step + 1].velocityChange.xyz; }
-
-/// How fast the head moves x, a place at the step's start, by its turning in this step.
-vec3 turningVelocity(uint step, vec3 x) { return displacement(poses[step + 1].turn, x) / stepSeconds(); }
-/// And in the step before.
-vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(poses[step].turn), x) / stepSeconds(); }
-
-// Pinned particle k of the strand: the head carries it, and its shift beside.
-vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
-float shiftedShare(uint step) { return poses[step].velocityChange.w; }
-vec3 pinAt(uint pose, uint k) { return rotate(poses[pose].rotation, strand.pins[k].xyz + shiftedShare(pose) * rootShift()); }
-vec3 pinnedVelocity(uint step, uint k) {
-  float rate = (shiftedShare(step + 1) - shiftedShare(step)) / stepSeconds();
-  return turningVelocity(step, pinAt(step, k)) + rotate(rotationAtEnd(step), rate * rootShift());
-}
+#include "shared/root_buffers.glsl"
 
 // The strand's constants times this are the edge's.
 float edgeScaleOf(float edgeLength) { return kIntegrator == kIntegratorPaper ? 1.0 : 1.0 / edgeLength; }

@@ -28,6 +28,9 @@ struct BackendInput {
   std::span<const Vec3d> rootShifts;  // of each strand's root beside the head (HeadPose::shift) [m], or none
   std::span<const Body> bodies;
   std::span<const BodyPose> bodyStarts;  // where they are before the first step
+  // Of each strand in the head's frame, before the first step and one step earlier; none: the head carries
+  // them.
+  std::span<const BodyPose> rootStarts, rootsEarlier;
 };
 
 class Backend {
@@ -35,8 +38,9 @@ class Backend {
   virtual ~Backend() = default;
 
   /// One frame, finished when this returns; stepPoses[k] is the head's pose at the end of step k, bodyPoses
-  /// what bodyPosesOf gives for these steps.
-  virtual Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) = 0;
+  /// what bodyPosesOf gives for these steps, rootPoses what Simulation::stepFrame takes.
+  virtual Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                           std::span<const BodyPose> rootPoses) = 0;
   /// Groom order, relative to the head's origin, along world axes [m].
   virtual Result<std::vector<Vec3f>> positions() = 0;
   virtual Result<SimulationReport> report() = 0;

@@ -11,8 +11,9 @@ class GpuBackend : public Backend {
   GpuBackend(ComputeDevice device, Simulation simulation)
       : device_(std::move(device)), simulation_(std::move(simulation)) {}
 
-  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) override {
-    return simulation_.stepFrame(stepPoses, bodyPoses);
+  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                   std::span<const BodyPose> rootPoses) override {
+    return simulation_.stepFrame(stepPoses, bodyPoses, rootPoses);
   }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<SimulationReport> report() override { return simulation_.report(); }
@@ -41,9 +42,15 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
                                                 const KernelChoice& kernel) {
   auto device = ComputeDevice::open(deviceChoice);
   if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
+  KernelChoice choice = kernel;
+  choice.movingRoots = !input.rootStarts.empty();
   auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
-                                       input.oneStepEarlier, kernel, input.bodies);
+                                       input.oneStepEarlier, choice, input.bodies);
   if (!simulation) return simulation.error();
+  if (choice.movingRoots) {
+    if (Status placed = simulation->placeRoots(input.rootStarts, input.rootsEarlier); !placed)
+      return placed.error();
+  }
   simulation->placeBodies(input.bodyStarts);
   if (!input.rootShifts.empty()) {
     if (Status shifted = simulation->setRootShifts(input.rootShifts); !shifted) return shifted.error();

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "ringlet/bodies/head_mesh.h"
@@ -97,6 +99,33 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, std::vector<std::st
     bodies.push_back(std::move(body));
   }
   return bodies;
+}
+
+Result<HeadScalp> loadScalp(const SceneScalp& scene, const Groom& groom, const Motion& head,
+                            const std::optional<MotionFileChoice>& headFile, UpAxis up,
+                            std::vector<std::string>& warnings) {
+  const std::string name = scene.file.string();
+  std::error_code code;  // files that are not there are no error of this
+  const bool isHeads = headFile && std::filesystem::equivalent(headFile->path, scene.file, code);
+  SkinnedMeshChoice choice{.node = scene.mesh, .animation = scene.animation};
+  if (isHeads && choice.animation.empty()) choice.animation = headFile->animation;
+  choice.placement.metresPerUnit =
+      scene.metresPerUnit.value_or(isHeads ? headFile->metresPerUnit.value_or(1) : 1);
+  choice.placement.upIsZ = up == UpAxis::z;
+  auto read = readSkinnedMesh(scene.file, choice);
+  if (!read) return Error{fmt::format("the scalp: {}", read.error().message)};
+  const auto mesh = std::make_shared<const SkinnedMesh>(std::move(*read));
+  for (const std::string& warning : mesh->warnings())
+    warnings.push_back(fmt::format("{}: {}", name, warning));
+
+  std::vector<Vec3d> roots;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
+  auto scalp = HeadScalp::bind(
+      mesh, roots, head,
+      {.start = scene.start, .farthest = scene.farthest, .offset = isHeads ? head.start : Vec3d{}});
+  if (!scalp) return Error{fmt::format("the scalp {}: {}", name, scalp.error().message)};
+  return scalp;
 }
 
 }  // namespace ringlet::program

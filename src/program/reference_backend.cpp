@@ -19,13 +19,15 @@ class ReferenceBackend : public Backend {
         contactsAtRest_(atRest),
         simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier, {},
                     input.bodies) {
+    if (!input.rootStarts.empty()) simulation_.placeRoots(input.rootStarts, input.rootsEarlier);
     simulation_.placeBodies(input.bodyStarts);
     if (!input.rootShifts.empty()) simulation_.setRootShifts(input.rootShifts);
   }
 
-  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) override {
+  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                   std::span<const BodyPose> rootPoses) override {
     const auto start = std::chrono::steady_clock::now();
-    simulation_.stepFrame(stepPoses, bodyPoses);
+    simulation_.stepFrame(stepPoses, bodyPoses, rootPoses);
     milliseconds_ +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return {};

@@ -166,6 +166,7 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   options.up = scene.groom.up == "Z" ? UpAxis::z : UpAxis::y;
   options.motion = motionOf(scene.motion, upOf(scene.groom));
   if (!scene.motion.file.empty()) options.motionFile = motionFileOf(scene.motion);
+  options.scalp = scene.scalp;
   options.rootShift = scene.motion.roots.shift;
   options.preRollSeconds = scene.motion.preRollSeconds;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <system_error>
@@ -41,16 +42,19 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Where head and bodies are at the end of every step of a frame.
+// Where head, bodies and roots are at the end of every step of a frame.
 struct FramePoses {
   std::vector<HeadPose> heads;
   std::vector<BodyPose> bodies;  // as bodyPosesOf gives them
+  std::vector<BodyPose> roots;   // as Simulation::stepFrame takes them
 
   /// Steps [first, first + count) of them.
   Status step(Backend& backend, std::size_t first, std::size_t count) const {
-    const std::size_t each = bodies.size() / heads.size();
-    return backend.stepFrame(std::span(heads).subspan(first, count),
-                             std::span(bodies).subspan(first * each, count * each));
+    const auto ofSteps = [&](const std::vector<BodyPose>& poses) {
+      const std::size_t each = poses.size() / heads.size();
+      return std::span(poses).subspan(first * each, count * each);
+    };
+    return backend.stepFrame(std::span(heads).subspan(first, count), ofSteps(bodies), ofSteps(roots));
   }
   Status step(Backend& backend) const { return step(backend, 0, heads.size()); }
   std::span<const BodyPose> bodiesAtEnd() const {
@@ -67,6 +71,8 @@ FramePoses posesOfFrame(const RunInput& input, int frame) {
     const double steps = static_cast<double>(frame) * settings.stepsPerFrame + step;
     times.push_back(steps / (settings.framesPerSecond * settings.stepsPerFrame));
     poses.heads.push_back(input.motion.poseAt(times.back()));
+    if (input.scalp)
+      std::ranges::copy(input.scalp->rootPosesAt(times.back()), std::back_inserter(poses.roots));
   }
   poses.bodies = bodyPosesOf(input.bodies, poses.heads, times);
   return poses;
@@ -104,9 +110,11 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   const Settings settings = options.measuresContacts ? stepByStep(input.settings) : input.settings;
   const HeadPose head = input.motion.poseAt(start);
   const std::vector<BodyPose> bodies = bodyPosesOf(input.bodies, std::span(&head, 1), std::span(&start, 1));
-  const BackendInput made{
-      input.groom,      input.material, settings, head, input.motion.poseAt(start - settings.stepSeconds()),
-      input.rootShifts, input.bodies,   bodies};
+  const double earlier = start - settings.stepSeconds();
+  std::vector<BodyPose> roots, rootsEarlier;
+  if (input.scalp) roots = input.scalp->rootPosesAt(start), rootsEarlier = input.scalp->rootPosesAt(earlier);
+  const BackendInput made{input.groom,      input.material, settings, head,  input.motion.poseAt(earlier),
+                          input.rootShifts, input.bodies,   bodies,   roots, rootsEarlier};
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
@@ -279,7 +287,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   if (!stepper) return stepper.error();
 
   // Frames, until all are done or Ctrl-C comes.
-  double readback = 0, writing = 0, watching = 0;  // [ms]
+  double readback = 0, writing = 0, watching = 0, following = 0;  // [ms]
   std::optional<BodyWatch> bodyWatch;
   if (!input.bodies.empty()) bodyWatch.emplace(groom, input.bodies, input.settings.rootCount);
   std::size_t mostReplaced = 0;
@@ -288,7 +296,10 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
     ProgressBar progress(options.frameCount, options.showProgress);
     for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
       progress.show(frame);
-      const FramePoses poses = posesOfFrame(input, frame);
+      const FramePoses poses = [&] {
+        Stopwatch watch(following);
+        return posesOfFrame(input, frame);
+      }();
       if (Status stepped = stepper->stepFrame(poses); !stepped)
         return afterFrames(frame, stepped.error(), options);
       {
@@ -339,6 +350,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   for (const auto& [stage, milliseconds] : stagesBefore) outcome.stages[stage] -= milliseconds;
   outcome.stages["readback"] = readback;
   outcome.stages["write"] = writing;
+  if (input.scalp) outcome.stages["scalp"] = following;
   if (bodyWatch) {
     outcome.stages["measure_bodies"] = watching;
     outcome.bodyNumbers = bodyWatch->numbers();
@@ -388,8 +400,16 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
   }
 
   const std::vector<Vec3d> shifts = rootShiftsOf(options.rootShift, loaded->groom.strandCount());
-  auto outcome =
-      runHair({loaded->groom, *material, settings, options.motion, shifts, options.bodies}, options);
+  std::optional<HeadScalp> scalp;
+  if (!options.scalp.file.empty()) {
+    auto bound =
+        loadScalp(options.scalp, loaded->groom, options.motion, options.motionFile, options.up, warnings);
+    if (!bound) return bound.error();
+    scalp = std::move(*bound);
+  }
+  auto outcome = runHair(
+      {loaded->groom, *material, settings, options.motion, shifts, options.bodies, scalp ? &*scalp : nullptr},
+      options);
   if (!outcome) return outcome.error();
   outcome->warnings.insert(outcome->warnings.begin(), warnings.begin(), warnings.end());
   return outcome;

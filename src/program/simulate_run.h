@@ -15,6 +15,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
+#include "ringlet/motion/head_scalp.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
@@ -44,6 +45,7 @@ struct SimulateOptions : RunOptions {
   SceneGroom groom;
   Motion motion;
   std::optional<MotionFileChoice> motionFile;  // in its place
+  SceneScalp scalp;                            // that roots follow; without a file the head carries them
   Vec3d rootShift{};                           // rootShiftsOf (scenes/scene_parts.h) [m]
   std::vector<Body> bodies;
   bool choosesFrames = false;  // frameCount is to be the length of the file or the keys
@@ -82,6 +84,7 @@ struct RunInput {
   std::span<const Vec3d>
       rootShifts{};  // of each strand's root beside the head (HeadPose::shift) [m], or none
   std::span<const Body> bodies{};
+  const HeadScalp* scalp = nullptr;  // that roots follow; none: the head carries them
 };
 
 /// Sees every frame: points in the groom's unit, in its order, finite; and where the head is.

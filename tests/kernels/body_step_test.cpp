@@ -69,6 +69,16 @@ TEST_F(BodyStep, ManyBodiesAgree) {
   }
 }
 
+// With air, and with roots of their own (KernelChoice::movingRoots).
+TEST_F(BodyStep, MovingRootsAgree) {
+  for (Variant variant : kForms) {
+    variant.kernel.movingRoots = true;
+    ParityCase c{randomGroom(lengths(), 15), {}, {}, variant.kernel, 5, amongStrands(sampleBodies().front())};
+    c.settings.air = {.on = true, .fallSpeed = 2, .wind = {5, 0, 1}, .turbulence = 1};
+    expectOneStep(c, fmt::format("moving roots, {}", variant.name), kOneStepAmongBodies);
+  }
+}
+
 TEST_F(BodyStep, AirAgrees) {
   for (const double turbulence : {0.0, 2.0}) {
     for (const Variant& variant : kVariants) {

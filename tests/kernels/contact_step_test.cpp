@@ -136,6 +136,40 @@ TEST_F(ContactStep, FramesAgreeWithDouble) {
   }
 }
 
+// Strands that meet because their roots go to each other: each its own way, as those that go together would
+// touch or not by rounding.
+TEST_F(ContactStep, FramesOfMovingRootsAgreeWithDouble) {
+  const Groom groom = denseSwatch(32);
+  const Settings settings = meetingSettings();
+  auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {.movingRoots = true});
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  reference::Simulation<double> reference(groom, {}, settings);
+  const int frames = 12;
+  double worst = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    const std::vector<HeadPose> heads(static_cast<std::size_t>(settings.stepsPerFrame));
+    std::vector<BodyPose> roots;
+    for (int k = 1; k <= settings.stepsPerFrame; ++k) {
+      const double t = frame + double(k) / settings.stepsPerFrame;
+      for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+        const double way = std::sin(0.4 * t) * std::sin(1.7 * static_cast<double>(s) + 1);
+        roots.push_back({Vec3d{0.004, 0, 0.003} * way, fromRotationVector(Vec3d{0.1, 0.3, 0.05} * way)});
+      }
+    }
+    ASSERT_TRUE(simulation->stepFrame(heads, {}, roots));
+    reference.stepFrame(heads, {}, roots);
+    const auto positions = *simulation->positions();
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      worst = std::max(worst, (reference::toEigen<double>(positions[i]) - reference.positions()[i]).norm());
+    expectSameContacts(*simulation, reference, 1e-5, "moving roots");
+  }
+  const auto report = simulation->contactReport();
+  ASSERT_TRUE(report) << report.error().message;
+  fmt::print("moving roots: {:.1e} m apart after {} frames; {} contacts\n", worst, frames, report->contacts);
+  EXPECT_GT(report->contacts, 0u);
+  EXPECT_LE(worst, kMeetingMetres);
+}
+
 // No two threads decide anything: the same bits however many there are.
 TEST_F(ContactStep, RepeatsBitwiseWithAnyNumberOfThreads) {
   const auto run = [](const ComputeDevice& on) {

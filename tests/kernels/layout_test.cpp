@@ -131,6 +131,13 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_EQ(offsets.at("WindWave").size(), 2u);
   EXPECT_EQ(reflection.strides.at("WindWave"), sizeof(layout::WindWave));
 
+  EXPECT_SAME_OFFSET(RootPose, position);
+  EXPECT_SAME_OFFSET(RootPose, rotation);
+  EXPECT_SAME_OFFSET(RootPose, turn);
+  EXPECT_SAME_OFFSET(RootPose, velocity);
+  EXPECT_EQ(offsets.at("RootPose").size(), 4u);
+  EXPECT_EQ(reflection.strides.at("RootPose"), sizeof(layout::RootPose));
+
   EXPECT_SAME_OFFSET(StepParameters, gravity);
   EXPECT_SAME_OFFSET(StepParameters, maxStretch);
   EXPECT_SAME_OFFSET(StepParameters, coreRelaxedShare);
@@ -152,7 +159,8 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_SAME_OFFSET(StepParameters, bodyCount);
   EXPECT_SAME_OFFSET(StepParameters, dragStrength);
   EXPECT_SAME_OFFSET(StepParameters, dragAlong);
-  EXPECT_EQ(offsets.at("StepParameters").size(), 21u);
+  EXPECT_SAME_OFFSET(StepParameters, strandCount);
+  EXPECT_EQ(offsets.at("StepParameters").size(), 22u);
   EXPECT_LE(sizeof(layout::StepParameters), 128u) << "Vulkan guarantees 128 bytes of push constants";
 }
 

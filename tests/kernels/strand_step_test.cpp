@@ -133,6 +133,28 @@ TEST_F(StrandStep, LongStrandsAgreeInEveryIntegrator) {
   }
 }
 
+// With KernelChoice::movingRoots: every strand has poses of its own. Each form with one root, both with
+// three.
+TEST_F(StrandStep, RootsOfTheirOwnAgree) {
+  for (Variant variant : kVariants) {
+    variant.kernel.movingRoots = true;
+    const bool isDefault =
+        variant.name == kVariants[0].name || variant.kernel.form == KernelChoice::Form::serial;
+    for (Integrator integrator : {Integrator::jacobi, Integrator::paper}) {
+      if (integrator == Integrator::paper && !isDefault) continue;
+      Settings settings = settingsFor(integrator);
+      settings.rootCount = isDefault && integrator == Integrator::jacobi ? 3 : 1;
+      expectOneStep({randomGroom(awkwardLengths(33), 43), {}, settings, variant.kernel},
+                    fmt::format("moving roots, {}, {}", int(integrator), variant.name));
+      const ParityCase c{randomGroom(awkwardLengths(25), 47), {}, settings, variant.kernel};
+      const FieldError e = oneFrameError(device(), c);
+      fmt::print("one frame, moving roots, integrator {}, {:<12} {:.1e} of the arc length\n", int(integrator),
+                 variant.name, e.error);
+      EXPECT_LE(e.error, kOneFrame) << variant.name << ": " << e.where;
+    }
+  }
+}
+
 TEST_F(StrandStep, AFrameAgreesWithDouble) {
   for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
     for (const Variant& variant : kVariants) {

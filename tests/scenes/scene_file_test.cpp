@@ -64,6 +64,8 @@ const std::string kKind =
     "offset = [0, 0.01, 0]\n"
     "[motion]\nkind = 'jump'\namplitude = 0.3\nfrequency = 1.5\naxis = [0, 0, 2]\nease = 0.75\nuntil = 3\n"
     "start = [1, 2, 3]\npre_roll = 0.5\n"
+    "[scalp]\nfile = 'skin.glb'\nmesh = 'Skin'\nanimation = 'nod'\nunit = 0.01\nfarthest = 0.002\nstart = "
+    "-0.5\n"
     "[motion.roots]\nshift = [0.01, 0, 0]\nfrequency = 2\nease = 0.5\nuntil = inf\n";
 
 const std::string kFile =
@@ -426,7 +428,7 @@ TEST(SceneFile, EveryKeyIsListedAndChecked) {
   for (const char* name :
        {"groom.file", "motion.kind", "motion.pre_roll", "motion.key.quaternion",
         "simulation.teleport_distance", "contacts.damping_release_seconds", "air.eddy_size",
-        "body.half_extents", "body.moves", "output.files", "motion.roots.shift"})
+        "body.half_extents", "body.moves", "output.files", "motion.roots.shift", "scalp.file", "scalp.start"})
     EXPECT_TRUE(seen.count(name)) << name;
 }
 

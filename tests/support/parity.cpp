@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <random>
 
@@ -160,26 +162,78 @@ HeadStep movingHead() {
   return {pose(-T), pose(0), pose(T)};
 }
 
+namespace {
+
+// Where strands' own poses go, each its own way: some degrees and millimetres, turning at some rad/s. None
+// where they are not asked for.
+class RootWays {
+ public:
+  RootWays(const ParityCase& c) {
+    if (!c.kernel.movingRoots) return;
+    Random random(c.seed + 2000);
+    for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
+      Way way;
+      for (Vec3d* v : {&way.turn, &way.turning, &way.place, &way.speed}) *v = random.vector();
+      ways_.push_back(way);
+    }
+  }
+  bool empty() const { return ways_.empty(); }
+  std::vector<BodyPose> at(double t) const {
+    std::vector<BodyPose> poses;
+    for (const Way& way : ways_)
+      poses.push_back({way.place * 0.005 + way.speed * (0.3 * t + 2 * t * t),
+                       fromRotationVector(way.turn * 0.1 + way.turning * (2 * t + 20 * t * t))});
+    return poses;
+  }
+  // Pinned particles where the poses at t = 0 have them, the others about them as before.
+  HairState carried(const Groom& groom, HairState state) const {
+    const std::vector<BodyPose> poses = at(0);
+    for (std::size_t s = 0; s < poses.size(); ++s) {
+      for (std::size_t g = groom.firstPoint[s]; g < groom.firstPoint[s + 1]; ++g) {
+        Vec3f &p = state.positions[g], &v = state.velocities[g];
+        p = static_cast<Vec3f>(poses[s].position + rotate(poses[s].rotation, static_cast<Vec3d>(p)));
+        v = static_cast<Vec3f>(rotate(poses[s].rotation, static_cast<Vec3d>(v)));
+      }
+    }
+    return state;
+  }
+
+ private:
+  struct Way {
+    Vec3d turn, turning, place, speed;
+  };
+  std::vector<Way> ways_;
+};
+
+}  // namespace
+
 std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c) {
   c.settings.framesPerSecond *= c.settings.stepsPerFrame;
   c.settings.stepsPerFrame = 1;
   c.kernel.taps = true;
   const HeadStep head = movingHead();
-  const HairState start = randomState(c.groom, c.settings, c.seed);
+  const RootWays roots(c);
+  const HairState start = roots.carried(c.groom, randomState(c.groom, c.settings, c.seed));
 
   auto simulation =
       Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel, c.bodies);
   if (!simulation) return {{"create", INFINITY, simulation.error().message}};
+  const double T = c.settings.stepSeconds();
+  const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-T), rootsNext = roots.at(T);
+  if (!roots.empty()) {
+    EXPECT_TRUE(simulation->placeRoots(rootsNow, rootsBefore));
+  }
   EXPECT_TRUE(simulation->setState(start));
-  const std::vector<double> end{c.settings.stepSeconds()};
+  const std::vector<double> end{T};
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
-  EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1), bodyPoses));
+  EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext));
   const auto found = simulation->state();
   if (!found) return {{"state", INFINITY, found.error().message}};
 
   ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
+  if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
   expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
-  expected.stepFrame(std::span(&head.next, 1), bodyPoses);
+  expected.stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext);
 
   double largestSpeed = 0;
   for (const auto& v : expected.velocities()) largestSpeed = std::max<double>(largestSpeed, v.norm());
@@ -224,7 +278,10 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
 }
 
 FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
-  const HairState start = randomState(c.groom, c.settings, c.seed);
+  const RootWays roots(c);
+  const HairState start = roots.carried(c.groom, randomState(c.groom, c.settings, c.seed));
+  const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-c.settings.stepSeconds());
+  std::vector<BodyPose> rootPoses;
   std::vector<HeadPose> poses;
   std::vector<double> times;
   const auto pose = [&](int k) {
@@ -234,20 +291,25 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
   for (int k = 1; k <= c.settings.stepsPerFrame; ++k) {
     poses.push_back(pose(k));
     times.push_back(k * c.settings.stepSeconds());
+    std::ranges::copy(roots.at(times.back()), std::back_inserter(rootPoses));
   }
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, poses, times);
 
   auto simulation =
       Simulation::create(device, c.groom, c.material, c.settings, pose(0), pose(-1), c.kernel, c.bodies);
   if (!simulation) return {"create", INFINITY, simulation.error().message};
+  if (!roots.empty()) {
+    EXPECT_TRUE(simulation->placeRoots(rootsNow, rootsBefore));
+  }
   EXPECT_TRUE(simulation->setState(start));
-  EXPECT_TRUE(simulation->stepFrame(poses, bodyPoses));
+  EXPECT_TRUE(simulation->stepFrame(poses, bodyPoses, rootPoses));
   const auto found = simulation->positions();
   if (!found) return {"positions", INFINITY, found.error().message};
 
   ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1), {}, c.bodies);
+  if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
   expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
-  expected.stepFrame(poses, bodyPoses);
+  expected.stepFrame(poses, bodyPoses, rootPoses);
   Comparison comparison("positions after a frame");
   for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
     for (std::size_t i = 0; i < c.groom.strand(s).size(); ++i) {

@@ -237,6 +237,36 @@ std::span<const SceneField<SceneRoots>> rootsFields() {
   return all;
 }
 
+std::span<const SceneField<SceneScalp>> scalpFields() {
+  using S = SceneScalp;
+  static const SceneField<S> all[] = {
+      {"file", "", "required",
+       "A .gltf or .glb file with the mesh that roots follow, each the triangle nearest to it; the same as "
+       "motion.file where the head follows a joint of it.",
+       &S::file},
+      {"mesh", "", "the only one", "Node that has the mesh, or the mesh's own name.", &S::mesh},
+      {"animation", "", "the head's where it is the same file, else the first",
+       "Which, by name or number from 0.", &S::animation},
+      {"unit", "m", "the head's where it is the same file, else glTF's metre", "Metres per unit of the file.",
+       &S::metresPerUnit, kUnit},
+      {"farthest",
+       "m",
+       "",
+       "A root further than this from every triangle is refused.",
+       &S::farthest,
+       {0, 1000}},
+      {"start",
+       "s",
+       "",
+       "When the animation's first key is; roots are bound there and then, with the head at its pose of that "
+       "time, "
+       "and go with the head before.",
+       &S::start,
+       {-3600, 3600}},
+  };
+  return all;
+}
+
 std::span<const SceneField<SceneSimulation>> simulationFields() {
   using S = SceneSimulation;
   static const SceneField<S> all[] = {

@@ -38,6 +38,7 @@ std::span<const SceneField<SceneMotion>> motionFields();      // of the head's a
 std::span<const SceneField<SceneMotion>> headMotionFields();  // of the head's only
 std::span<const SceneField<SceneKeyframe>> keyframeFields();
 std::span<const SceneField<SceneRoots>> rootsFields();
+std::span<const SceneField<SceneScalp>> scalpFields();
 std::span<const SceneField<SceneSimulation>> simulationFields();
 std::span<const SceneField<ContactSettings>> contactFields();
 std::span<const SceneField<AirSettings>> airFields();

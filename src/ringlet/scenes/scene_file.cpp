@@ -33,7 +33,7 @@ const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
     for (const char* table :
-         {"groom", "material", "motion", "simulation", "contacts", "air", "body", "output"})
+         {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "body", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"material", "file"});
@@ -44,6 +44,7 @@ const std::vector<KnownKey>& knownKeys() {
     keys.push_back({"motion", "roots"});
     addKeys(keys, "motion.key", keyframeFields());
     addKeys(keys, "motion.roots", rootsFields());
+    addKeys(keys, "scalp", scalpFields());
     addKeys(keys, "simulation", simulationFields());
     addKeys(keys, "contacts", contactFields());
     addKeys(keys, "air", airFields());
@@ -107,6 +108,11 @@ class SceneReader {
     readGroom(file, scene.groom);
     readMaterial(file, scene);
     if (const toml::table* table = tableOf(file, "", "motion")) readHeadMotion(*table, scene.motion);
+    if (const toml::table* table = tableOf(file, "", "scalp")) {
+      readFields(*table, "scalp", scalpFields(), scene.scalp);
+      if (!table->get("file"))
+        missing_.add(lineOf(*table), "found no scalp.file; expected a .gltf or .glb file");
+    }
     readSimulation(file, scene.simulation);
     if (const toml::table* table = tableOf(file, "", "contacts")) {
       scene.contacts.on = true;

@@ -91,6 +91,16 @@ struct SceneMotion {
   SceneRoots roots{};
 };
 
+/// The mesh that roots follow, of a glTF file (motion/head_scalp.h); none where there is no file.
+struct SceneScalp {
+  std::filesystem::path file{};
+  std::string mesh{};       // empty: the only one
+  std::string animation{};  // empty: the head's where it is the same file, else the first
+  std::optional<double> metresPerUnit{};
+  double farthest = 0.01;  // [m]
+  double start = 0;        // when its first key is [s]
+};
+
 struct SceneSimulation {
   double framesPerSecond = Settings{}.framesPerSecond;
   std::optional<int> frames;
@@ -138,6 +148,7 @@ struct SceneFile {
   LoadedMaterial material;
   bool hasMaterial = false;  // false: the default one
   SceneMotion motion{.kind = "still"};
+  SceneScalp scalp;
   SceneSimulation simulation;
   ContactSettings contacts;
   AirSettings air;

@@ -145,6 +145,7 @@ std::vector<SceneKey> sceneKeys() {
        "first and after the last."});
   addKeys(keys, "motion.key", keyframeFields());
   addKeys(keys, "motion.roots", rootsFields());
+  addKeys(keys, "scalp", scalpFields());
   addKeys(keys, "simulation", simulationFields());
   addKeys(keys, "contacts", contactFields());
   addKeys(keys, "air", airFields());
@@ -164,6 +165,7 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   if (scene.motion.kind != "still" || scene.motion.preRollSeconds > 0 || !(scene.motion.start == Vec3d{}))
     text += motionText(scene.motion, "motion", folder);
   text += headed("[motion.roots]", linesOf(rootsFields(), scene.motion.roots, SceneRoots{}, folder));
+  text += headed("[scalp]", linesOf(scalpFields(), scene.scalp, SceneScalp{}, folder));
   text += headed("[simulation]", linesOf(simulationFields(), scene.simulation, SceneSimulation{}, folder));
   text += switchedText("[contacts]", contactFields(), scene.contacts);
   text += switchedText("[air]", airFields(), scene.air);

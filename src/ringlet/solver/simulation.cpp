@@ -16,6 +16,7 @@
 #include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/device_roots.h"
 #include "ringlet/solver/device_world.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/strand_kernels.h"
@@ -73,6 +74,7 @@ struct Simulation::Implementation {
 
   DeviceGroom buffers;
   DeviceWorld world;
+  DeviceRoots roots;
   std::vector<StrandRange> ranges;
   std::vector<PlannedDispatch> plan;
   std::vector<gpu::Kernel> kernels{};  // one a range
@@ -93,7 +95,8 @@ struct Simulation::Implementation {
   void dispatchAll(std::span<const PlannedDispatch> dispatches);
   Status runFrame();
   Status addContacts();
-  void writePoses(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses);
+  void writePoses(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                  std::span<const BodyPose> rootPoses);
   Status carryTo(const HeadPose& end);
   Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
   Status placeAtRest();
@@ -131,6 +134,8 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   if (!buffers) return buffers.error();
   auto world = DeviceWorld::create(device.gpu(), bodies, settings, start);
   if (!world) return world.error();
+  auto roots = DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots);
+  if (!roots) return roots.error();
 
   std::unique_ptr<Implementation> self(new Implementation{device,
                                                           std::move(*rest),
@@ -140,6 +145,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           {oneStepEarlier, start},
                                                           std::move(*buffers),
                                                           std::move(*world),
+                                                          std::move(*roots),
                                                           std::move(*ranges),
                                                           std::move(*plan)});
   const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
@@ -147,15 +153,17 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   const bool fitsTexels =
-      self->buffers.fitsTexels(device.gpu()) && isSeenAsTexels(device.gpu(), self->world.largestBuffer());
+      self->buffers.fitsTexels(device.gpu()) &&
+      isSeenAsTexels(device.gpu(), std::max(self->world.largestBuffer(), self->roots.largestBuffer()));
   for (const StrandRange& range : self->ranges) {
     auto kernel = createStrandKernel(
         device.gpu(), range.shape,
         {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on, fitsTexels,
-         choice.residual, !bodies.empty(), settings.air.on, self->world.isTurbulent()});
+         choice.residual, !bodies.empty(), settings.air.on, self->world.isTurbulent(), choice.movingRoots});
     if (!kernel) return kernel.error();
     auto buffersInOrder = self->buffers.inBindingOrder();
     std::ranges::copy(self->world.inBindingOrder(), std::back_inserter(buffersInOrder));
+    std::ranges::copy(self->roots.inBindingOrder(), std::back_inserter(buffersInOrder));
     auto bindings = gpu::Bindings::create(*kernel, buffersInOrder);
     if (!bindings) return bindings.error();
     self->kernels.push_back(std::move(*kernel));
@@ -193,6 +201,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   p.bodyCount = static_cast<std::uint32_t>(world.bodyCount());
   p.dragStrength = static_cast<float>(kStandardGravity / (settings.air.fallSpeed * settings.air.fallSpeed));
   p.dragAlong = static_cast<float>(settings.air.alongShare);
+  p.strandCount = static_cast<std::uint32_t>(rest.strands.size());
   return p;
 }
 
@@ -287,11 +296,13 @@ Status Simulation::Implementation::runFrame() {
 }
 
 void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses,
-                                            std::span<const BodyPose> bodyPoses) {
+                                            std::span<const BodyPose> bodyPoses,
+                                            std::span<const BodyPose> rootPoses) {
   const double T = settings.stepSeconds();
-  std::vector<HeadPose> heads{head.now};
+  std::vector<HeadPose> heads{head.oneStepEarlier, head.now};
   heads.insert(heads.end(), stepPoses.begin(), stepPoses.end());
-  world.writeFrame(heads, bodyPoses, static_cast<double>(stepsDone) * T);
+  world.writeFrame(std::span(heads).subspan(1), bodyPoses, static_cast<double>(stepsDone) * T);
+  roots.writeFrame(heads, rootPoses);
   const auto poses = buffers.mappedPoses();
   poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
@@ -329,14 +340,21 @@ Status Simulation::Implementation::carryTo(const HeadPose& end) {
   return uploadState(*positions, *velocities);
 }
 
-// The rest pose carried by the head, turning with it.
+// The rest pose carried by the head and the roots, moving with them.
 Status Simulation::Implementation::placeAtRest() {
-  std::vector<layout::vec4> positions, velocities;
-  for (Vec3f point : rest.points) {
-    const Vec3d p = static_cast<Vec3d>(point);
-    const Vec3d here = rotate(head.now.rotation, p), before = rotate(head.oneStepEarlier.rotation, p);
-    positions.push_back(packed(here));
-    velocities.push_back(packed((here - before) / settings.stepSeconds()));
+  std::vector<layout::vec4> positions(rest.points.size()), velocities(rest.points.size());
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    const BodyPose now = carriedBy(head.now.rotation, roots.areMoving() ? roots.now(s) : BodyPose{});
+    const BodyPose earlier =
+        carriedBy(head.oneStepEarlier.rotation, roots.areMoving() ? roots.oneStepEarlier(s) : BodyPose{});
+    for (std::uint32_t k = 0; k < rest.strands[s].particleCount; ++k) {
+      const std::uint32_t i = rest.strands[s].firstParticle + k;
+      const Vec3d p = static_cast<Vec3d>(rest.points[i]);
+      const Vec3d here = now.position + rotate(now.rotation, p);
+      const Vec3d before = earlier.position + rotate(earlier.rotation, p);
+      positions[i] = packed(here);
+      velocities[i] = packed((here - before) / settings.stepSeconds());
+    }
   }
   return uploadState(positions, velocities);
 }
@@ -346,16 +364,18 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses) {
+Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                             std::span<const BodyPose> rootPoses) {
   RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame),
                  "stepFrame takes one pose per outer step");
   if (const HeadPose& end = stepPoses.back();
       self_->settings.jumps(length(end.position - self_->head.now.position))) {
     self_->world.endFrame(end, bodyPoses);
+    self_->roots.endFrame(rootPoses);
     self_->stepsDone += stepPoses.size();
     return self_->carryTo(end);
   }
-  self_->writePoses(stepPoses, bodyPoses);
+  self_->writePoses(stepPoses, bodyPoses, rootPoses);
   if (Status status = self_->runFrame(); !status) return status;
   self_->stepsDone += stepPoses.size();
   return {};
@@ -399,6 +419,14 @@ Status Simulation::setState(const HairState& state) {
 void Simulation::placeBodies(std::span<const BodyPose> poses) {
   RINGLET_ASSERT(poses.size() == self_->world.bodyCount(), "every body has a place");
   self_->world.placeBodies(poses);
+}
+
+Status Simulation::placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
+  self_->roots.place(now, oneStepEarlier);
+  if (self_->contacts) {
+    if (Status status = self_->contacts->forget(); !status) return status;
+  }
+  return self_->placeAtRest();
 }
 
 Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {

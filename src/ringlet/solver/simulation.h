@@ -65,7 +65,8 @@ struct KernelChoice {
   Form form = Form::automatic;  // lanes x run with the star join, or one thread per strand
   int particlesPerLane = 0;     // 4, 8 or 16; 0: choose
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
-  bool taps = false;      // write every intermediate of the last step (Simulation::tap); slower, for tests
+  bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
+  bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
 };
 
 class Simulation {
@@ -89,8 +90,12 @@ class Simulation {
   /// One frame: settings.stepsPerFrame outer steps; stepPoses[k] is the head's pose at the end of step k.
   /// Where the head jumps (Settings::teleportDistance) hair is carried along and stands still for this frame,
   /// seen from the head; it then goes on as it was. bodyPoses: as bodyPosesOf gives them for these steps;
-  /// without, all bodies are the head's.
-  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {});
+  /// without, all bodies are the head's. rootPoses[step * strands + strand], groom order, with
+  /// KernelChoice::movingRoots: each strand's own pose in the head's frame at the end of each step, which
+  /// carries its roots and its root's frame; without, roots stay where they are on the head.
+  ///   x_world = head.position + rotate(head.rotation, root.position + rotate(root.rotation, x_groom))
+  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
+                   std::span<const BodyPose> rootPoses = {});
   /// The same with the poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
@@ -108,6 +113,11 @@ class Simulation {
 
   /// Where the bodies are before the first frame; without, where they are at t = 0.
   void placeBodies(std::span<const BodyPose> poses);
+
+  /// Where strands' own poses (stepFrame) are before the first frame, and were one outer step earlier;
+  /// without, they are BodyPose{}. Puts the hair there, at rest, moving with them. Needs
+  /// KernelChoice::movingRoots.
+  Status placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
 
   const HeadPose& head() const;
   Result<SimulationReport> report() const;

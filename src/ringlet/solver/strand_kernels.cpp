@@ -53,7 +53,7 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   description.spirv = spirvOf(shape, options.taps);
   description.bindings = {storage, storage, storage, storage, storage, storage, uniform, storage, storage,
                           storage, texels,  texels,  texels,  texels,  texels,  storage, storage, storage,
-                          storage, storage, texels,  texels,  texels,  texels,  texels};
+                          storage, storage, texels,  texels,  texels,  texels,  texels,  storage, texels};
   description.pushConstantBytes = sizeof(layout::StepParameters);
   description.constants = {{0, kStrandGroupSize},
                            {2, integratorConstant(options.integrator)},
@@ -64,7 +64,8 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
                            {7, options.texels ? 1u : 0u},
                            {8, options.bodies ? 1u : 0u},
                            {9, options.air ? 1u : 0u},
-                           {10, options.turbulence ? 1u : 0u}};
+                           {10, options.turbulence ? 1u : 0u},
+                           {11, options.movingRoots ? 1u : 0u}};
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});

@@ -26,6 +26,7 @@ struct StrandKernelOptions {
   bool bodies = false;    // there are some
   bool air = false;       // hair feels it
   bool turbulence = false;
+  bool movingRoots = false;  // strands have poses of their own
 };
 
 Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,

@@ -1,0 +1,66 @@
+// What carries the strand: the head, and where strands have poses of their own those as well. Part of strand_buffers.glsl,
+// whose `strand` and `strandAt` say which.
+#ifndef RINGLET_ROOT_BUFFERS
+#define RINGLET_ROOT_BUFFERS
+
+#include "maths/quaternion.glsl"
+#include "shared/layout.h"
+#include "shared/texels.glsl"
+
+layout(set = 0, binding = kBindRootPoses) readonly buffer RootPoses { RootPose rootPoses[]; };
+layout(set = 0, binding = kBindRootPoseTexels) uniform usamplerBuffer rootPoseTexels;
+
+uint rootPoseIndex(uint pose) { return pose * parameters.strandCount + strandAt; }
+vec3 rootPosition(uint pose) {
+  uint i = rootPoseIndex(pose);
+  return kTexels ? vectorAt(rootPoseTexels, 4 * i).xyz : rootPoses[i].position.xyz;
+}
+vec4 rootRotation(uint pose) {
+  uint i = rootPoseIndex(pose);
+  return kTexels ? vectorAt(rootPoseTexels, 4 * i + 1) : rootPoses[i].rotation;
+}
+vec4 rootTurn(uint pose) {
+  uint i = rootPoseIndex(pose);
+  return kTexels ? vectorAt(rootPoseTexels, 4 * i + 2) : rootPoses[i].turn;
+}
+vec3 rootVelocity(uint pose) {
+  uint i = rootPoseIndex(pose);
+  return kTexels ? vectorAt(rootPoseTexels, 4 * i + 3).xyz : rootPoses[i].velocity.xyz;
+}
+
+vec4 rotationAt(uint pose) {
+  if (!kMovingRoots) return poses[pose].rotation;
+  return rootRotation(pose);
+}
+// From the pose before. A small turn: as the difference of two rotations it would have lost its digits.
+vec4 turnTo(uint pose) {
+  if (!kMovingRoots) return poses[pose].turn;
+  return rootTurn(pose);
+}
+
+vec4 rotationAtStart(uint step) { return rotationAt(step); }
+vec4 rotationAtEnd(uint step) { return rotationAt(step + 1); }
+vec3 headVelocityChange(uint step) { return poses[step + 1].velocityChange.xyz; }
+
+/// How fast x, as it is at the step's start, goes by the turning in this step.
+vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), x) / stepSeconds(); }
+/// And in the step before.
+vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(turnTo(step)), x) / stepSeconds(); }
+
+// Pinned particle k of the strand: it is carried, and its shift beside.
+vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
+float shiftedShare(uint step) { return poses[step].velocityChange.w; }
+// From the carried origin of the groom.
+vec3 pinArm(uint pose, uint k) { return rotate(rotationAt(pose), strand.pins[k].xyz + shiftedShare(pose) * rootShift()); }
+vec3 pinAt(uint pose, uint k) {
+  if (!kMovingRoots) return pinArm(pose, k);
+  return rootPosition(pose) + pinArm(pose, k);
+}
+vec3 pinnedVelocity(uint step, uint k) {
+  float rate = (shiftedShare(step + 1) - shiftedShare(step)) / stepSeconds();
+  vec3 turning = turningVelocity(step, pinArm(step, k)) + rotate(rotationAtEnd(step), rate * rootShift());
+  if (!kMovingRoots) return turning;
+  return rootVelocity(step + 1) + turning;
+}
+
+#endif

@@ -1,0 +1,60 @@
+// DeviceRoots: strands' poses of their own, beside the head's, on a device; nothing where there are none.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/scene/body.h"
+#include "ringlet/scene/head_pose.h"
+#include "ringlet/scene/settings.h"
+#include "shared/layout.h"
+
+namespace ringlet {
+
+/// What carries a strand that has this pose in the head's frame: relative to the head's origin, along world
+/// axes.
+BodyPose carriedBy(Quatd headRotation, const BodyPose& root);
+
+class DeviceRoots {
+ public:
+  /// Poses are BodyPose{} at first. Fails when the device lacks memory.
+  static Result<DeviceRoots> create(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                    bool areMoving);
+
+  bool areMoving() const { return !now_.empty(); }
+
+  /// In binding order, storage and texels: from kBindRootPoses on.
+  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const { return {poses_, poses_}; }
+  std::uint64_t largestBuffer() const { return poses_.bytes(); }
+
+  /// Poses of strand s, device order, in the head's frame.
+  const BodyPose& now(std::size_t s) const { return now_[s]; }
+  const BodyPose& oneStepEarlier(std::size_t s) const { return oneStepEarlier_[s]; }
+
+  /// Before the next step and one step before that, in groom order.
+  void place(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
+  /// A frame's poses. heads[0] is the head one step before the frame's start, heads[1] at its start, heads[2
+  /// + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then they stay.
+  void writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses);
+  /// A frame that is not stepped: roots are at once where they end, and still there, seen from the head.
+  void endFrame(std::span<const BodyPose> poses);
+
+ private:
+  DeviceRoots(gpu::Buffer poses, double stepSeconds) : poses_(std::move(poses)), stepSeconds_(stepSeconds) {}
+  // Of one step, groom order, to device order.
+  std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
+
+  gpu::Buffer poses_;
+  double stepSeconds_;
+  std::vector<std::uint32_t> strandInGroom_;
+  std::vector<BodyPose> now_, oneStepEarlier_;  // in the head's frame, device order
+};
+
+}  // namespace ringlet
