@@ -144,8 +144,10 @@ TEST_F(StrandStep, RootsOfTheirOwnAgree) {
       if (integrator == Integrator::paper && !isDefault) continue;
       Settings settings = settingsFor(integrator);
       settings.rootCount = isDefault && integrator == Integrator::jacobi ? 3 : 1;
-      expectOneStep({randomGroom(awkwardLengths(33), 43), {}, settings, variant.kernel},
+      const auto lengths = isDefault ? awkwardLengths(33) : std::vector<int>{17, 31, 32, 20};
+      expectOneStep({randomGroom(lengths, 43), {}, settings, variant.kernel},
                     fmt::format("moving roots, {}, {}", int(integrator), variant.name));
+      if (!isDefault) continue;
       const ParityCase c{randomGroom(awkwardLengths(25), 47), {}, settings, variant.kernel};
       const FieldError e = oneFrameError(device(), c);
       fmt::print("one frame, moving roots, integrator {}, {:<12} {:.1e} of the arc length\n", int(integrator),
