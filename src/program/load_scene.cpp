@@ -12,11 +12,24 @@
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/motion/skinned_mesh.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
 namespace {
+
+// Of a glTF file the only mesh, where it is at the first key; it does not bend.
+Result<TriangleMesh> readGltfMesh(const SceneBody& scene, std::vector<std::string>& warnings) {
+  auto read = readSkinnedMesh(scene.file, {.placement = {.metresPerUnit = scene.metresPerUnit.value_or(1)}});
+  if (!read) return read.error();
+  for (const std::string& warning : read->warnings())
+    warnings.push_back(fmt::format("{}: {}", scene.file.string(), warning));
+  TriangleMesh mesh{read->pointsAt(read->firstSeconds()), read->triangles()};
+  if (Status checked = checkMesh(mesh); !checked)
+    return Error{fmt::format("{}: {}", scene.file.string(), checked.error().message)};
+  return mesh;
+}
 
 // The distance grid of a mesh, read or made.
 Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, Body& body,
@@ -27,7 +40,9 @@ Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, Body& body,
     head.scalpRadius = groom.scalpRadius;
     mesh = makeHeadMesh(head);
   } else {
-    auto read = readObjMesh(scene.file, scene.metresPerUnit.value_or(groom.metresPerUnit));
+    const bool isGltf = motionFileKind(scene.file.string()) == MotionFileKind::gltf;
+    auto read = isGltf ? readGltfMesh(scene, warnings)
+                       : readObjMesh(scene.file, scene.metresPerUnit.value_or(groom.metresPerUnit));
     if (!read) return read.error();
     mesh = std::move(*read);
   }

@@ -1,0 +1,107 @@
+// Mesh bodies in scene files: `ringlet simulate` on a box as an OBJ and as a glTF file.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/motion/gltf_samples.h"
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+using nlohmann::json;
+using test::runProgram;
+using test::scratchFolder;
+
+// 10 cm to a side, its top 3 cm below the strand, in metres; outward, counterclockwise.
+std::vector<std::array<double, 3>> corners() {
+  std::vector<std::array<double, 3>> all;
+  for (int k = 0; k < 8; ++k)
+    all.push_back({0.05 + 0.1 * (k & 1), -0.13 + 0.1 * (k >> 1 & 1), -0.05 + 0.1 * (k >> 2 & 1)});
+  return all;
+}
+constexpr std::array<std::array<std::uint16_t, 3>, 12> kTriangles{{{0, 2, 1},
+                                                                   {1, 2, 3},
+                                                                   {4, 5, 6},
+                                                                   {5, 7, 6},
+                                                                   {0, 1, 4},
+                                                                   {1, 5, 4},
+                                                                   {2, 6, 3},
+                                                                   {3, 6, 7},
+                                                                   {0, 4, 2},
+                                                                   {2, 4, 6},
+                                                                   {1, 3, 5},
+                                                                   {3, 7, 5}}};
+
+void writeFiles(const std::filesystem::path& folder) {
+  std::ofstream groom(folder / "groom.obj");
+  for (int i = 0; i < 24; ++i) groom << "v " << 20.0 * i / 23 << " 0 0\n";
+  groom << "l";
+  for (int i = 1; i <= 24; ++i) groom << ' ' << i;
+  groom << '\n';
+
+  std::ofstream obj(folder / "box.obj");
+  std::vector<double> numbers;
+  for (const auto& [x, y, z] : corners()) {
+    obj << fmt::format("v {} {} {}\n", x, y, z);
+    numbers.insert(numbers.end(), {x, y, z});
+  }
+  std::vector<std::uint16_t> indices;
+  for (const auto& [a, b, c] : kTriangles) {
+    obj << fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+    indices.insert(indices.end(), {a, b, c});
+  }
+
+  test::GltfBuilder gltf;
+  const int positions = gltf.floats(numbers, "VEC3"), triangles = gltf.accessor(indices, "SCALAR", 5123);
+  gltf.root["meshes"] = {
+      {{"primitives", {{{"attributes", {{"POSITION", positions}}}, {"indices", triangles}}}}}};
+  gltf.node({{"name", "box"}, {"mesh", 0}});
+  std::ofstream(folder / "box.gltf") << gltf.text();
+}
+
+json fallOn(const std::filesystem::path& folder, const std::string& body) {
+  std::ofstream(folder / "scene.toml") << "[groom]\nfile = 'groom.obj'\n[material]\nbend_stiffness = "
+                                          "0.5\n[simulation]\nframes = 12\npreload = 0\n"
+                                       << body;
+  const auto result =
+      runProgram(folder, {"simulate", "scene.toml", "-o", "out", "--backend", "reference", "--json"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  return json::parse(result.out, nullptr, false);
+}
+
+TEST(BodyProgram, AMeshIsTheSameFromEitherFormat) {
+  const auto folder = scratchFolder("body_program");
+  writeFiles(folder);
+  const json none = fallOn(folder, "");
+  const json obj = fallOn(folder, "[[body]]\nshape = 'mesh'\nfile = 'box.obj'\nunit = 1\ncells = 32\n");
+  const json gltf = fallOn(folder, "[[body]]\nshape = 'mesh'\nfile = 'box.gltf'\ncells = 32\n");
+  EXPECT_TRUE(none["deepest_penetration_mm"].is_null());
+  ASSERT_FALSE(obj["deepest_penetration_mm"].is_null()) << obj;
+  EXPECT_LT(obj["deepest_penetration_mm"].get<double>(), 0.5);
+  EXPECT_EQ(obj["inside_bodies"], 0);
+  EXPECT_EQ(obj["warnings"].size(), none["warnings"].size()) << obj["warnings"];
+  EXPECT_NE(obj["positions_hash"], none["positions_hash"]) << "the strand falls on the box";
+  EXPECT_LT(
+      std::abs(obj["deepest_penetration_mm"].get<double>() - gltf["deepest_penetration_mm"].get<double>()),
+      1e-2)
+      << "glTF holds floats";
+}
+
+TEST(BodyProgram, MistakesNameTheBody) {
+  const auto folder = scratchFolder("body_mistakes");
+  writeFiles(folder);
+  std::ofstream(folder / "scene.toml")
+      << "[groom]\nfile = 'groom.obj'\n[[body]]\nname = 'anvil'\nshape = 'mesh'\nfile = 'none.gltf'\n";
+  const auto result = runProgram(folder, {"simulate", "scene.toml", "-o", "out", "--backend", "reference"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.err.find("anvil"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("none.gltf"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace ringlet
