@@ -262,6 +262,14 @@ Result<Writers> openWriters(const RunInput& input, const RunOptions& options) {
   return writers;
 }
 
+// Where keys are further apart than a head goes, it jumps: on a smooth way it would only be fast.
+void cutJumps(const Settings& settings, Motion& motion) {
+  if (!motion.keyframes || settings.teleportDistance <= 0) return;
+  Keyframes keys = *motion.keyframes;
+  keys.cutSpeed = settings.teleportDistance * settings.framesPerSecond;
+  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
+}
+
 }  // namespace
 
 Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
@@ -362,14 +370,6 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   outcome.warnings = stepper->warnings();
   for (const std::string& message : (*backend)->deviceMessages()) outcome.warnings.push_back(message);
   return outcome;
-}
-
-// Where keys are further apart than a head goes, it jumps: on a smooth way it would only be fast.
-static void cutJumps(const Settings& settings, Motion& motion) {
-  if (!motion.keyframes || settings.teleportDistance <= 0) return;
-  Keyframes keys = *motion.keyframes;
-  keys.cutSpeed = settings.teleportDistance * settings.framesPerSecond;
-  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
 }
 
 Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
