@@ -24,6 +24,7 @@
 
 #include "ringlet/groom/groom_check.h"
 #include "ringlet/groom/little_endian.h"
+#include "ringlet/groom/point_records.h"
 #include "ringlet/groom/quoted.h"
 #include "ringlet/groom/whole_file.h"
 
@@ -140,16 +141,9 @@ Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesy
       ++tooShort;
       continue;
     }
-    for (std::uint32_t i = 0; i < count; ++i, offset += kPointSize) {
-      const Vec3f p{readF32(bytes, offset), readF32(bytes, offset + 4), readF32(bytes, offset + 8)};
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-        return Error{
-            fmt::format("{}: at byte {}: found ({}, {}, {}) for strand {}, point {}; expected finite numbers",
-                        name, offset, p.x, p.y, p.z, s, i)};
-      }
-      groom.points.push_back(p);
-    }
-    groom.firstPoint.push_back(static_cast<std::uint32_t>(groom.points.size()));
+    if (Status added = addStrandAt(bytes, offset, kPointSize, count, s, name, groom); !added)
+      return added.error();
+    offset += kPointSize * std::size_t{count};
   }
   if (groom.strandCount() == 0) {
     return Error{

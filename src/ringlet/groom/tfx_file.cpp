@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "ringlet/groom/little_endian.h"
+#include "ringlet/groom/point_records.h"
 
 namespace ringlet {
 namespace {
@@ -103,16 +104,10 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
   groom.firstPoint.reserve(std::size_t{header->strandCount} + 1);
   std::size_t offset = header->positions;
   for (std::uint32_t s = 0; s < header->strandCount; ++s) {
-    for (std::uint32_t i = 0; i < header->pointsPerStrand; ++i, offset += kPointSize) {
-      const Vec3f p{readF32(bytes, offset), readF32(bytes, offset + 4), readF32(bytes, offset + 8)};
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-        return Error{
-            fmt::format("{}: at byte {}: found ({}, {}, {}) for strand {}, point {}; expected finite numbers",
-                        name, offset, p.x, p.y, p.z, s, i)};
-      }
-      groom.points.push_back(p);
-    }
-    groom.firstPoint.push_back(static_cast<std::uint32_t>(groom.points.size()));
+    if (Status added = addStrandAt(bytes, offset, kPointSize, header->pointsPerStrand, s, name, groom);
+        !added)
+      return added.error();
+    offset += kPointSize * std::size_t{header->pointsPerStrand};
   }
 
   // What fills up the count has no length; a strand like that between others is the artist's affair.
