@@ -1,5 +1,4 @@
-// motion/skinned_mesh.h, triangle_finder.h and scalp.h: against closed forms, a rigid motion, and all triangles
-// one by one.
+// motion/skinned_mesh.h and scalp.h: against closed forms, a rigid motion, and all triangles one by one.
 #include "ringlet/motion/scalp.h"
 
 #include <fmt/format.h>
@@ -9,8 +8,9 @@
 #include <cmath>
 #include <random>
 
+#include "ringlet/bodies/distance_to_triangle.h"
+#include "ringlet/bodies/triangle_tree.h"
 #include "ringlet/motion/skinned_mesh.h"
-#include "ringlet/motion/triangle_finder.h"
 #include "tests/motion/gltf_samples.h"
 
 namespace ringlet::test {
@@ -208,37 +208,49 @@ TEST(SkinnedMesh, SurvivesBrokenFiles) {
   }
 }
 
-TEST(TriangleFinder, FindsTheNearestOfAll) {
+TEST(Scalp, FindsTheNearestOfAllTriangles) {
   const auto mesh = meshOf(travellingTriangles(300));
   ASSERT_TRUE(mesh);
   const std::vector<Vec3d> points = mesh->pointsAt(0);
-  const TriangleFinder tree(points, mesh->triangles());
+  const TriangleTree tree({points, mesh->triangles()});
   for (Vec3d p : randomPlaces(500, {0, 1.5, 0}, 0.2)) {
     double least = INFINITY;
     for (const auto& [a, b, c] : mesh->triangles()) {
-      const auto w = nearestWeights(p, points[a], points[b], points[c]);
+      const auto w = closestShares(p, points[a], points[b], points[c]);
       least = std::min(least, length(p - points[a] * w[0] - points[b] * w[1] - points[c] * w[2]));
     }
-    const auto found = tree.nearestTo(p);
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(found->distance, least, 1e-14);
+    const auto found = tree.nearest(p);
+    EXPECT_NEAR(found.distance, least, 1e-14);
+    const auto [a, b, c] = mesh->triangles()[found.triangle];
+    EXPECT_NEAR(length(p - closestOnTriangle(p, points[a], points[b], points[c])), least, 1e-14);
   }
-  EXPECT_FALSE(tree.nearestTo({NAN, 0, 0}));
-  const std::array<std::uint32_t, 3> flat[] = {{0, 0, 1}};
-  EXPECT_FALSE(TriangleFinder(points, flat).nearestTo({})) << "it has no area";
 }
 
 // Nothing on a triangle is nearer: moving along an edge from the place found, inwards, leads away.
-TEST(TriangleFinder, NearestPlacesAreNearest) {
+TEST(Scalp, NearestPlacesAreNearest) {
   const Vec3d a{0, 0, 0}, b{1, 0.2, 0}, c{0.3, 0.9, 0.4};
   for (Vec3d p : randomPlaces(2000, {0.4, 0.4, 0.1}, 1.5)) {
-    const auto w = nearestWeights(p, a, b, c);
+    const auto w = closestShares(p, a, b, c);
     EXPECT_NEAR(w[0] + w[1] + w[2], 1, 1e-12);
     const Vec3d place = a * w[0] + b * w[1] + c * w[2];
     for (std::size_t k = 0; k < 3; ++k) EXPECT_GE(w[k], -1e-15);
     // A convex set: nearest exactly where all of it is on the far side of the plane through the place.
     for (Vec3d corner : {a, b, c}) EXPECT_LT(dot(p - place, corner - place), 1e-12);
   }
+}
+
+// Three corners in a row: no triangle has a frame, and no root a place.
+TEST(Scalp, TrianglesWithoutAnAreaHoldNothing) {
+  GltfBuilder builder;
+  const int positions = builder.floats({0, 0, 0, 1, 0, 0, 2, 0, 0}, "VEC3");
+  builder.root["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", positions}}}}}}}};
+  builder.node({{"name", "line"}, {"mesh", 0}});
+  const auto mesh = meshOf(builder);
+  ASSERT_TRUE(mesh);
+  const std::vector<Vec3d> roots{{1, 0, 0}};
+  const auto scalp = Scalp::bind(mesh, roots, 0, 10);
+  ASSERT_FALSE(scalp);
+  EXPECT_NE(scalp.error().message.find("1 of 1 roots"), std::string::npos) << scalp.error().message;
 }
 
 TEST(Scalp, StartsWhereItIsBound) {
@@ -296,7 +308,7 @@ TEST(Scalp, StaysOnABendingTriangle) {
     for (std::size_t r = 0; r < roots.size(); ++r) {
       const Vec3d root = poses[r].position + rotate(poses[r].rotation, roots[r]);
       const auto [a, b, c] = mesh->triangles()[scalp->triangleOf(r)];
-      const auto w = nearestWeights(roots[r], rest[a], rest[b], rest[c]);
+      const auto w = closestShares(roots[r], rest[a], rest[b], rest[c]);
       const Vec3d pa = bentPoint(rest[a], t), pb = bentPoint(rest[b], t), pc = bentPoint(rest[c], t);
       const Vec3d normal = normalizedOr(cross(pb - pa, pc - pa), Vec3d{});
       EXPECT_LT(length(root - (pa * w[0] + pb * w[1] + pc * w[2]) - normal * roots[r].y), 1e-6) << r;
@@ -315,7 +327,7 @@ TEST(Scalp, CountsRootsThatAreElsewhere) {
   EXPECT_TRUE(Scalp::bind(mesh, {}, 0, 0.2)->posesAt(1).empty());
 }
 
-TEST(Scalp, BindsTenThousandRootsQuickly) {
+TEST(Scalp, BindsTenThousandRoots) {
   const auto mesh = meshOf(travellingTriangles(10000));
   ASSERT_TRUE(mesh);
   const std::vector<Vec3d> roots = randomPlaces(10000, {0, 1.5, 0}, 0.15);
@@ -324,12 +336,11 @@ TEST(Scalp, BindsTenThousandRootsQuickly) {
   const auto scalp = Scalp::bind(mesh, roots, 0, 1);
   const auto bound = Clock::now();
   ASSERT_TRUE(scalp);
-  (void)scalp->posesAt(0.5);
+  EXPECT_EQ(scalp->posesAt(0.5).size(), roots.size());
   const auto moved = Clock::now();
   const auto milliseconds = [](auto span) { return std::chrono::duration<double, std::milli>(span).count(); };
   fmt::print("10000 roots on 10000 triangles: bound in {:.1f} ms, moved in {:.2f} ms\n",
              milliseconds(bound - start), milliseconds(moved - bound));
-  EXPECT_LT(milliseconds(bound - start), 5000) << "one by one takes longer";
 }
 
 }  // namespace

@@ -47,8 +47,10 @@ double along(Vec3d v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   entries_.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    entries_.push_back({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]});
+  for (const auto& t : mesh.triangles) {
+    entries_.push_back({{mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]},
+                        static_cast<std::uint32_t>(entries_.size())});
+  }
   branches_.reserve(2 * entries_.size());
   grow(0, static_cast<std::uint32_t>(entries_.size()));
 }
@@ -58,8 +60,8 @@ std::uint32_t TriangleTree::grow(std::uint32_t first, std::uint32_t count) {
   Branch branch;
   branch.first = first;
   branch.count = count;
-  branch.bounds = {entries_[first][0], entries_[first][0]};
-  Bounds middles{middleOf(entries_[first]), middleOf(entries_[first])};
+  branch.bounds = {entries_[first].corners[0], entries_[first].corners[0]};
+  Bounds middles{middleOf(entries_[first].corners), middleOf(entries_[first].corners)};
   auto include = [](Bounds& box, Vec3d p) {
     box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
@@ -67,7 +69,7 @@ std::uint32_t TriangleTree::grow(std::uint32_t first, std::uint32_t count) {
   double area = 0;
   Vec3d weighted{};
   for (std::uint32_t i = first; i < first + count; ++i) {
-    const Corners& corners = entries_[i];
+    const Corners& corners = entries_[i].corners;
     for (Vec3d corner : corners) include(branch.bounds, corner);
     include(middles, middleOf(corners));
     const Vec3d half = cross(corners[1] - corners[0], corners[2] - corners[0]) / 2;
@@ -77,7 +79,8 @@ std::uint32_t TriangleTree::grow(std::uint32_t first, std::uint32_t count) {
   }
   branch.middle = area > 0 ? weighted / area : (branch.bounds.low + branch.bounds.high) / 2;
   for (std::uint32_t i = first; i < first + count; ++i) {
-    for (Vec3d corner : entries_[i]) branch.reach = std::max(branch.reach, length(corner - branch.middle));
+    for (Vec3d corner : entries_[i].corners)
+      branch.reach = std::max(branch.reach, length(corner - branch.middle));
   }
   branches_.push_back(branch);
   if (count <= kMostInLeaf) return index;
@@ -87,8 +90,8 @@ std::uint32_t TriangleTree::grow(std::uint32_t first, std::uint32_t count) {
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::uint32_t half = count / 2;
   std::nth_element(entries_.begin() + first, entries_.begin() + first + half,
-                   entries_.begin() + first + count, [&](const Corners& a, const Corners& b) {
-                     return along(middleOf(a), axis) < along(middleOf(b), axis);
+                   entries_.begin() + first + count, [&](const Entry& a, const Entry& b) {
+                     return along(middleOf(a.corners), axis) < along(middleOf(b.corners), axis);
                    });
   grow(first, half);
   const std::uint32_t second = grow(first + half, count - half);
@@ -104,7 +107,7 @@ TriangleTree::Nearest TriangleTree::nearest(Vec3d place, std::uint32_t guess) co
   std::array<Open, kDeepest> open;
   std::size_t openCount = 0;
   std::uint32_t best = guess;
-  double least = squaredDistance(place, entries_[guess]);
+  double least = squaredDistance(place, entries_[guess].corners);
   open[openCount++] = {0, squaredDistance(place, branches_[0].bounds)};
   while (openCount > 0) {
     const Open next = open[--openCount];
@@ -112,7 +115,7 @@ TriangleTree::Nearest TriangleTree::nearest(Vec3d place, std::uint32_t guess) co
     const Branch& branch = branches_[next.branch];
     if (branch.second == 0) {
       for (std::uint32_t i = branch.first; i < branch.first + branch.count; ++i) {
-        const double d = squaredDistance(place, entries_[i]);
+        const double d = squaredDistance(place, entries_[i].corners);
         if (d < least) {
           least = d;
           best = i;
@@ -126,7 +129,7 @@ TriangleTree::Nearest TriangleTree::nearest(Vec3d place, std::uint32_t guess) co
     if (further.squaredDistance < least) open[openCount++] = further;
     if (nearer.squaredDistance < least) open[openCount++] = nearer;
   }
-  return {std::sqrt(least), best};
+  return {std::sqrt(least), best, entries_[best].triangle};
 }
 
 double TriangleTree::windingNumber(Vec3d place) const {
@@ -143,7 +146,7 @@ double TriangleTree::windingNumber(Vec3d place) const {
       angle += dot(branch.areas, apart) / (squaredApart * std::sqrt(squaredApart));
     } else if (branch.second == 0) {
       for (std::uint32_t i = branch.first; i < branch.first + branch.count; ++i)
-        angle += solidAngle(place, entries_[i]);
+        angle += solidAngle(place, entries_[i].corners);
     } else {
       open[openCount++] = branch.second;
       open[openCount++] = index + 1;

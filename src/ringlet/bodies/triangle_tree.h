@@ -25,8 +25,9 @@ class TriangleTree {
   explicit TriangleTree(const TriangleMesh& mesh);
 
   struct Nearest {
-    double distance;      // [m]
-    std::uint32_t entry;  // of the tree's own order: a guess for a place nearby
+    double distance = 0;         // [m]
+    std::uint32_t entry = 0;     // of the tree's own order: a guess for a place nearby
+    std::uint32_t triangle = 0;  // of the mesh
   };
   /// Exact, whatever the guess, which any entry below the number of triangles may be.
   Nearest nearest(Vec3d place, std::uint32_t guess = 0) const;
@@ -48,7 +49,11 @@ class TriangleTree {
 
   std::uint32_t grow(std::uint32_t first, std::uint32_t count);
 
-  std::vector<Corners> entries_;
+  struct Entry {
+    Corners corners;
+    std::uint32_t triangle;
+  };
+  std::vector<Entry> entries_;
   std::vector<Branch> branches_;
 };
 

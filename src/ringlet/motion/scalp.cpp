@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/bodies/distance_to_triangle.h"
+#include "ringlet/bodies/triangle_tree.h"
 #include "ringlet/motion/affine.h"
-#include "ringlet/motion/triangle_finder.h"
 
 namespace ringlet {
 namespace {
@@ -30,25 +32,46 @@ Corners cornersOf(const SkinnedMesh& mesh, std::span<const Vec3d> points, std::s
   return {points[a], points[b], points[c]};
 }
 
+bool isFinite(Vec3d v) { return std::isfinite(v.x + v.y + v.z); }
+
+// The triangles roots can be bound to: those with an area have a frame. `indices`: which of the mesh they
+// are.
+TriangleMesh groundOf(const SkinnedMesh& mesh, const std::vector<Vec3d>& points,
+                      std::vector<std::size_t>& indices) {
+  TriangleMesh ground{points, {}};
+  for (std::size_t k = 0; k < mesh.triangles().size(); ++k) {
+    const Corners corners = cornersOf(mesh, points, k);
+    const double area = length(cross(corners.b - corners.a, corners.c - corners.a));
+    if (!(area > 0) || !std::isfinite(area) || !isFinite(corners.a)) continue;
+    ground.triangles.push_back(mesh.triangles()[k]);
+    indices.push_back(k);
+  }
+  return ground;
+}
+
 }  // namespace
 
 Result<Scalp> Scalp::bind(std::shared_ptr<const SkinnedMesh> mesh, std::span<const Vec3d> roots, double t0,
                           double farthest) {
   RINGLET_ASSERT(mesh, "a scalp is a mesh");
   const std::vector<Vec3d> points = mesh->pointsAt(t0);
-  const TriangleFinder tree(points, mesh->triangles());
+  std::vector<std::size_t> indices;
+  const TriangleMesh ground = groundOf(*mesh, points, indices);
+  std::optional<TriangleTree> tree;
+  if (!indices.empty()) tree.emplace(ground);
   Scalp scalp;
   std::size_t lostCount = 0, worst = 0;
   double worstDistance = -1;
   for (std::size_t r = 0; r < roots.size(); ++r) {
-    const auto place = tree.nearestTo(roots[r]);
-    const double distance = place ? place->distance : INFINITY;
-    if (!(distance <= farthest)) ++lostCount;
-    if (distance > worstDistance) worstDistance = distance, worst = r;
-    if (!place) continue;
-    const Corners corners = cornersOf(*mesh, points, place->triangle);
-    scalp.bindings_.push_back(
-        {place->triangle, place->weights, corners.at(place->weights), corners.frame().conjugate()});
+    const bool hasPlace = tree && isFinite(roots[r]);
+    const auto nearest = hasPlace ? tree->nearest(roots[r]) : TriangleTree::Nearest{INFINITY, 0, 0};
+    if (!(nearest.distance <= farthest)) ++lostCount;
+    if (nearest.distance > worstDistance) worstDistance = nearest.distance, worst = r;
+    if (!hasPlace) continue;
+    const std::size_t triangle = indices[nearest.triangle];
+    const Corners corners = cornersOf(*mesh, points, triangle);
+    const auto weights = closestShares(roots[r], corners.a, corners.b, corners.c);
+    scalp.bindings_.push_back({triangle, weights, corners.at(weights), corners.frame().conjugate()});
   }
   if (lostCount > 0) {
     return Error{fmt::format(
