@@ -12,7 +12,7 @@ ImplicitEdge implicitEdgeOf(int k) {
 // M v + T (springs + gravity) of particle k.
 vec3 rightHandSide(int k, vec3 forceBefore) {
   float m = restEdge[k].x;
-  return m * v[k] + stepSeconds() * (force[k] - forceBefore + m * parameters.gravity.xyz);
+  return m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * (force[k] - forceBefore);
 }
 
 // What is added to particle k's mass, and to its right-hand side: by contacts, 2 D and a momentum, read where they are
@@ -43,7 +43,7 @@ vec3 addedMomentum(int k) {
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
-  vec3 sum = m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz);
+  vec3 sum = m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * pull;
   if (kAddsMass) sum += addedMomentum(k);
   return sum;
 }

@@ -21,6 +21,7 @@ uint rootward(uint offset) { return lane >= offset ? gl_SubgroupInvocationID - o
 uint tipward(uint offset) { return lane + offset < kLanes ? gl_SubgroupInvocationID + offset : gl_SubgroupInvocationID; }
 
 float fromRootward(float x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
+vec2 fromRootward(vec2 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec3 fromRootward(vec3 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec4 fromRootward(vec4 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec3 fromTipward(vec3 x, uint offset) { return subgroupShuffle(x, tipward(offset)); }

@@ -11,7 +11,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kRuns[] = {4, 8, 16};  // compiled run lengths
+constexpr std::uint32_t kRuns[] = {4, 8, 16, 32};  // compiled run lengths
 
 // lavapipe ends every loop of an invocation once they have made 65,535 turns together, without a word. Others
 // have no such limit; theirs is a dispatch short enough not to be taken for a hang.

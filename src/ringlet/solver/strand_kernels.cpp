@@ -7,6 +7,8 @@
 
 #include "ringlet_shaders/strand_step_run16.h"
 #include "ringlet_shaders/strand_step_run16_taps.h"
+#include "ringlet_shaders/strand_step_run32.h"
+#include "ringlet_shaders/strand_step_run32_taps.h"
 #include "ringlet_shaders/strand_step_run4.h"
 #include "ringlet_shaders/strand_step_run4_taps.h"
 #include "ringlet_shaders/strand_step_run8.h"
@@ -26,6 +28,8 @@ std::span<const std::uint32_t> spirvOf(const StrandShape& shape, bool taps) {
       return taps ? std::span<const std::uint32_t>(k_strand_step_run4_taps) : k_strand_step_run4;
     case 8:
       return taps ? std::span<const std::uint32_t>(k_strand_step_run8_taps) : k_strand_step_run8;
+    case 32:
+      return taps ? std::span<const std::uint32_t>(k_strand_step_run32_taps) : k_strand_step_run32;
     default:
       return taps ? std::span<const std::uint32_t>(k_strand_step_run16_taps) : k_strand_step_run16;
   }
