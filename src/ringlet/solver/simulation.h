@@ -18,6 +18,7 @@
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/compute_device.h"
+#include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 
@@ -62,8 +63,11 @@ struct ListedContact {
 /// How the strand kernel is laid over the device; the defaults choose by device and strand length.
 struct KernelChoice {
   enum class Form { automatic, lanes, serial };
-  Form form = Form::automatic;  // lanes x run with the star join, or one thread per strand
-  int particlesPerLane = 0;     // 4, 8 or 16; 0: choose
+  Form form = Form::automatic;            // lanes x run with the star join, or one thread per strand
+  int particlesPerLane = 0;               // 4 to 16, on a CPU device 24; 0: choose
+  int lanes = 0;                          // of a strand, a power of two; 0: choose
+  std::span<const ShapeCost> measured{};  // on this device, needed until create returns; none: a model's
+  bool manyKernels = false;               // the best shape for every strand, whatever kernels cost to make
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests

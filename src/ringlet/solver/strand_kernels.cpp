@@ -5,30 +5,30 @@
 
 #include <span>
 
-#include "ringlet_shaders/strand_step_run16.h"
-#include "ringlet_shaders/strand_step_run16_taps.h"
-#include "ringlet_shaders/strand_step_run4.h"
-#include "ringlet_shaders/strand_step_run4_taps.h"
-#include "ringlet_shaders/strand_step_run8.h"
-#include "ringlet_shaders/strand_step_run8_taps.h"
+#include "ringlet_shaders/strand_step_baselines.h"
+#include "ringlet_shaders/strand_step_baselines_taps.h"
+#include "ringlet_shaders/strand_step_plain.h"
+#include "ringlet_shaders/strand_step_plain_taps.h"
 #include "ringlet_shaders/strand_step_serial_plain.h"
 #include "ringlet_shaders/strand_step_serial_taps.h"
+#include "ringlet_shaders/strand_step_surroundings.h"
+#include "ringlet_shaders/strand_step_surroundings_taps.h"
 #include "shared/layout.h"
 
 namespace ringlet {
 namespace {
 
-std::span<const std::uint32_t> spirvOf(const StrandShape& shape, bool taps) {
-  if (shape.serial())
-    return taps ? std::span<const std::uint32_t>(k_strand_step_serial_taps) : k_strand_step_serial_plain;
-  switch (shape.particlesPerLane) {
-    case 4:
-      return taps ? std::span<const std::uint32_t>(k_strand_step_run4_taps) : k_strand_step_run4;
-    case 8:
-      return taps ? std::span<const std::uint32_t>(k_strand_step_run8_taps) : k_strand_step_run8;
-    default:
-      return taps ? std::span<const std::uint32_t>(k_strand_step_run16_taps) : k_strand_step_run16;
-  }
+using Spirv = std::span<const std::uint32_t>;
+
+// Code that is only switched off the driver reads all the same: half a second a kernel on lavapipe.
+Spirv spirvOf(const StrandShape& shape, const StrandKernelOptions& options) {
+  const auto either = [&](Spirv plain, Spirv taps) { return options.taps ? taps : plain; };
+  if (shape.serial()) return either(k_strand_step_serial_plain, k_strand_step_serial_taps);
+  if (options.integrator != Integrator::jacobi)
+    return either(k_strand_step_baselines, k_strand_step_baselines_taps);
+  if (options.bodies || options.air)
+    return either(k_strand_step_surroundings, k_strand_step_surroundings_taps);
+  return either(k_strand_step_plain, k_strand_step_plain_taps);
 }
 
 std::uint32_t integratorConstant(Integrator integrator) {
@@ -50,7 +50,7 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   using enum gpu::BindingKind;
   gpu::KernelDescription description;
   description.name = "strand_step " + shape.describe();
-  description.spirv = spirvOf(shape, options.taps);
+  description.spirv = spirvOf(shape, options);
   description.bindings = {storage, storage, storage, storage, storage, storage, uniform, storage, storage,
                           storage, texels,  texels,  texels,  texels,  texels,  storage, storage, storage,
                           storage, storage, texels,  texels,  texels,  texels,  texels,  storage, texels};
@@ -69,6 +69,7 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});
+    description.constants.push_back({12, shape.particlesPerLane});
     description.wantsFullSubgroups = true;
   }
   return gpu::Kernel::create(device, description);

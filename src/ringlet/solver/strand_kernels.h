@@ -7,7 +7,7 @@
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/scene/settings.h"
-#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 
