@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <future>
 #include <span>
 
 #include "ringlet_shaders/strand_step_baselines.h"
@@ -73,6 +74,25 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
     description.wantsFullSubgroups = true;
   }
   return gpu::Kernel::create(device, description);
+}
+
+Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandRange> ranges,
+                                                     const StrandKernelOptions& options) {
+  std::vector<std::future<Result<gpu::Kernel>>> others;
+  for (const StrandRange& range : ranges.subspan(1)) {
+    others.push_back(std::async(std::launch::async, [&device, &range, &options] {
+      return createStrandKernel(device, range.shape, options);
+    }));
+  }
+  std::vector<Result<gpu::Kernel>> made;
+  made.push_back(createStrandKernel(device, ranges.front().shape, options));
+  for (auto& other : others) made.push_back(other.get());
+  std::vector<gpu::Kernel> kernels;
+  for (auto& kernel : made) {
+    if (!kernel) return kernel.error();
+    kernels.push_back(std::move(*kernel));
+  }
+  return kernels;
 }
 
 }  // namespace ringlet
