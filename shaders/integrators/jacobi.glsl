@@ -22,8 +22,10 @@ bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
 const bool kAddsMass = kContacts || kAir || kBodies;
 Symmetric massOf(int k) {
   Symmetric mass = symmetricDiagonal(restEdge[k].x);
+#ifdef RINGLET_SURROUNDINGS
   if (kAir) mass = add(mass, airDragMatrix(drag[k], tangent[k], restEdge[k].x));
   if (kBodies) mass = add(mass, pushWeight[k]);
+#endif
   if (meetsContacts(k)) {
     ContactSystem contact = contactSystemOf(strand.firstParticle + first + k);
     mass.d += 2.0 * contact.diagonal.xyz;
@@ -33,8 +35,10 @@ Symmetric massOf(int k) {
 }
 vec3 addedMomentum(int k) {
   vec3 momentum = meetsContacts(k) ? contactSystemOf(strand.firstParticle + first + k).momentum.xyz : vec3(0);
+#ifdef RINGLET_SURROUNDINGS
   if (kAir) momentum += restEdge[k].x * multiply(drag[k], tangent[k], wind[k]);
   if (kBodies) momentum += pushMomentum[k];
+#endif
   return momentum;
 }
 

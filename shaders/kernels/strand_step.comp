@@ -2,8 +2,10 @@
 // its start and end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose stages
 // these are, in the same order. Mirrored by reference/kernels/strand_step.h; one thread per strand: strand_step_serial.comp.
 // Loops ask after their body (do, or if and do): a driver that masks lanes (lavapipe) runs the body of one that asks before
-// it once more than it has turns. Compiled with RUN = particles per lane; specialized with the lanes per strand and the integrator. With contacts every
-// solve is a dispatch of its own; the last of a step moves the strand and goes on to the next step's first.
+// it once more than it has turns. Specialized with RUN = particles per lane, the lanes per strand and the integrator. With
+// contacts every solve is a dispatch of its own; the last of a step moves the strand and goes on to the next step's first.
+// Compiled three times: `jacobi` by itself; with RINGLET_SURROUNDINGS, bodies and air; with RINGLET_BASELINES, the other
+// integrators.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -210,49 +212,60 @@ void coreForces() {
 // Elastic force on particle k: its edge pulls it on, the edge before pulls it back.
 vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
 
+#ifdef RINGLET_SURROUNDINGS
 #include "bodies/run_air.glsl"
 #include "bodies/run_bodies.glsl"
+#endif
 #include "integrators/jacobi.glsl"
-#include "integrators/paper.glsl"
-#include "integrators/point_jacobi.glsl"
 #include "integrators/two_way.glsl"
 #include "integrators/residual.glsl"
+#ifdef RINGLET_BASELINES
+#include "integrators/paper.glsl"
+#include "integrators/point_jacobi.glsl"
+#endif
 
+#ifdef RINGLET_SURROUNDINGS
 // The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is one
 // solve in the code.
 void solveAmongBodies(uint step, vec3 pinned[3]) {
-  vec3 before[RUN] = v;
+  vec3 before[RUN];
+  [[unroll]] for (int k = 0; k < RUN; ++k) before[k] = v[k];
   clearPushes();
   bool pushed = false;
   uint turn = 0;
   do {
-    v = before;
+    [[unroll]] for (int k = 0; k < RUN; ++k) v[k] = before[k];
     solveStrandBlock(pinned);
     if (turn == 0) pushed = findPushes(step);
     if (turn == 1) addFriction();
     if (turn == 2) rubRun();
   } while (++turn < (pushed ? 3 : 1));
 }
+#endif
 
 void solveVelocities(uint step) {
   vec3 pinned[3];
   [[unroll]] for (int k = 0; k < 3; ++k) {
     pinned[k] = pinnedVelocity(step, k);
   }
-  vec3 before[RUN] = v;
-  if (kIntegrator == kIntegratorJacobi) {
-    if (kAir) feelAir(step);
-    if (kBodies) {
-      solveAmongBodies(step, pinned);
-    } else if (kFromBothEnds) {
+  vec3 before[RUN];
+  [[unroll]] for (int k = 0; k < RUN; ++k) before[k] = v[k];
+#ifdef RINGLET_SURROUNDINGS
+  if (kAir) feelAir(step);
+  if (kBodies) solveAmongBodies(step, pinned);
+#endif
+  if (kIntegrator == kIntegratorJacobi && !kBodies) {
+    if (kFromBothEnds) {
       solveFromBothEnds(pinned);
     } else {
       solveStrandBlock(pinned);
     }
   }
+#ifdef RINGLET_BASELINES
   if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
-  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual(before);
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
+#endif
+  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual(before);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
   }
@@ -280,6 +293,7 @@ bool limitEdges(bool velocitiesFollow) {
   return kBodies && sumOverStrand(limited) > 0;
 }
 
+#ifdef RINGLET_SURROUNDINGS
 // Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other.
 void keepAmongBodies(uint step) {
   bool again;
@@ -293,11 +307,14 @@ void keepAmongBodies(uint step) {
     ++round;
   } while (again);
 }
+#endif
 
 // p += T v, then the stretch limit, then out of bodies.
 void moveAndLimit(uint step) {
   float T = stepSeconds();
-  if (kBodies) pStart = p;
+#ifdef RINGLET_SURROUNDINGS
+  [[unroll]] for (int k = 0; k < RUN; ++k) pStart[k] = p[k];
+#endif
   // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
   vec3 vNext = fromTipward(v[0], 1);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
@@ -305,7 +322,9 @@ void moveAndLimit(uint step) {
     e[k] += T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
   }
   limitEdges(true);
+#ifdef RINGLET_SURROUNDINGS
   if (kBodies) keepAmongBodies(step);
+#endif
 }
 
 void storeStrand(uint strandIndex) {

@@ -5,10 +5,15 @@
 #include "equations/smoothing.glsl"
 #include "scan/lanes.glsl"
 
-/// γ^RUN by squaring (pow() would cost digits and time).
+/// γ^RUN by squaring, from RUN's highest bit down (pow() would cost digits and time).
 float gammaToRun(float beta) {
-  float g = keptShare(beta);
-  [[unroll]] for (int n = 1; n < RUN; n *= 2) g *= g;
+  float gamma = keptShare(beta);
+  float g = gamma;
+  [[unroll]] for (int bit = 4; bit >= 0; --bit) {
+    if ((RUN >> (bit + 1)) == 0) continue;
+    g *= g;
+    if (((RUN >> bit) & 1) != 0) g *= gamma;
+  }
   return g;
 }
 

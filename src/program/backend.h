@@ -54,6 +54,8 @@ class Backend {
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
   virtual std::string kernel() const = 0;
+  /// Of making it [ms]; 0 where there is nothing to compile.
+  virtual double compileMilliseconds() const { return 0; }
 };
 
 /// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open).

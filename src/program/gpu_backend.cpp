@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "program/backend.h"
+#include "program/compile_note.h"
 
 namespace ringlet::program {
 namespace {
@@ -30,6 +31,7 @@ class GpuBackend : public Backend {
   std::string device() const override { return device_.name(); }
   std::string driver() const override { return device_.driver(); }
   std::string kernel() const override { return simulation_.kernelDescription(); }
+  double compileMilliseconds() const override { return simulation_.compileMilliseconds(); }
 
  private:
   ComputeDevice device_;
@@ -44,6 +46,8 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
   if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
   KernelChoice choice = kernel;
   choice.movingRoots = !input.rootStarts.empty();
+  CompileNote note(device->name());
+  choice.observer = &note;
   auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
                                        input.oneStepEarlier, choice, input.bodies);
   if (!simulation) return simulation.error();

@@ -87,6 +87,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["device"] = outcome.device;
   json["driver"] = outcome.driver;
   json["kernel"] = outcome.kernel;
+  json["compile_ms"] = outcome.compileMilliseconds;
   json["backend"] = names.backend;
   json["positions_hash"] = outcome.positionsHash;
   json["integrator"] = names.integrator;

@@ -48,7 +48,8 @@ constexpr const char* kExample =
     "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
     "at a\n"
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
-    "device driver kernel backend positions_hash integrator material steps_per_frame fps\n"
+    "device driver kernel compile_ms (making the kernels, once) backend positions_hash integrator material "
+    "steps_per_frame fps\n"
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
@@ -58,7 +59,7 @@ constexpr const char* kExitHelp =
 // The command line as typed; what is left out is the scene file's, or the default.
 struct Typed {
   std::filesystem::path input, folder;
-  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames;
+  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames, lanes, run;
   std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload,
       width;
   std::optional<std::string> motion, joint, animation, up, integrator;
@@ -157,6 +158,10 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
     throw CLI::ValidationError(typed.kernel != "auto" ? "--kernel" : "--device",
                                "only --backend gpu has a device and kernels");
   }
+  if ((typed.lanes || typed.run) && (typed.backend == "reference" || typed.kernel == "serial")) {
+    throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
+                               "only --backend gpu with --kernel auto or lanes has lanes and runs");
+  }
 }
 
 // All but the bodies, which must be read.
@@ -200,7 +205,10 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   options.kernel.residual = typed.json;
   options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
                         : typed.kernel == "serial" ? Form::serial
+                        : typed.lanes || typed.run ? Form::lanes
                                                    : Form::automatic;
+  options.kernel.lanes = typed.lanes.value_or(0);
+  options.kernel.particlesPerLane = typed.run.value_or(0);
   options.showProgress = !typed.quiet;
   return options;
 }
@@ -396,6 +404,20 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
                    "Form of the strand kernel: auto, lanes or serial (default auto)")
       ->check(oneOf({"auto", "lanes", "serial"}))
       ->type_name("FORM")
+      ->group(machine);
+  command
+      ->add_option("--lanes", typed->lanes,
+                   "Lanes a strand is spread over: a power of two, the device's subgroup at most (default: "
+                   "chosen by device and length)")
+      ->check(wholeBetween(1, 128))
+      ->type_name("L")
+      ->group(machine);
+  command
+      ->add_option("--run", typed->run,
+                   "Particles a lane holds, 4 to 16, on a CPU device to 24 (default: chosen by device and "
+                   "length)")
+      ->check(wholeBetween(4, 24))
+      ->type_name("K")
       ->group(machine);
 
   // What is said and written.

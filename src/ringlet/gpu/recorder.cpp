@@ -209,6 +209,12 @@ void Recorder::dispatchIndirect(const Kernel& kernel, const Bindings& bindings,
   self_->vk().vkCmdDispatchIndirect(self_->commands, groupCounts.handle(), offset);
 }
 
+void Recorder::dispatchNothing(const Kernel& kernel, const Bindings& bindings) {
+  const std::vector<std::byte> none(kernel.pushConstantBytes());
+  bind(kernel, bindings, none);
+  self_->vk().vkCmdDispatch(self_->commands, 0, 1, 1);
+}
+
 // One kind of barrier for everything: on compute work a narrower one gains nothing.
 void Recorder::barrier() {
   RINGLET_ASSERT(self_->phase == State::Phase::recording, "barrier outside begin and submit");

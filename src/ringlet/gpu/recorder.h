@@ -61,6 +61,9 @@ class Recorder {
     dispatchIndirect(kernel, bindings, std::as_bytes(std::span(&pushConstants, 1)), groupCounts, offset);
   }
 
+  /// No workgroup at all; but drivers that compile a kernel at its first dispatch do it here.
+  void dispatchNothing(const Kernel& kernel, const Bindings& bindings);
+
   /// What was recorded before is finished and visible to what follows: kernels, their group counts, and
   /// copies, reads and writes.
   /// The validation layer notices a barrier left out only where one of the two kernels declares the

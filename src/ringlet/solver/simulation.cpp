@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -62,6 +63,21 @@ std::string describe(std::span<const StrandRange> ranges, std::uint32_t subgroup
   return fmt::format("{} (subgroup {})", text, subgroupSize);
 }
 
+// Tells the observer, where there is one, of a beginning and, whatever happens, of an end.
+class CompileNotice {
+ public:
+  CompileNotice(CompileObserver* observer, std::size_t kernelCount) : observer_(observer) {
+    if (observer_) observer_->begin(kernelCount);
+  }
+  ~CompileNotice() {
+    if (observer_) observer_->end();
+  }
+  CompileNotice(const CompileNotice&) = delete;
+
+ private:
+  CompileObserver* observer_;
+};
+
 }  // namespace
 
 struct Simulation::Implementation {
@@ -88,6 +104,9 @@ struct Simulation::Implementation {
   std::uint64_t stepsDone = 0;
   std::map<std::string, double> stageMilliseconds{};
 
+  double compileMilliseconds = 0;
+
+  Status makeKernels(bool hasBodies);
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
   Status recordFrame();
   Status recordContactFrame(std::uint32_t firstStep, bool predictFirst);
@@ -116,7 +135,8 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const DeviceLimits limits = limitsOf(device.gpu());
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
-  auto ranges = planRanges(counts, limits, choice);
+  const bool isHairAlone = !settings.contacts.on && !settings.air.on && bodies.empty();
+  auto ranges = planRanges(counts, limits, choice, isHairAlone);
   if (!ranges) return ranges.error();
   auto plan = planFrame(*ranges, limits, settings, bodies.size(), kStrandGroupSize);
   if (!plan) return plan.error();
@@ -148,33 +168,50 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           std::move(*roots),
                                                           std::move(*ranges),
                                                           std::move(*plan)});
-  const bool oneSmoothing = std::all_of(self->rest.strands.begin(), self->rest.strands.end(),
-                                        [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
-  const bool bendVaries =
-      !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
-  const bool fitsTexels =
-      self->buffers.fitsTexels(device.gpu()) &&
-      isSeenAsTexels(device.gpu(), std::max(self->world.largestBuffer(), self->roots.largestBuffer()));
-  for (const StrandRange& range : self->ranges) {
-    auto kernel = createStrandKernel(
-        device.gpu(), range.shape,
-        {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on, fitsTexels,
-         choice.residual, !bodies.empty(), settings.air.on, self->world.isTurbulent(), choice.movingRoots});
-    if (!kernel) return kernel.error();
-    auto buffersInOrder = self->buffers.inBindingOrder();
-    std::ranges::copy(self->world.inBindingOrder(), std::back_inserter(buffersInOrder));
-    std::ranges::copy(self->roots.inBindingOrder(), std::back_inserter(buffersInOrder));
-    auto bindings = gpu::Bindings::create(*kernel, buffersInOrder);
-    if (!bindings) return bindings.error();
-    self->kernels.push_back(std::move(*kernel));
-    self->bindings.push_back(std::move(*bindings));
-  }
   if (Status status = self->placeAtRest(); !status) return status.error();
   if (settings.contacts.on) {
     if (Status status = self->addContacts(); !status) return status.error();
   }
+  if (Status status = self->makeKernels(!bodies.empty()); !status) return status.error();
   if (Status status = self->recordFrame(); !status) return status.error();
   return Simulation(std::move(self));
+}
+
+// Made, several at a time, and compiled by a dispatch of nothing: some drivers compile only then.
+Status Simulation::Implementation::makeKernels(bool hasBodies) {
+  const auto start = std::chrono::steady_clock::now();
+  const CompileNotice notice(choice.observer, ranges.size() + (contacts ? kContactKernelCount : 0));
+  const bool oneSmoothing = std::all_of(rest.strands.begin(), rest.strands.end(),
+                                        [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
+  const bool bendVaries =
+      !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
+  const bool fitsTexels =
+      buffers.fitsTexels(device.gpu()) &&
+      isSeenAsTexels(device.gpu(), std::max(world.largestBuffer(), roots.largestBuffer()));
+  const StrandKernelOptions options{settings.integrator,  oneSmoothing,        bendVaries,        choice.taps,
+                                    settings.contacts.on, fitsTexels,          choice.residual,   hasBodies,
+                                    settings.air.on,      world.isTurbulent(), choice.movingRoots};
+  auto made = createStrandKernels(device.gpu(), ranges, options);
+  if (!made) return made.error();
+  kernels = std::move(*made);
+  auto buffersInOrder = buffers.inBindingOrder();
+  std::ranges::copy(world.inBindingOrder(), std::back_inserter(buffersInOrder));
+  std::ranges::copy(roots.inBindingOrder(), std::back_inserter(buffersInOrder));
+  for (const gpu::Kernel& kernel : kernels) {
+    auto bound = gpu::Bindings::create(kernel, buffersInOrder);
+    if (!bound) return bound.error();
+    bindings.push_back(std::move(*bound));
+  }
+
+  auto recorder = gpu::Recorder::create(device.gpu(), "compile");
+  if (!recorder) return recorder.error();
+  if (Status status = recorder->begin(); !status) return status;
+  for (std::size_t k = 0; k < kernels.size(); ++k) recorder->dispatchNothing(kernels[k], bindings[k]);
+  if (contacts) contacts->recordNothing(*recorder);
+  if (Status status = recorder->submitAndWait(); !status) return status;
+  compileMilliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return {};
 }
 
 layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDispatch& dispatch) const {
@@ -498,6 +535,8 @@ Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) c
     return std::array<float, 4>{v.x, v.y, v.z, v.w};
   });
 }
+
+double Simulation::compileMilliseconds() const { return self_->compileMilliseconds; }
 
 std::string Simulation::kernelDescription() const {
   return describe(self_->ranges, self_->device.gpu().properties().subgroupSize);

@@ -18,6 +18,7 @@
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/compute_device.h"
+#include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 
@@ -59,11 +60,24 @@ struct ListedContact {
   float stiffnessShare = 0, dampingShare = 0;
 };
 
+/// Told when the driver begins to compile a simulation's kernels, which may take seconds, and when it is
+/// done.
+class CompileObserver {
+ public:
+  virtual ~CompileObserver() = default;
+  virtual void begin(std::size_t kernelCount) = 0;
+  virtual void end() = 0;  // also after a failure
+};
+
 /// How the strand kernel is laid over the device; the defaults choose by device and strand length.
 struct KernelChoice {
   enum class Form { automatic, lanes, serial };
-  Form form = Form::automatic;  // lanes x run with the star join, or one thread per strand
-  int particlesPerLane = 0;     // 4, 8 or 16; 0: choose
+  Form form = Form::automatic;            // lanes x run with the star join, or one thread per strand
+  int particlesPerLane = 0;               // 4 to 16, on a CPU device 24; 0: choose
+  int lanes = 0;                          // of a strand, a power of two; 0: choose
+  std::span<const ShapeCost> measured{};  // on this device, needed until create returns; none: a model's
+  bool manyKernels = false;               // the best shape for every strand, whatever kernels cost to make
+  CompileObserver* observer = nullptr;    // needed until create returns
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
@@ -134,6 +148,8 @@ class Simulation {
   /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
   /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
+  /// What it took to make the kernels, most of it the driver's compiler [ms]. Part of create.
+  double compileMilliseconds() const;
   /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".
   std::string kernelDescription() const;
 
