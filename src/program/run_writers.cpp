@@ -13,6 +13,9 @@ namespace ringlet::program {
 Status Writers::addFrame(int frame, std::vector<Vec3f> points) {
   if (sheet) sheet->offer(frame, points);
   lastPoints = std::move(points);
+  if (cache) {
+    if (Status added = cache->addFrame(lastPoints); !added) return added;
+  }
   return usd ? usd->addFrame(lastPoints) : Status{};
 }
 
@@ -22,6 +25,10 @@ Result<std::vector<std::filesystem::path>> Writers::finish(const std::filesystem
   if (usd) {
     if (Status done = usd->finish(); !done) return done.error();
     written.push_back(folder / "hair.usda");
+  }
+  if (cache) {
+    if (Status done = cache->finish(); !done) return done.error();
+    written.push_back(folder / "hair.rgc");
   }
   if (writesLast) {
     written.push_back(folder / "last.obj");
@@ -40,16 +47,27 @@ Result<Writers> openWriters(const RunInput& input, const RunOptions& options) {
   std::filesystem::create_directories(options.folder, code);
   if (code)
     return Error{fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message())};
-  Writers writers{{}, {}, options.writesLast, {}};
+  Writers writers{{}, {}, {}, options.writesLast, {}};
+  const auto diameter = static_cast<float>(options.width / metresPerUnit);
   if (options.writesUsd) {
     auto usd = UsdWriter::create(options.folder / "hair.usda", input.groom,
                                  {.framesPerSecond = input.settings.framesPerSecond,
                                   .metresPerUnit = metresPerUnit,
                                   .up = options.up,
-                                  .diameter = static_cast<float>(options.width / metresPerUnit),
+                                  .diameter = diameter,
                                   .frameCount = options.frameCount});
     if (!usd) return usd.error();
     writers.usd.emplace(std::move(*usd));
+  }
+  if (options.cache) {
+    auto cache = CacheWriter::create(options.folder / "hair.rgc", input.groom,
+                                     {.precision = *options.cache,
+                                      .up = options.up,
+                                      .diameter = diameter,
+                                      .framesPerSecond = input.settings.framesPerSecond,
+                                      .metresPerUnit = metresPerUnit});
+    if (!cache) return cache.error();
+    writers.cache.emplace(std::move(*cache));
   }
   if (options.writesSheet) writers.sheet.emplace(input.groom, options.frameCount, options.up);
   return writers;

@@ -9,6 +9,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/output/cache_writer.h"
 #include "ringlet/output/sheet.h"
 #include "ringlet/output/usd_writer.h"
 
@@ -16,6 +17,7 @@ namespace ringlet::program {
 
 struct Writers {
   std::optional<UsdWriter> usd;
+  std::optional<CacheWriter> cache;
   std::optional<Sheet> sheet;
   bool writesLast;
   std::vector<Vec3f> lastPoints;  // [file unit]

@@ -202,9 +202,10 @@ class Stepper {
 
 // A failure in the middle of a run, with what it leaves.
 Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
-  if (frameCount == 0 || options.folder.empty() || !options.writesUsd) return cause;
+  if (frameCount == 0 || options.folder.empty() || (!options.writesUsd && !options.cache)) return cause;
+  const char* file = options.writesUsd ? "hair.usda.partial" : "hair.rgc.partial";
   return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
-                           (options.folder / "hair.usda.partial").string())};
+                           (options.folder / file).string())};
 }
 
 // Where keys are further apart than a head goes, it jumps: on a smooth way it would only be fast.
