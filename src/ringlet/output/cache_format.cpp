@@ -15,9 +15,11 @@
 namespace ringlet::cache {
 namespace {
 
-// One of zstd's fast levels. Level 1 makes float32 frames 4 % and 16-bit frames 6 % smaller, in a third more
-// time.
-constexpr int kLevel = -1;
+// What zstd gains here are short codes for frequent bytes; repeats are rare, so it looks for long ones only,
+// with the smallest table. Level 1 needs 1.3 to 1.6 times as long and gains up to 8 %; the levels below it
+// leave the codes out.
+constexpr std::pair<ZSTD_cParameter, int> kParameters[] = {
+    {ZSTD_c_compressionLevel, 1}, {ZSTD_c_strategy, ZSTD_fast}, {ZSTD_c_hashLog, 6}, {ZSTD_c_minMatch, 7}};
 
 std::uint32_t checksumOf(std::span<const std::byte> bytes) {
   return static_cast<std::uint32_t>(
@@ -73,7 +75,8 @@ ChunkHeader parseChunkHeader(std::span<const std::byte> bytes) {
 
 ChunkPacker::ChunkPacker() : context_(ZSTD_createCCtx()) {
   if (!context_) throw std::bad_alloc();
-  ZSTD_CCtx_setParameter(static_cast<ZSTD_CCtx*>(context_), ZSTD_c_compressionLevel, kLevel);
+  for (const auto& [parameter, value] : kParameters)
+    ZSTD_CCtx_setParameter(static_cast<ZSTD_CCtx*>(context_), parameter, value);
 }
 ChunkPacker::~ChunkPacker() { ZSTD_freeCCtx(static_cast<ZSTD_CCtx*>(context_)); }
 ChunkPacker::ChunkPacker(ChunkPacker&& other) noexcept

@@ -86,7 +86,7 @@ class ChunkPacker {
   ChunkPacker(ChunkPacker&&) noexcept;
   ChunkPacker& operator=(ChunkPacker&&) = delete;
 
-  /// The whole chunk, good until the next call. Cost: 0.4 to 0.8 ms for the frame of 64,000 points.
+  /// The whole chunk, good until the next call. Cost: half a millisecond for the frame of 64,000 points.
   std::span<const std::byte> pack(ChunkKind kind, std::uint32_t number, double errorBound,
                                   std::span<const std::byte> content);
 

@@ -21,13 +21,14 @@ std::uint32_t unfolded(std::uint32_t n) { return n >> 1 ^ (n & 1 ? ~0u : 0u); }
 std::uint16_t folded(std::uint16_t n) { return n; }
 std::uint16_t unfolded(std::uint16_t n) { return n; }
 
+// Leaves the differences in `words`.
 template <class Word>
-void putPlanes(std::span<const Word> words, std::byte* at) {
+void putPlanes(std::span<Word> words, std::byte* at) {
   const std::size_t count = words.size();
+  for (std::size_t i = count - 1; i > 0; --i) words[i] = folded(static_cast<Word>(words[i] - words[i - 1]));
+  words[0] = folded(words[0]);
   for (int shift = 8 * (sizeof(Word) - 1); shift >= 0; shift -= 8, at += count) {
-    at[0] = static_cast<std::byte>(folded(words[0]) >> shift);
-    for (std::size_t i = 1; i < count; ++i)
-      at[i] = static_cast<std::byte>(folded(static_cast<Word>(words[i] - words[i - 1])) >> shift);
+    for (std::size_t i = 0; i < count; ++i) at[i] = static_cast<std::byte>(words[i] >> shift);
   }
 }
 
