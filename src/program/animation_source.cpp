@@ -88,6 +88,15 @@ Status AnimationSource::readFrame(int frame) {
     RINGLET_ASSERT(*more, "the reader refuses files of fewer frames than they state");
     ++latest_;
   }
+  return latest_ == frameCount_ ? checkEnd() : Status{};
+}
+
+// Text that was cut short after its last frame, or has more of them than it states, is refused.
+Status AnimationSource::checkEnd() {
+  std::vector<Vec3f> beyond;
+  auto more = std::get<UsdReader>(reader_).readFrame(beyond);
+  if (!more) return more.error();
+  if (*more) return Error{fmt::format("it states {} frames and has more", frameCount_)};
   return {};
 }
 

@@ -47,6 +47,8 @@ class AnimationSource {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  Status checkEnd();
+
   explicit AnimationSource(std::variant<UsdReader, CacheReader> reader) : reader_(std::move(reader)) {}
 
   std::variant<UsdReader, CacheReader> reader_;

@@ -93,6 +93,22 @@ double longestSide(const Groom& groom, const std::vector<Vec3f>& points) {
   return longest;
 }
 
+// A file in memory: disks are slow for thousands of them.
+class MemoryFile {
+ public:
+  MemoryFile() : file_(memfd_create("cache", 0)) {}
+  ~MemoryFile() { close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(file_); }
+  bool hold(const std::string& bytes) {
+    return ftruncate(file_, 0) == 0 &&
+           pwrite(file_, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size());
+  }
+
+ private:
+  int file_;
+};
+
 TEST(Cache, Float32KeepsEveryBitAndTheHeader) {
   const auto path = scratchFolder("cache_bits") / "hair.rgc";
   const Groom groom = test::randomGroom(3, 200), awkward = test::awkwardGroom();
@@ -276,9 +292,10 @@ TEST(Cache, ATornEndCostsOnlyItsFrame) {
     ASSERT_TRUE(writer->finish());
   }
   const std::string whole = readText(folder / "hair.rgc");
+  MemoryFile cut;
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    writeText(folder / "cut.rgc", whole.substr(0, size));
-    auto reader = CacheReader::open(folder / "cut.rgc");
+    ASSERT_TRUE(cut.hold(whole.substr(0, size)));
+    auto reader = CacheReader::open(cut.path());
     if (size < ends[0]) {
       ASSERT_FALSE(reader) << size;
       continue;
@@ -295,8 +312,8 @@ TEST(Cache, ATornEndCostsOnlyItsFrame) {
       EXPECT_TRUE(hasSameBits(points, frameOf(groom, frame)));
     }
   }
-  writeText(folder / "cut.rgc", whole.substr(0, ends[2] + 5));
-  auto reader = CacheReader::open(folder / "cut.rgc");
+  ASSERT_TRUE(cut.hold(whole.substr(0, ends[2] + 5)));
+  auto reader = CacheReader::open(cut.path());
   ASSERT_TRUE(reader);
   EXPECT_TRUE(contains(reader->warnings().at(0), "dropped the last 5 bytes, 2 frames are whole"))
       << reader->warnings().at(0);
@@ -421,22 +438,6 @@ TEST(Cache, SaysWhichFileAndWhy) {
   EXPECT_TRUE(contains(CacheReader::open(folder).error().message, "is a folder"));
   EXPECT_TRUE(contains(CacheReader::open(folder / "none.rgc").error().message, "No such file"));
 }
-
-// A file in memory: disks are slow for thousands of them.
-class MemoryFile {
- public:
-  MemoryFile() : file_(memfd_create("cache", 0)) {}
-  ~MemoryFile() { close(file_); }
-  MemoryFile(const MemoryFile&) = delete;
-  std::filesystem::path path() const { return "/proc/self/fd/" + std::to_string(file_); }
-  bool hold(const std::string& bytes) {
-    return ftruncate(file_, 0) == 0 &&
-           pwrite(file_, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size());
-  }
-
- private:
-  int file_;
-};
 
 // Makes checksums right again, so that spoilt numbers get past them: of the header, and of chunk by chunk as
 // far as the chunks lead.

@@ -177,6 +177,14 @@ TEST_F(Convert, ACacheInPlaceOfUsd) {
   EXPECT_FALSE(fs::exists(folder_ / "small/hair.usda"));
 }
 
+TEST_F(Convert, MeasureReadsCachesToo) {
+  const auto usd = run({"measure", "groom.obj", "out/hair.usda", "--json"});
+  ASSERT_EQ(usd.exitCode, 0) << usd.err;
+  EXPECT_EQ(run({"measure", "groom.obj", "out/hair.rgc", "--json"}).out, usd.out);
+  fs::remove(folder_ / "out/hair.usda");
+  EXPECT_EQ(run({"measure", "groom.obj", "out", "--json"}).out, usd.out) << "in a folder";
+}
+
 // What a killed run leaves: no index, and half of a frame.
 TEST_F(Convert, AnUnfinishedCacheIsReadAsFarAsItGoes) {
   const std::string whole = readText(folder_ / "out/hair.rgc");

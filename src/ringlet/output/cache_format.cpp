@@ -75,19 +75,16 @@ ChunkHeader parseChunkHeader(std::span<const std::byte> bytes) {
 
 ChunkPacker::ChunkPacker() : context_(ZSTD_createCCtx()) {
   if (!context_) throw std::bad_alloc();
-  for (const auto& [parameter, value] : kParameters)
-    ZSTD_CCtx_setParameter(static_cast<ZSTD_CCtx*>(context_), parameter, value);
+  for (const auto& [parameter, value] : kParameters) ZSTD_CCtx_setParameter(context_.get(), parameter, value);
 }
-ChunkPacker::~ChunkPacker() { ZSTD_freeCCtx(static_cast<ZSTD_CCtx*>(context_)); }
-ChunkPacker::ChunkPacker(ChunkPacker&& other) noexcept
-    : context_(std::exchange(other.context_, nullptr)), chunk_(std::move(other.chunk_)) {}
+void ChunkPacker::Free::operator()(ZSTD_CCtx_s* context) const { ZSTD_freeCCtx(context); }
 
 std::span<const std::byte> ChunkPacker::pack(ChunkKind kind, std::uint32_t number, double errorBound,
                                              std::span<const std::byte> content) {
   chunk_.resize(std::max(chunk_.size(), kChunkHeaderBytes + ZSTD_compressBound(content.size())));
   const auto stored = std::span(chunk_).subspan(kChunkHeaderBytes);
-  std::size_t size = ZSTD_compress2(static_cast<ZSTD_CCtx*>(context_), stored.data(), stored.size(),
-                                    content.data(), content.size());
+  std::size_t size =
+      ZSTD_compress2(context_.get(), stored.data(), stored.size(), content.data(), content.size());
   if (ZSTD_isError(size) || size >= content.size() || !canHold(size, content.size())) {
     std::ranges::copy(content, stored.begin());
     size = content.size();

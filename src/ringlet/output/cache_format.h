@@ -23,12 +23,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "ringlet/output/up_axis.h"
+
+struct ZSTD_CCtx_s;  // zstd's, whose own header stays inside
 
 namespace ringlet {
 
@@ -82,16 +85,16 @@ ChunkHeader parseChunkHeader(std::span<const std::byte> bytes);
 class ChunkPacker {
  public:
   ChunkPacker();
-  ~ChunkPacker();
-  ChunkPacker(ChunkPacker&&) noexcept;
-  ChunkPacker& operator=(ChunkPacker&&) = delete;
 
   /// The whole chunk, good until the next call. Cost: half a millisecond for the frame of 64,000 points.
   std::span<const std::byte> pack(ChunkKind kind, std::uint32_t number, double errorBound,
                                   std::span<const std::byte> content);
 
  private:
-  void* context_;  // ZSTD_CCtx, which no public header shows
+  struct Free {
+    void operator()(ZSTD_CCtx_s* context) const;
+  };
+  std::unique_ptr<ZSTD_CCtx_s, Free> context_;
   std::vector<std::byte> chunk_;
 };
 
