@@ -144,6 +144,7 @@ void applyOptions(const Typed& typed, SceneFile& scene) {
   applyContactOptions(typed.contacts, scene.contacts);
   if (!typed.folder.empty()) scene.output.folder = typed.folder;
   replace(scene.output.width, typed.width);
+  if (!typed.cache.empty()) scene.output.cache = typed.cache;
 }
 
 // Throws CLI11's error for what makes no sense together.
@@ -193,7 +194,7 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
     return std::ranges::find(scene.output.files, file) != scene.output.files.end();
   };
   options.writesUsd = writes("hair.usda") && !typed.noUsd;
-  if (!typed.cache.empty()) options.cache = precisionByName(typed.cache);
+  if (!scene.output.cache.empty()) options.cache = precisionByName(scene.output.cache);
   options.writesLast = writes("last.obj");
   options.writesSheet = writes("sheet.png");
   options.warnings = scene.warnings;
