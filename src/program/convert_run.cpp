@@ -37,7 +37,13 @@ template <class Writer>
 Status throughWriter(AnimationSource& source, const ConvertPlan& plan, Result<Writer> writer) {
   if (!writer) return writer.error();
   const auto add = [&](int) { return writer->addFrame(source.groom().points); };
-  if (Status added = forEachFrame(source, plan, add); !added) return added;
+  if (Status added = forEachFrame(source, plan, add); !added) {
+    const std::string partial = plan.output.string() + ".partial";
+    const bool isSaid = added.error().message.find(partial) != std::string::npos;  // by the writer
+    if (writer->frameCount() == 0 || isSaid) return added;
+    return Error{fmt::format("{} (the {} frames before it are kept in {})", added.error().message,
+                             writer->frameCount(), partial)};
+  }
   return writer->finish();
 }
 

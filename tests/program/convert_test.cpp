@@ -228,6 +228,9 @@ TEST_F(Convert, FailuresAreOneSentenceAndExit1) {
   std::string damaged = readText(folder_ / "out/hair.rgc");
   damaged[170] ^= 1;
   std::ofstream(folder_ / "damaged.rgc", std::ios::binary) << damaged;
+  std::string later = readText(folder_ / "out/hair.rgc");
+  later[later.size() / 2] ^= 1;
+  std::ofstream(folder_ / "later.rgc", std::ios::binary) << later;
   fs::create_directories(folder_ / "here");
   fs::copy(folder_ / "out/hair.rgc", folder_ / "here/hair.rgc.partial");
   struct Case {
@@ -238,6 +241,7 @@ TEST_F(Convert, FailuresAreOneSentenceAndExit1) {
        {Case{{"none.rgc", "a.usda"}, "none.rgc"}, Case{{"wrong.rgc", "a.usda"}, "5 bytes"},
         Case{{"groom.obj", "a.usda"}, "must end in .usda or .rgc"},
         Case{{"damaged.rgc", "a.usda"}, "frame 1 is damaged"},
+        Case{{"later.rgc", "b.usda"}, "frames before it are kept in b.usda.partial"},
         Case{{"out/hair.rgc", "a.usda", "--frames", "2:6"}, "has frames 1 to 5; there is no frame 6"},
         Case{{"out/hair.usda", "a.obj", "--frame", "6"}, "there is no frame 6"},
         Case{{"out/hair.rgc", "out/hair.rgc"}, "choose another name"},
