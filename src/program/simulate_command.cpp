@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "program/animation_source.h"
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
@@ -32,12 +33,15 @@ constexpr const char* kExample =
     "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
     "  ringlet simulate head.obj --motion walk.bvh --skip-frames 1 -o out\n"
     "  ringlet simulate scene.toml --frames 24 -o out\n"
+    "  ringlet simulate head.obj --cache 16bit --no-usd -o out && ringlet convert out/hair.rgc --info\n"
     "\n"
     "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "
     "frame, in the\n"
     "groom's order and unit), sheet.png (six frames side by side). Ctrl-C stops after the current frame and "
     "keeps what\n"
-    "is finished; until a run ends its animation is hair.usda.partial, which is valid at all times.\n"
+    "is finished; until a run ends its animation is hair.usda.partial, which is valid at all times. --cache: "
+    "hair.rgc,\n"
+    "which `ringlet convert` makes other files of.\n"
     "\n"
     "--json keys: frames strands particles ms_per_frame (wall time of stepping alone, without reading back "
     "and writing)\n"
@@ -65,8 +69,8 @@ struct Typed {
   std::optional<std::string> motion, joint, animation, up, integrator;
   MaterialChoice material;
   ContactChoice contacts;
-  std::string backend = "gpu", device, kernel = "auto";
-  bool measuresContacts = false, noChebyshev = false, json = false, quiet = false;
+  std::string backend = "gpu", device, kernel = "auto", cache;
+  bool measuresContacts = false, noChebyshev = false, noUsd = false, json = false, quiet = false;
 };
 
 template <class Value>
@@ -141,6 +145,7 @@ void applyOptions(const Typed& typed, SceneFile& scene) {
   applyContactOptions(typed.contacts, scene.contacts);
   if (!typed.folder.empty()) scene.output.folder = typed.folder;
   replace(scene.output.width, typed.width);
+  if (!typed.cache.empty()) scene.output.cache = typed.cache;
 }
 
 // Throws CLI11's error for what makes no sense together.
@@ -193,7 +198,8 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   const auto writes = [&](const char* file) {
     return std::ranges::find(scene.output.files, file) != scene.output.files.end();
   };
-  options.writesUsd = writes("hair.usda");
+  options.writesUsd = writes("hair.usda") && !typed.noUsd;
+  if (!scene.output.cache.empty()) options.cache = precisionByName(scene.output.cache);
   options.writesLast = writes("last.obj");
   options.writesSheet = writes("sheet.png");
   options.warnings = scene.warnings;
@@ -422,7 +428,16 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   // What is said and written.
   const char* output = "Output";
-  command->add_option("--width", typed->width, "Diameter of strands in hair.usda, metres (default 0.0005)")
+  command
+      ->add_option("--cache", typed->cache,
+                   "Write the animation as hair.rgc too, for `ringlet convert`: float32 (every bit) or 16bit")
+      ->check(oneOf(precisionNames()))
+      ->type_name("PRECISION")
+      ->group(output);
+  command->add_flag("--no-usd", typed->noUsd, "Leave out hair.usda")->group(output);
+  command
+      ->add_option("--width", typed->width,
+                   "Diameter of strands in hair.usda and hair.rgc, metres (default 0.0005)")
       ->check(between(1e-9, 1))
       ->type_name("METRES")
       ->group(output);

@@ -9,18 +9,15 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "program/backend.h"
 #include "program/interruption.h"
 #include "program/load_scene.h"
 #include "program/progress_bar.h"
-#include "ringlet/groom/obj_file.h"
+#include "program/run_writers.h"
 #include "ringlet/output/finite_points.h"
 #include "ringlet/output/positions_hash.h"
-#include "ringlet/output/sheet.h"
-#include "ringlet/output/usd_writer.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/scene_parts.h"
 
@@ -205,61 +202,10 @@ class Stepper {
 
 // A failure in the middle of a run, with what it leaves.
 Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
-  if (frameCount == 0 || options.folder.empty() || !options.writesUsd) return cause;
+  if (frameCount == 0 || options.folder.empty() || (!options.writesUsd && !options.cache)) return cause;
+  const char* file = options.writesUsd ? "hair.usda.partial" : "hair.rgc.partial";
   return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
-                           (options.folder / "hair.usda.partial").string())};
-}
-
-// The writers of a run, so that the loop below reads as what happens to a frame.
-struct Writers {
-  std::optional<UsdWriter> usd;
-  std::optional<Sheet> sheet;
-  bool writesLast;
-  std::vector<Vec3f> lastPoints;  // [file unit]
-
-  Status addFrame(int frame, std::vector<Vec3f> points) {
-    if (sheet) sheet->offer(frame, points);
-    lastPoints = std::move(points);
-    return usd ? usd->addFrame(lastPoints) : Status{};
-  }
-
-  Result<std::vector<std::filesystem::path>> finish(const std::filesystem::path& folder, const Groom& groom) {
-    std::vector<std::filesystem::path> written;
-    if (usd) {
-      if (Status done = usd->finish(); !done) return done.error();
-      written.push_back(folder / "hair.usda");
-    }
-    if (writesLast) {
-      written.push_back(folder / "last.obj");
-      if (Status done = writeObj(written.back(), groom, lastPoints); !done) return done.error();
-    }
-    if (sheet) {
-      written.push_back(folder / "sheet.png");
-      if (Status done = sheet->write(written.back()); !done) return done.error();
-    }
-    return written;
-  }
-};
-
-Result<Writers> openWriters(const RunInput& input, const RunOptions& options) {
-  const double metresPerUnit = input.groom.metresPerUnit;
-  std::error_code code;
-  std::filesystem::create_directories(options.folder, code);
-  if (code)
-    return Error{fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message())};
-  Writers writers{{}, {}, options.writesLast, {}};
-  if (options.writesUsd) {
-    auto usd = UsdWriter::create(options.folder / "hair.usda", input.groom,
-                                 {.framesPerSecond = input.settings.framesPerSecond,
-                                  .metresPerUnit = metresPerUnit,
-                                  .up = options.up,
-                                  .diameter = static_cast<float>(options.width / metresPerUnit),
-                                  .frameCount = options.frameCount});
-    if (!usd) return usd.error();
-    writers.usd.emplace(std::move(*usd));
-  }
-  if (options.writesSheet) writers.sheet.emplace(input.groom, options.frameCount, options.up);
-  return writers;
+                           (options.folder / file).string())};
 }
 
 // Where keys are further apart than a head goes, it jumps: on a smooth way it would only be fast.

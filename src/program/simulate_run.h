@@ -16,6 +16,7 @@
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/motion/head_scalp.h"
+#include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
@@ -29,10 +30,11 @@ namespace ringlet::program {
 struct RunOptions {
   std::filesystem::path folder;                                  // for the results; empty: nothing is written
   bool writesUsd = true, writesLast = true, writesSheet = true;  // hair.usda, last.obj, sheet.png
+  std::optional<CachePrecision> cache;                           // of hair.rgc; none: it is not written
   int frameCount = 48;
   double preRollSeconds = 0;  // before the first frame, not written
   UpAxis up = UpAxis::y;
-  double width = 0.0005;     // diameter of strands in hair.usda [m]
+  double width = 0.0005;     // diameter of strands in hair.usda and hair.rgc [m]
   bool onReference = false;  // rather than on the GPU
   std::string device;
   KernelChoice kernel;  // its residual: measured where the integrator has one, on the GPU

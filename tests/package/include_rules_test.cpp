@@ -86,6 +86,7 @@ TEST(IncludeRules, PublicHeadersShowNeitherVulkanNorGpu) {
       EXPECT_EQ(include.find("vulkan"), std::string::npos) << file << " includes " << include;
       EXPECT_EQ(include.find("volk"), std::string::npos) << file << " includes " << include;
       EXPECT_TRUE(isPrivate || moduleOf(include) != "gpu") << file << " includes " << include;
+      EXPECT_EQ(include.find("zstd"), std::string::npos) << file << " includes " << include;
       // Readers of TOML have a header of their own, which no public one shows.
       EXPECT_TRUE(include.rfind("toml++", 0) != 0 || file.filename() == "toml_file.h") << file;
       EXPECT_TRUE(include != "ringlet/rest/toml_file.h" || file.filename() == "material_table.h") << file;
