@@ -14,9 +14,9 @@ constexpr std::size_t kRoom = 4;
 
 // From the solver's frame (metres, seen from the head's origin) to the file's.
 std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head, double metresPerUnit) {
-  std::vector<Vec3f> points;
-  points.reserve(positions.size());
-  for (Vec3f p : positions) points.push_back(Vec3f((head.position + Vec3d(p)) / metresPerUnit));
+  std::vector<Vec3f> points(positions.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = Vec3f((head.position + Vec3d(positions[i])) / metresPerUnit);
   return points;
 }
 

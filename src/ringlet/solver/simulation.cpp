@@ -32,7 +32,8 @@ layout::vec4 packed(Vec3f v) { return {v.x, v.y, v.z, 0}; }
 layout::vec4 packed(Quatd q) {
   return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
 }
-Vec3f unpacked(layout::vec4 v) { return {v.x, v.y, v.z}; }
+// An object rather than a function: loops over particles see through it.
+constexpr auto unpacked = [](layout::vec4 v) { return Vec3f{v.x, v.y, v.z}; };
 
 DeviceLimits limitsOf(const gpu::Device& device) {
   const gpu::DeviceProperties& p = device.properties();
