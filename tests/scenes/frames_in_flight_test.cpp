@@ -184,7 +184,6 @@ TEST_F(FramesInFlight, MayBeLeftInFlight) {
   const std::vector<HeadPose> heads(static_cast<std::size_t>(cast.settings.stepsPerFrame));
   for (std::size_t frame = 0; frame < Simulation::kFramesInFlight; ++frame)
     EXPECT_TRUE(simulation.submitFrame(heads));
-  EXPECT_DEATH((void)simulation.submitFrame(heads), "more frames in flight");
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ struct HeadHistory {
 
 // A place for a frame in flight.
 struct FrameSlot {
-  gpu::Recorder recorder;
   gpu::Buffer positions;    // as the frame left them, in the host's memory
+  gpu::Recorder recorder;   // goes first, waiting for what it writes
   bool isRecorded = false;  // as a whole frame
 
   static Result<FrameSlot> create(gpu::Device& device, std::size_t particles) {
@@ -68,7 +68,7 @@ struct FrameSlot {
     auto positions = gpu::Buffer::create(device, particles * sizeof(layout::vec4), gpu::BufferKind::stream,
                                          "positions read back");
     if (!positions) return positions.error();
-    return FrameSlot{std::move(*recorder), std::move(*positions)};
+    return FrameSlot{std::move(*positions), std::move(*recorder)};
   }
   std::span<const layout::vec4> values() const {
     const auto bytes = positions.mapped();
