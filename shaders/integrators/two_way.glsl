@@ -21,6 +21,9 @@ Symmetric complianceOf(vec3 direction, float edgeLength) {
   return addOuter(symmetricDiagonal(a), -a * (one.along / (one.along + one.across)), direction);
 }
 
+// To the particle before it, the way this lane goes.
+bool isLinked(int j) { return j > 0 && (lane == 0 ? isEdge(j - 1) : isEdge(RUN - 1 - j)); }
+
 void solveFromBothEnds(vec3 pinned[3]) {
   bool fromRoot = lane == 0;
   // In the order this lane goes.
@@ -42,7 +45,7 @@ void solveFromBothEnds(vec3 pinned[3]) {
       C[j] = multiplyCommuting(E, S);
       c[j] = multiply(E, c[max(j - 1, 0)] + multiply(S, r[j]));
     }
-    if (j == 0 || !(fromRoot || isEdge(k))) {  // the end of the strand
+    if (!isLinked(j)) {  // an end of the strand
       C[j] = symmetricDiagonal(1.0 / mass[j]);
       c[j] = r[j] / mass[j];
     }
@@ -63,7 +66,7 @@ void solveFromBothEnds(vec3 pinned[3]) {
   vec3 solved[RUN];
   [[unroll]] for (int j = RUN - 1; j >= 0; --j) {
     solved[j] = c[j] + multiply(C[j], f);
-    f = fromRoot || isEdge(RUN - 1 - j) ? r[j] + f - mass[j] * solved[j] : vec3(0);
+    f = isLinked(j) ? r[j] + f - mass[j] * solved[j] : vec3(0);
   }
   [[unroll]] for (int k = 0; k < RUN; ++k) v[k] = fromRoot ? solved[k] : solved[RUN - 1 - k];
 }

@@ -12,10 +12,12 @@ class GpuBackend : public Backend {
   GpuBackend(ComputeDevice device, Simulation simulation)
       : device_(std::move(device)), simulation_(std::move(simulation)) {}
 
-  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                   std::span<const BodyPose> rootPoses) override {
-    return simulation_.stepFrame(stepPoses, bodyPoses, rootPoses);
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                     std::span<const BodyPose> rootPoses) override {
+    return simulation_.submitFrame(stepPoses, bodyPoses, rootPoses);
   }
+  Status waitFrame() override { return simulation_.waitFrame(); }
+  std::vector<Vec3f> framePositions() override { return simulation_.framePositions(); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<SimulationReport> report() override { return simulation_.report(); }
   Result<ContactReport> contactReport() override { return simulation_.contactReport(); }

@@ -1,8 +1,10 @@
 // `ringlet simulate`, from a file to files: what it writes, what it prints, how it fails and how it stops.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
@@ -79,6 +81,11 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   EXPECT_TRUE(out["warnings"].is_array());
   for (const char* stage : {"strand_step", "readback", "write"})
     EXPECT_TRUE(out["stages_ms"][stage].is_number()) << stage;
+  for (const char* part : {"start", "frames", "finish"})
+    EXPECT_GE(out["wall_s"][part].get<double>(), 0) << part;
+  for (const char* whom : {"device", "writer"}) EXPECT_GE(out["waits_ms"][whom].get<double>(), 0) << whom;
+  const double computed = 7 * out["ms_per_frame"].get<double>() / 1000;
+  EXPECT_NEAR(out["compute_share"].get<double>(), computed / out["wall_s"]["frames"].get<double>(), 1e-9);
   for (const char* key : {"device", "driver", "kernel"})
     EXPECT_FALSE(out[key].get<std::string>().empty()) << key;
   EXPECT_EQ(out["positions_hash"].get<std::string>().size(), 16u);
@@ -267,6 +274,31 @@ TEST(Simulate, ContactsAreForTheAsking) {
     EXPECT_TRUE(measured.contains(key)) << key;
     EXPECT_NE(help.find(key), std::string::npos) << key;
   }
+}
+
+// A file that may grow no further is as a full disk. The thread that writes finds out, the run ends with its
+// sentence, and what was finished can be read.
+TEST(Simulate, AFullDiskEndsTheRunAndKeepsItsFrames) {
+  const auto folder = scratchFolder("simulate_full");
+  writeSmallGroom(folder / "groom.obj");
+  struct rlimit before {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  struct rlimit small = before;
+  small.rlim_cur = 1 << 20;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::signal(SIGXFSZ, SIG_IGN);  // as the program starts
+  const auto result = runProgram(
+      folder, {"simulate", "groom.obj", "--backend", "reference", "--frames", "7000", "-o", "out"});
+  std::signal(SIGXFSZ, SIG_DFL);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  const auto usd = readUsd(folder / "out/hair.usda.partial");
+  EXPECT_GE(usd.points.size(), 1u);
+  EXPECT_LT(usd.points.size(), 7000u);
+  const std::string kept =
+      "(the first " + std::to_string(usd.points.size()) + " frames are kept in out/hair.usda.partial)";
+  EXPECT_NE(result.err.find(kept), std::string::npos) << result.err;
 }
 
 TEST(Simulate, UnknownDeviceIsNamed) {

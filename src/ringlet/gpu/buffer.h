@@ -14,7 +14,7 @@ namespace ringlet::gpu {
 
 enum class BufferKind {
   storage,  // close to the device; for what kernels read and write
-  stream,   // close to the host, always mapped, coherent; for uniforms and small things that cross often
+  stream,   // close to the host, always mapped, coherent; for what crosses often
 };
 
 class Buffer {

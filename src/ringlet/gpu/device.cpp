@@ -364,6 +364,11 @@ VkResult Device::submit(VkCommandBuffer commands, VkFence fence) {
   return table_.vkQueueSubmit(queue_, 1, &info, fence);
 }
 
+std::chrono::steady_clock::time_point Device::noteWait(std::chrono::steady_clock::time_point now) {
+  const std::lock_guard lock(queueMutex_);
+  return std::exchange(lastWait_, now);
+}
+
 void Device::nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const {
   if (!setObjectName_) return;
   auto info = zeroed<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);

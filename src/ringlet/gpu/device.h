@@ -2,6 +2,7 @@
 // recorders hold their device open, so it closes with the last of them.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -89,6 +90,8 @@ class Device : public std::enable_shared_from_this<Device> {
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
   /// Hands the commands to the queue; any thread may.
   VkResult submit(VkCommandBuffer commands, VkFence fence);
+  /// Of waits for submissions: notes when one ended, and tells when the one before it did. Any thread may.
+  std::chrono::steady_clock::time_point noteWait(std::chrono::steady_clock::time_point now);
   /// Names an object in validation messages; does nothing where the layer is off.
   void nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
@@ -100,6 +103,7 @@ class Device : public std::enable_shared_from_this<Device> {
   VolkDeviceTable table_{};
   VkQueue queue_ = VK_NULL_HANDLE;
   std::mutex queueMutex_;
+  std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
   VkPhysicalDeviceMemoryProperties memory_{};

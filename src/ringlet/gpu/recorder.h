@@ -84,7 +84,8 @@ class Recorder {
   Status submitAndWait();
 
   /// Of the last wait, in the order recorded [ms]: by the device's timestamps, else the submission's time on
-  /// the host's clock in equal parts. A name recorded twice stands here twice.
+  /// the host's clock in equal parts, less what went by before the wait for an earlier submission ended. A
+  /// name recorded twice stands here twice.
   const std::vector<std::pair<std::string, double>>& stageMilliseconds() const;
   /// From submit to the end of wait, on the host's clock [ms].
   double submissionMilliseconds() const;

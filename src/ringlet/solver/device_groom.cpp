@@ -11,7 +11,8 @@ using gpu::Buffer;
 using gpu::BufferKind;
 
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
-                                        std::uint64_t scratchRecords, bool withContacts, bool keepsSolved) {
+                                        std::uint64_t scratchRecords, bool withContacts, bool keepsSolved,
+                                        std::size_t slots) {
   const std::uint64_t stateBytes = rest.points.size() * sizeof(layout::vec4);
   auto positions = createZero(device, stateBytes, "positions");
   if (!positions) return positions.error();
@@ -25,8 +26,7 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
   if (!reports) return reports.error();
   auto scratch = createZero(device, scratchRecords * sizeof(layout::vec4), "scratch");
   if (!scratch) return scratch.error();
-  auto poses =
-      Buffer::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), BufferKind::stream, "poses");
+  auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
   if (!poses) return poses.error();
   const std::uint64_t contactParticles = withContacts ? rest.points.size() : 0;
   auto solved = createZero(device, keepsSolved ? stateBytes : 0, "solved velocities");
@@ -45,11 +45,6 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
 bool DeviceGroom::fitsTexels(const gpu::Device& device) const {
   return isSeenAsTexels(
       device, std::max({positions.bytes(), particles.bytes(), strands.bytes(), contactSystems.bytes()}));
-}
-
-std::span<layout::StepPose> DeviceGroom::mappedPoses() const {
-  const auto bytes = poses.mapped();
-  return {reinterpret_cast<layout::StepPose*>(bytes.data()), bytes.size() / sizeof(layout::StepPose)};
 }
 
 std::vector<std::uint32_t> groomIndices(const RestState& rest) {

@@ -11,25 +11,26 @@
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/frame_input.h"
 #include "shared/layout.h"
 
 namespace ringlet {
 
 struct DeviceGroom {
-  gpu::Buffer positions, velocities, particles, strands, reports, scratch, poses;
+  gpu::Buffer positions, velocities, particles, strands, reports, scratch;
+  FrameInput poses;                                    // StepPose[kMaxStepPoses]
   gpu::Buffer solved, contactSystems, contactControl;  // empty without contacts
 
-  /// `scratchRecords`: vec4s of scratch (serial form) and taps.
+  /// `scratchRecords`: vec4s of scratch (serial form) and taps. `slots`: frames in flight.
   /// `keepsSolved`: a solve's result stands beside the velocities it began from.
   static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest, std::uint64_t scratchRecords,
-                                    bool withContacts, bool keepsSolved);
+                                    bool withContacts, bool keepsSolved, std::size_t slots);
 
   /// The buffers in binding order (layout.h).
   std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
-    return {positions,      velocities,     particles, strands,    reports,   scratch, poses,         solved,
+    return {positions,      velocities,     particles, strands,    reports,   scratch, poses.seen(),  solved,
             contactSystems, contactControl, positions, velocities, particles, strands, contactSystems};
   }
-  std::span<layout::StepPose> mappedPoses() const;
   /// Whether the device sees all of them as texels.
   bool fitsTexels(const gpu::Device& device) const;
 };

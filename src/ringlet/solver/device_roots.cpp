@@ -8,9 +8,6 @@
 namespace ringlet {
 namespace {
 
-using gpu::Buffer;
-using gpu::BufferKind;
-
 layout::vec4 packed(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
@@ -25,10 +22,10 @@ BodyPose carriedBy(Quatd headRotation, const BodyPose& root) {
 }
 
 Result<DeviceRoots> DeviceRoots::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        bool areMoving) {
+                                        bool areMoving, std::size_t slots) {
   const std::uint64_t strands = areMoving ? rest.strands.size() : 0;
   const std::uint64_t poses = (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * strands;
-  auto buffer = Buffer::create(device, poses * sizeof(layout::RootPose), BufferKind::stream, "root poses");
+  auto buffer = FrameInput::create(device, poses * sizeof(layout::RootPose), slots, "root poses");
   if (!buffer) return buffer.error();
   DeviceRoots roots(std::move(*buffer), settings.stepSeconds());
   if (areMoving) roots.strandInGroom_.assign(rest.strandInGroom.begin(), rest.strandInGroom.end());
@@ -52,12 +49,13 @@ void DeviceRoots::place(std::span<const BodyPose> now, std::span<const BodyPose>
   oneStepEarlier_ = inOrder(oneStepEarlier);
 }
 
-void DeviceRoots::writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses) {
+void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
+                             std::span<const BodyPose> poses) {
   const std::size_t count = now_.size();
   RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 2) * count,
                  "every strand has a pose in every step");
   if (count == 0) return;
-  const auto out = reinterpret_cast<layout::RootPose*>(poses_.mapped().data());
+  const auto out = poses_.of<layout::RootPose>(slot);
   std::vector<BodyPose> before(count);  // what carried the strand one pose earlier
   for (std::size_t s = 0; s < count; ++s) before[s] = carriedBy(heads[0].rotation, oneStepEarlier_[s]);
   for (std::size_t pose = 0; pose + 1 < heads.size(); ++pose) {

@@ -14,6 +14,7 @@
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/solver/frame_input.h"
 #include "shared/layout.h"
 
 namespace ringlet {
@@ -24,15 +25,17 @@ BodyPose carriedBy(Quatd headRotation, const BodyPose& root);
 
 class DeviceRoots {
  public:
-  /// Poses are BodyPose{} at first. Fails when the device lacks memory.
+  /// Poses are BodyPose{} at first. `slots`: frames in flight. Fails when the device lacks memory.
   static Result<DeviceRoots> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    bool areMoving);
+                                    bool areMoving, std::size_t slots);
 
   bool areMoving() const { return !now_.empty(); }
 
   /// In binding order, storage and texels: from kBindRootPoses on.
-  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const { return {poses_, poses_}; }
-  std::uint64_t largestBuffer() const { return poses_.bytes(); }
+  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
+    return {poses_.seen(), poses_.seen()};
+  }
+  std::uint64_t largestBuffer() const { return poses_.seen().bytes(); }
 
   /// Poses of strand s, device order, in the head's frame.
   const BodyPose& now(std::size_t s) const { return now_[s]; }
@@ -40,18 +43,21 @@ class DeviceRoots {
 
   /// Before the next step and one step before that, in groom order.
   void place(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
-  /// A frame's poses. heads[0] is the head one step before the frame's start, heads[1] at its start, heads[2
+  /// Poses of the frame of a slot. heads[0] is the head one step before the frame's start, heads[1] at its
+  /// start, heads[2
   /// + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then they stay.
-  void writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses);
+  void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses);
+  /// A frame of this slot begins with it.
+  void record(gpu::Recorder& recorder, std::size_t slot) const { poses_.record(recorder, slot); }
   /// A frame that is not stepped: roots are at once where they end, and still there, seen from the head.
   void endFrame(std::span<const BodyPose> poses);
 
  private:
-  DeviceRoots(gpu::Buffer poses, double stepSeconds) : poses_(std::move(poses)), stepSeconds_(stepSeconds) {}
+  DeviceRoots(FrameInput poses, double stepSeconds) : poses_(std::move(poses)), stepSeconds_(stepSeconds) {}
   // Of one step, groom order, to device order.
   std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
 
-  gpu::Buffer poses_;
+  FrameInput poses_;  // RootPose[step][strand]
   double stepSeconds_;
   std::vector<std::uint32_t> strandInGroom_;
   std::vector<BodyPose> now_, oneStepEarlier_;  // in the head's frame, device order

@@ -1,4 +1,5 @@
-// Implements solver/simulation.h: the frame is one recorded list of dispatches, replayed with new poses.
+// Implements solver/simulation.h: the frame is one recorded list of dispatches, replayed with new poses; one
+// recording for each frame in flight.
 #include "ringlet/solver/simulation.h"
 
 #include <fmt/format.h>
@@ -32,7 +33,8 @@ layout::vec4 packed(Vec3f v) { return {v.x, v.y, v.z, 0}; }
 layout::vec4 packed(Quatd q) {
   return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
 }
-Vec3f unpacked(layout::vec4 v) { return {v.x, v.y, v.z}; }
+// An object rather than a function: loops over particles see through it.
+constexpr auto unpacked = [](layout::vec4 v) { return Vec3f{v.x, v.y, v.z}; };
 
 DeviceLimits limitsOf(const gpu::Device& device) {
   const gpu::DeviceProperties& p = device.properties();
@@ -52,6 +54,26 @@ struct HeadHistory {
     const Quatd turn = turned * this->turn() * turned.conjugate();
     now = to;
     oneStepEarlier = {to.position - step, normalized(turn.conjugate() * to.rotation), to.shift};
+  }
+};
+
+// A place for a frame in flight.
+struct FrameSlot {
+  gpu::Buffer positions;    // as the frame left them, in the host's memory
+  gpu::Recorder recorder;   // goes first, waiting for what it writes
+  bool isRecorded = false;  // as a whole frame
+
+  static Result<FrameSlot> create(gpu::Device& device, std::size_t particles) {
+    auto recorder = gpu::Recorder::create(device, "frame");
+    if (!recorder) return recorder.error();
+    auto positions = gpu::Buffer::create(device, particles * sizeof(layout::vec4), gpu::BufferKind::stream,
+                                         "positions read back");
+    if (!positions) return positions.error();
+    return FrameSlot{std::move(*positions), std::move(*recorder)};
+  }
+  std::span<const layout::vec4> values() const {
+    const auto bytes = positions.mapped();
+    return {reinterpret_cast<const layout::vec4*>(bytes.data()), bytes.size() / sizeof(layout::vec4)};
   }
 };
 
@@ -95,11 +117,9 @@ struct Simulation::Implementation {
   std::vector<PlannedDispatch> plan;
   std::vector<gpu::Kernel> kernels{};  // one a range
   std::vector<gpu::Bindings> bindings{};
-  std::optional<gpu::Recorder> frame{};
 
   std::optional<ContactStage> contacts{};
   ContactReport contactReport{};  // what is known of the rest pose, and sums
-  bool isWholeFrame = true;       // the recording is the whole frame, not the rest of one
 
   std::uint64_t stepsDone = 0;
   std::map<std::string, double> stageMilliseconds{};
@@ -107,15 +127,31 @@ struct Simulation::Implementation {
   double compileMilliseconds = 0;
 
   Status makeKernels(bool hasBodies);
+
+  // Frame n has slot n % kFramesInFlight: submitted to the device, finished by it, waited for by the caller.
+  std::uint64_t submitted = 0, finished = 0, waited = 0;
+  bool isReadBack = false;           // the last frame's positions are those on the device
+  std::optional<Error> lostFrame{};  // after which nothing can be told of any
+  std::vector<FrameSlot> slots{};    // go first, waiting for what still uses the rest
+
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
-  Status recordFrame();
-  Status recordContactFrame(std::uint32_t firstStep, bool predictFirst);
-  Status recordPass(const SolvePass& pass);
-  void dispatchAll(std::span<const PlannedDispatch> dispatches);
-  Status runFrame();
+  FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
+  Status beginFrame(std::size_t slot);
+  void endFrame(FrameSlot& slot);
+  Status recordFrame(std::size_t slot);
+  Status recordContactFrame(std::size_t slot, std::uint32_t firstStep, bool predictFirst);
+  Status recordPass(gpu::Recorder& recorder, const SolvePass& pass);
+  void dispatchAll(gpu::Recorder& recorder, std::span<const PlannedDispatch> dispatches);
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                     std::span<const BodyPose> rootPoses);
+  Status finishFrames(std::uint64_t end);
+  Status finishFrames() { return finishFrames(submitted); }
+  Status runToEnd(std::size_t slot);
   Status addContacts();
-  void writePoses(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+  void writePoses(std::size_t slot, std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                   std::span<const BodyPose> rootPoses);
+  Status jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
+                std::span<const BodyPose> rootPoses);
   Status carryTo(const HeadPose& end);
   Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
   Status placeAtRest();
@@ -150,11 +186,11 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
       (choice.taps ? layout::kTapCount : 0);
   auto buffers =
       DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle, settings.contacts.on,
-                          settings.contacts.on || (anySerial && !bodies.empty()));
+                          settings.contacts.on || (anySerial && !bodies.empty()), kFramesInFlight);
   if (!buffers) return buffers.error();
-  auto world = DeviceWorld::create(device.gpu(), bodies, settings, start);
+  auto world = DeviceWorld::create(device.gpu(), bodies, settings, start, kFramesInFlight);
   if (!world) return world.error();
-  auto roots = DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots);
+  auto roots = DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots, kFramesInFlight);
   if (!roots) return roots.error();
 
   std::unique_ptr<Implementation> self(new Implementation{device,
@@ -173,7 +209,12 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
     if (Status status = self->addContacts(); !status) return status.error();
   }
   if (Status status = self->makeKernels(!bodies.empty()); !status) return status.error();
-  if (Status status = self->recordFrame(); !status) return status.error();
+  for (std::size_t slot = 0; slot < kFramesInFlight; ++slot) {
+    auto made = FrameSlot::create(device.gpu(), self->rest.points.size());
+    if (!made) return made.error();
+    self->slots.push_back(std::move(*made));
+    if (Status status = self->recordFrame(slot); !status) return status.error();
+  }
   return Simulation(std::move(self));
 }
 
@@ -254,93 +295,151 @@ Status Simulation::Implementation::addContacts() {
   return {};
 }
 
-void Simulation::Implementation::dispatchAll(std::span<const PlannedDispatch> dispatches) {
-  frame->beginStage("strand_step");
+void Simulation::Implementation::dispatchAll(gpu::Recorder& recorder,
+                                             std::span<const PlannedDispatch> dispatches) {
+  recorder.beginStage("strand_step");
   for (std::size_t d = 0; d < dispatches.size(); ++d) {
     const PlannedDispatch& now = dispatches[d];
     // Only dispatches on the same strands depend on each other; but the validation layer sees whole buffers,
     // and takes those on other strands for hazards.
-    if (d > 0) frame->barrier();
-    frame->dispatch(kernels[now.range], bindings[now.range], parametersOf(now), now.groupCount);
+    if (d > 0) recorder.barrier();
+    recorder.dispatch(kernels[now.range], bindings[now.range], parametersOf(now), now.groupCount);
   }
-  frame->endStage();
+  recorder.endStage();
 }
 
-// The whole frame, once: what changes from frame to frame is in the poses buffer.
-Status Simulation::Implementation::recordFrame() {
-  if (!frame) {
-    auto recorder = gpu::Recorder::create(device.gpu(), "frame");
-    if (!recorder) return recorder.error();
-    frame = std::move(*recorder);
-  }
-  if (contacts) return recordContactFrame(0, true);
-  if (Status status = frame->begin(); !status) return status;
-  dispatchAll(plan);
+// A recording takes over what the host wrote for the frame, and at its end brings positions back.
+Status Simulation::Implementation::beginFrame(std::size_t slot) {
+  gpu::Recorder& recorder = slots[slot].recorder;
+  if (Status status = recorder.begin(); !status) return status;
+  buffers.poses.record(recorder, slot);
+  world.record(recorder, slot);
+  roots.record(recorder, slot);
+  recorder.barrier();
+  return {};
+}
+void Simulation::Implementation::endFrame(FrameSlot& slot) {
+  slot.recorder.barrier();
+  slot.recorder.copyBuffer(buffers.positions, slot.positions, slot.positions.bytes());
+}
+
+// The whole frame, once: what changes from frame to frame is in its inputs.
+Status Simulation::Implementation::recordFrame(std::size_t slot) {
+  if (contacts) return recordContactFrame(slot, 0, true);
+  if (Status status = beginFrame(slot); !status) return status;
+  dispatchAll(slots[slot].recorder, plan);
+  endFrame(slots[slot]);
+  slots[slot].isRecorded = true;
   return {};
 }
 
-Status Simulation::Implementation::recordPass(const SolvePass& pass) {
+Status Simulation::Implementation::recordPass(gpu::Recorder& recorder, const SolvePass& pass) {
   const auto dispatches =
       planPass(ranges, limitsOf(device.gpu()), settings, world.bodyCount(), kStrandGroupSize, pass);
   if (!dispatches) return dispatches.error();
-  dispatchAll(*dispatches);
-  frame->barrier();
+  dispatchAll(recorder, *dispatches);
+  recorder.barrier();
   return {};
 }
 
 // The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h).
-Status Simulation::Implementation::recordContactFrame(std::uint32_t firstStep, bool predictFirst) {
-  if (Status status = frame->begin(); !status) return status;
+Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uint32_t firstStep,
+                                                      bool predictFirst) {
+  if (Status status = beginFrame(slot); !status) return status;
+  gpu::Recorder& recorder = slots[slot].recorder;
   if (predictFirst) {
-    if (Status status = recordPass({.step = firstStep}); !status) return status;
+    if (Status status = recordPass(recorder, {.step = firstStep}); !status) return status;
   }
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   for (std::uint32_t step = firstStep; step < steps; ++step) {
-    contacts->recordLists(*frame, step);
-    frame->barrier();
-    contacts->recordLife(*frame);
-    frame->barrier();
+    contacts->recordLists(recorder, step);
+    recorder.barrier();
+    contacts->recordLife(recorder);
+    recorder.barrier();
     for (int iteration = 1; iteration <= settings.contacts.iterations; ++iteration) {
       const bool isLast = iteration == settings.contacts.iterations;
       const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
-      if (Status status = recordPass(pass); !status) return status;
+      if (Status status = recordPass(recorder, pass); !status) return status;
       if (isLast) continue;
-      contacts->recordGather(*frame);
-      frame->barrier();
+      contacts->recordGather(recorder);
+      recorder.barrier();
     }
   }
-  isWholeFrame = firstStep == 0 && predictFirst;
+  endFrame(slots[slot]);
+  slots[slot].isRecorded = firstStep == 0 && predictFirst;
+  return {};
+}
+
+Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPoses,
+                                               std::span<const BodyPose> bodyPoses,
+                                               std::span<const BodyPose> rootPoses) {
+  RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(settings.stepsPerFrame),
+                 "a frame takes one pose per outer step");
+  if (lostFrame) return *lostFrame;
+  RINGLET_ASSERT(submitted - waited < kFramesInFlight, "more frames in flight than there are places");
+  const HeadPose& end = stepPoses.back();
+  const bool jumps = settings.jumps(length(end.position - head.now.position));
+  // A frame with contacts may not be over when the device stops.
+  if (contacts || jumps) {
+    if (Status status = finishFrames(); !status) return status;
+  }
+  const std::size_t slot = submitted % kFramesInFlight;
+  if (jumps) {
+    if (Status status = jumpTo(end, bodyPoses, rootPoses); !status) return status;
+    ++finished;
+  } else {
+    writePoses(slot, stepPoses, bodyPoses, rootPoses);
+    if (!slots[slot].isRecorded) {
+      if (Status status = recordFrame(slot); !status) return status;
+    }
+    if (Status status = slots[slot].recorder.submit(); !status) return status;
+  }
+  ++submitted;
+  stepsDone += stepPoses.size();
+  isReadBack = true;
+  return {};
+}
+
+// Until frame `end`, not itself, is over.
+Status Simulation::Implementation::finishFrames(std::uint64_t end) {
+  if (lostFrame) return *lostFrame;
+  while (finished < end) {
+    if (Status status = runToEnd(finished % kFramesInFlight); !status) {
+      lostFrame = status.error();
+      return status;
+    }
+    ++finished;
+  }
   return {};
 }
 
 // A frame that stopped because a list was too long goes on from its step with longer ones: no pair is
 // dropped.
-Status Simulation::Implementation::runFrame() {
-  if (!isWholeFrame) {
-    if (Status status = recordFrame(); !status) return status;
-  }
+Status Simulation::Implementation::runToEnd(std::size_t slot) {
+  gpu::Recorder& recorder = slots[slot].recorder;
   while (true) {
-    if (Status status = frame->submitAndWait(); !status) return status;
-    for (const auto& [stage, milliseconds] : frame->stageMilliseconds())
+    if (Status status = recorder.wait(); !status) return status;
+    for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
       stageMilliseconds[stage] += milliseconds;
     if (!contacts) return {};
     contactReport.pairTests += contacts->takePairTests();
     if (!contacts->isHalted()) return {};
     if (Status status = contacts->makeRoom(); !status) return status;
-    if (Status status = recordContactFrame(contacts->haltedStep(), false); !status) return status;
-    isWholeFrame = false;
+    for (FrameSlot& other : slots) other.isRecorded = false;
+    if (Status status = recordContactFrame(slot, contacts->haltedStep(), false); !status) return status;
+    if (Status status = recorder.submit(); !status) return status;
   }
 }
 
-void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses,
+void Simulation::Implementation::writePoses(std::size_t slot, std::span<const HeadPose> stepPoses,
                                             std::span<const BodyPose> bodyPoses,
                                             std::span<const BodyPose> rootPoses) {
   const double T = settings.stepSeconds();
   std::vector<HeadPose> heads{head.oneStepEarlier, head.now};
   heads.insert(heads.end(), stepPoses.begin(), stepPoses.end());
-  world.writeFrame(std::span(heads).subspan(1), bodyPoses, static_cast<double>(stepsDone) * T);
-  roots.writeFrame(heads, rootPoses);
-  const auto poses = buffers.mappedPoses();
+  world.writeFrame(slot, std::span(heads).subspan(1), bodyPoses, static_cast<double>(stepsDone) * T);
+  roots.writeFrame(slot, heads, rootPoses);
+  const auto poses = buffers.poses.of<layout::StepPose>(slot);
   poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const Vec3d before = head.velocity(T);
@@ -353,8 +452,18 @@ void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses,
 
 Status Simulation::Implementation::uploadState(std::span<const layout::vec4> positions,
                                                std::span<const layout::vec4> velocities) {
+  isReadBack = false;
   if (Status status = buffers.positions.upload(std::as_bytes(positions)); !status) return status;
   return buffers.velocities.upload(std::as_bytes(velocities));
+}
+
+// A frame that no kernel steps.
+Status Simulation::Implementation::jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
+                                          std::span<const BodyPose> rootPoses) {
+  world.endFrame(end, bodyPoses);
+  roots.endFrame(rootPoses);
+  if (Status status = carryTo(end); !status) return status;
+  return buffers.positions.download(slotOf(submitted).positions.mapped());
 }
 
 // Rigidly: seen from the head nothing changes.
@@ -403,19 +512,28 @@ Simulation::~Simulation() = default;
 
 Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                              std::span<const BodyPose> rootPoses) {
-  RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(self_->settings.stepsPerFrame),
-                 "stepFrame takes one pose per outer step");
-  if (const HeadPose& end = stepPoses.back();
-      self_->settings.jumps(length(end.position - self_->head.now.position))) {
-    self_->world.endFrame(end, bodyPoses);
-    self_->roots.endFrame(rootPoses);
-    self_->stepsDone += stepPoses.size();
-    return self_->carryTo(end);
-  }
-  self_->writePoses(stepPoses, bodyPoses, rootPoses);
-  if (Status status = self_->runFrame(); !status) return status;
-  self_->stepsDone += stepPoses.size();
+  RINGLET_ASSERT(self_->lostFrame || self_->waited == self_->submitted,
+                 "stepFrame while frames are in flight");
+  if (Status status = self_->submitFrame(stepPoses, bodyPoses, rootPoses); !status) return status;
+  return waitFrame();
+}
+
+Status Simulation::submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                               std::span<const BodyPose> rootPoses) {
+  return self_->submitFrame(stepPoses, bodyPoses, rootPoses);
+}
+
+Status Simulation::waitFrame() {
+  RINGLET_ASSERT(self_->waited < self_->submitted, "waitFrame without submitFrame");
+  if (Status status = self_->finishFrames(self_->waited + 1); !status) return status;
+  ++self_->waited;
   return {};
+}
+
+std::vector<Vec3f> Simulation::framePositions() const {
+  RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
+                 "framePositions before waitFrame, or after its place was taken");
+  return inGroomOrder<Vec3f, layout::vec4>(self_->rest, self_->slotOf(self_->waited - 1).values(), unpacked);
 }
 
 Status Simulation::stepFrame(const HeadPose& end) {
@@ -428,6 +546,11 @@ Status Simulation::stepFrame(const HeadPose& end) {
 }
 
 Result<std::vector<Vec3f>> Simulation::positions() const {
+  if (Status status = self_->finishFrames(); !status) return status.error();
+  if (self_->isReadBack) {
+    return inGroomOrder<Vec3f, layout::vec4>(self_->rest, self_->slotOf(self_->submitted - 1).values(),
+                                             unpacked);
+  }
   auto values = downloadAll<layout::vec4>(self_->buffers.positions, self_->rest.points.size());
   if (!values) return values.error();
   return inGroomOrder<Vec3f, layout::vec4>(self_->rest, *values, unpacked);
@@ -445,6 +568,7 @@ Status Simulation::setState(const HairState& state) {
   const std::size_t count = self_->rest.points.size();
   RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count,
                  "a state has one position and velocity a particle");
+  if (Status status = self_->finishFrames(); !status) return status;
   if (self_->contacts) {
     if (Status status = self_->contacts->forget(); !status) return status;
   }
@@ -459,6 +583,7 @@ void Simulation::placeBodies(std::span<const BodyPose> poses) {
 }
 
 Status Simulation::placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
+  if (Status status = self_->finishFrames(); !status) return status;
   self_->roots.place(now, oneStepEarlier);
   if (self_->contacts) {
     if (Status status = self_->contacts->forget(); !status) return status;
@@ -469,6 +594,7 @@ Status Simulation::placeRoots(std::span<const BodyPose> now, std::span<const Bod
 Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {
   std::vector<layout::StrandRest>& strands = self_->rest.strands;
   RINGLET_ASSERT(shifts.size() == strands.size(), "every strand has a root shift");
+  if (Status status = self_->finishFrames(); !status) return status;
   for (std::size_t s = 0; s < strands.size(); ++s) {
     const Vec3f shift = static_cast<Vec3f>(shifts[self_->rest.strandInGroom[s]]);
     strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
@@ -479,6 +605,7 @@ Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {
 const HeadPose& Simulation::head() const { return self_->head.now; }
 
 Result<SimulationReport> Simulation::report() const {
+  if (Status status = self_->finishFrames(); !status) return status.error();
   auto reports = downloadAll<layout::StrandReport>(self_->buffers.reports, self_->rest.strands.size());
   if (!reports) return reports.error();
   SimulationReport total;
@@ -504,6 +631,7 @@ Result<SimulationReport> Simulation::report() const {
 }
 
 Result<ContactReport> Simulation::contactReport() const {
+  if (Status status = self_->finishFrames(); !status) return status.error();
   ContactReport report = self_->contactReport;
   if (!self_->contacts) return report;
   report.listed = self_->contacts->listedCount();
@@ -519,6 +647,7 @@ Result<ContactReport> Simulation::contactReport() const {
 
 Result<std::vector<ListedContact>> Simulation::listedContacts() const {
   if (!self_->contacts) return std::vector<ListedContact>{};
+  if (Status status = self_->finishFrames(); !status) return status.error();
   return self_->contacts->listed(self_->rest);
 }
 
@@ -528,6 +657,7 @@ std::map<std::string, double> Simulation::stageMilliseconds() const { return sel
 Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) const {
   RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount,
                  "taps are written only with KernelChoice::taps");
+  if (Status status = self_->finishFrames(); !status) return status.error();
   const std::size_t count = self_->rest.points.size();
   auto values = downloadAll<layout::vec4>(self_->buffers.scratch, count, field * count);
   if (!values) return values.error();

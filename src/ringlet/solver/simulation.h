@@ -1,5 +1,8 @@
-// Simulation: one groom on one device. Everything is uploaded at creation; a frame costs one submission and
-// no traffic but the head's poses; positions come back when asked for.
+// Simulation: one groom on one device. Everything is uploaded at creation; a frame is one submission,
+// recorded once, which begins by taking the head's poses over and ends by bringing positions back.
+//
+//   submitFrame(1)  submitFrame(2)  waitFrame  framePositions -> 1   submitFrame(3)  waitFrame ...
+//   device:         1 ............................ 2 ................................ 3
 #pragma once
 
 #include <array>
@@ -110,7 +113,19 @@ class Simulation {
   ///   x_world = head.position + rotate(head.rotation, root.position + rotate(root.rotation, x_groom))
   Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
                    std::span<const BodyPose> rootPoses = {});
-  /// The same with the poses interpolated from the last one to `end`.
+  /// Frames in flight, the same bits as one by one: submitFrame takes what stepFrame does, hands the frame to
+  /// the device and returns; waitFrame waits for the oldest that was not waited for, and framePositions then
+  /// gives that one's positions (as positions() does), until the kFramesInFlight'th frame after it is
+  /// submitted. At most kFramesInFlight may be without their wait, and none when stepFrame is called. All
+  /// else here waits for them by itself and tells of the last submitted. With contacts, which may need room
+  /// in the middle of a frame, and where the head jumps, submitFrame waits for the frames before.
+  static constexpr std::size_t kFramesInFlight = 2;
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
+                     std::span<const BodyPose> rootPoses = {});
+  Status waitFrame();
+  std::vector<Vec3f> framePositions() const;
+
+  /// The same as stepFrame with the poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
   /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
@@ -142,8 +157,8 @@ class Simulation {
   /// Things the user should know of (a core spring capped for this step, gravity preload too large), a
   /// sentence each.
   const std::vector<std::string>& warnings() const;
-  /// Milliseconds spent on the device, by stage, summed over all frames; by GPU timestamps where the device
-  /// has them.
+  /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
+  /// the device has them.
   std::map<std::string, double> stageMilliseconds() const;
   /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
   /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
