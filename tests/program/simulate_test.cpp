@@ -166,7 +166,8 @@ TEST(Simulate, SummaryNamesTheFilesAndQuietSaysNothing) {
                                            "--backend", "reference", "-o",       "a/b/out"};
   auto result = runProgram(folder, arguments);
   EXPECT_EQ(result.exitCode, 0);
-  EXPECT_EQ(withoutCompileNotes(result.err), "") << "no progress bar where standard error is no terminal";
+  EXPECT_EQ(test::withoutCompileNotes(result.err), "")
+      << "no progress bar where standard error is no terminal";
   for (const char* part : {"1 frame of 2 strands, 8 particles", "a/b/out/hair.usda", "a/b/out/last.obj",
                            "a/b/out/sheet.png", " ms "}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part << " is missing in:\n" << result.out;

@@ -26,12 +26,12 @@ struct CostModel {
 // not measured, but reasoned: a particle of a run is some 50 registers, so that long runs leave fewer strands
 // at a time to wait with; a join is a few shuffles; the serial form goes through memory.
 //
-// A kernel more costs half a second at every start to prepare (lavapipe; a second the first time), and a
-// dispatch and a barrier in every frame. A run of 20,000 steps, a hundred seconds of animation, makes that 25
-// microseconds a step: 2 % of the step of a thousand strands of 100 particles, and more than the whole step
+// A kernel more costs 0.4 s at every start to prepare (lavapipe; a second more the first time), and a
+// dispatch and a barrier in every frame. Over 30,000 steps, two and a half minutes of animation, that is 15
+// microseconds a step: 1.5 % of the step of a thousand strands of 100 particles, and more than the whole step
 // of ten. GPUs' drivers are quicker, and their dispatches too.
 constexpr CostModel kCpu{
-    .particle = 10, .alone = 7, .join = 8, .longRun = 0, .serial = 46, .perKernel = 25'000};
+    .particle = 10, .alone = 7.5, .join = 8, .longRun = 0, .serial = 46, .perKernel = 15'000};
 constexpr CostModel kGpu{
     .particle = 0.5, .alone = 0.5, .join = 0.25, .longRun = 0.125, .serial = 5, .perKernel = 10'000};
 
