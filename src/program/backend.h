@@ -62,9 +62,10 @@ class Backend {
   virtual double compileMilliseconds() const { return 0; }
 };
 
-/// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open).
+/// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open). `tells`: a line on standard
+/// error where kernels take long to compile.
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
-                                                const KernelChoice& kernel);
+                                                const KernelChoice& kernel, bool tells);
 
 /// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
 /// warns of.

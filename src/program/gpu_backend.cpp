@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "program/backend.h"
+#include "program/cache_folder.h"
 #include "program/compile_note.h"
 
 namespace ringlet::program {
@@ -43,13 +44,13 @@ class GpuBackend : public Backend {
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
-                                                const KernelChoice& kernel) {
-  auto device = ComputeDevice::open(deviceChoice);
+                                                const KernelChoice& kernel, bool tells) {
+  auto device = ComputeDevice::open(deviceChoice, cacheFolder());
   if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
   KernelChoice choice = kernel;
   choice.movingRoots = !input.rootStarts.empty();
   CompileNote note(device->name());
-  choice.observer = &note;
+  if (tells) choice.observer = &note;
   auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
                                        input.oneStepEarlier, choice, input.bodies);
   if (!simulation) return simulation.error();

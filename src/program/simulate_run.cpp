@@ -103,7 +103,7 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
-  return makeGpuBackend(made, options.device, kernel);
+  return makeGpuBackend(made, options.device, kernel, options.showProgress);
 }
 
 // The motion up to the first frame, so that hair begins it as it moves.

@@ -100,7 +100,7 @@ TEST(ShapePlan, FewStrandsOrNearlyEqualOnesGetOneKernel) {
 // Every way to give three lengths a shape each.
 TEST(ShapePlan, NoOtherChoiceIsCheaper) {
   const DeviceLimits limits{2, true, true, 65535};
-  constexpr double kPerKernel = 25'000;  // as the model has it
+  constexpr double kPerKernel = 15'000;  // as the model has it
   const auto costs = shapeCosts(limits);
   for (const auto& [a, b, c, each] : {std::array{9u, 17u, 30u, 40u},
                                       {4u, 5u, 6u, 1000u},

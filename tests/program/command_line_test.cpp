@@ -32,6 +32,7 @@ TEST(Help, EveryCommandHasOptionsWithDefaultsAndAnExample) {
                            "--unit",       "--up",           "--device",
                            "--backend",    "--max-stretch",  "--roots",
                            "--iterations", "--no-chebyshev", "--kernel",
+                           "--lanes",      "--run",          "compile_ms",
                            "--json",       "--quiet",        "(default 0.01: centimetres)",
                            "m/s^2",        "ms_per_frame",   "velocity_residual",
                            "--cache",      "--no-usd"}) {

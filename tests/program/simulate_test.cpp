@@ -173,7 +173,8 @@ TEST(Simulate, SummaryNamesTheFilesAndQuietSaysNothing) {
                                            "--backend", "reference", "-o",       "a/b/out"};
   auto result = runProgram(folder, arguments);
   EXPECT_EQ(result.exitCode, 0);
-  EXPECT_EQ(result.err, "") << "no progress bar where standard error is no terminal";
+  EXPECT_EQ(test::withoutCompileNotes(result.err), "")
+      << "no progress bar where standard error is no terminal";
   for (const char* part : {"1 frame of 2 strands, 8 particles", "a/b/out/hair.usda", "a/b/out/last.obj",
                            "a/b/out/sheet.png", " ms "}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part << " is missing in:\n" << result.out;
@@ -299,6 +300,35 @@ TEST(Simulate, AFullDiskEndsTheRunAndKeepsItsFrames) {
   const std::string kept =
       "(the first " + std::to_string(usd.points.size()) + " frames are kept in out/hair.usda.partial)";
   EXPECT_NE(result.err.find(kept), std::string::npos) << result.err;
+}
+
+TEST(Simulate, LanesAndRunsAreStatedOrRefused) {
+  const auto folder = scratchFolder("simulate_lanes");
+  writeSmallGroom(folder / "groom.obj");
+  struct Case {
+    std::vector<std::string> arguments;
+    int exitCode;
+    std::string message;
+  };
+  for (const Case& c : {
+           Case{{"--lanes", "3"}, 1, "3 lanes a strand were asked for; this device can have 1, 2"},
+           Case{{"--lanes", "0"}, 2, "--lanes: must be a whole number from 1 to 128"},
+           Case{{"--run", "3"}, 2, "--run: must be a whole number from 4 to 24"},
+           Case{{"--lanes", "1", "--run", "4"},
+                1,
+                "a strand of 5 particles does not fit: 1 lanes of 4 hold 4"},
+           Case{{"--lanes", "2", "--kernel", "serial"}, 2, "--lanes: only --backend gpu with --kernel auto"},
+           Case{{"--run", "8", "--backend", "reference"}, 2, "--run: only --backend gpu"},
+       }) {
+    std::vector<std::string> arguments{"simulate", "groom.obj", "--frames", "1", "-o", "out"};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const auto result = runProgram(folder, arguments);
+    EXPECT_EQ(result.exitCode, c.exitCode) << c.message;
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+  }
+  const json stated = simulate(folder, {"groom.obj", "--frames", "1", "--lanes", "2", "--run", "5"});
+  EXPECT_EQ(stated["kernel"].get<std::string>().substr(0, 11), "lanes 2 x 5");
+  EXPECT_GT(stated["compile_ms"].get<double>(), 0);
 }
 
 TEST(Simulate, UnknownDeviceIsNamed) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -64,9 +66,12 @@ class Device : public std::enable_shared_from_this<Device> {
  public:
   /// Opens the device `choice` names, by index or by part of its name in any case; an empty choice takes
   /// $RINGLET_DEVICE, else the best usable one (discrete, integrated, virtual, cpu). Where several have the
-  /// name, the best of them. RINGLET_VALIDATION=1 turns the validation layer on.
+  /// name, the best of them. RINGLET_VALIDATION=1 turns the validation layer on. `cacheFolder`: where
+  /// compiled kernels are kept, if the driver gives them; empty: nowhere. What is wrong with it is no
+  /// failure.
   static Result<std::shared_ptr<Device>> open(const std::string& choice = "",
-                                              const DeviceOptions& options = {});
+                                              const DeviceOptions& options = {},
+                                              const std::filesystem::path& cacheFolder = {});
   /// All devices, by index. Empty where there is no Vulkan.
   static std::vector<DeviceListing> list();
 
@@ -87,6 +92,8 @@ class Device : public std::enable_shared_from_this<Device> {
   VkDevice handle() const { return device_; }
   std::uint32_t queueFamily() const { return queueFamily_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
+  /// Where it is kept; empty: nowhere.
+  const std::filesystem::path& pipelineCacheFile() const { return pipelineCacheFile_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
   /// Hands the commands to the queue; any thread may.
   VkResult submit(VkCommandBuffer commands, VkFence fence);
@@ -97,6 +104,8 @@ class Device : public std::enable_shared_from_this<Device> {
 
  private:
   Device() = default;
+  Status openPipelineCache(VkPhysicalDevice physical, const std::filesystem::path& folder);
+  void keepPipelineCache() const;
 
   std::unique_ptr<Instance> instance_;
   VkDevice device_ = VK_NULL_HANDLE;
@@ -106,6 +115,8 @@ class Device : public std::enable_shared_from_this<Device> {
   std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
+  std::filesystem::path pipelineCacheFile_;
+  std::size_t pipelineCacheBytes_ = 0;  // when it was new
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
   DeviceProperties properties_;

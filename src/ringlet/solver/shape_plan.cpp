@@ -27,9 +27,9 @@ struct CostModel {
 // not measured, but reasoned: a particle of a run is some 50 registers, so that long runs leave fewer strands
 // at a time to wait with; a join is a few shuffles; the serial form goes through memory.
 //
-// A kernel more costs half a second at every start to prepare (lavapipe; a second the first time), and a
-// dispatch and a barrier in every frame. A run of 20,000 steps, a hundred seconds of animation, makes that 25
-// microseconds a step: 2 % of the step of a thousand strands of 100 particles, and more than the whole step
+// A kernel more costs 0.4 s at every start to prepare (lavapipe; a second more the first time), and a
+// dispatch and a barrier in every frame. Over 30,000 steps, two and a half minutes of animation, that is 15
+// microseconds a step: 1.5 % of the step of a thousand strands of 100 particles, and more than the whole step
 // of ten. GPUs' drivers are quicker, and their dispatches too.
 constexpr CostModel kCpu{.particle = 8.5,
                          .fromEnds = 6.5,
@@ -37,7 +37,7 @@ constexpr CostModel kCpu{.particle = 8.5,
                          .join = 8,
                          .longRun = 0,
                          .serial = 46,
-                         .perKernel = 25'000};
+                         .perKernel = 15'000};
 constexpr CostModel kGpu{.particle = 0.5,
                          .fromEnds = 0.35,
                          .alone = 0.5,
