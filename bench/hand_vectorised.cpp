@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
+
+#include "bench/operation_count.h"
 
 namespace ringlet::bench {
 namespace {
@@ -152,6 +155,29 @@ void HandVectorised::stepFrame(std::span<const HeadPose> poses) {
     }
   });
   maxStretch_ = std::max(maxStretch_, *std::ranges::max_element(stretches));
+}
+
+std::uint64_t HandVectorised::operations(std::uint32_t steps) const {
+  const layout::StepPose still{{0, 0, 0, 1}, {0, 0, 0, 1}, {}};
+  const std::vector<layout::StepPose> poses(steps + 1, still);
+  SweepRun run = run_;
+  run.poses = poses.data();
+  run.steps = steps;
+  std::map<std::uint32_t, std::uint64_t> ofStrand;  // by particles
+  std::uint64_t sum = 0;
+  for (std::size_t s = 0; s < rest_.strands.size(); ++s) {
+    Block block = blocks_[s / kLanes];
+    block.longest = rest_.strands[s].particleCount;
+    const auto [known, isNew] = ofStrand.try_emplace(block.longest, 0);
+    if (isNew) known->second = countOperations(run, block);
+    sum += known->second;
+  }
+  return sum;
+}
+
+std::uint64_t HandVectorised::bytesMoved() const {
+  return rest_.points.size() * (4 * sizeof(layout::vec4) + sizeof(layout::ParticleRest)) +
+         rest_.strands.size() * sizeof(layout::StrandRest);
 }
 
 std::vector<Vec3f> HandVectorised::positions() const {

@@ -33,6 +33,10 @@ class HandVectorised {
   /// Longest edge over the groom's, at any step so far.
   float maxStretch() const { return maxStretch_; }
   unsigned threads() const { return team_->size(); }
+  /// What a frame of this many steps costs in arithmetic (operation_count.h), padding not counted.
+  std::uint64_t operations(std::uint32_t steps) const;
+  /// And the memory a call reads and writes: positions and velocities both ways, constants once [bytes].
+  std::uint64_t bytesMoved() const;
 
  private:
   HandVectorised() = default;

@@ -47,6 +47,21 @@ TEST(HandVectorised, AgreesWithTheReference) {
   }
 }
 
+// A step of an edge is a few hundred operations, and nothing but: another strand, another step, cost what the
+// first did.
+TEST(HandVectorised, CountsOperations) {
+  if (!canSweep()) GTEST_SKIP() << "no AVX2 and FMA here";
+  const auto count = [](int strands, int particles, std::uint32_t steps) {
+    return HandVectorised::create(curls(strands, particles), {}, {}, 1)->operations(steps);
+  };
+  const std::uint64_t once = count(1, 64, 1), twice = count(1, 64, 2), perStep = twice - once;
+  EXPECT_EQ(count(1, 64, 9) - twice, 7 * perStep);
+  EXPECT_EQ(count(11, 64, 2), 11 * twice);
+  EXPECT_GT(perStep, 63 * 200);
+  EXPECT_LT(perStep, 63 * 600);
+  RecordProperty("per_edge_step", static_cast<int>(perStep / 63));
+}
+
 TEST(HandVectorised, SaysWhatItLeavesOut) {
   if (!canSweep()) GTEST_SKIP() << "no AVX2 and FMA here";
   Settings air;
