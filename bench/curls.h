@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <random>
 #include <span>
 #include <vector>
 
@@ -36,6 +38,19 @@ inline Groom curls(std::span<const int> particleCounts) {
 }
 inline Groom curls(int strands, int particles) {
   return curls(std::vector<int>(static_cast<std::size_t>(strands), particles));
+}
+
+/// Particles of strands, from 16 to 128, each as likely.
+inline std::vector<int> mixedCounts(int strands) {
+  std::mt19937 random(7);
+  std::vector<int> counts;
+  for (int s = 0; s < strands; ++s) counts.push_back(16 + static_cast<int>(random() % 113));
+  return counts;
+}
+/// As many particles in all, `particles` a strand.
+inline std::vector<int> uniformCounts(const std::vector<int>& like, int particles) {
+  return std::vector<int>(static_cast<std::size_t>(std::accumulate(like.begin(), like.end(), 0) / particles),
+                          particles);
 }
 
 /// A frame's poses, from `firstStep` on: the head is pulled aside ever faster, swings, and turns.

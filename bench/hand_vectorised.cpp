@@ -2,7 +2,6 @@
 #include "bench/hand_vectorised.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -126,11 +125,13 @@ Result<HandVectorised> HandVectorised::create(const Groom& groom, const Material
   hand.velocities_.resize(hand.positions_.size());
   hand.team_ = std::make_unique<ThreadTeam>(std::max(1u, threads));
   hand.work_.resize(hand.team_->size());
+  hand.stretches_.resize(hand.team_->size(), 0.0f);
+  hand.given_ = std::make_unique<std::atomic<std::size_t>>(0);
   for (auto& work : hand.work_) work.resize(hand.rest_.strands.back().particleCount);
   return hand;
 }
 
-void HandVectorised::stepFrame(std::span<const HeadPose> poses) {
+std::vector<layout::StepPose> HandVectorised::advance(std::span<const HeadPose> poses) {
   const auto turn = [&] { return now_.rotation * oneStepEarlier_.rotation.conjugate(); };
   std::vector<layout::StepPose> device{{packed(now_.rotation), packed(turn()), {}}};
   for (const HeadPose& next : poses) {
@@ -140,21 +141,35 @@ void HandVectorised::stepFrame(std::span<const HeadPose> poses) {
     const Vec3d change = (now_.position - oneStepEarlier_.position - travelBefore) / stepSeconds_;
     device.push_back({packed(now_.rotation), packed(turn()), packed(change)});
   }
-  run_.poses = device.data();
-  run_.steps = static_cast<std::uint32_t>(poses.size());
+  return device;
+}
+
+void HandVectorised::beginFrame(std::span<const layout::StepPose> poses) {
+  run_.poses = poses.data();
+  run_.steps = static_cast<std::uint32_t>(poses.size() - 1);
   run_.positions = positions_.data();
   run_.velocities = velocities_.data();
+  *given_ = 0;
+}
 
-  // Blocks are given out one by one; the longest first, so that none is left for the end.
-  std::atomic<std::size_t> given = 0;
-  std::vector<float> stretches(team_->size(), 0.0f);
-  team_->run([&](unsigned thread) {
-    for (std::size_t k = given++; k < blocks_.size(); k = given++) {
-      const Block& block = blocks_[blocks_.size() - 1 - k];
-      stretches[thread] = std::max(stretches[thread], runBlock(run_, block, work_[thread].data()));
-    }
-  });
-  maxStretch_ = std::max(maxStretch_, *std::ranges::max_element(stretches));
+// Blocks are given out one by one; the longest first, so that none is left for the end.
+void HandVectorised::sweepBlocks(unsigned thread) {
+  for (std::size_t k = (*given_)++; k < blocks_.size(); k = (*given_)++) {
+    const float stretch = runBlock(run_, blocks_[blocks_.size() - 1 - k], work_[thread].data());
+    stretches_[thread] = std::max(stretches_[thread], stretch);
+  }
+}
+
+void HandVectorised::stepFrame(std::span<const HeadPose> poses) {
+  const auto device = advance(poses);
+  beginFrame(device);
+  team_->run([this](unsigned thread) { sweepBlocks(thread); });
+}
+
+void HandVectorised::stepFrameAlone(std::span<const HeadPose> poses) {
+  const auto device = advance(poses);
+  beginFrame(device);
+  sweepBlocks(0);
 }
 
 std::uint64_t HandVectorised::operations(std::uint32_t steps) const {

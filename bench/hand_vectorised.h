@@ -4,6 +4,8 @@
 // velocities as the device keeps them.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -27,11 +29,13 @@ class HandVectorised {
 
   /// Steps; poses[k] is the head's at the end of step k. Jumps and shifts of roots are left out.
   void stepFrame(std::span<const HeadPose> poses);
+  /// The same on the caller's thread alone.
+  void stepFrameAlone(std::span<const HeadPose> poses);
 
   /// Groom order [m], relative to the head's origin.
   std::vector<Vec3f> positions() const;
   /// Longest edge over the groom's, at any step so far.
-  float maxStretch() const { return maxStretch_; }
+  float maxStretch() const { return *std::ranges::max_element(stretches_); }
   unsigned threads() const { return team_->size(); }
   /// What a frame of this many steps costs in arithmetic (operation_count.h), padding not counted.
   std::uint64_t operations(std::uint32_t steps) const;
@@ -41,6 +45,9 @@ class HandVectorised {
  private:
   HandVectorised() = default;
   void addBlock(std::uint32_t firstStrand, const Settings& settings);
+  std::vector<layout::StepPose> advance(std::span<const HeadPose> poses);
+  void beginFrame(std::span<const layout::StepPose> poses);
+  void sweepBlocks(unsigned thread);
 
   RestState rest_;
   double stepSeconds_ = 0;
@@ -52,7 +59,8 @@ class HandVectorised {
   std::vector<layout::vec4> positions_, velocities_;   // device order
   std::vector<std::vector<EdgeWork>> work_;            // one a thread
   std::unique_ptr<ThreadTeam> team_;
-  float maxStretch_ = 0;
+  std::vector<float> stretches_;                     // one a thread
+  std::unique_ptr<std::atomic<std::size_t>> given_;  // blocks of this frame that some thread has
 };
 
 }  // namespace ringlet::bench
