@@ -2,14 +2,19 @@
 #include "bench/peaks.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
+#include <ctime>
+
+#include "bench/clocks.h"
 
 namespace ringlet::bench {
 namespace {
 
-double secondsNow() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+// Of this thread: the peak is the machine's, not what other programs leave of it.
+double threadCpuSeconds() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -42,11 +47,11 @@ double multiplyAddPeak(ThreadTeam& team, double seconds) {
   if (!hasMultiplyAdd()) return 0;
   std::vector<double> rates(team.size(), 0.0);
   team.run([&](unsigned thread) {
-    const double start = secondsNow();
+    const double start = threadCpuSeconds();
     double operations = 0, now = start;
     while (now < start + seconds) {
       operations += multiplyAdds();
-      now = secondsNow();
+      now = threadCpuSeconds();
     }
     rates[thread] = operations / (now - start);
   });
@@ -59,11 +64,11 @@ CopyPeak::CopyPeak(std::size_t bytes) : from_(bytes, 1), to_(bytes, 0) {}
 
 double CopyPeak::measure(ThreadTeam& team) {
   const std::size_t share = from_.size() / team.size();
-  const double start = secondsNow();
+  const double start = wallSeconds();
   team.run([&](unsigned thread) {
     std::memcpy(to_.data() + thread * share, from_.data() + thread * share, share);
   });
-  return 2.0 * static_cast<double>(share * team.size()) / (secondsNow() - start);
+  return 2.0 * static_cast<double>(share * team.size()) / (wallSeconds() - start);
 }
 
 }  // namespace ringlet::bench

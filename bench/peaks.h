@@ -7,8 +7,8 @@
 
 namespace ringlet::bench {
 
-/// AVX2 fused multiply-adds that wait for nothing, on every thread of the team at once, for about `seconds`:
-/// two operations each [1/s]. 0 where the CPU has none.
+/// AVX2 fused multiply-adds that wait for nothing, on every thread of the team at once, for about `seconds`;
+/// two operations each, by the threads' own CPU time [1/s]. 0 where the CPU has none.
 double multiplyAddPeak(ThreadTeam& team, double seconds);
 
 /// Copies a buffer beyond caches, the team together; what is read and what is written both count.

@@ -44,23 +44,28 @@ Status addStrandKernel(const ComputeDevice& device, int steps, const std::string
   put(json, "strand_kernel_cpu_ms_per_core_64" + suffix, 1e3 * median(s.kernelCpu) / cores);
   put(json, "strand_kernel_over_reference_64_by_cpu" + suffix,
       cores * medianRatio(s.referenceCpu, s.kernelCpu));
+  put(json, "share_of_fma_peak_64_by_cpu" + suffix, cores * medianRatio(s.peak, s.kernelCpu));
   put(json, "strand_kernel_over_vectorised_64_by_cpu" + suffix, medianRatio(s.kernelCpu, s.handCpu));
   return {};
 }
 
 // Time a particle of one hair over that of another, their rounds in turn.
-Result<double> ratio(const ComputeDevice& device, const std::vector<int>& counts,
-                     const std::vector<int>& others, int rounds) {
+Status addRatio(const ComputeDevice& device, const std::string& key, const std::vector<int>& counts,
+                const std::vector<int>& others, int rounds, nlohmann::json& json) {
   auto one = Contest::create(device, counts, 4, Baselines::none);
   auto other = Contest::create(device, others, 4, Baselines::none);
   if (!one) return one.error();
   if (!other) return other.error();
   for (int k = 0; k < rounds; ++k) {
     for (Contest* each : {&*one, &*other}) {
-      if (Status status = each->round(); !status) return status.error();
+      if (Status status = each->round(); !status) return status;
     }
   }
-  return medianRatio(one->samples().kernel, other->samples().kernel) * other->particles() / one->particles();
+  const double perParticle = other->particles() / one->particles();
+  const ContestSamples &a = one->samples(), &b = other->samples();
+  put(json, key, perParticle * medianRatio(a.kernel, b.kernel));
+  put(json, key + "_by_cpu", perParticle * medianRatio(a.kernelCpu, b.kernelCpu));
+  return {};
 }
 
 Status addAll(const ComputeDevice& device, nlohmann::json& json) {
@@ -71,13 +76,11 @@ Status addAll(const ComputeDevice& device, nlohmann::json& json) {
   if (Status status = addStrandKernel(device, 4, "", json); !status) return status;
   if (Status status = addStrandKernel(device, 8, "_8_steps", json); !status) return status;
   const auto mixed = mixedCounts(2048);
-  const auto overUniform = ratio(device, mixed, uniformCounts(mixed, 64), kRounds);
-  if (!overUniform) return overUniform.error();
-  put(json, "mixed_over_uniform", *overUniform);
-  const auto flatness = ratio(device, std::vector<int>(512, 64), std::vector<int>(32768, 64), 7);
-  if (!flatness) return flatness.error();
-  put(json, "flatness_512_32768", *flatness);
-  return {};
+  if (Status status = addRatio(device, "mixed_over_uniform", mixed, uniformCounts(mixed, 64), kRounds, json);
+      !status)
+    return status;
+  const std::vector<int> few(512, 64), many(32768, 64);
+  return addRatio(device, "flatness_512_32768", few, many, 7, json);
 }
 
 }  // namespace
