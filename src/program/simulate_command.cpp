@@ -424,9 +424,9 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->group(machine);
   command
       ->add_option("--run", typed->run,
-                   "Particles a lane holds, 4 to 16, on a CPU device to 24 (default: chosen by device and "
+                   "Particles a lane holds, 4 to 16, on a CPU device to 24, to 32 in two lanes (default: chosen by device and "
                    "length)")
-      ->check(wholeBetween(4, 24))
+      ->check(wholeBetween(4, 32))
       ->type_name("K")
       ->group(machine);
 
