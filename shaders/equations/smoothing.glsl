@@ -10,9 +10,14 @@ struct FilterState {
   vec3 d;  // after the second, over β²
 };
 
-// 1 - β, rounded; and β once more, so that both add up to 1 and a constant stays what it is.
+// 1 - β, rounded; and β once more, so that both add up to 1 and a constant stays what it is. What the rounding does to the
+// smoothing length, 3e-8 / β of it, hundreds of explicit loops show: for them, with β itself and an operation more.
 float keptShare(float beta) { return 1.0 - beta; }
+#ifdef RINGLET_EXACT_SMOOTHING
+float takenShare(float beta) { return beta; }
+#else
 float takenShare(float beta) { return 1.0 - keptShare(beta); }
+#endif
 
 FilterState emptyFilter() { return FilterState(vec3(0), vec3(0)); }
 /// The state after `start` for ever.
@@ -23,8 +28,13 @@ FilterState startFilter(vec3 start, float beta) {
 
 /// Takes in the next value.
 void smoothNext(inout FilterState s, vec3 x, float beta) {
+#ifdef RINGLET_EXACT_SMOOTHING
+  s.a += x - beta * s.a;
+  s.d += s.a - beta * s.d;
+#else
   s.a = keptShare(beta) * s.a + x;
   s.d = keptShare(beta) * s.d + s.a;
+#endif
 }
 
 /// The smoothed value is this times d. beta = 1 returns the last value exactly.

@@ -10,6 +10,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
+#ifdef RINGLET_BASELINES
+#define RINGLET_EXACT_SMOOTHING
+#endif
 #include "shared/strand_buffers.glsl"
 #include "equations/bend_spring.glsl"
 #include "equations/core_spring.glsl"

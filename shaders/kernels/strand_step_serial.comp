@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 
+#define RINGLET_EXACT_SMOOTHING
 #include "shared/strand_buffers.glsl"
 #include "equations/bend_spring.glsl"
 #include "equations/core_spring.glsl"
