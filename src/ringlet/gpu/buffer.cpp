@@ -186,4 +186,9 @@ Status Buffer::fillZero() {
   return recorder->submitAndWait();
 }
 
+std::uint64_t availableStorageBytes(const Device& device) {
+  const auto type = chooseMemoryType(device, ~0u, BufferKind::storage);
+  return type ? device.availableBytes(device.memory().memoryTypes[*type].heapIndex) : 0;
+}
+
 }  // namespace ringlet::gpu

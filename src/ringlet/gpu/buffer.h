@@ -56,4 +56,7 @@ class Buffer {
   std::string name_;
 };
 
+/// What is left of the memory that storage buffers are made in [bytes]; see Device::availableBytes.
+std::uint64_t availableStorageBytes(const Device& device);
+
 }  // namespace ringlet::gpu

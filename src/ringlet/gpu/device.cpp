@@ -23,6 +23,7 @@ struct Candidate {
   DeviceListing listing;
   std::uint32_t queueFamily = 0;
   std::vector<const char*> extensions;  // to switch on
+  bool hasMemoryBudget = false;
 };
 
 std::string_view typeName(VkPhysicalDeviceType type) {
@@ -146,6 +147,7 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   // What came after 1.1 is asked for only where it is known.
   const bool hasDriverProperties =
       p.apiVersion >= VK_API_VERSION_1_2 || has(VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+  candidate.hasMemoryBudget = has(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);  // to ask needs no switching on
   const bool hasSizeControlInCore = p.apiVersion >= VK_API_VERSION_1_3;
   const bool hasSizeControl = hasSizeControlInCore || has(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
 
@@ -311,6 +313,8 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
   self->properties_ = candidate.listing.properties;
   self->options_ = options;
   self->queueFamily_ = candidate.queueFamily;
+  self->physical_ = candidate.handle;
+  self->hasMemoryBudget_ = candidate.hasMemoryBudget;
   vkGetPhysicalDeviceMemoryProperties(candidate.handle, &self->memory_);
 
   const float priority = 1;
@@ -354,6 +358,20 @@ Device::~Device() {
 
 std::vector<std::string> Device::validationMessages() const {
   return validationLog() ? validationLog()->messages() : std::vector<std::string>{};
+}
+
+std::uint64_t Device::availableBytes(std::uint32_t heap) const {
+  if (!hasMemoryBudget_) return memory_.memoryHeaps[heap].size;
+  auto budget = zeroed<VkPhysicalDeviceMemoryBudgetPropertiesEXT>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT);
+  auto memory =
+      zeroed<VkPhysicalDeviceMemoryProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2);
+  memory.pNext = &budget;
+  vkGetPhysicalDeviceMemoryProperties2(physical_, &memory);
+  // Some drivers count no usage, or give a budget beyond the heap.
+  const std::uint64_t whole =
+      std::min<std::uint64_t>(budget.heapBudget[heap], memory_.memoryHeaps[heap].size);
+  return whole - std::min<std::uint64_t>(whole, budget.heapUsage[heap]);
 }
 
 VkResult Device::submit(VkCommandBuffer commands, VkFence fence) {

@@ -87,6 +87,8 @@ class Device : public std::enable_shared_from_this<Device> {
   std::uint32_t queueFamily() const { return queueFamily_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+  /// What is left of a heap [bytes]: of this process's budget where the driver tells it, else all there is.
+  std::uint64_t availableBytes(std::uint32_t heap) const;
   /// Hands the commands to the queue; any thread may.
   VkResult submit(VkCommandBuffer commands, VkFence fence);
   /// Names an object in validation messages; does nothing where the layer is off.
@@ -96,6 +98,8 @@ class Device : public std::enable_shared_from_this<Device> {
   Device() = default;
 
   std::unique_ptr<Instance> instance_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  bool hasMemoryBudget_ = false;
   VkDevice device_ = VK_NULL_HANDLE;
   VolkDeviceTable table_{};
   VkQueue queue_ = VK_NULL_HANDLE;

@@ -21,8 +21,6 @@ constexpr std::uint32_t kGroupSize = 64;
 // Blocks of a contact particle's lists at most, to begin with.
 constexpr std::uint32_t kFirstMostBlocks = 4;
 constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists are made anew
-// Lists are read as texels where a device sees at least this much, what the smallest storage buffers hold.
-constexpr std::uint64_t kLeastTexelBytes = 128ull << 20;
 
 // Where the device writes how many workgroups run.
 constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectContacts),
@@ -158,14 +156,13 @@ Status ContactStage::createLists() {
 
   // In the order of layout.h: storage, then texels.
   const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
-  const auto& [positions, velocities, solved] =
-      std::tie(groom_->positions, groom_->velocities, groom_->solved);
+  const auto& [positions, velocities, solved] = std::tie(hair().positions, hair().velocities, hair().solved);
   const Lists& lists = *lists_;
   // clang-format off
   auto bindings = gpu::Bindings::create(kernels_[0], {
       positions, velocities, solved, contacts, neighbours, indices, grid, places, histories, guesses,
       lists.heads, lists.pairs, lists.liveHeads, lists.lives, lists.forces,
-      groom_->contactSystems, groom_->contactControl,
+      hair().contactSystems, groom_->contactControl,
       positions, velocities, solved, contacts, neighbours, indices, places, histories, guesses,
       lists.pairs, lists.lives, lists.forces});
   // clang-format on
@@ -303,7 +300,7 @@ std::uint64_t ContactStage::takePairTests() {
 
 Status ContactStage::forget() {
   control().isListed = control().steps = 0;
-  if (Status status = groom_->contactSystems.fillZero(); !status) return status;
+  if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
   return lists_->liveHeads.fillZero();
 }
 
@@ -358,9 +355,9 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
 // J_a = momentum - 2 D v of the last iterate, in kg m/s. What a pinned particle received is not known, and
 // left out.
 Result<double> ContactStage::momentumError(const RestState& rest) const {
-  auto systems = downloadAll<layout::ContactSystem>(groom_->contactSystems, rest.points.size());
+  auto systems = downloadAll<layout::ContactSystem>(hair().contactSystems, rest.points.size());
   if (!systems) return systems.error();
-  auto solved = downloadAll<layout::vec4>(groom_->solved, rest.points.size());
+  auto solved = downloadAll<layout::vec4>(hair().solved, rest.points.size());
   if (!solved) return solved.error();
   Vec3d sum{};
   double sizes = 0;

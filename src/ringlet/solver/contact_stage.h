@@ -26,8 +26,8 @@ namespace ringlet {
 
 class ContactStage {
  public:
-  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` must
-  /// live as long, in one place.
+  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` is of
+  /// one chunk, and must live as long, in one place.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const RestContacts& contacts, DeviceGroom& groom);
 
@@ -79,6 +79,7 @@ class ContactStage {
                         std::uint64_t offset) const;
   std::uint32_t contactGroups() const;
   layout::ContactControl& control() const;
+  const DeviceChunk& hair() const { return groom_->chunks[0]; }
 
   gpu::Device* device_ = nullptr;
   std::vector<gpu::Kernel> kernels_;       // by ContactKernel

@@ -1,50 +1,68 @@
 // Implements solver/device_groom.h.
 #include "ringlet/solver/device_groom.h"
 
-#include <algorithm>
-
-#include "ringlet/solver/device_buffers.h"
-
 namespace ringlet {
+namespace {
 
 using gpu::Buffer;
 using gpu::BufferKind;
 
-Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
-                                        std::uint64_t scratchRecords, bool withContacts, bool keepsSolved) {
-  const std::uint64_t stateBytes = rest.points.size() * sizeof(layout::vec4);
-  auto positions = createZero(device, stateBytes, "positions");
+Result<DeviceChunk> createChunk(gpu::Device& device, const RestState& rest, const GroomChunk& part,
+                                const GroomRecords& records) {
+  const std::uint64_t particleCount = part.particleCount(), strandCount = part.strandCount();
+  auto positions = createZero(device, particleCount * records.position, "positions");
   if (!positions) return positions.error();
-  auto velocities = createZero(device, stateBytes, "velocities");
+  auto velocities = createZero(device, particleCount * records.velocity, "velocities");
   if (!velocities) return velocities.error();
-  auto particles = createFilled(device, rest.particles, "particles");
+  auto particles =
+      createFilled(device, std::span(rest.particles).subspan(part.particleBegin, particleCount), "particles");
   if (!particles) return particles.error();
-  auto strands = createFilled(device, rest.strands, "strands");
+  auto strands = Buffer::create(device, strandCount * records.strandRest, BufferKind::storage, "strands");
   if (!strands) return strands.error();
-  auto reports = createZero(device, rest.strands.size() * sizeof(layout::StrandReport), "reports");
+  auto reports = createZero(device, strandCount * records.report, "reports");
   if (!reports) return reports.error();
-  auto scratch = createZero(device, scratchRecords * sizeof(layout::vec4), "scratch");
+  auto scratch = createZero(device, particleCount * records.scratch, "scratch");
   if (!scratch) return scratch.error();
+  auto solved = createZero(device, particleCount * records.solved, "solved velocities");
+  if (!solved) return solved.error();
+  auto systems = createZero(device, particleCount * records.contactSystem, "contact systems");
+  if (!systems) return systems.error();
+  return DeviceChunk{part,
+                     std::move(*positions),
+                     std::move(*velocities),
+                     std::move(*particles),
+                     std::move(*strands),
+                     std::move(*reports),
+                     std::move(*scratch),
+                     std::move(*solved),
+                     std::move(*systems)};
+}
+
+}  // namespace
+
+Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
+                                        std::span<const GroomChunk> parts, const GroomRecords& records) {
   auto poses =
       Buffer::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), BufferKind::stream, "poses");
   if (!poses) return poses.error();
-  const std::uint64_t contactParticles = withContacts ? rest.points.size() : 0;
-  auto solved = createZero(device, keepsSolved ? stateBytes : 0, "solved velocities");
-  if (!solved) return solved.error();
-  auto systems = createZero(device, contactParticles * sizeof(layout::ContactSystem), "contact systems");
-  if (!systems) return systems.error();
-  auto control = Buffer::create(device, withContacts ? sizeof(layout::ContactControl) : 0, BufferKind::stream,
-                                "contact control");
+  auto control = Buffer::create(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0,
+                                BufferKind::stream, "contact control");
   if (!control) return control.error();
-  return DeviceGroom{std::move(*positions), std::move(*velocities), std::move(*particles),
-                     std::move(*strands),   std::move(*reports),    std::move(*scratch),
-                     std::move(*poses),     std::move(*solved),     std::move(*systems),
-                     std::move(*control)};
+  DeviceGroom groom{{}, std::move(*poses), std::move(*control)};
+  for (const GroomChunk& part : parts) {
+    auto chunk = createChunk(device, rest, part, records);
+    if (!chunk) return chunk.error();
+    groom.chunks.push_back(std::move(*chunk));
+  }
+  if (Status status = groom.uploadStrands(rest); !status) return status.error();
+  return groom;
 }
 
-bool DeviceGroom::fitsTexels(const gpu::Device& device) const {
-  return isSeenAsTexels(
-      device, std::max({positions.bytes(), particles.bytes(), strands.bytes(), contactSystems.bytes()}));
+std::vector<std::reference_wrapper<const Buffer>> DeviceGroom::inBindingOrder(std::size_t chunk) const {
+  const DeviceChunk& c = chunks[chunk];
+  return {c.positions, c.velocities, c.particles, c.strands,        c.reports,
+          c.scratch,   poses,        c.solved,    c.contactSystems, contactControl,
+          c.positions, c.velocities, c.particles, c.strands,        c.contactSystems};
 }
 
 std::span<layout::StepPose> DeviceGroom::mappedPoses() const {
@@ -52,12 +70,59 @@ std::span<layout::StepPose> DeviceGroom::mappedPoses() const {
   return {reinterpret_cast<layout::StepPose*>(bytes.data()), bytes.size() / sizeof(layout::StepPose)};
 }
 
+std::uint64_t DeviceGroom::largestTexels() const {
+  std::uint64_t largest = 0;
+  for (const DeviceChunk& c : chunks)
+    largest = std::max(
+        {largest, c.positions.bytes(), c.particles.bytes(), c.strands.bytes(), c.contactSystems.bytes()});
+  return largest;
+}
+
+std::uint64_t DeviceGroom::particleBytes() const {
+  std::uint64_t bytes = 0;
+  for (const DeviceChunk& c : chunks)
+    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles.bytes() + c.scratch.bytes() +
+             c.solved.bytes() + c.contactSystems.bytes();
+  return bytes;
+}
+
+std::uint64_t DeviceGroom::strandBytes() const {
+  std::uint64_t bytes = 0;
+  for (const DeviceChunk& c : chunks) bytes += c.strands.bytes() + c.reports.bytes();
+  return bytes;
+}
+
+Status DeviceGroom::uploadStrands(const RestState& rest) {
+  constexpr std::size_t kPieceStrands = 1 << 16;  // 7 MiB
+  std::vector<layout::StrandRest> piece;
+  for (DeviceChunk& chunk : chunks) {
+    for (std::size_t done = 0; done < chunk.part.strandCount(); done += piece.size()) {
+      const auto begin = rest.strands.begin() + static_cast<std::ptrdiff_t>(chunk.part.strandBegin + done);
+      const std::size_t count = std::min(kPieceStrands, chunk.part.strandCount() - done);
+      piece.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+      for (layout::StrandRest& strand : piece) strand.firstParticle -= chunk.part.particleBegin;
+      if (Status status =
+              chunk.strands.upload(std::as_bytes(std::span(piece)), done * sizeof(layout::StrandRest));
+          !status)
+        return status;
+    }
+  }
+  return {};
+}
+
+Result<std::vector<layout::StrandReport>> DeviceGroom::downloadReports() const {
+  std::vector<layout::StrandReport> reports(chunks.back().part.strandEnd);
+  for (const DeviceChunk& chunk : chunks) {
+    const auto part = std::span(reports).subspan(chunk.part.strandBegin, chunk.part.strandCount());
+    if (Status status = chunk.reports.download(std::as_writable_bytes(part)); !status) return status.error();
+  }
+  return reports;
+}
+
 std::vector<std::uint32_t> groomIndices(const RestState& rest) {
   std::vector<std::uint32_t> indices(rest.points.size());
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    for (std::uint32_t i = 0; i < rest.strands[s].particleCount; ++i)
-      indices[rest.strands[s].firstParticle + i] = rest.firstInGroom[s] + i;
-  }
+  GroomPlaces place(rest);
+  for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(place(i));
   return indices;
 }
 

@@ -1,6 +1,7 @@
 // Implements solver/device_roots.h.
 #include "ringlet/solver/device_roots.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "ringlet/base/assert.h"
@@ -25,16 +26,32 @@ BodyPose carriedBy(Quatd headRotation, const BodyPose& root) {
 }
 
 Result<DeviceRoots> DeviceRoots::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        bool areMoving) {
+                                        bool areMoving, std::span<const GroomChunk> chunks) {
   const std::uint64_t strands = areMoving ? rest.strands.size() : 0;
-  const std::uint64_t poses = (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * strands;
-  auto buffer = Buffer::create(device, poses * sizeof(layout::RootPose), BufferKind::stream, "root poses");
-  if (!buffer) return buffer.error();
-  DeviceRoots roots(std::move(*buffer), settings.stepSeconds());
+  DeviceRoots roots(settings.stepSeconds());
+  roots.chunks_.assign(chunks.begin(), chunks.end());
+  for (const GroomChunk& chunk : chunks) {
+    const std::uint64_t poses =
+        areMoving ? (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * chunk.strandCount() : 0;
+    auto buffer = Buffer::create(device, poses * sizeof(layout::RootPose), BufferKind::stream, "root poses");
+    if (!buffer) return buffer.error();
+    roots.poses_.push_back(std::move(*buffer));
+  }
   if (areMoving) roots.strandInGroom_.assign(rest.strandInGroom.begin(), rest.strandInGroom.end());
   roots.now_.resize(strands);
   roots.oneStepEarlier_.resize(strands);
   return roots;
+}
+
+std::uint64_t DeviceRoots::largestBuffer() const {
+  std::uint64_t largest = 0;
+  for (const Buffer& poses : poses_) largest = std::max(largest, poses.bytes());
+  return largest;
+}
+std::uint64_t DeviceRoots::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Buffer& poses : poses_) bytes += poses.bytes();
+  return bytes;
 }
 
 std::vector<BodyPose> DeviceRoots::inOrder(std::span<const BodyPose> poses) const {
@@ -57,7 +74,6 @@ void DeviceRoots::writeFrame(std::span<const HeadPose> heads, std::span<const Bo
   RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 2) * count,
                  "every strand has a pose in every step");
   if (count == 0) return;
-  const auto out = reinterpret_cast<layout::RootPose*>(poses_.mapped().data());
   std::vector<BodyPose> before(count);  // what carried the strand one pose earlier
   for (std::size_t s = 0; s < count; ++s) before[s] = carriedBy(heads[0].rotation, oneStepEarlier_[s]);
   for (std::size_t pose = 0; pose + 1 < heads.size(); ++pose) {
@@ -66,12 +82,16 @@ void DeviceRoots::writeFrame(std::span<const HeadPose> heads, std::span<const Bo
       oneStepEarlier_ = std::exchange(now_, std::move(next));
     }
     const Quatd head = normalized(heads[pose + 1].rotation);
-    for (std::size_t s = 0; s < count; ++s) {
-      const BodyPose now = carriedBy(head, now_[s]);
-      const Quatd turn = now.rotation * before[s].rotation.conjugate();
-      const Vec3d velocity = (now.position - before[s].position) / stepSeconds_;
-      out[pose * count + s] = {packed(now.position), packed(now.rotation), packed(turn), packed(velocity)};
-      before[s] = now;
+    for (std::size_t c = 0; c < chunks_.size(); ++c) {
+      auto out =
+          reinterpret_cast<layout::RootPose*>(poses_[c].mapped().data()) + pose * chunks_[c].strandCount();
+      for (std::size_t s = chunks_[c].strandBegin; s < chunks_[c].strandEnd; ++s) {
+        const BodyPose now = carriedBy(head, now_[s]);
+        const Quatd turn = now.rotation * before[s].rotation.conjugate();
+        const Vec3d velocity = (now.position - before[s].position) / stepSeconds_;
+        *out++ = {packed(now.position), packed(now.rotation), packed(turn), packed(velocity)};
+        before[s] = now;
+      }
     }
   }
 }

@@ -14,6 +14,7 @@
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/solver/groom_chunks.h"
 #include "shared/layout.h"
 
 namespace ringlet {
@@ -26,13 +27,16 @@ class DeviceRoots {
  public:
   /// Poses are BodyPose{} at first. Fails when the device lacks memory.
   static Result<DeviceRoots> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    bool areMoving);
+                                    bool areMoving, std::span<const GroomChunk> chunks);
 
   bool areMoving() const { return !now_.empty(); }
 
-  /// In binding order, storage and texels: from kBindRootPoses on.
-  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const { return {poses_, poses_}; }
-  std::uint64_t largestBuffer() const { return poses_.bytes(); }
+  /// Of a chunk, in binding order, storage and texels: from kBindRootPoses on.
+  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder(std::size_t chunk) const {
+    return {poses_[chunk], poses_[chunk]};
+  }
+  std::uint64_t largestBuffer() const;
+  std::uint64_t bytes() const;
 
   /// Poses of strand s, device order, in the head's frame.
   const BodyPose& now(std::size_t s) const { return now_[s]; }
@@ -47,11 +51,12 @@ class DeviceRoots {
   void endFrame(std::span<const BodyPose> poses);
 
  private:
-  DeviceRoots(gpu::Buffer poses, double stepSeconds) : poses_(std::move(poses)), stepSeconds_(stepSeconds) {}
+  explicit DeviceRoots(double stepSeconds) : stepSeconds_(stepSeconds) {}
   // Of one step, groom order, to device order.
   std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
 
-  gpu::Buffer poses_;
+  std::vector<GroomChunk> chunks_;
+  std::vector<gpu::Buffer> poses_;  // RootPose[steps + 1][strands of the chunk]
   double stepSeconds_;
   std::vector<std::uint32_t> strandInGroom_;
   std::vector<BodyPose> now_, oneStepEarlier_;  // in the head's frame, device order

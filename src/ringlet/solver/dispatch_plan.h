@@ -37,6 +37,7 @@ struct StrandRange {
   StrandShape shape;
   std::uint32_t begin = 0, end = 0;
   std::uint32_t longest = 0;  // particles of its longest strand
+  std::uint32_t chunk = 0;    // the strands are within (groom_chunks.h)
 };
 
 /// One dispatch of a frame.

@@ -19,6 +19,7 @@
 #include "ringlet/solver/device_roots.h"
 #include "ringlet/solver/device_world.h"
 #include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/groom_chunks.h"
 #include "ringlet/solver/strand_kernels.h"
 
 namespace ringlet {
@@ -56,10 +57,40 @@ struct HeadHistory {
 
 std::string describe(std::span<const StrandRange> ranges, std::uint32_t subgroupSize) {
   std::string text;
-  for (const StrandRange& range : ranges) {
+  for (std::size_t r = 0; r < ranges.size(); ++r) {
+    const StrandRange& range = ranges[r];
+    if (r > 0 && range.shape == ranges[r - 1].shape) continue;  // of the next chunk
     text += (text.empty() ? "" : ", ") + range.shape.describe();
   }
   return fmt::format("{} (subgroup {})", text, subgroupSize);
+}
+
+// Chunks are as large as storage allows, and as texels do where a device sees as many as the smallest storage
+// buffers hold: kernels read those faster. With contacts a strand may meet any other, so all are in one
+// chunk.
+Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
+                                             std::span<const std::uint32_t> particleCounts,
+                                             const GroomRecords& records, const Settings& settings,
+                                             const KernelChoice& choice) {
+  const gpu::DeviceProperties& p = device.properties();
+  std::uint64_t most = std::min({p.maxStorageBufferRange, p.maxAllocationBytes,
+                                 std::uint64_t{std::numeric_limits<std::uint32_t>::max()}});
+  if (!settings.contacts.on && isSeenAsTexels(device, kLeastTexelBytes))
+    most = std::min(most, p.maxTexelRecords * sizeof(layout::vec4));
+  if (choice.mostBufferBytes > 0) most = std::min(most, choice.mostBufferBytes);
+  auto chunks = cutGroom(particleCounts, records, most,
+                         settings.contacts.on ? "contacts"
+                         : choice.taps        ? "taps"
+                                              : "");
+  if (!chunks) return chunks;
+  const std::uint64_t bytes =
+      chunks->back().particleEnd * records.perParticle() + chunks->back().strandEnd * records.perStrand();
+  std::uint64_t available = gpu::availableStorageBytes(device);
+  if (choice.mostDeviceBytes > 0) available = std::min(available, choice.mostDeviceBytes);
+  const std::string what = fmt::format("a groom of {} strands and {} particles", chunks->back().strandEnd,
+                                       chunks->back().particleEnd);
+  if (Status status = checkMemory(what, bytes, available); !status) return status.error();
+  return chunks;
 }
 
 }  // namespace
@@ -77,8 +108,9 @@ struct Simulation::Implementation {
   DeviceRoots roots;
   std::vector<StrandRange> ranges;
   std::vector<PlannedDispatch> plan;
-  std::vector<gpu::Kernel> kernels{};  // one a range
-  std::vector<gpu::Bindings> bindings{};
+  std::vector<gpu::Kernel> kernels{};     // one a shape
+  std::vector<std::size_t> kernelOf{};    // each range's
+  std::vector<gpu::Bindings> bindings{};  // one a range
   std::optional<gpu::Recorder> frame{};
 
   std::optional<ContactStage> contacts{};
@@ -98,7 +130,7 @@ struct Simulation::Implementation {
   void writePoses(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                   std::span<const BodyPose> rootPoses);
   Status carryTo(const HeadPose& end);
-  Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
+  Result<std::vector<Vec3f>> inGroomOrder(DeviceGroom::Field field) const;
   Status placeAtRest();
 };
 
@@ -118,23 +150,20 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
   auto ranges = planRanges(counts, limits, choice);
   if (!ranges) return ranges.error();
+  const bool anySerial =
+      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
+  const GroomRecords records = groomRecords(settings, choice, anySerial, !bodies.empty());
+  const auto chunks = cutForDevice(device.gpu(), counts, records, settings, choice);
+  if (!chunks) return chunks.error();
+  *ranges = cutRanges(*ranges, *chunks);
   auto plan = planFrame(*ranges, limits, settings, bodies.size(), kStrandGroupSize);
   if (!plan) return plan.error();
 
-  const bool anySerial =
-      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
-  const std::uint64_t scratchPerParticle =
-      (anySerial ? layout::kScratchPerParticle + (bodies.empty() ? 0 : layout::kBodyScratch) +
-                       (settings.air.on ? layout::kAirScratch : 0)
-                 : 0) +
-      (choice.taps ? layout::kTapCount : 0);
-  auto buffers =
-      DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle, settings.contacts.on,
-                          settings.contacts.on || (anySerial && !bodies.empty()));
+  auto buffers = DeviceGroom::create(device.gpu(), *rest, *chunks, records);
   if (!buffers) return buffers.error();
   auto world = DeviceWorld::create(device.gpu(), bodies, settings, start);
   if (!world) return world.error();
-  auto roots = DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots);
+  auto roots = DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots, *chunks);
   if (!roots) return roots.error();
 
   std::unique_ptr<Implementation> self(new Implementation{device,
@@ -152,27 +181,32 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
-  const bool fitsTexels =
-      self->buffers.fitsTexels(device.gpu()) &&
-      isSeenAsTexels(device.gpu(), std::max(self->world.largestBuffer(), self->roots.largestBuffer()));
-  for (const StrandRange& range : self->ranges) {
-    auto kernel = createStrandKernel(
-        device.gpu(), range.shape,
-        {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on, fitsTexels,
-         choice.residual, !bodies.empty(), settings.air.on, self->world.isTurbulent(), choice.movingRoots});
-    if (!kernel) return kernel.error();
-    auto buffersInOrder = self->buffers.inBindingOrder();
+  const bool fitsTexels = isSeenAsTexels(
+      device.gpu(),
+      std::max({self->buffers.largestTexels(), self->world.largestBuffer(), self->roots.largestBuffer()}));
+  for (std::size_t r = 0; r < self->ranges.size(); ++r) {
+    const StrandRange& range = self->ranges[r];
+    if (r == 0 || range.shape != self->ranges[r - 1].shape) {
+      auto kernel = createStrandKernel(
+          device.gpu(), range.shape,
+          {settings.integrator, oneSmoothing, bendVaries, choice.taps, settings.contacts.on, fitsTexels,
+           choice.residual, !bodies.empty(), settings.air.on, self->world.isTurbulent(), choice.movingRoots});
+      if (!kernel) return kernel.error();
+      self->kernels.push_back(std::move(*kernel));
+    }
+    self->kernelOf.push_back(self->kernels.size() - 1);
+    auto buffersInOrder = self->buffers.inBindingOrder(range.chunk);
     std::ranges::copy(self->world.inBindingOrder(), std::back_inserter(buffersInOrder));
-    std::ranges::copy(self->roots.inBindingOrder(), std::back_inserter(buffersInOrder));
-    auto bindings = gpu::Bindings::create(*kernel, buffersInOrder);
+    std::ranges::copy(self->roots.inBindingOrder(range.chunk), std::back_inserter(buffersInOrder));
+    auto bindings = gpu::Bindings::create(self->kernels.back(), buffersInOrder);
     if (!bindings) return bindings.error();
-    self->kernels.push_back(std::move(*kernel));
     self->bindings.push_back(std::move(*bindings));
   }
   if (Status status = self->placeAtRest(); !status) return status.error();
   if (settings.contacts.on) {
     if (Status status = self->addContacts(); !status) return status.error();
   }
+  self->rest.particles = {};  // the device has them
   if (Status status = self->recordFrame(); !status) return status.error();
   return Simulation(std::move(self));
 }
@@ -194,14 +228,15 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   p.chebyshev = settings.chebyshev ? 1 : 0;
   p.forceLoops = static_cast<std::uint32_t>(settings.forceLoops);
   p.dampingLoops = static_cast<std::uint32_t>(settings.dampingLoops);
-  p.particleCount = static_cast<std::uint32_t>(rest.points.size());
+  const GroomChunk& chunk = buffers.chunks[ranges[dispatch.range].chunk].part;
+  p.particleCount = chunk.particleCount();
   p.phases = dispatch.phases;
   p.loopBegin = dispatch.loopBegin;
   p.loopEnd = dispatch.loopEnd;
   p.bodyCount = static_cast<std::uint32_t>(world.bodyCount());
   p.dragStrength = static_cast<float>(kStandardGravity / (settings.air.fallSpeed * settings.air.fallSpeed));
   p.dragAlong = static_cast<float>(settings.air.alongShare);
-  p.strandCount = static_cast<std::uint32_t>(rest.strands.size());
+  p.strandCount = chunk.strandCount();
   return p;
 }
 
@@ -224,7 +259,7 @@ void Simulation::Implementation::dispatchAll(std::span<const PlannedDispatch> di
     // Only dispatches on the same strands depend on each other; but the validation layer sees whole buffers,
     // and takes those on other strands for hazards.
     if (d > 0) frame->barrier();
-    frame->dispatch(kernels[now.range], bindings[now.range], parametersOf(now), now.groupCount);
+    frame->dispatch(kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now), now.groupCount);
   }
   frame->endStage();
 }
@@ -314,49 +349,47 @@ void Simulation::Implementation::writePoses(std::span<const HeadPose> stepPoses,
   }
 }
 
-Status Simulation::Implementation::uploadState(std::span<const layout::vec4> positions,
-                                               std::span<const layout::vec4> velocities) {
-  if (Status status = buffers.positions.upload(std::as_bytes(positions)); !status) return status;
-  return buffers.velocities.upload(std::as_bytes(velocities));
-}
-
 // Rigidly: seen from the head nothing changes.
 Status Simulation::Implementation::carryTo(const HeadPose& end) {
   const Quatd turned = normalized(end.rotation * head.now.rotation.conjugate());
   const bool turns = length(Vec3d{turned.x, turned.y, turned.z}) > 1e-12;
   head.jump(end);
   if (!turns) return {};
-  const std::size_t count = rest.points.size();
-  auto positions = downloadAll<layout::vec4>(buffers.positions, count);
-  if (!positions) return positions.error();
-  auto velocities = downloadAll<layout::vec4>(buffers.velocities, count);
-  if (!velocities) return velocities.error();
-  for (auto* values : {&*positions, &*velocities}) {
-    for (layout::vec4& v : *values) v = packed(rotate(turned, static_cast<Vec3d>(unpacked(v))));
-  }
   if (contacts) {
     if (Status status = contacts->forget(); !status) return status;
   }
-  return uploadState(*positions, *velocities);
+  for (const DeviceGroom::Field field : {&DeviceChunk::positions, &DeviceChunk::velocities}) {
+    const auto rotated = [&](layout::vec4 v) {
+      return packed(rotate(turned, static_cast<Vec3d>(unpacked(v))));
+    };
+    if (Status status = buffers.changeEach(field, rotated); !status) return status;
+  }
+  return {};
 }
 
 // The rest pose carried by the head and the roots, moving with them.
 Status Simulation::Implementation::placeAtRest() {
-  std::vector<layout::vec4> positions(rest.points.size()), velocities(rest.points.size());
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    const BodyPose now = carriedBy(head.now.rotation, roots.areMoving() ? roots.now(s) : BodyPose{});
-    const BodyPose earlier =
-        carriedBy(head.oneStepEarlier.rotation, roots.areMoving() ? roots.oneStepEarlier(s) : BodyPose{});
-    for (std::uint32_t k = 0; k < rest.strands[s].particleCount; ++k) {
-      const std::uint32_t i = rest.strands[s].firstParticle + k;
-      const Vec3d p = static_cast<Vec3d>(rest.points[i]);
-      const Vec3d here = now.position + rotate(now.rotation, p);
-      const Vec3d before = earlier.position + rotate(earlier.rotation, p);
-      positions[i] = packed(here);
-      velocities[i] = packed((here - before) / settings.stepSeconds());
-    }
-  }
-  return uploadState(positions, velocities);
+  const auto nowAt = [&](std::size_t s) {
+    return carriedBy(head.now.rotation, roots.areMoving() ? roots.now(s) : BodyPose{});
+  };
+  const auto earlierAt = [&](std::size_t s) {
+    return carriedBy(head.oneStepEarlier.rotation, roots.areMoving() ? roots.oneStepEarlier(s) : BodyPose{});
+  };
+  const auto placedBy = [](const BodyPose& pose, Vec3d p) {
+    return pose.position + rotate(pose.rotation, p);
+  };
+  GroomPlaces places(rest);
+  const auto positionAt = [&](std::size_t i) {
+    return packed(placedBy(nowAt(places.strandOf(i)), static_cast<Vec3d>(rest.points[i])));
+  };
+  if (Status status = buffers.uploadEach(&DeviceChunk::positions, positionAt); !status) return status;
+  places = GroomPlaces(rest);
+  const auto velocityAt = [&](std::size_t i) {
+    const std::size_t s = places.strandOf(i);
+    const Vec3d p = static_cast<Vec3d>(rest.points[i]);
+    return packed((placedBy(nowAt(s), p) - placedBy(earlierAt(s), p)) / settings.stepSeconds());
+  };
+  return buffers.uploadEach(&DeviceChunk::velocities, velocityAt);
 }
 
 Simulation::Simulation(std::unique_ptr<Implementation> self) : self_(std::move(self)) {}
@@ -390,18 +423,24 @@ Status Simulation::stepFrame(const HeadPose& end) {
   return stepFrame(poses);
 }
 
+Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom::Field field) const {
+  std::vector<Vec3f> values(rest.points.size());
+  GroomPlaces place(rest);
+  const auto take = [&](std::size_t i, layout::vec4 value) { values[place(i)] = unpacked(value); };
+  if (Status status = buffers.downloadEach(field, take); !status) return status.error();
+  return values;
+}
+
 Result<std::vector<Vec3f>> Simulation::positions() const {
-  auto values = downloadAll<layout::vec4>(self_->buffers.positions, self_->rest.points.size());
-  if (!values) return values.error();
-  return inGroomOrder<Vec3f, layout::vec4>(self_->rest, *values, unpacked);
+  return self_->inGroomOrder(&DeviceChunk::positions);
 }
 
 Result<HairState> Simulation::state() const {
   auto p = positions();
   if (!p) return p.error();
-  auto values = downloadAll<layout::vec4>(self_->buffers.velocities, self_->rest.points.size());
-  if (!values) return values.error();
-  return HairState{std::move(*p), inGroomOrder<Vec3f, layout::vec4>(self_->rest, *values, unpacked)};
+  auto v = self_->inGroomOrder(&DeviceChunk::velocities);
+  if (!v) return v.error();
+  return HairState{std::move(*p), std::move(*v)};
 }
 
 Status Simulation::setState(const HairState& state) {
@@ -411,9 +450,12 @@ Status Simulation::setState(const HairState& state) {
   if (self_->contacts) {
     if (Status status = self_->contacts->forget(); !status) return status;
   }
-  const auto pack = [](Vec3f v) { return packed(v); };
-  return self_->uploadState(inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.positions, pack),
-                            inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.velocities, pack));
+  const auto upload = [&](DeviceGroom::Field field, const std::vector<Vec3f>& values) {
+    GroomPlaces place(self_->rest);
+    return self_->buffers.uploadEach(field, [&](std::size_t i) { return packed(values[place(i)]); });
+  };
+  if (Status status = upload(&DeviceChunk::positions, state.positions); !status) return status;
+  return upload(&DeviceChunk::velocities, state.velocities);
 }
 
 void Simulation::placeBodies(std::span<const BodyPose> poses) {
@@ -436,13 +478,13 @@ Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {
     const Vec3f shift = static_cast<Vec3f>(shifts[self_->rest.strandInGroom[s]]);
     strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
   }
-  return self_->buffers.strands.upload(std::as_bytes(std::span(strands)));
+  return self_->buffers.uploadStrands(self_->rest);
 }
 
 const HeadPose& Simulation::head() const { return self_->head.now; }
 
 Result<SimulationReport> Simulation::report() const {
-  auto reports = downloadAll<layout::StrandReport>(self_->buffers.reports, self_->rest.strands.size());
+  const auto reports = self_->buffers.downloadReports();
   if (!reports) return reports.error();
   SimulationReport total;
   std::uint64_t edges = 0, limited = 0;
@@ -491,12 +533,12 @@ std::map<std::string, double> Simulation::stageMilliseconds() const { return sel
 Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) const {
   RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount,
                  "taps are written only with KernelChoice::taps");
-  const std::size_t count = self_->rest.points.size();
-  auto values = downloadAll<layout::vec4>(self_->buffers.scratch, count, field * count);
-  if (!values) return values.error();
-  return inGroomOrder<std::array<float, 4>, layout::vec4>(self_->rest, *values, [](layout::vec4 v) {
-    return std::array<float, 4>{v.x, v.y, v.z, v.w};
-  });
+  std::vector<std::array<float, 4>> values(self_->rest.points.size());
+  GroomPlaces place(self_->rest);
+  const auto take = [&](std::size_t i, layout::vec4 v) { values[place(i)] = {v.x, v.y, v.z, v.w}; };
+  if (Status status = self_->buffers.downloadEach(&DeviceChunk::scratch, take, field); !status)
+    return status.error();
+  return values;
 }
 
 std::string Simulation::kernelDescription() const {
