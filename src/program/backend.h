@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ class Backend {
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
   virtual std::string kernel() const = 0;
+  /// Of its buffers on the device; none where there is no device.
+  virtual std::optional<std::uint64_t> deviceBytes() const = 0;
 };
 
 /// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open).

@@ -30,6 +30,7 @@ class GpuBackend : public Backend {
   std::string device() const override { return device_.name(); }
   std::string driver() const override { return device_.driver(); }
   std::string kernel() const override { return simulation_.kernelDescription(); }
+  std::optional<std::uint64_t> deviceBytes() const override { return simulation_.memory().total(); }
 
  private:
   ComputeDevice device_;

@@ -87,6 +87,8 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["device"] = outcome.device;
   json["driver"] = outcome.driver;
   json["kernel"] = outcome.kernel;
+  json["device_bytes"] =
+      outcome.deviceBytes ? nlohmann::ordered_json(*outcome.deviceBytes) : nlohmann::ordered_json();
   json["backend"] = names.backend;
   json["positions_hash"] = outcome.positionsHash;
   json["integrator"] = names.integrator;

@@ -48,7 +48,8 @@ constexpr const char* kExample =
     "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
     "at a\n"
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
-    "device driver kernel backend positions_hash integrator material steps_per_frame fps\n"
+    "device driver kernel device_bytes (of the simulation's buffers, at the end) backend positions_hash "
+    "integrator material steps_per_frame fps\n"
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"

@@ -111,6 +111,7 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind ki
   RINGLET_VK_CHECK(device.vk().vkAllocateMemory(device.handle(), &allocation, nullptr, &memory),
                    fmt::format("{} (in a memory of {} bytes)", attempt(), heapBytes));
   self.memory_ = OwnedMemory(device.shared_from_this(), memory);
+  self.counted_ = device.countBytes(chosen.heapIndex, requirements.size);
   RINGLET_VK_CHECK(device.vk().vkBindBufferMemory(device.handle(), buffer, memory, 0), attempt());
 
   // Stays mapped: coherent memory needs no flush, and unmapping comes with freeing.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -48,6 +49,7 @@ class Buffer {
 
   Device* device_ = nullptr;  // held open by what follows
   OwnedMemory memory_;
+  std::shared_ptr<void> counted_;  // among what is taken of the device's memory
   OwnedBuffer buffer_;
   std::byte* mapped_ = nullptr;
   std::uint64_t bytes_ = 0;

@@ -361,17 +361,23 @@ std::vector<std::string> Device::validationMessages() const {
 }
 
 std::uint64_t Device::availableBytes(std::uint32_t heap) const {
-  if (!hasMemoryBudget_) return memory_.memoryHeaps[heap].size;
-  auto budget = zeroed<VkPhysicalDeviceMemoryBudgetPropertiesEXT>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT);
-  auto memory =
-      zeroed<VkPhysicalDeviceMemoryProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2);
-  memory.pNext = &budget;
-  vkGetPhysicalDeviceMemoryProperties2(physical_, &memory);
-  // Some drivers count no usage, or give a budget beyond the heap.
-  const std::uint64_t whole =
-      std::min<std::uint64_t>(budget.heapBudget[heap], memory_.memoryHeaps[heap].size);
-  return whole - std::min<std::uint64_t>(whole, budget.heapUsage[heap]);
+  std::uint64_t whole = memory_.memoryHeaps[heap].size, taken = takenBytes_[heap];
+  if (hasMemoryBudget_) {
+    auto budget = zeroed<VkPhysicalDeviceMemoryBudgetPropertiesEXT>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT);
+    auto memory =
+        zeroed<VkPhysicalDeviceMemoryProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2);
+    memory.pNext = &budget;
+    vkGetPhysicalDeviceMemoryProperties2(physical_, &memory);
+    whole = std::min<std::uint64_t>(whole, budget.heapBudget[heap]);
+    taken = std::max<std::uint64_t>(taken, budget.heapUsage[heap]);
+  }
+  return whole - std::min(whole, taken);
+}
+
+std::shared_ptr<void> Device::countBytes(std::uint32_t heap, std::uint64_t bytes) {
+  takenBytes_[heap] += bytes;
+  return {this, [self = shared_from_this(), heap, bytes](void*) { self->takenBytes_[heap] -= bytes; }};
 }
 
 VkResult Device::submit(VkCommandBuffer commands, VkFence fence) {

@@ -43,6 +43,10 @@ class ContactStage {
   /// Makes longer lists, keeping what pairs remember; recordings made before are no longer good.
   Status makeRoom();
 
+  /// Of the buffers made once, and of the lists [bytes].
+  std::uint64_t bytes() const;
+  std::uint64_t listBytes() const;
+
   /// Pairs looked at in the frame that ended, both sides counted; and starts counting anew.
   std::uint64_t takePairTests();
   std::uint64_t rebuilds() const { return control().rebuilds; }

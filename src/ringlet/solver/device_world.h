@@ -30,6 +30,9 @@ class DeviceWorld {
     return {rests_, poses_, cells_, air_, waveBuffer_, rests_, poses_, cells_, air_, waveBuffer_};
   }
   std::uint64_t largestBuffer() const { return std::max(cells_.bytes(), poses_.bytes()); }
+  std::uint64_t bytes() const {
+    return rests_.bytes() + poses_.bytes() + cells_.bytes() + air_.bytes() + waveBuffer_.bytes();
+  }
 
   /// Where bodies are before the next step, in the world.
   void placeBodies(std::span<const BodyPose> poses) { now_.assign(poses.begin(), poses.end()); }

@@ -541,6 +541,17 @@ Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) c
   return values;
 }
 
+DeviceMemory Simulation::memory() const {
+  const std::optional<ContactStage>& contacts = self_->contacts;
+  return {
+      .particles = self_->buffers.particleBytes(),
+      .strands = self_->buffers.strandBytes(),
+      .rootPoses = self_->roots.bytes(),
+      .contacts = contacts ? contacts->bytes() : 0,
+      .contactLists = contacts ? contacts->listBytes() : 0,
+      .world = self_->buffers.poses.bytes() + self_->buffers.contactControl.bytes() + self_->world.bytes()};
+}
+
 std::string Simulation::kernelDescription() const {
   return describe(self_->ranges, self_->device.gpu().properties().subgroupSize);
 }

@@ -46,6 +46,18 @@ struct ContactReport {
   double momentumError = 0;         // of the last step: |sum of contact momenta| over the sum of their sizes
 };
 
+/// Bytes of a simulation's buffers on its device, by what they grow with (README, "Memory").
+struct DeviceMemory {
+  std::uint64_t particles = 0;     // state, rest, scratch, what contacts add to a solve
+  std::uint64_t strands = 0;       // constants, reports
+  std::uint64_t rootPoses = 0;     // of strands that have poses of their own
+  std::uint64_t contacts = 0;      // contact particles, their grid, who may touch whom
+  std::uint64_t contactLists = 0;  // as long as they have become
+  std::uint64_t world = 0;         // the head's poses, bodies with their grids, air
+
+  std::uint64_t total() const { return particles + strands + rootPoses + contacts + contactLists + world; }
+};
+
 /// Particles' positions and velocities, in groom order, relative to the head's origin and its translation,
 /// along world axes.
 struct HairState {
@@ -134,6 +146,8 @@ class Simulation {
   /// Milliseconds spent on the device, by stage, summed over all frames; by GPU timestamps where the device
   /// has them.
   std::map<std::string, double> stageMilliseconds() const;
+  /// What is on the device now. The driver may take a little more for each of some dozen buffers.
+  DeviceMemory memory() const;
   /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
   /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
