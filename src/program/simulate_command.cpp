@@ -48,9 +48,8 @@ constexpr const char* kExample =
     "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
     "at a\n"
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
-    "device driver kernel device_bytes (of the simulation's buffers, at the end) backend positions_hash "
-    "integrator material steps_per_frame fps\n"
-    "interrupted warnings outputs.\n";
+    "device driver kernel device_bytes (of the simulation's buffers, at the end; null for reference)\n"
+    "backend positions_hash integrator material steps_per_frame fps interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
