@@ -8,6 +8,7 @@ packages=(
   mesa-vulkan-drivers vulkan-validationlayers                        # a Vulkan device without a GPU; the layers the tests run under
   libeigen3-dev libgtest-dev libbenchmark-dev                        # reference, tests, benchmarks
   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev   # the program and its outputs
+  libzstd-dev                                                        # caches of animations
   libtomlplusplus-dev                                                # material files
   libtinygltf-dev                                                    # glTF motion
 )

@@ -21,7 +21,7 @@ uint nextNear(Room room, float reach, uint step, uint bodyCount, uint b) {
   float radius = 0.5 * length(room.high - room.low) + reach;
   bool isNear = room.low.x > room.high.x;  // nothing in it: done
   if (isNear) return bodyCount;
-  while (b < bodyCount && !isNear) {
+  if (b < bodyCount) do {
     vec4 bounds = bodyBounds(b);
     BodyPose before = bodyPose(step * bodyCount + b);
     float moves = kTexels ? vectorAt(bodyPoseTexels, 4 * ((step + 1) * bodyCount + b)).w
@@ -29,7 +29,7 @@ uint nextNear(Room room, float reach, uint step, uint bodyCount, uint b) {
     vec3 there = before.position.xyz + rotate(before.rotation, bounds.xyz);
     isNear = length(there - middle) <= radius + bounds.w + moves;
     if (!isNear) ++b;
-  }
+  } while (b < bodyCount && !isNear);
   return b;
 }
 

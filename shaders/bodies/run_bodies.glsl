@@ -114,8 +114,8 @@ bool findPushes(uint step) {
   }
   float reach = T * sqrt(fastest) + kTouchDistance;
   uint asked = 0;
-  for (uint b = nextNear(room, reach, step, parameters.bodyCount, 0); b < parameters.bodyCount;
-       b = nextNear(room, reach, step, parameters.bodyCount, b + 1)) {
+  uint b = nextNear(room, reach, step, parameters.bodyCount, 0);
+  if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     uint particleBits = 0;
     uint edgeBits = 0;
@@ -132,7 +132,7 @@ bool findPushes(uint step) {
       if (k > 0 && isEdge(max(k - 1, 0)) && left + roomBefore <= eLength[max(k - 1, 0)]) edgeBits |= 1u << (k - 1);
       roomBefore = left;
     }
-    while (particleBits != 0) {
+    if (particleBits != 0) do {
       int k = findLSB(particleBits);
       particleBits &= particleBits - 1;
       vec3 position = picked(p, pNext, k);
@@ -147,8 +147,8 @@ bool findPushes(uint step) {
       if (!touch.found || !(deficit > 0.0)) continue;
       push(k, (isDeep ? kDeepShare : 1.0) * bodyWeight(massAt(k, massNext), deficit), n, target, u, body.rest.friction);
       asked = 1;
-    }
-    while (edgeBits != 0) {
+    } while (particleBits != 0);
+    if (edgeBits != 0) do {
       int k = findLSB(edgeBits);
       edgeBits &= edgeBits - 1;
       vec3 a = picked(p, pNext, k);
@@ -168,8 +168,9 @@ bool findPushes(uint step) {
       if (!isPinnedAt(k + 1) && shares.y >= kLeastShare)
         push(k + 1, shares.y * bodyWeight(massAt(k + 1, massNext), deficit), n, dot(n, vc) + part.y, u, body.rest.friction);
       asked = 1;
-    }
-  }
+    } while (edgeBits != 0);
+    b = nextNear(room, reach, step, parameters.bodyCount, b + 1);
+  } while (b < parameters.bodyCount);
   passPushesOn();
   return sumOverStrand(asked) > 0;
 }
@@ -200,8 +201,8 @@ void rubRun() {
 
 void keepParticlesOut(uint step, Room room) {
   float T = stepSeconds();
-  for (uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0); b < parameters.bodyCount;
-       b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1)) {
+  uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
+  if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     uint bits = 0;
     [[unroll]] for (int k = 0; k < RUN; ++k) {
@@ -209,7 +210,7 @@ void keepParticlesOut(uint step, Room room) {
       float way = length(y1 - placeAtStart(body, pStart[k]));
       if (isFree(k) && bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance) bits |= 1u << k;
     }
-    while (bits != 0) {
+    if (bits != 0) do {
       int k = findLSB(bits);
       bits &= bits - 1;
       vec3 start = picked(pStart, vec3(0), k);
@@ -224,8 +225,9 @@ void keepParticlesOut(uint step, Room room) {
           v[j] += slowed;
         }
       }
-    }
-  }
+    } while (bits != 0);
+    b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1);
+  } while (b < parameters.bodyCount);
 }
 
 // Edges leave at kLeaveSpeed at most; of two edges the one that moves a particle further.
@@ -240,8 +242,8 @@ void keepEdgesOut(uint step, Room room) {
   vec3 nextShift = vec3(0);
   vec3 nextChange = vec3(0);
   if (isEdge(RUN - 1)) include(room, pNext);
-  for (uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0); b < parameters.bodyCount;
-       b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1)) {
+  uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
+  if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     uint bits = 0;
     float before = 0.0;
@@ -251,7 +253,7 @@ void keepEdgesOut(uint step, Room room) {
       if (k > 0 && isEdge(max(k - 1, 0)) && distance + before <= 1.001 * length(here - p[max(k - 1, 0)])) bits |= 1u << (k - 1);
       before = distance;
     }
-    while (bits != 0) {
+    if (bits != 0) do {
       int k = findLSB(bits);
       bits &= bits - 1;
       EdgeSurface deepest =
@@ -278,8 +280,9 @@ void keepEdgesOut(uint step, Room room) {
           nextChange = part[side] * slowed;
         }
       }
-    }
-  }
+    } while (bits != 0);
+    b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1);
+  } while (b < parameters.bodyCount);
   vec3 rootwardShift = fromRootward(nextShift, 1);
   vec3 rootwardChange = fromRootward(nextChange, 1);
   if (lane > 0 && dot(rootwardShift, rootwardShift) > dot(shift[0], shift[0])) {

@@ -35,12 +35,13 @@ Touch traceParticle(BodyRest body, vec3 y0, vec3 y1) {
   float wayLength = length(way);
   Touch touch = Touch(true, bodyDistance(body, y0), y0, y0, 0.0);
   float gone = 0.0;
-  for (int turn = 0; turn < kTraceTurns && touch.found && touch.surface.distance > kTouchDistance; ++turn) {
+  int turn = 0;
+  if (touch.surface.distance > kTouchDistance) do {
     gone += touch.surface.distance;
     touch.found = gone < wayLength;
     touch.place = y0 + (gone / max(wayLength, 1e-20)) * way;
     touch.surface = bodyDistance(body, touch.place);
-  }
+  } while (++turn < kTraceTurns && touch.found && touch.surface.distance > kTouchDistance);
   return touch;
 }
 
@@ -89,12 +90,13 @@ Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
   float gone = 0.0;
   bool passes = false;
   EdgeSurface deepest = edgeDistance(body, a0, b0);
-  for (int turn = 0; turn < kTraceTurns && !passes && deepest.nearest > kTouchDistance; ++turn) {
+  int turn = 0;
+  if (deepest.nearest > kTouchDistance) do {
     gone += deepest.nearest;
     passes = gone >= longest;
     float share = gone / max(longest, 1e-20);
     deepest = edgeDistance(body, a0 + share * (a1 - a0), b0 + share * (b1 - b0));
-  }
+  } while (++turn < kTraceTurns && !passes && deepest.nearest > kTouchDistance);
   return Touch(!passes && deepest.isWithin && deepest.surface.distance <= kTouchDistance, deepest.surface, deepest.place,
                a0 + deepest.along * (b0 - a0), deepest.along);
 }

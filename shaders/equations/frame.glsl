@@ -22,4 +22,28 @@ vec4 smallestTurn(vec3 a, vec3 b) {
 /// `frame` turned by a turn less the identity.
 vec4 turned(vec4 turn, vec4 frame) { return frame + multiply(turn, frame); }
 
+/// The same turn for a vector at right angles to a, in a third of the work: mirrored in the plane between a and b, it is at
+/// right angles to b. Keeps its length whatever a and b are.
+vec3 carriedNormal(vec3 normal, vec3 a, vec3 b) {
+  vec3 h = a + b;
+  return normal - (2.0 * dot(normal, h) / max(dot(h, h), 1e-20)) * h;
+}
+
+/// Some unit vector at right angles to the unit vector a (Duff et al. 2017, Building an orthonormal basis, revisited).
+vec3 someNormal(vec3 a) {
+  float s = a.z >= 0.0 ? 1.0 : -1.0;
+  float t = -1.0 / (s + a.z);
+  return vec3(1.0 + s * a.x * a.x * t, s * a.x * a.y * t, -s * a.x);
+}
+
+/// The frame that takes unit vector a to b and the normal u of a to the normal v of b.
+vec4 frameBetween(vec3 a, vec3 u, vec3 b, vec3 v) {
+  vec3 h = a + b;
+  float size = length(h);
+  vec4 turn = size > 1e-6 ? vec4(cross(a, h) / size, 0.5 * size) : vec4(u, 0);
+  vec3 carried = rotate(turn, u);
+  float halfAngle = 0.5 * atan(dot(cross(carried, v), b), dot(carried, v));
+  return multiply(vec4(sin(halfAngle) * b, cos(halfAngle)), turn);
+}
+
 #endif

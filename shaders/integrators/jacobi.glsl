@@ -12,7 +12,7 @@ ImplicitEdge implicitEdgeOf(int k) {
 // M v + T (springs + gravity) of particle k.
 vec3 rightHandSide(int k, vec3 forceBefore) {
   float m = restEdge[k].x;
-  return m * v[k] + stepSeconds() * (force[k] - forceBefore + m * parameters.gravity.xyz);
+  return m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * (force[k] - forceBefore);
 }
 
 // What is added to particle k's mass, and to its right-hand side: by contacts, 2 D and a momentum, read where they are
@@ -22,8 +22,10 @@ bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
 const bool kAddsMass = kContacts || kAir || kBodies;
 Symmetric massOf(int k) {
   Symmetric mass = symmetricDiagonal(restEdge[k].x);
+#ifdef RINGLET_SURROUNDINGS
   if (kAir) mass = add(mass, airDragMatrix(drag[k], tangent[k], restEdge[k].x));
   if (kBodies) mass = add(mass, pushWeight[k]);
+#endif
   if (meetsContacts(k)) {
     ContactSystem contact = contactSystemOf(strand.firstParticle + first + k);
     mass.d += 2.0 * contact.diagonal.xyz;
@@ -33,8 +35,10 @@ Symmetric massOf(int k) {
 }
 vec3 addedMomentum(int k) {
   vec3 momentum = meetsContacts(k) ? contactSystemOf(strand.firstParticle + first + k).momentum.xyz : vec3(0);
+#ifdef RINGLET_SURROUNDINGS
   if (kAir) momentum += restEdge[k].x * multiply(drag[k], tangent[k], wind[k]);
   if (kBodies) momentum += pushMomentum[k];
+#endif
   return momentum;
 }
 
@@ -43,7 +47,7 @@ vec3 addedMomentum(int k) {
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
-  vec3 sum = m * v[k] + stepSeconds() * (pull + m * parameters.gravity.xyz);
+  vec3 sum = m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * pull;
   if (kAddsMass) sum += addedMomentum(k);
   return sum;
 }

@@ -3,15 +3,17 @@
 // below about 1.1. Included by kernels/strand_step.comp.
 
 // The core's smoothed edges again: the damping loops need their directions. Smoothed from the first edge, as printed.
-void smoothedEdges(vec3 x[RUN], vec3 start, out vec3 smoothed[RUN]) {
-  FilterState state = lane == 0 ? startFilter(start) : startFilter(vec3(0));
+void smoothedEdges(vec3 x[RUN], vec3 start, out vec3 result[RUN]) {
+  FilterState state = startFilter(start, strand.coreBeta);
+  FilterState rootState = state;
+  if (lane > 0) state = emptyFilter();
   if (kLanes > 1) {
     [[unroll]] for (int k = 0; k < RUN; ++k) smoothNext(state, x[k], strand.coreBeta);
   }
-  state = filterBeforeRun(state, startFilter(start), strand.coreBeta);
+  state = filterBeforeRun(state, rootState, strand.coreBeta);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     smoothNext(state, x[k], strand.coreBeta);
-    smoothed[k] = state.d;
+    result[k] = smoothed(state, strand.coreBeta);
   }
 }
 

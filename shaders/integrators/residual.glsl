@@ -3,7 +3,8 @@
 #include "equations/velocity_residual.glsl"
 
 void measureResidual(vec3 before[RUN]) {
-  vec3 after[RUN] = v;
+  vec3 after[RUN];
+  [[unroll]] for (int k = 0; k < RUN; ++k) after[k] = v[k];
   vec3 forceBefore = forceFromRootward();
   vec3 vBefore = fromRootward(v[RUN - 1], 1);
   vec3 vNext = fromTipward(v[0], 1);

@@ -17,7 +17,8 @@ void main() {
   vec3 momentum = vec3(0);
   vec3 unmetPush = vec3(0);
   Symmetric unmet = symmetricDiagonal(0.0);
-  for (uint j = 0; j < count; ++j) {
+  uint j = 0;
+  if (count > 0) do {
     uint entry = forceEntry(list, j);
     ContactForce force = forceAt(entry);
     vec3 normal = force.normal.xyz;
@@ -30,7 +31,7 @@ void main() {
       spring = 0.0;
     }
     momentum += contactMultiply(ContactWeights(spring, force.damping), parameters.friction, normal, v + otherVelocity);
-  }
+  } while (++j < count);
   ContactSystem system = systems[rest.particle];
   float unit = rest.inverseMassUnit;
   vec3 push = vec3(system.diagonal.w, system.offDiagonal.w, system.momentum.w) - unit * unmetPush;

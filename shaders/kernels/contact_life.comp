@@ -62,7 +62,8 @@ ContactLife newLife(uint particle, float restLength) {
   return ContactLife(particle, 0.0, restLength, parameters.stiffness * mass / (rest.point.w + other.point.w));
 }
 
-// Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one must.
+// Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one must; and
+// loops ask after their body, or it does one turn more.
 void main() {
   if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
@@ -77,42 +78,48 @@ void main() {
 
   // Contacts of the step before.
   uint made = 0;  // turns of loops; and how many there should be
-  for (uint j = 0; j < countBefore; ++j, ++made) {
-    liveOn(lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j))));
-  }
+  if (countBefore > 0) do {
+    liveOn(lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, made))));
+  } while (++made < countBefore);
 
   // Neighbours that touch (contact_touch.comp) and did not before.
   uint neighbourList = listOf(c);
   uint blockCount = (lists[neighbourList] + kListBlock - 1) / kListBlock;
   uint wanted = countBefore + blockCount;
   uint sought = 0;  // where the last one was found: lists are in like order
-  for (uint b = 0; b < blockCount; ++b, ++made) {
+  uint b = 0;
+  if (blockCount > 0) do {
     uint first = lists[listedBlock(neighbourList, b)] * kListBlock;
     uint touching = lists[touchingBits(neighbourList, b)];
     uint fresh = touching;
     wanted += bitCount(touching);
-    for (; touching != 0; touching &= touching - 1, ++made) {
+    if (touching != 0) do {
       uint k = findLSB(touching);
+      touching &= touching - 1;
+      ++made;
       uvec4 two = twoPairsAt(first + (k & ~1u));
       uint particle = (k & 1) == 0 ? two.x : two.z;
       bool isKnown = false;
       uint looked = 0;
-      for (; looked < countBefore && !isKnown; ++looked) {
+      if (countBefore > 0) do {
         uint j = sought + looked < countBefore ? sought + looked : sought + looked - countBefore;
         isKnown = lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j))).particle == particle;
         if (isKnown) sought = j + 1;
-      }
+      } while (++looked < countBefore && !isKnown);
       if (isKnown) fresh &= ~(1u << k);
       if (!isKnown && looked < countBefore) ++wanted;  // the loop was cut short
-    }
+    } while (touching != 0);
     wanted += bitCount(fresh);
-    for (; fresh != 0; fresh &= fresh - 1, ++made) {
+    if (fresh != 0) do {
       uint k = findLSB(fresh);
+      fresh &= fresh - 1;
+      ++made;
       uvec4 two = twoPairsAt(first + (k & ~1u));
       uvec2 pair = (k & 1) == 0 ? two.xy : two.zw;
       liveOn(newLife(pair.x, uintBitsToFloat(pair.y)));
-    }
-  }
+    } while (fresh != 0);
+    ++made;
+  } while (++b < blockCount);
   liveLists[list] = count;
   if (count > control.longestLive) atomicMax(control.longestLive, count);
   if (made != wanted) control.isHalted = kHaltedByTurns;

@@ -13,7 +13,9 @@ void main() {
   uint end = startOf(bucket + 1);
   uint before = 0;
   uint other = start;
-  for (; other < end; ++other) before += grid[gridEntry(other)] < c ? 1 : 0;
+  do {  // itself is there
+    before += grid[gridEntry(other)] < c ? 1 : 0;
+  } while (++other < end);
   if (other < end) control.isHalted = kHaltedByTurns;
   ContactRest rest = contactOf(c);
   places[start + before] = ContactPlace(vec4(positionOf(rest.particle), uintBitsToFloat(c)),

@@ -25,11 +25,13 @@ uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : 
 // own: record of this invocation's strand. As solver/neighbour_table.h fills the table.
 bool mayTouch(uvec4 own, uint strand) {
   uint bucket = strand * 2654435761u >> 16;
-  for (uint tried = 0; tried <= own.y; ++tried, ++bucket) {
+  uint tried = 0;
+  do {
     uvec4 four = neighbourRecord(own.x + (bucket & own.y));
     if (any(equal(four, uvec4(strand)))) return true;
     if (any(equal(four, uvec4(kNoStrand)))) return false;
-  }
+    ++bucket;
+  } while (++tried <= own.y);
   return false;
 }
 
@@ -49,38 +51,46 @@ void main() {
   list = listOf(c);
   uint wanted = 9;  // turns of the loops below; and how many they made
   uint made = 0;
-  for (int row = 0; row < 9; ++row, ++made) {
+  int row = 0;
+  do {
     // Three cells along x: a range of entries, which may go on from the last bucket to the first.
     ivec3 middle = cell + ivec3(0, row % 3 - 1, row / 3 - 1);
     uint first = bucketOf(middle - ivec3(1, 0, 0));
     uint entry = startOf(first);
     uint entries = startOf(min(first + 3, parameters.bucketCount)) - entry;
     if (first + 3 > parameters.bucketCount) entries += startOf(first + 3 - parameters.bucketCount);
-    while (entries > 0) {
+    if (entries > 0) do {
       if (entry == parameters.contactCount) entry = 0;
       uint looked = min(min(entries, 32), parameters.contactCount - entry);
       // Three sieves, finer and dearer each, over what is left as bits: a driver that runs invocations in step does for all
-      // of them what a single one must.
+      // of them what a single one must. And it runs the body of a loop that asks before it once more than there are turns;
+      // hence if and do.
       uint near = 0;
-      for (uint k = 0; k < looked; ++k, ++made) {
+      uint k = 0;
+      do {
         precise vec3 apart = x - placedPosition(entry + k).xyz;
         precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
         near |= squared < farthest * farthest ? 1u << k : 0;
-      }
+        ++made;
+      } while (++k < looked);
       wanted += looked + bitCount(near);
       uint meeting = 0;  // near enough for how fast the two near each other
-      for (; near != 0; near &= near - 1, ++made) {
+      if (near != 0) do {
         uint k = findLSB(near);
+        near &= near - 1;
+        ++made;
         vec3 apart = x - placedPosition(entry + k).xyz;
         vec4 other = placedVelocity(entry + k);
         float ahead = parameters.seconds * length(v - other.xyz);
         float reach = 1.0001 * (min(mostR + ahead, parameters.seenAhead * mostR) + parameters.skin);
         bool mayMeet = dot(apart, apart) < reach * reach && floatBitsToUint(other.w) != rest.strand;
         meeting |= mayMeet ? 1u << k : 0;
-      }
+      } while (near != 0);
       wanted += bitCount(meeting);
-      for (; meeting != 0; meeting &= meeting - 1, ++made) {
+      if (meeting != 0) do {
         uint k = findLSB(meeting);
+        meeting &= meeting - 1;
+        ++made;
         vec4 found = placedPosition(entry + k);
         vec3 otherVelocity = placedVelocity(entry + k).xyz;
         ContactRest other = contactOf(floatBitsToUint(found.w));
@@ -96,11 +106,12 @@ void main() {
         if (!isCandidate || !(squared < reach * reach)) continue;
         if (parameters.everyPair == 0 && !mayTouch(ownNeighbours, other.strand)) continue;
         append(ContactPair(other.particle, r0));
-      }
+      } while (meeting != 0);
       entry += looked;
       entries -= looked;
-    }
-  }
+    } while (entries > 0);
+    ++made;
+  } while (++row < 9);
   lists[list] = count;
   if (count > control.longestList) atomicMax(control.longestList, count);
   histories[c].position = vec4(x, 0);

@@ -25,20 +25,24 @@ void main() {
   uint count = lists[list];
   bool meets = liveLists[liveListOf(c, control.parity ^ 1)] > 0;
   uint made = 0;
-  for (uint begin = 0; begin < count; begin += kListBlock) {
+  uint begin = 0;
+  if (count > 0) do {
     uint first = lists[listedBlock(list, begin / kListBlock)] * kListBlock;
     uint inBlock = min(count - begin, kListBlock);
     uint bits = 0;
-    for (uint k = 0; k < inBlock; k += 2) {
+    uint k = 0;
+    do {
       uvec4 two = twoPairsAt(first + k);
       bits |= touches(two.x, uintBitsToFloat(two.y)) ? 1u << k : 0;
       bits |= touches(two.z, uintBitsToFloat(two.w)) ? 2u << k : 0;
-    }
+      k += 2;
+    } while (k < inBlock);
     if (inBlock < 32) bits &= (1u << inBlock) - 1;
     lists[touchingBits(list, begin / kListBlock)] = bits;
     meets = meets || bits != 0;
     made += inBlock;
-  }
+    begin += kListBlock;
+  } while (begin < count);
   if (made != count) control.isHalted = kHaltedByTurns;
   liveLists[liveListOf(c, control.parity)] = 0;
   if (!meets) return;

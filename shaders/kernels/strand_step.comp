@@ -1,8 +1,11 @@
 // The strand kernel, lanes x run: all outer steps of a dispatch for one strand, in registers; global memory is touched at
 // its start and end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose stages
 // these are, in the same order. Mirrored by reference/kernels/strand_step.h; one thread per strand: strand_step_serial.comp.
-// Compiled with RUN = particles per lane; specialized with the lanes per strand and the integrator. With contacts every
-// solve is a dispatch of its own; the last of a step moves the strand and goes on to the next step's first.
+// Loops ask after their body (do, or if and do): a driver that masks lanes (lavapipe) runs the body of one that asks before
+// it once more than it has turns. Specialized with RUN = particles per lane, the lanes per strand and the integrator. With
+// contacts every solve is a dispatch of its own; the last of a step moves the strand and goes on to the next step's first.
+// Compiled three times: `jacobi` by itself; with RINGLET_SURROUNDINGS, bodies and air; with RINGLET_BASELINES, the other
+// integrators.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -24,7 +27,7 @@
 // 4 x longer to compile).
 vec3 p[RUN];
 vec3 v[RUN];
-vec4 restTarget[RUN];  // xyz rest vector in its frame, w stretch rest length
+vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest length
 vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
 float inverseLength[RUN];  // 1 / the groom's edge length
 vec2 bendVariation[RUN];   // factors of bend stiffness and damping, where they vary along the strand
@@ -37,7 +40,10 @@ vec3 eHat[RUN];     // its direction
 float eLength[RUN];
 vec3 h[RUN];        // core spring on the smoothed curve, then back on the real edges
 vec3 force[RUN];    // all elastic forces of the edge
-vec4 turn[RUN];     // from the frame before the edge to the frame after it, less the identity
+vec3 directionBefore[RUN];  // of the frame before the edge; its normal, but for an angle that the whole run shares
+vec3 normalBefore[RUN];
+vec3 directionAfter;        // of the frame after the run
+vec3 normalAfter;
 float coreScale;    // blend of the core's constants
 
 // What the report will say:
@@ -51,16 +57,23 @@ bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
 bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 
+// Of the strand's first edge; frames are the rest pose's there.
+vec3 restDirection() { return directionOf(strand.firstEdge.xyz); }
+
 // What lies beyond the tip is void: its springs are zero (edge scale), its edges of any length, so nothing reaches back
 // from it and no stage needs to ask.
 void loadStrand() {
+  vec3 direction = restDirection();
+  vec3 normal = someNormal(direction);
+  vec3 binormal = cross(direction, normal);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     bool real = isParticle(k);
     uint i = strand.firstParticle + (real ? first + k : 0);
     p[k] = real ? positionAtStart(i) : vec3(0);
     v[k] = real ? velocityAtStart(i) : vec3(0);
     ParticleRest rest = particleRest(i);
-    restTarget[k] = rest.target;
+    restTarget[k] = vec4(dot(rest.target.xyz, direction), dot(rest.target.xyz, normal), dot(rest.target.xyz, binormal),
+                         rest.target.w);
     bool edge = isEdge(k);
     restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? parameters.maxStretch * rest.edgeLength : 1e30,
                        rest.coreEdgeLength, edge ? edgeScaleOf(rest.edgeLength) : 0.0);
@@ -69,6 +82,7 @@ void loadStrand() {
   }
 }
 
+float edgeLengthOf(int k) { return restEdge[k].y / parameters.maxStretch; }
 float bendStiffnessOf(int k) { return strand.bendStiffness * restEdge[k].w * (kBendVaries ? bendVariation[k].x : 1.0); }
 float bendDampingOf(int k) {
   float damping = strand.bendDamping * restEdge[k].w * (kBendVaries ? bendVariation[k].y : 1.0);
@@ -84,71 +98,87 @@ void measureEdges() {
     dv[k] = (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k];
     float squared = dot(e[k], e[k]);
     eLength[k] = sqrt(squared);
-    eHat[k] = e[k] / max(eLength[k], 1e-15);
+    eHat[k] = (1.0 / max(eLength[k], 1e-15)) * e[k];
     degenerateEdges += squared <= 1e-30 && isEdge(k) ? 1 : 0;
     maxStretch = max(maxStretch, eLength[k] * inverseLength[k]);
   }
 }
 
-// The smoothed curves: turns of the frames from one, forces of the core spring from the other. Two passes: the first
-// finds each lane's end state, the scan carries it, the second begins where the lane before ended.
-void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection) {
-  FilterState bend, core, velocity;
-  FilterState zero = startFilter(vec3(0));
-  bend = lane == 0 ? startFilter(edgeStart) : zero;
-  core = bend;
-  velocity = lane == 0 ? startFilter(velocityStart) : zero;
+// The smoothed curves: directions and normals of the frames from one, forces of the core spring from the other. Two passes:
+// the first finds each lane's end state, the scan carries it, the second begins where the lane before ended.
+void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 rootNormal) {
+  FilterState bendStart = startFilter(edgeStart, strand.bendBeta);
+  FilterState coreStart = startFilter(edgeStart, strand.coreBeta);
+  FilterState velocityStartState = startFilter(velocityStart, strand.coreBeta);
+  FilterState bend = bendStart;
+  FilterState core = coreStart;
+  FilterState velocity = velocityStartState;
   if (kLanes > 1) {
+    if (lane > 0) bend = core = velocity = emptyFilter();
     [[unroll]] for (int k = 0; k < RUN; ++k) {
       smoothNext(bend, e[k], strand.bendBeta);
       if (!kOneSmoothing) smoothNext(core, e[k], strand.coreBeta);
       smoothNext(velocity, dv[k], strand.coreBeta);
     }
+    bend = filterBeforeRun(bend, bendStart, strand.bendBeta);
+    if (!kOneSmoothing) core = filterBeforeRun(core, coreStart, strand.coreBeta);
+    velocity = filterBeforeRun(velocity, velocityStartState, strand.coreBeta);
   }
-  bend = filterBeforeRun(bend, startFilter(edgeStart), strand.bendBeta);
-  if (!kOneSmoothing) core = filterBeforeRun(core, startFilter(edgeStart), strand.coreBeta);
-  velocity = filterBeforeRun(velocity, startFilter(velocityStart), strand.coreBeta);
 
   vec3 direction = lane == 0 ? rootDirection : directionOf(bend.d);
+  vec3 normal = lane == 0 ? rootNormal : someNormal(direction);
+  float share = smoothedShare(strand.coreBeta);
+  // The paper damps in its own loop.
+  float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping * share;
   float coreLength = 0.0;
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     smoothNext(bend, e[k], strand.bendBeta);
-    if (kOneSmoothing) {
-      core = bend;
-    } else {
-      smoothNext(core, e[k], strand.coreBeta);
-    }
+    if (!kOneSmoothing) smoothNext(core, e[k], strand.coreBeta);
     smoothNext(velocity, dv[k], strand.coreBeta);
+    directionBefore[k] = direction;
+    normalBefore[k] = normal;
     vec3 next = directionOf(bend.d);
-    turn[k] = smallestTurn(direction, next);
-    direction = next;
-    float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping;  // the paper damps in its own loop
-    float bLength = length(core.d);
-    h[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, core.d / max(bLength, 1e-15), bLength,
-                     restEdge[k].z, velocity.d);
+    vec3 b = kOneSmoothing ? bend.d : core.d;
+    vec3 bDirection = kOneSmoothing ? next : directionOf(b);
+    float bLength = share * dot(b, bDirection);
+    h[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, bDirection, bLength, restEdge[k].z,
+                     velocity.d);
     coreLength += isEdge(k) ? bLength : 0.0;
-    if (isEdge(k)) RINGLET_TAP(kTapSmoothedEdge, first + k, vec4(bend.d, 0));
-    if (isEdge(k)) RINGLET_TAP(kTapCoreEdge, first + k, vec4(core.d, 0));
+    if (next == vec3(0)) next = direction;  // without direction: on as before
+    normal = carriedNormal(normal, direction, next);
+    direction = next;
+    if (isEdge(k)) RINGLET_TAP(kTapSmoothedEdge, first + k, vec4(smoothed(bend, strand.bendBeta), 0));
+    if (isEdge(k)) RINGLET_TAP(kTapCoreEdge, first + k, vec4(share * b, 0));
   }
+  directionAfter = direction;
+  normalAfter = normal;
   coreScale = coreBlend(sumOverStrand(coreLength) / strand.restCoreLength, parameters.coreRelaxedShare,
                         parameters.coreElongationLow, parameters.coreElongationHigh);
 }
 
+#ifdef RINGLET_TAPS
+vec4 frameAfter(int k, vec2 twist) {
+  vec3 direction = k + 1 < RUN ? directionBefore[min(k + 1, RUN - 1)] : directionAfter;
+  vec3 normal = k + 1 < RUN ? normalBefore[min(k + 1, RUN - 1)] : normalAfter;
+  return frameBetween(restDirection(), someNormal(restDirection()), direction,
+                      twist.x * normal + twist.y * cross(direction, normal));
+}
+#endif
+
 // Frames carried along the smoothed curve, each edge's target in the frame before it, stretch and bend springs.
-void shapeForces(vec4 rootFrame) {
-  vec4 product = kIdentity;
-  if (kLanes > 1) {
-    [[unroll]] for (int k = 0; k < RUN; ++k) product = turned(turn[k], product);
-  }
-  vec4 frame = frameBeforeRun(renormalized(product), rootFrame);
+void shapeForces() {
+  vec2 twist = twistOfRun(directionBefore[0], normalBefore[0], normalAfter);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
-    vec3 target = rotate(frame, restTarget[k].xyz);
-    vec3 stretch = stretchForce(strand.stretchStiffness * restEdge[k].w, eLength[k], restTarget[k].w, eHat[k]);
+    vec3 direction = directionBefore[k];
+    vec3 normal = normalBefore[k];
+    vec4 rest = restTarget[k];
+    vec3 target = rest.x * direction + (twist.x * rest.y - twist.y * rest.z) * normal +
+                  (twist.y * rest.y + twist.x * rest.z) * cross(direction, normal);
+    vec3 stretch = stretchForce(strand.stretchStiffness * restEdge[k].w, eLength[k], rest.w, eHat[k]);
     vec3 bend = bendForce(bendStiffnessOf(k), e[k], target);
     force[k] = stretch + bend;
-    frame = turned(turn[k], frame);
     if (isEdge(k)) {
-      RINGLET_TAP(kTapFrame, first + k, frame);
+      RINGLET_TAP(kTapFrame, first + k, frameAfter(k, twist));
       RINGLET_TAP(kTapTarget, first + k, vec4(target, 0));
       RINGLET_TAP(kTapStretchForce, first + k, vec4(stretch, 0));
       RINGLET_TAP(kTapBendForce, first + k, vec4(bend, 0));
@@ -159,19 +189,21 @@ void shapeForces(vec4 rootFrame) {
 // The core's forces back on the real edges: the transpose of the smoothing, from the tip, so that they stay a gradient
 // ("transposed core"). The paper puts them on the edges as they are.
 void coreForces() {
+  float scale = coreScale;
   if (kIntegrator != kIntegratorPaper) {
-    FilterState state = startFilter(vec3(0));
+    FilterState state = emptyFilter();
     if (kLanes > 1) {
       [[unroll]] for (int k = RUN - 1; k >= 0; --k) smoothNext(state, h[k], strand.coreBeta);
+      state = filterBeyondRun(state, strand.coreBeta);
     }
-    state = filterBeyondRun(state, strand.coreBeta);
     [[unroll]] for (int k = RUN - 1; k >= 0; --k) {
       smoothNext(state, h[k], strand.coreBeta);
       h[k] = state.d;
     }
+    scale *= smoothedShare(strand.coreBeta);
   }
   [[unroll]] for (int k = 0; k < RUN; ++k) {
-    h[k] *= coreScale;
+    h[k] *= scale;
     if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(h[k], 0));
     force[k] += h[k];
   }
@@ -180,45 +212,60 @@ void coreForces() {
 // Elastic force on particle k: its edge pulls it on, the edge before pulls it back.
 vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
 
+#ifdef RINGLET_SURROUNDINGS
 #include "bodies/run_air.glsl"
 #include "bodies/run_bodies.glsl"
+#endif
 #include "integrators/jacobi.glsl"
+#include "integrators/two_way.glsl"
+#include "integrators/residual.glsl"
+#ifdef RINGLET_BASELINES
 #include "integrators/paper.glsl"
 #include "integrators/point_jacobi.glsl"
-#include "integrators/residual.glsl"
+#endif
 
+#ifdef RINGLET_SURROUNDINGS
 // The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is one
 // solve in the code.
 void solveAmongBodies(uint step, vec3 pinned[3]) {
-  vec3 before[RUN] = v;
+  vec3 before[RUN];
+  [[unroll]] for (int k = 0; k < RUN; ++k) before[k] = v[k];
   clearPushes();
   bool pushed = false;
-  for (uint turn = 0; turn < (pushed ? 3 : 1); ++turn) {
-    v = before;
+  uint turn = 0;
+  do {
+    [[unroll]] for (int k = 0; k < RUN; ++k) v[k] = before[k];
     solveStrandBlock(pinned);
     if (turn == 0) pushed = findPushes(step);
     if (turn == 1) addFriction();
     if (turn == 2) rubRun();
-  }
+  } while (++turn < (pushed ? 3 : 1));
 }
+#endif
 
 void solveVelocities(uint step) {
   vec3 pinned[3];
   [[unroll]] for (int k = 0; k < 3; ++k) {
     pinned[k] = pinnedVelocity(step, k);
   }
-  vec3 before[RUN] = v;
-  if (kIntegrator == kIntegratorJacobi) {
-    if (kAir) feelAir(step);
-    if (kBodies) {
-      solveAmongBodies(step, pinned);
+  vec3 before[RUN];
+  [[unroll]] for (int k = 0; k < RUN; ++k) before[k] = v[k];
+#ifdef RINGLET_SURROUNDINGS
+  if (kAir) feelAir(step);
+  if (kBodies) solveAmongBodies(step, pinned);
+#endif
+  if (kIntegrator == kIntegratorJacobi && !kBodies) {
+    if (kFromBothEnds) {
+      solveFromBothEnds(pinned);
     } else {
       solveStrandBlock(pinned);
     }
   }
+#ifdef RINGLET_BASELINES
   if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
-  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual(before);
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
+#endif
+  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual(before);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
   }
@@ -240,28 +287,34 @@ bool limitEdges(bool velocitiesFollow) {
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     vec3 s = isPinned(k) ? vec3(0) : before + e[k];
     p[k] += s;
-    if (velocitiesFollow) v[k] += s / stepSeconds();
+    if (velocitiesFollow) v[k] += (1.0 / stepSeconds()) * s;
   }
   if (velocitiesFollow) limitedEdges += limited;
   return kBodies && sumOverStrand(limited) > 0;
 }
 
+#ifdef RINGLET_SURROUNDINGS
 // Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other.
 void keepAmongBodies(uint step) {
-  bool again = true;
-  for (uint round = 1; again; ++round) {
+  bool again;
+  uint round = 1;
+  do {
     keepRunOut(step);
     if (round == kKeepOutRounds) break;
     vec3 pNext = fromTipward(p[0], 1);
     [[unroll]] for (int k = 0; k < RUN; ++k) e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
     again = limitEdges(false);
-  }
+    ++round;
+  } while (again);
 }
+#endif
 
 // p += T v, then the stretch limit, then out of bodies.
 void moveAndLimit(uint step) {
   float T = stepSeconds();
-  if (kBodies) pStart = p;
+#ifdef RINGLET_SURROUNDINGS
+  [[unroll]] for (int k = 0; k < RUN; ++k) pStart[k] = p[k];
+#endif
   // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
   vec3 vNext = fromTipward(v[0], 1);
   [[unroll]] for (int k = 0; k < RUN; ++k) {
@@ -269,7 +322,9 @@ void moveAndLimit(uint step) {
     e[k] += T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
   }
   limitEdges(true);
+#ifdef RINGLET_SURROUNDINGS
   if (kBodies) keepAmongBodies(step);
+#endif
 }
 
 void storeStrand(uint strandIndex) {
@@ -315,15 +370,16 @@ void computeForces(uint step) {
   vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge.xyz);
   vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
   vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
-  smoothCurves(edgeStart, velocityStart, directionOf(firstEdge));
-  shapeForces(rotationAtStart(step));
+  smoothCurves(edgeStart, velocityStart, directionOf(firstEdge), rotate(rotationAtStart(step), someNormal(restDirection())));
+  shapeForces();
   coreForces();
 }
 
 // One solve with the contacts' systems or, of the step after a move, without them. An idle strand has no particles.
 void solveOnce(uint strandIndex, bool idle) {
   bool moves = (parameters.phases & kPhaseMove) != 0;
-  for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
+  uint step = parameters.stepBegin;
+  do {
     withContacts = (parameters.phases & kPhaseContacts) != 0 && step == parameters.stepBegin;
     computeForces(step);
     solveVelocities(step);
@@ -332,7 +388,7 @@ void solveOnce(uint strandIndex, bool idle) {
     moveAndLimit(step);
     measureEdges();  // the step's stretch, for the report
     if (!idle) storeStrand(strandIndex);
-  }
+  } while (++step < parameters.stepEnd);
 }
 
 void main() {
@@ -352,11 +408,12 @@ void main() {
     solveOnce(strandIndex, idle);
     return;
   }
-  for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
+  uint step = parameters.stepBegin;
+  do {
     computeForces(step);
     solveVelocities(step);
     moveAndLimit(step);
-  }
+  } while (++step < parameters.stepEnd);
   measureEdges();  // the last step's stretch, for the report
   if (!idle) storeStrand(strandIndex);
 }

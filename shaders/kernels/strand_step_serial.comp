@@ -102,9 +102,9 @@ float springSweep(uint step) {
     edgeStart = position(1) - position(0);
     velocityStart = velocity(1) - velocity(0);
   }
-  FilterState bendCurve = startFilter(edgeStart);
-  FilterState core = startFilter(edgeStart);
-  FilterState coreVelocity = startFilter(velocityStart);
+  FilterState bendCurve = startFilter(edgeStart, strand.bendBeta);
+  FilterState core = startFilter(edgeStart, strand.coreBeta);
+  FilterState coreVelocity = startFilter(velocityStart, strand.coreBeta);
   vec3 direction = directionOf(firstEdge);
   float coreLength = 0.0;
   for (uint i = 0; i + 1 < count; ++i) {
@@ -127,14 +127,15 @@ float springSweep(uint step) {
     setScratch(i, kForce, stretch + bend);
 
     float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping;
-    float bLength = length(core.d);
-    vec3 bDirection = core.d / max(bLength, 1e-15);
+    vec3 b = smoothed(core, strand.coreBeta);
+    float bLength = length(b);
+    vec3 bDirection = b / max(bLength, 1e-15);
     setScratch(i, kCore, coreForce(strand.coreStiffness * scale, damping * scale, bDirection, bLength,
-                                   rest.coreEdgeLength, coreVelocity.d));
+                                   rest.coreEdgeLength, smoothed(coreVelocity, strand.coreBeta)));
     if (kIntegrator == kIntegratorPaper) setScratch(i, kCoreDirection, bDirection);
     coreLength += bLength;
-    RINGLET_TAP(kTapSmoothedEdge, i, vec4(bendCurve.d, 0));
-    RINGLET_TAP(kTapCoreEdge, i, vec4(core.d, 0));
+    RINGLET_TAP(kTapSmoothedEdge, i, vec4(smoothed(bendCurve, strand.bendBeta), 0));
+    RINGLET_TAP(kTapCoreEdge, i, vec4(b, 0));
     RINGLET_TAP(kTapFrame, i, frame);
     RINGLET_TAP(kTapTarget, i, vec4(target, 0));
     RINGLET_TAP(kTapStretchForce, i, vec4(stretch, 0));
@@ -146,12 +147,12 @@ float springSweep(uint step) {
 
 // Tip to root: the core's forces back on the real edges by the transposed smoothing.
 void coreSweep(float coreScale) {
-  FilterState state = startFilter(vec3(0));
+  FilterState state = emptyFilter();
   for (uint i = count - 1; i-- > 0;) {
     vec3 g = scratchOf(i, kCore);
     if (kIntegrator != kIntegratorPaper) {
       smoothNext(state, g, strand.coreBeta);
-      g = state.d;
+      g = smoothed(state, strand.coreBeta);
     }
     g *= coreScale;
     RINGLET_TAP(kTapCoreForce, i, vec4(g, 0));
@@ -276,7 +277,7 @@ void loopAsThePaper() {
     }
     for (uint inner = 0; inner < parameters.dampingLoops; ++inner) {
       vec3 start = velocity(1) - velocity(0);
-      FilterState nu = startFilter(start);
+      FilterState nu = startFilter(start, strand.coreBeta);
       vec3 before = vec3(0);
       vec3 here = velocity(0);
       for (uint i = 0; i < count; ++i) {
@@ -290,7 +291,7 @@ void loopAsThePaper() {
           vec3 core = scratchOf(i, kCoreDirection);
           vec3 stretching = dot(dv, direction) * direction;
           damping = edgeScale(i) * (strand.stretchDamping * stretching + strand.bendDamping * (dv - stretching) +
-                                    coreScale * strand.coreDamping * dot(nu.d, core) * core);
+                                    coreScale * strand.coreDamping * dot(smoothed(nu, strand.coreBeta), core) * core);
         }
         if (!isPinned(i)) setVelocity(i, here + dtDamping / mass(i) * (damping - before));
         before = damping;

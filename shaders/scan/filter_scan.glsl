@@ -5,23 +5,28 @@
 #include "equations/smoothing.glsl"
 #include "scan/lanes.glsl"
 
-/// γ^RUN by squaring (pow() would cost digits and time).
+/// γ^RUN by squaring, from RUN's highest bit down (pow() would cost digits and time).
 float gammaToRun(float beta) {
-  float g = 1.0 - beta;
-  [[unroll]] for (int n = 1; n < RUN; n *= 2) g *= g;
+  float gamma = keptShare(beta);
+  float g = gamma;
+  [[unroll]] for (int bit = 4; bit >= 0; --bit) {
+    if ((RUN >> (bit + 1)) == 0) continue;
+    g *= g;
+    if (((RUN >> bit) & 1) != 0) g *= gamma;
+  }
   return g;
 }
 
 /// `end`: state after this lane's run, started from zero, or in lane 0 from `start`. Returns the state before the run.
 FilterState filterBeforeRun(FilterState end, FilterState start, float beta) {
   if (kLanes == 1) return start;
-  float nBeta = float(RUN) * beta;
+  float n = float(RUN);
   float gammaToN = gammaToRun(beta);
   [[unroll]] for (uint o = 1; o < kLanes; o *= 2) {
     FilterState before = FilterState(fromRootward(end.a, o), fromRootward(end.d, o));
-    FilterState joined = carryFilter(before, end, nBeta, gammaToN);
+    FilterState joined = carryFilter(before, end, n, gammaToN);
     if (lane >= o) end = joined;
-    nBeta *= 2.0;
+    n *= 2.0;
     gammaToN *= gammaToN;
   }
   FilterState before = FilterState(fromRootward(end.a, 1), fromRootward(end.d, 1));
@@ -30,15 +35,15 @@ FilterState filterBeforeRun(FilterState end, FilterState start, float beta) {
 
 /// The same from the tip: `end` is the state after this lane's run was taken in from its tip end, from zero.
 FilterState filterBeyondRun(FilterState end, float beta) {
-  FilterState nothing = startFilter(vec3(0));
+  FilterState nothing = emptyFilter();
   if (kLanes == 1) return nothing;
-  float nBeta = float(RUN) * beta;
+  float n = float(RUN);
   float gammaToN = gammaToRun(beta);
   [[unroll]] for (uint o = 1; o < kLanes; o *= 2) {
     FilterState before = FilterState(fromTipward(end.a, o), fromTipward(end.d, o));
-    FilterState joined = carryFilter(before, end, nBeta, gammaToN);
+    FilterState joined = carryFilter(before, end, n, gammaToN);
     if (lane + o < kLanes) end = joined;
-    nBeta *= 2.0;
+    n *= 2.0;
     gammaToN *= gammaToN;
   }
   FilterState before = FilterState(fromTipward(end.a, 1), fromTipward(end.d, 1));

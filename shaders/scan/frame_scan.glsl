@@ -1,19 +1,25 @@
-// Carries frames across lanes: the product of turns from the root up to each lane.
+// Carries frames across lanes. Along its run a lane carries a normal of its own choice; what it lacks to the frame's normal is
+// one angle about the curve for the whole run, and angles add up.
 #ifndef RINGLET_FRAME_SCAN
 #define RINGLET_FRAME_SCAN
 
-#include "maths/quaternion.glsl"
+#include "equations/frame.glsl"
 #include "scan/lanes.glsl"
 
-/// `turn`: the product of this lane's turns. Returns the frame before the run: all earlier lanes' turns after `rootFrame`.
-vec4 frameBeforeRun(vec4 turn, vec4 rootFrame) {
-  if (kLanes == 1) return rootFrame;
+/// `normal`: what this lane began with, about `direction`; `normalAfter`: what that has become at the run's end. Returns
+/// cosine and sine of the angle from the lane's normals to the frames'; lane 0 begins with the frame's own.
+vec2 twistOfRun(vec3 direction, vec3 normal, vec3 normalAfter) {
+  if (kLanes == 1) return vec2(1, 0);
+  vec3 arriving = fromRootward(normalAfter, 1);
+  vec2 twist = vec2(dot(arriving, normal), dot(arriving, cross(direction, normal)));
+  twist *= inversesqrt(max(dot(twist, twist), 1e-20));
+  if (lane == 0) twist = vec2(1, 0);
   [[unroll]] for (uint o = 1; o < kLanes; o *= 2) {
-    vec4 before = fromRootward(turn, o);
-    if (lane >= o) turn = renormalized(multiply(turn, before));
+    vec2 before = fromRootward(twist, o);
+    vec2 both = vec2(before.x * twist.x - before.y * twist.y, before.x * twist.y + before.y * twist.x);
+    if (lane >= o) twist = both;
   }
-  vec4 before = fromRootward(turn, 1);
-  return lane == 0 ? rootFrame : multiply(before, rootFrame);
+  return twist;
 }
 
 #endif

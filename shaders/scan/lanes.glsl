@@ -10,6 +10,7 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 
 layout(constant_id = 1) const uint kLanes = 1;
+layout(constant_id = 12) const int RUN = 16;  // 4 to 32; arrays of such a size GLSL copies only element by element
 
 uint lane;  // this invocation's place along its strand, 0 at the root
 
@@ -21,6 +22,7 @@ uint rootward(uint offset) { return lane >= offset ? gl_SubgroupInvocationID - o
 uint tipward(uint offset) { return lane + offset < kLanes ? gl_SubgroupInvocationID + offset : gl_SubgroupInvocationID; }
 
 float fromRootward(float x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
+vec2 fromRootward(vec2 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec3 fromRootward(vec3 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec4 fromRootward(vec4 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec3 fromTipward(vec3 x, uint offset) { return subgroupShuffle(x, tipward(offset)); }

@@ -38,15 +38,19 @@ class Backend {
  public:
   virtual ~Backend() = default;
 
-  /// One frame, finished when this returns; stepPoses[k] is the head's pose at the end of step k, bodyPoses
-  /// what bodyPosesOf gives for these steps, rootPoses what Simulation::stepFrame takes.
-  virtual Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                           std::span<const BodyPose> rootPoses) = 0;
-  /// Groom order, relative to the head's origin, along world axes [m].
+  /// Frames in flight, as Simulation has them (kFramesInFlight, and until when framePositions may be asked);
+  /// the reference computes at once. stepPoses[k] is the head's pose at the end of step k, bodyPoses what
+  /// bodyPosesOf gives for these steps, rootPoses what Simulation::stepFrame takes.
+  virtual Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                             std::span<const BodyPose> rootPoses) = 0;
+  virtual Status waitFrame() = 0;
+  /// Of the frame waited for last. Groom order, relative to the head's origin, along world axes [m].
+  virtual std::vector<Vec3f> framePositions() = 0;
+  /// The same of now, before the first frame too, and no frame in flight.
   virtual Result<std::vector<Vec3f>> positions() = 0;
   virtual Result<SimulationReport> report() = 0;
   virtual Result<ContactReport> contactReport() = 0;
-  /// By stage, summed over all frames [ms].
+  /// By stage of computing, summed over all frames waited for [ms].
   virtual std::map<std::string, double> stageMilliseconds() const = 0;
   /// Of the hair and its settings, and what the device's own watchers say.
   virtual std::vector<std::string> warnings() const = 0;
@@ -55,13 +59,16 @@ class Backend {
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
   virtual std::string kernel() const = 0;
+  /// Of making it [ms]; 0 where there is nothing to compile.
+  virtual double compileMilliseconds() const { return 0; }
   /// Of its buffers on the device; none where there is no device.
   virtual std::optional<std::uint64_t> deviceBytes() const = 0;
 };
 
-/// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open).
+/// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open). `tells`: a line on standard
+/// error where kernels take long to compile.
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
-                                                const KernelChoice& kernel);
+                                                const KernelChoice& kernel, bool tells);
 
 /// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
 /// warns of.

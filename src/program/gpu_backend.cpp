@@ -2,6 +2,8 @@
 #include <utility>
 
 #include "program/backend.h"
+#include "program/cache_folder.h"
+#include "program/compile_note.h"
 
 namespace ringlet::program {
 namespace {
@@ -11,10 +13,12 @@ class GpuBackend : public Backend {
   GpuBackend(ComputeDevice device, Simulation simulation)
       : device_(std::move(device)), simulation_(std::move(simulation)) {}
 
-  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                   std::span<const BodyPose> rootPoses) override {
-    return simulation_.stepFrame(stepPoses, bodyPoses, rootPoses);
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                     std::span<const BodyPose> rootPoses) override {
+    return simulation_.submitFrame(stepPoses, bodyPoses, rootPoses);
   }
+  Status waitFrame() override { return simulation_.waitFrame(); }
+  std::vector<Vec3f> framePositions() override { return simulation_.framePositions(); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<SimulationReport> report() override { return simulation_.report(); }
   Result<ContactReport> contactReport() override { return simulation_.contactReport(); }
@@ -30,6 +34,7 @@ class GpuBackend : public Backend {
   std::string device() const override { return device_.name(); }
   std::string driver() const override { return device_.driver(); }
   std::string kernel() const override { return simulation_.kernelDescription(); }
+  double compileMilliseconds() const override { return simulation_.compileMilliseconds(); }
   std::optional<std::uint64_t> deviceBytes() const override { return simulation_.memory().total(); }
 
  private:
@@ -40,11 +45,13 @@ class GpuBackend : public Backend {
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
-                                                const KernelChoice& kernel) {
-  auto device = ComputeDevice::open(deviceChoice);
+                                                const KernelChoice& kernel, bool tells) {
+  auto device = ComputeDevice::open(deviceChoice, cacheFolder());
   if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
   KernelChoice choice = kernel;
   choice.movingRoots = !input.rootStarts.empty();
+  CompileNote note(device->name());
+  if (tells) choice.observer = &note;
   auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
                                        input.oneStepEarlier, choice, input.bodies);
   if (!simulation) return simulation.error();

@@ -1,12 +1,15 @@
 // Implements interruption.h.
 #include "program/interruption.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace ringlet::program {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+// The signal may come to any thread.
+std::atomic<int> interrupted = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 void noteInterruption(int) { interrupted = 1; }
 

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "program/command_line.h"
+#include "program/convert_command.h"
 #include "program/devices_command.h"
 #include "program/exit_codes.h"
 #include "program/make_command.h"
@@ -30,6 +31,7 @@ int main(int argumentCount, char** arguments) {
   addMakeCommand(app, exitCode);
   addSimulateCommand(app, exitCode);
   addMeasureCommand(app, exitCode);
+  addConvertCommand(app, exitCode);
   addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);
   addMaterialCommand(app, exitCode);

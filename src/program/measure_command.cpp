@@ -15,12 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "program/animation_source.h"
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/measure_report.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/shape_distance.h"
-#include "ringlet/output/usd_reader.h"
 
 namespace ringlet::program {
 namespace {
@@ -34,7 +34,8 @@ constexpr const char* kExample =
     "  ringlet measure groom.obj out --against settled.obj\n"
     "                                                and how far that is from one more pose\n"
     "\n"
-    "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or its hair.usda.\n"
+    "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or its hair.usda or\n"
+    "hair.rgc.\n"
     "In an animation the groom counts as the frame before the first; tables show the last frame.\n"
     "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
     "root, or roots on a line, cannot show every turn; the head then turns as little as they allow).\n"
@@ -91,14 +92,18 @@ Status checkSameStrands(const Groom& rest, const std::vector<std::uint32_t>& cou
   return {};
 }
 
+std::vector<std::uint32_t> countsOf(const Groom& groom) {
+  std::vector<std::uint32_t> counts;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    counts.push_back(groom.firstPoint[s + 1] - groom.firstPoint[s]);
+  return counts;
+}
+
 // Another pose of REST's strands.
 Result<Groom> readPose(const Groom& rest, const Typed& typed, const std::filesystem::path& path) {
   auto pose = read(path, rest.metresPerUnit);
   if (!pose) return pose.error();
-  std::vector<std::uint32_t> counts;
-  for (std::size_t s = 0; s < pose->strandCount(); ++s)
-    counts.push_back(static_cast<std::uint32_t>(pose->strand(s).size()));
-  if (Status same = checkSameStrands(rest, counts, typed, path); !same) return same.error();
+  if (Status same = checkSameStrands(rest, countsOf(*pose), typed, path); !same) return same.error();
   return pose;
 }
 
@@ -152,34 +157,34 @@ Result<Measured> measureGroom(const Typed& typed) {
 }
 
 Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::path& path) {
-  auto reader = UsdReader::open(path);
-  if (!reader) return reader.error();
-  const double unit = reader->metresPerUnit();
+  auto source = AnimationSource::open(path);
+  if (!source) return source.error();
+  for (const std::string& warning : source->warnings()) warn(warning);
+  const double unit = source->header().metresPerUnit;
   if (typed.metresPerUnit && std::abs(*typed.metresPerUnit / unit - 1) > 1e-9) {
     return Error{fmt::format("--unit {} does not fit {}, which was written in units of {} m; leave it out",
                              *typed.metresPerUnit, path.string(), unit)};
   }
   auto rest = read(typed.rest, unit);
   if (!rest) return rest.error();
-  if (Status same = checkSameStrands(*rest, reader->particleCounts(), typed, typed.other); !same)
+  if (Status same = checkSameStrands(*rest, countsOf(source->groom()), typed, typed.other); !same)
     return same.error();
 
   // Frame by frame, from the groom itself on.
   auto motion = MotionMeasure::make(
-      *rest, {.framesPerSecond = reader->framesPerSecond(), .up = upOf(typed, reader->up())});
+      *rest, {.framesPerSecond = source->header().framesPerSecond, .up = upOf(typed, source->header().up)});
   if (!motion) return Error{fmt::format("{}: {}", typed.rest.string(), motion.error().message)};
-  std::vector<Vec3f> points = rest->points;
-  for (;;) {
+  if (source->frameCount() == 0) return Error{fmt::format("{} holds no frame", path.string())};
+  for (int frame = 0; frame <= source->frameCount(); ++frame) {
+    if (frame > 0) {
+      if (Status read = source->readFrame(frame); !read) return read.error();
+    }
+    const auto& points = frame == 0 ? rest->points : source->groom().points;
     if (Status added = motion->addFrame(points, unit); !added)
-      return Error{
-          fmt::format("{}: frame {}: {}", path.string(), motion->frameCount(), added.error().message)};
-    auto more = reader->readFrame(points);
-    if (!more) return more.error();
-    if (!*more) break;
+      return Error{fmt::format("{}: frame {}: {}", path.string(), frame, added.error().message)};
   }
-  if (motion->frameCount() < 2) return Error{fmt::format("{} holds no frame", path.string())};
 
-  auto distances = measureAgainst(motion->ruler(), *rest, points, typed);
+  auto distances = measureAgainst(motion->ruler(), *rest, source->groom().points, typed);
   if (!distances) return distances.error();
 
   MotionReport report = motion->report();
@@ -196,12 +201,8 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   measured.seconds = report.seconds;
   measured.freeSeconds = report.freeSeconds;
   measured.isPose = true;
-  measured.isUnfinished = path.extension() == ".partial";
+  measured.isUnfinished = !source->isFinished();
   return measured;
-}
-
-bool isAnimation(const std::filesystem::path& path) {
-  return path.extension() == ".usda" || path.extension() == ".partial";
 }
 
 // What OTHER is: a folder stands for the animation in it.
@@ -216,11 +217,14 @@ Result<Measured> measure(const Typed& typed) {
                     typed.rest.string(), typed.rest.string())};
   }
   if (fs::is_directory(path, code)) {
-    path = typed.other / "hair.usda";
-    if (!fs::exists(path, code)) path += ".partial";
+    for (const char* file : {"hair.usda", "hair.rgc", "hair.usda.partial", "hair.rgc.partial"}) {
+      path = typed.other / file;
+      if (fs::exists(path, code)) break;
+    }
     if (!fs::exists(path, code))
-      return Error{fmt::format("{} holds no hair.usda; is it a folder that `ringlet simulate` wrote?",
-                               typed.other.string())};
+      return Error{
+          fmt::format("{} holds no hair.usda and no hair.rgc; is it a folder that `ringlet simulate` wrote?",
+                      typed.other.string())};
   }
   return isAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed);
 }
@@ -251,7 +255,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
       ->type_name("FILE");
   command
       ->add_option("OTHER", typed->other,
-                   "What became of it: a pose (.hair, .obj, .tfx), a folder or a hair.usda")
+                   "What became of it: a pose (.hair, .obj, .tfx), a folder, a hair.usda or hair.rgc")
       ->type_name("PATH");
   command
       ->add_option("--unit", typed->metresPerUnit,

@@ -1,10 +1,11 @@
 // `--backend reference`: reference::Simulation<double> behind backend.h.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <deque>
 #include <iterator>
 
 #include "program/backend.h"
+#include "program/stopwatch.h"
 #include "reference/step.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
@@ -24,21 +25,23 @@ class ReferenceBackend : public Backend {
     if (!input.rootShifts.empty()) simulation_.setRootShifts(input.rootShifts);
   }
 
-  Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                   std::span<const BodyPose> rootPoses) override {
-    const auto start = std::chrono::steady_clock::now();
-    simulation_.stepFrame(stepPoses, bodyPoses, rootPoses);
-    milliseconds_ +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                     std::span<const BodyPose> rootPoses) override {
+    {
+      Stopwatch watch(milliseconds_);
+      simulation_.stepFrame(stepPoses, bodyPoses, rootPoses);
+    }
+    inFlight_.push_back(pointsNow());
     return {};
   }
-
-  Result<std::vector<Vec3f>> positions() override {
-    std::vector<Vec3f> points;
-    points.reserve(simulation_.positions().size());
-    for (const auto& p : simulation_.positions()) points.push_back(Vec3f(Vec3d{p.x(), p.y(), p.z()}));
-    return points;
+  Status waitFrame() override {
+    RINGLET_ASSERT(!inFlight_.empty(), "waitFrame without submitFrame");
+    waited_ = std::move(inFlight_.front());
+    inFlight_.pop_front();
+    return {};
   }
+  std::vector<Vec3f> framePositions() override { return waited_; }
+  Result<std::vector<Vec3f>> positions() override { return pointsNow(); }
 
   Result<SimulationReport> report() override {
     const auto from = simulation_.report();
@@ -71,6 +74,15 @@ class ReferenceBackend : public Backend {
   std::string kernel() const override { return "reference, double precision"; }
 
  private:
+  std::vector<Vec3f> pointsNow() const {
+    std::vector<Vec3f> points;
+    points.reserve(simulation_.positions().size());
+    for (const auto& p : simulation_.positions()) points.push_back(Vec3f(Vec3d{p.x(), p.y(), p.z()}));
+    return points;
+  }
+
+  std::deque<std::vector<Vec3f>> inFlight_;  // computed, and not waited for
+  std::vector<Vec3f> waited_;
   std::vector<std::string> warnings_;
   ContactReport contactsAtRest_;
   reference::Simulation<double> simulation_;

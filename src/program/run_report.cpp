@@ -73,6 +73,10 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["particles"] = outcome.particleCount;
   json["ms_per_frame"] = outcome.millisecondsPerFrame;
   json["stages_ms"] = outcome.stages;
+  json["wall_s"] = {
+      {"start", outcome.wall.start}, {"frames", outcome.wall.frames}, {"finish", outcome.wall.finish}};
+  json["compute_share"] = outcome.computeShare;
+  json["waits_ms"] = {{"device", outcome.waitedForDevice}, {"writer", outcome.waitedForWriter}};
   json["max_edge_stretch"] = outcome.report.maxEdgeStretch;  // null where it is not finite
   json["limited_share"] = outcome.report.limitedShare;
   json["nonfinite"] = outcome.report.nonfinite;
@@ -89,6 +93,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["kernel"] = outcome.kernel;
   json["device_bytes"] =
       outcome.deviceBytes ? nlohmann::ordered_json(*outcome.deviceBytes) : nlohmann::ordered_json();
+  json["compile_ms"] = outcome.compileMilliseconds;
   json["backend"] = names.backend;
   json["positions_hash"] = outcome.positionsHash;
   json["integrator"] = names.integrator;
@@ -113,6 +118,9 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
   text +=
       fmt::format("  a frame took  {:.2f} ms to step, {:.2f} ms to read back, {:.2f} ms to write\n",
                   outcome.millisecondsPerFrame, outcome.stages.at("readback"), outcome.stages.at("write"));
+  text +=
+      fmt::format("  all frames    took {:.2f} s, {:.0f} % of it stepping; {:.2f} s before, {:.2f} s after\n",
+                  outcome.wall.frames, 100 * outcome.computeShare, outcome.wall.start, outcome.wall.finish);
   text +=
       fmt::format("  longest edge  {:.4f} x its length in the groom; the limit touched {:.3g} % of edges\n",
                   outcome.report.maxEdgeStretch, 100 * outcome.report.limitedShare);

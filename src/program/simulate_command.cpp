@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "program/animation_source.h"
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
@@ -32,16 +33,23 @@ constexpr const char* kExample =
     "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
     "  ringlet simulate head.obj --motion walk.bvh --skip-frames 1 -o out\n"
     "  ringlet simulate scene.toml --frames 24 -o out\n"
+    "  ringlet simulate head.obj --cache 16bit --no-usd -o out && ringlet convert out/hair.rgc --info\n"
     "\n"
     "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "
     "frame, in the\n"
     "groom's order and unit), sheet.png (six frames side by side). Ctrl-C stops after the current frame and "
     "keeps what\n"
-    "is finished; until a run ends its animation is hair.usda.partial, which is valid at all times.\n"
+    "is finished; until a run ends its animation is hair.usda.partial, which is valid at all times. --cache: "
+    "hair.rgc,\n"
+    "which `ringlet convert` makes other files of.\n"
     "\n"
-    "--json keys: frames strands particles ms_per_frame (wall time of stepping alone, without reading back "
-    "and writing)\n"
-    "stages_ms (per frame, by stage) max_edge_stretch limited_share nonfinite velocity_residual (of the "
+    "--json keys: frames strands particles ms_per_frame (stepping alone, by the device's clock where it has "
+    "one)\n"
+    "stages_ms (per frame, by stage; readback and write go on while the next frame is stepped) wall_s "
+    "(start, "
+    "frames,\n"
+    "finish) compute_share (stepping, of wall_s.frames) waits_ms (per frame, for device and writer)\n"
+    "max_edge_stretch limited_share nonfinite velocity_residual (of the "
     "velocity solve,\n"
     "worst strand and step; measuring it takes a few per cent of the step's time; null for paper, with "
     "contacts,\n"
@@ -49,7 +57,8 @@ constexpr const char* kExample =
     "at a\n"
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
     "device driver kernel device_bytes (of the simulation's buffers, at the end; null for reference)\n"
-    "backend positions_hash integrator material steps_per_frame fps interrupted warnings outputs.\n";
+    "compile_ms (making the kernels, once) backend positions_hash integrator material steps_per_frame fps\n"
+    "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
@@ -58,14 +67,14 @@ constexpr const char* kExitHelp =
 // The command line as typed; what is left out is the scene file's, or the default.
 struct Typed {
   std::filesystem::path input, folder;
-  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames;
+  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames, lanes, run;
   std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload,
       width;
   std::optional<std::string> motion, joint, animation, up, integrator;
   MaterialChoice material;
   ContactChoice contacts;
-  std::string backend = "gpu", device, kernel = "auto";
-  bool measuresContacts = false, noChebyshev = false, json = false, quiet = false;
+  std::string backend = "gpu", device, kernel = "auto", cache;
+  bool measuresContacts = false, noChebyshev = false, noUsd = false, json = false, quiet = false;
 };
 
 template <class Value>
@@ -140,6 +149,7 @@ void applyOptions(const Typed& typed, SceneFile& scene) {
   applyContactOptions(typed.contacts, scene.contacts);
   if (!typed.folder.empty()) scene.output.folder = typed.folder;
   replace(scene.output.width, typed.width);
+  if (!typed.cache.empty()) scene.output.cache = typed.cache;
 }
 
 // Throws CLI11's error for what makes no sense together.
@@ -156,6 +166,10 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
   if (typed.backend == "reference" && (!typed.device.empty() || typed.kernel != "auto")) {
     throw CLI::ValidationError(typed.kernel != "auto" ? "--kernel" : "--device",
                                "only --backend gpu has a device and kernels");
+  }
+  if ((typed.lanes || typed.run) && (typed.backend == "reference" || typed.kernel == "serial")) {
+    throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
+                               "only --backend gpu with --kernel auto or lanes has lanes and runs");
   }
 }
 
@@ -188,7 +202,8 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   const auto writes = [&](const char* file) {
     return std::ranges::find(scene.output.files, file) != scene.output.files.end();
   };
-  options.writesUsd = writes("hair.usda");
+  options.writesUsd = writes("hair.usda") && !typed.noUsd;
+  if (!scene.output.cache.empty()) options.cache = precisionByName(scene.output.cache);
   options.writesLast = writes("last.obj");
   options.writesSheet = writes("sheet.png");
   options.warnings = scene.warnings;
@@ -200,7 +215,10 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   options.kernel.residual = typed.json;
   options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
                         : typed.kernel == "serial" ? Form::serial
+                        : typed.lanes || typed.run ? Form::lanes
                                                    : Form::automatic;
+  options.kernel.lanes = typed.lanes.value_or(0);
+  options.kernel.particlesPerLane = typed.run.value_or(0);
   options.showProgress = !typed.quiet;
   return options;
 }
@@ -397,10 +415,33 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(oneOf({"auto", "lanes", "serial"}))
       ->type_name("FORM")
       ->group(machine);
+  command
+      ->add_option("--lanes", typed->lanes,
+                   "Lanes a strand is spread over: a power of two, the device's subgroup at most (default: "
+                   "chosen by device and length)")
+      ->check(wholeBetween(1, 128))
+      ->type_name("L")
+      ->group(machine);
+  command
+      ->add_option("--run", typed->run,
+                   "Particles a lane holds, 4 to 16, on a CPU device to 24, to 32 in two lanes (default: "
+                   "chosen by device and length)")
+      ->check(wholeBetween(4, 32))
+      ->type_name("K")
+      ->group(machine);
 
   // What is said and written.
   const char* output = "Output";
-  command->add_option("--width", typed->width, "Diameter of strands in hair.usda, metres (default 0.0005)")
+  command
+      ->add_option("--cache", typed->cache,
+                   "Write the animation as hair.rgc too, for `ringlet convert`: float32 (every bit) or 16bit")
+      ->check(oneOf(precisionNames()))
+      ->type_name("PRECISION")
+      ->group(output);
+  command->add_flag("--no-usd", typed->noUsd, "Leave out hair.usda")->group(output);
+  command
+      ->add_option("--width", typed->width,
+                   "Diameter of strands in hair.usda and hair.rgc, metres (default 0.0005)")
       ->check(between(1e-9, 1))
       ->type_name("METRES")
       ->group(output);

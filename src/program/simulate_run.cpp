@@ -6,41 +6,30 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <iterator>
 #include <map>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "program/backend.h"
+#include "program/frame_sink.h"
 #include "program/interruption.h"
 #include "program/load_scene.h"
 #include "program/progress_bar.h"
-#include "ringlet/groom/obj_file.h"
-#include "ringlet/output/finite_points.h"
+#include "program/run_writers.h"
+#include "program/stopwatch.h"
 #include "ringlet/output/positions_hash.h"
-#include "ringlet/output/sheet.h"
-#include "ringlet/output/usd_writer.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
 namespace {
 
-// Adds the wall time until it goes out of scope to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& milliseconds) : milliseconds_(milliseconds) {}
-  ~Stopwatch() {
-    milliseconds_ +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-
- private:
-  double& milliseconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+using Clock = std::chrono::steady_clock;
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
 
 // Where head, bodies and roots are at the end of every step of a frame.
 struct FramePoses {
@@ -48,15 +37,19 @@ struct FramePoses {
   std::vector<BodyPose> bodies;  // as bodyPosesOf gives them
   std::vector<BodyPose> roots;   // as Simulation::stepFrame takes them
 
-  /// Steps [first, first + count) of them.
-  Status step(Backend& backend, std::size_t first, std::size_t count) const {
+  /// Hands over steps [first, first + count) of them.
+  Status submit(Backend& backend, std::size_t first, std::size_t count) const {
     const auto ofSteps = [&](const std::vector<BodyPose>& poses) {
       const std::size_t each = poses.size() / heads.size();
       return std::span(poses).subspan(first * each, count * each);
     };
-    return backend.stepFrame(std::span(heads).subspan(first, count), ofSteps(bodies), ofSteps(roots));
+    return backend.submitFrame(std::span(heads).subspan(first, count), ofSteps(bodies), ofSteps(roots));
   }
-  Status step(Backend& backend) const { return step(backend, 0, heads.size()); }
+  Status submit(Backend& backend) const { return submit(backend, 0, heads.size()); }
+  Status step(Backend& backend, std::size_t first, std::size_t count) const {
+    if (Status handed = submit(backend, first, count); !handed) return handed;
+    return backend.waitFrame();
+  }
   std::span<const BodyPose> bodiesAtEnd() const {
     return std::span(bodies).last(bodies.size() / heads.size());
   }
@@ -76,14 +69,6 @@ FramePoses posesOfFrame(const RunInput& input, int frame) {
   }
   poses.bodies = bodyPosesOf(input.bodies, poses.heads, times);
   return poses;
-}
-
-// From the solver's frame (metres, seen from the head's origin) to the file's.
-std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head, double metresPerUnit) {
-  std::vector<Vec3f> points;
-  points.reserve(positions.size());
-  for (Vec3f p : positions) points.push_back(Vec3f((head.position + Vec3d(p)) / metresPerUnit));
-  return points;
 }
 
 // The paper's loops solve no system; contacts, air and bodies have one of other terms; the reference does not
@@ -118,7 +103,7 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
-  return makeGpuBackend(made, options.device, kernel);
+  return makeGpuBackend(made, options.device, kernel, options.showProgress);
 }
 
 // The motion up to the first frame, so that hair begins it as it moves.
@@ -133,7 +118,7 @@ Status preRoll(Backend& backend, const RunInput& input, const RunOptions& option
   return {};
 }
 
-// Steps hair and, where contacts are to be measured, looks at every step.
+// Steps hair, with frames in flight; where contacts are to be measured step by step instead, to look at each.
 class Stepper {
  public:
   static Result<Stepper> make(Backend& backend, const RunInput& input, const RunOptions& options) {
@@ -146,29 +131,23 @@ class Stepper {
     return stepper;
   }
 
-  Status stepFrame(const FramePoses& poses) {
-    if (!watch_) {
-      Stopwatch stopwatch(stepping_);
-      return poses.step(*backend_);
-    }
-    for (std::size_t step = 0; step < poses.heads.size(); ++step) {
-      {
-        Stopwatch stopwatch(stepping_);
-        if (Status stepped = poses.step(*backend_, step, 1); !stepped) return stepped;
-      }
-      if (Status seen = look(); !seen) return seen;
-    }
-    Stopwatch stopwatch(measuring_);
-    if (!watch_->endFrame() || !hasContacts_) return {};
-    auto report = backend_->contactReport();
-    if (!report) return report.error();
-    worst_ = *report;
+  /// As Backend::submitFrame and waitFrame.
+  Status submitFrame(const FramePoses& poses) {
+    return watch_ ? lookAtSteps(poses) : poses.submit(*backend_);
+  }
+  Status waitFrame() {
+    Stopwatch stopwatch(waiting_);
+    if (!watch_) return backend_->waitFrame();
+    waited_ = std::move(looked_.front());
+    looked_.pop_front();
     return {};
   }
+  /// Of the frame waited for last, once.
+  std::vector<Vec3f> framePositions() { return watch_ ? std::move(waited_) : backend_->framePositions(); }
 
   /// What was seen goes into the outcome.
   Status tell(SimulateOutcome& outcome) const {
-    outcome.millisecondsPerFrame = stepping_;
+    outcome.waitedForDevice = waiting_;
     if (hasContacts_) {
       auto report = backend_->contactReport();
       if (!report) return report.error();
@@ -188,78 +167,94 @@ class Stepper {
  private:
   Stepper(Backend& backend, bool hasContacts) : backend_(&backend), hasContacts_(hasContacts) {}
 
+  Status lookAtSteps(const FramePoses& poses) {
+    for (std::size_t step = 0; step < poses.heads.size(); ++step) {
+      {
+        Stopwatch stopwatch(waiting_);
+        if (Status stepped = poses.step(*backend_, step, 1); !stepped) return stepped;
+      }
+      if (Status seen = look(); !seen) return seen;
+    }
+    looked_.push_back(std::move(now_));
+    Stopwatch stopwatch(measuring_);
+    if (!watch_->endFrame() || !hasContacts_) return {};
+    auto report = backend_->contactReport();
+    if (!report) return report.error();
+    worst_ = *report;
+    return {};
+  }
+
   Status look() {
     Stopwatch stopwatch(measuring_);
     auto positions = backend_->positions();
     if (!positions) return positions.error();
     watch_->addStep(*positions);
+    now_ = std::move(*positions);
     return {};
   }
 
   Backend* backend_;
   bool hasContacts_;
   std::optional<ContactWatch> watch_;
+  std::vector<Vec3f> now_, waited_;          // positions, where watch_ looks at steps
+  std::deque<std::vector<Vec3f>> looked_{};  // of frames not waited for
   ContactReport worst_;
-  double stepping_ = 0, measuring_ = 0;  // [ms]
+  double waiting_ = 0, measuring_ = 0;  // [ms]
 };
 
 // A failure in the middle of a run, with what it leaves.
 Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
-  if (frameCount == 0 || options.folder.empty() || !options.writesUsd) return cause;
+  if (frameCount == 0 || options.folder.empty() || (!options.writesUsd && !options.cache)) return cause;
+  const char* file = options.writesUsd ? "hair.usda.partial" : "hair.rgc.partial";
   return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
-                           (options.folder / "hair.usda.partial").string())};
+                           (options.folder / file).string())};
 }
 
-// The writers of a run, so that the loop below reads as what happens to a frame.
-struct Writers {
-  std::optional<UsdWriter> usd;
-  std::optional<Sheet> sheet;
-  bool writesLast;
-  std::vector<Vec3f> lastPoints;  // [file unit]
-
-  Status addFrame(int frame, std::vector<Vec3f> points) {
-    if (sheet) sheet->offer(frame, points);
-    lastPoints = std::move(points);
-    return usd ? usd->addFrame(lastPoints) : Status{};
-  }
-
-  Result<std::vector<std::filesystem::path>> finish(const std::filesystem::path& folder, const Groom& groom) {
-    std::vector<std::filesystem::path> written;
-    if (usd) {
-      if (Status done = usd->finish(); !done) return done.error();
-      written.push_back(folder / "hair.usda");
-    }
-    if (writesLast) {
-      written.push_back(folder / "last.obj");
-      if (Status done = writeObj(written.back(), groom, lastPoints); !done) return done.error();
-    }
-    if (sheet) {
-      written.push_back(folder / "sheet.png");
-      if (Status done = sheet->write(written.back()); !done) return done.error();
-    }
-    return written;
-  }
+struct LoopTimes {
+  double poses = 0, readback = 0, waitedForWriter = 0;  // [ms]
 };
 
-Result<Writers> openWriters(const RunInput& input, const RunOptions& options) {
-  const double metresPerUnit = input.groom.metresPerUnit;
-  std::error_code code;
-  std::filesystem::create_directories(options.folder, code);
-  if (code)
-    return Error{fmt::format("cannot create the folder {}: {}", options.folder.string(), code.message())};
-  Writers writers{{}, {}, options.writesLast, {}};
-  if (options.writesUsd) {
-    auto usd = UsdWriter::create(options.folder / "hair.usda", input.groom,
-                                 {.framesPerSecond = input.settings.framesPerSecond,
-                                  .metresPerUnit = metresPerUnit,
-                                  .up = options.up,
-                                  .diameter = static_cast<float>(options.width / metresPerUnit),
-                                  .frameCount = options.frameCount});
-    if (!usd) return usd.error();
-    writers.usd.emplace(std::move(*usd));
+// Frames, until all are done or Ctrl-C comes: while one computes, the one before it is read back and those
+// before that are written.
+Status runFrames(Stepper& stepper, const RunInput& input, const RunOptions& options, FrameSink& sink,
+                 LoopTimes& times) {
+  ProgressBar progress(options.frameCount, options.showProgress);
+  const auto afterWritten = [&](const Error& cause) {
+    (void)sink.finish();
+    return afterFrames(sink.frameCount(), cause, options);
+  };
+  std::optional<ComputedFrame> underWay;  // its positions are still to come
+  const auto takeUnderWay = [&]() -> Status {
+    if (!underWay) return {};
+    ComputedFrame frame = std::move(*underWay);
+    underWay.reset();
+    if (Status waited = stepper.waitFrame(); !waited) return afterWritten(waited.error());
+    {
+      Stopwatch watch(times.readback);
+      frame.positions = stepper.framePositions();
+    }
+    Stopwatch watch(times.waitedForWriter);
+    return sink.hand(std::move(frame));
+  };
+
+  for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
+    progress.show(sink.frameCount());
+    const FramePoses poses = [&] {
+      Stopwatch watch(times.poses);
+      return posesOfFrame(input, frame);
+    }();
+    if (Status submitted = stepper.submitFrame(poses); !submitted) {
+      (void)takeUnderWay();  // it may be whole
+      return afterWritten(submitted.error());
+    }
+    if (Status taken = takeUnderWay(); !taken) return taken;
+    const auto bodies = poses.bodiesAtEnd();
+    underWay = {frame + 1, {}, poses.heads.back(), {bodies.begin(), bodies.end()}};
   }
-  if (options.writesSheet) writers.sheet.emplace(input.groom, options.frameCount, options.up);
-  return writers;
+  if (Status taken = takeUnderWay(); !taken) return taken;
+  const Status written = sink.finish();
+  progress.show(sink.frameCount());
+  return written;
 }
 
 // Where keys are further apart than a head goes, it jumps: on a smooth way it would only be fast.
@@ -281,6 +276,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   catchInterruption();
 
   // Everything that can fail before the first step: the folder, the device.
+  const Clock::time_point start = Clock::now();
   std::optional<Writers> writers;
   if (!options.folder.empty()) {
     auto opened = openWriters(input, options);
@@ -294,80 +290,66 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   auto stepper = Stepper::make(**backend, input, options);
   if (!stepper) return stepper.error();
 
-  // Frames, until all are done or Ctrl-C comes.
-  double readback = 0, writing = 0, watching = 0, following = 0;  // [ms]
   std::optional<BodyWatch> bodyWatch;
   if (!input.bodies.empty()) bodyWatch.emplace(groom, input.bodies, input.settings.rootCount);
-  std::size_t mostReplaced = 0;
-  std::vector<Vec3f> positions;
-  {
-    ProgressBar progress(options.frameCount, options.showProgress);
-    for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
-      progress.show(frame);
-      const FramePoses poses = [&] {
-        Stopwatch watch(following);
-        return posesOfFrame(input, frame);
-      }();
-      if (Status stepped = stepper->stepFrame(poses); !stepped)
-        return afterFrames(frame, stepped.error(), options);
-      {
-        Stopwatch watch(readback);
-        auto read = (*backend)->positions();
-        if (!read) return afterFrames(frame, read.error(), options);
-        positions = std::move(*read);
-      }
-      if (bodyWatch) {
-        Stopwatch watch(watching);
-        bodyWatch->look(positions, poses.heads.back(), poses.bodiesAtEnd());
-      }
-      Stopwatch watch(writing);
-      std::vector<Vec3f> points = toFile(positions, poses.heads.back(), groom.metresPerUnit);
-      mostReplaced = std::max(mostReplaced, replaceNonfinite(groom, points));
-      if (observer) {
-        if (Status seen = observer(points, poses.heads.back()); !seen)
-          return afterFrames(frame, seen.error(), options);
-      }
-      if (writers) {
-        if (Status added = writers->addFrame(frame + 1, std::move(points)); !added) return added.error();
-      }
-      outcome.frameCount = frame + 1;
-    }
-    progress.show(outcome.frameCount);
+  FrameReaders readers{.bodies = bodyWatch ? &*bodyWatch : nullptr, .observe = {}, .write = {}};
+  if (observer) {
+    readers.observe = [&](const ComputedFrame& frame, std::span<const Vec3f> points) -> Status {
+      const Status seen = observer(points, frame.head);
+      return seen ? seen : afterFrames(frame.number - 1, seen.error(), options);
+    };
   }
+  if (writers) {
+    readers.write = [&](int number, std::vector<Vec3f> points) {
+      return writers->addFrame(number, std::move(points));
+    };
+  }
+  FrameSink sink(groom, std::move(readers));
+  LoopTimes times;
+  const Clock::time_point first = Clock::now();
+  if (Status ran = runFrames(*stepper, input, options, sink, times); !ran) return ran.error();
+  const Clock::time_point last = Clock::now();
+  outcome.frameCount = sink.frameCount();
   outcome.interrupted = wasInterrupted() && outcome.frameCount < options.frameCount;
 
   // What there is becomes files.
   if (writers && outcome.frameCount > 0) {
-    Stopwatch watch(writing);
     auto outputs = writers->finish(options.folder, groom);
     if (!outputs) return outputs.error();
     outcome.outputs = std::move(*outputs);
   }
+  outcome.wall = {secondsBetween(start, first), secondsBetween(first, last),
+                  secondsBetween(last, Clock::now())};
 
   // And numbers.
   auto report = (*backend)->report();
   if (!report) return report.error();
   outcome.report = *report;
-  outcome.report.nonfinite = std::max<std::uint64_t>(report->nonfinite, mostReplaced);
+  outcome.report.nonfinite = std::max<std::uint64_t>(report->nonfinite, sink.mostReplaced());
   if (measuresResidual(input, options)) outcome.velocityResidual = report->velocityResidual;
-  outcome.positionsHash = positionsHash(positions);
+  outcome.positionsHash = positionsHash(sink.lastPositions());
   outcome.device = (*backend)->device();
   outcome.driver = (*backend)->driver();
   outcome.kernel = (*backend)->kernel();
   outcome.deviceBytes = (*backend)->deviceBytes();
+  outcome.compileMilliseconds = (*backend)->compileMilliseconds();
   outcome.stages = (*backend)->stageMilliseconds();
   for (const auto& [stage, milliseconds] : stagesBefore) outcome.stages[stage] -= milliseconds;
-  outcome.stages["readback"] = readback;
-  outcome.stages["write"] = writing;
-  if (input.scalp) outcome.stages["scalp"] = following;
+  for (const auto& [stage, milliseconds] : outcome.stages) outcome.millisecondsPerFrame += milliseconds;
+  outcome.computeShare = outcome.millisecondsPerFrame / (1000 * outcome.wall.frames);
+  outcome.stages["readback"] = times.readback;
+  outcome.stages["write"] = sink.millisecondsWriting();
+  outcome.waitedForWriter = times.waitedForWriter;
+  if (input.scalp) outcome.stages["scalp"] = times.poses;
   if (bodyWatch) {
-    outcome.stages["measure_bodies"] = watching;
+    outcome.stages["measure_bodies"] = sink.millisecondsWatching();
     outcome.bodyNumbers = bodyWatch->numbers();
   }
   if (Status told = stepper->tell(outcome); !told) return told.error();
   const double frames = std::max(outcome.frameCount, 1);
   for (auto& [stage, milliseconds] : outcome.stages) milliseconds /= frames;
-  outcome.millisecondsPerFrame /= frames;
+  for (double* time : {&outcome.millisecondsPerFrame, &outcome.waitedForDevice, &outcome.waitedForWriter})
+    *time /= frames;
   outcome.warnings = stepper->warnings();
   for (const std::string& message : (*backend)->deviceMessages()) outcome.warnings.push_back(message);
   return outcome;

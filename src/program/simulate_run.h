@@ -16,6 +16,7 @@
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/motion/head_scalp.h"
+#include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
@@ -29,10 +30,11 @@ namespace ringlet::program {
 struct RunOptions {
   std::filesystem::path folder;                                  // for the results; empty: nothing is written
   bool writesUsd = true, writesLast = true, writesSheet = true;  // hair.usda, last.obj, sheet.png
+  std::optional<CachePrecision> cache;                           // of hair.rgc; none: it is not written
   int frameCount = 48;
   double preRollSeconds = 0;  // before the first frame, not written
   UpAxis up = UpAxis::y;
-  double width = 0.0005;     // diameter of strands in hair.usda [m]
+  double width = 0.0005;     // diameter of strands in hair.usda and hair.rgc [m]
   bool onReference = false;  // rather than on the GPU
   std::string device;
   KernelChoice kernel;  // its residual: measured where the integrator has one, on the GPU
@@ -55,13 +57,23 @@ struct SimulateOptions : RunOptions {
   std::vector<std::string> warnings;  // of what was read so far
 };
 
-/// What came of it. Times are wall clock, per finished frame [ms].
+/// Where a run's time went, on the wall's clock [s].
+struct RunSeconds {
+  double start = 0;   // opening files and device, pre-roll
+  double frames = 0;  // from the first frame until the last is written
+  double finish = 0;  // closing files, last.obj, the sheet
+};
+
+/// What came of it. Times of stages and waits: per finished frame [ms].
 struct SimulateOutcome {
   int frameCount = 0;  // finished
   std::size_t strandCount = 0, particleCount = 0;
-  double millisecondsPerFrame = 0;  // stepping only
-  std::map<std::string, double>
-      stages;  // by the device's own clock where it has one; readback, write by the wall
+  double millisecondsPerFrame = 0;       // stepping only, by the device's own clock where it has one
+  std::map<std::string, double> stages;  // that, in parts; all others by the wall, while others go on
+  RunSeconds wall;
+  double computeShare = 0;  // of wall.frames: stepping
+  // What the loop over frames waited for stepping, and for room among frames to be written.
+  double waitedForDevice = 0, waitedForWriter = 0;
   SimulationReport report;
   std::optional<double> velocityResidual;  // the report's, where it was measured
   std::optional<ContactReport> contacts;   // where they are on; contacts and momentumError of the worst frame
@@ -70,6 +82,7 @@ struct SimulateOutcome {
   std::optional<BodyNumbers> bodyNumbers;        // where there are bodies; of every frame
   std::string device, driver, kernel;
   std::optional<std::uint64_t> deviceBytes;  // of the simulation's buffers at the end, on a device
+  double compileMilliseconds = 0;            // of the kernels, once
   std::string positionsHash;                 // of the last frame
   bool interrupted = false;
   std::vector<std::string> warnings;
@@ -88,7 +101,8 @@ struct RunInput {
   const HeadScalp* scalp = nullptr;  // that roots follow; none: the head carries them
 };
 
-/// Sees every frame: points in the groom's unit, in its order, finite; and where the head is.
+/// Sees every frame, in order, on a thread of its own, the last before runHair returns: points in the groom's
+/// unit, in its order, finite; and where the head is.
 using FrameObserver = std::function<Status(std::span<const Vec3f> points, const HeadPose& head)>;
 
 /// Fails with one sentence; frames finished before a failure are kept. Ctrl-C ends it early, but well.

@@ -9,8 +9,8 @@
 #include <span>
 #include <string>
 
-#include "ringlet_shaders/strand_step_run16.h"
 #include "ringlet_shaders/strand_step_serial_plain.h"
+#include "ringlet_shaders/strand_step_surroundings.h"
 
 namespace ringlet::test {
 namespace {
@@ -164,7 +164,7 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
   EXPECT_LE(sizeof(layout::StepParameters), 128u) << "Vulkan guarantees 128 bytes of push constants";
 }
 
-TEST(Layout, LanesKernelAgreesWithCpp) { expectSameLayout(k_strand_step_run16); }
+TEST(Layout, LanesKernelAgreesWithCpp) { expectSameLayout(k_strand_step_surroundings); }
 TEST(Layout, SerialKernelAgreesWithCpp) { expectSameLayout(k_strand_step_serial_plain); }
 
 }  // namespace

@@ -73,6 +73,22 @@ TEST_F(StrandStep, UniformLengthsAgree) {
   }
 }
 
+// Runs that are no power of two too; several shapes in one groom.
+TEST_F(StrandStep, RunsOfEveryKindAgree) {
+  for (int run : {5, 12, 14, 24}) {
+    expectOneStep({randomGroom({2, run, 4 * run, 4 * run - 1, run + 1, 3 * run}, 29),
+                   {},
+                   settingsFor(Integrator::jacobi),
+                   {.form = KernelChoice::Form::lanes, .particlesPerLane = run, .lanes = 4}},
+                  fmt::format("jacobi, 4 lanes of {}", run));
+  }
+  expectOneStep({randomGroom({9, 40, 90, 9, 150, 90, 200}, 31),
+                 {},
+                 settingsFor(Integrator::jacobi),
+                 {.manyKernels = true}},
+                "jacobi, a shape a length");
+}
+
 TEST_F(StrandStep, PlainPointJacobiFieldsAgree) {
   for (const Variant& variant : kVariants) {
     Settings settings = settingsFor(Integrator::pointJacobi);

@@ -17,8 +17,8 @@ void expectContains(const std::string& text, const std::string& part) {
 TEST(Help, EveryCommandHasOptionsWithDefaultsAndAnExample) {
   const auto folder = scratchFolder("help");
   const std::vector<std::vector<std::string>> commands{
-      {},           {"make"},  {"make", "curl"}, {"make", "swatch"}, {"make", "head"},
-      {"simulate"}, {"scene"}, {"measure"},      {"devices"},        {"material"}};
+      {},        {"make"},    {"make", "curl"}, {"make", "swatch"}, {"make", "head"}, {"simulate"},
+      {"scene"}, {"measure"}, {"devices"},      {"material"},       {"convert"}};
   for (std::vector<std::string> command : commands) {
     command.push_back("--help");
     const auto result = runProgram(folder, command);
@@ -32,8 +32,10 @@ TEST(Help, EveryCommandHasOptionsWithDefaultsAndAnExample) {
                            "--unit",       "--up",           "--device",
                            "--backend",    "--max-stretch",  "--roots",
                            "--iterations", "--no-chebyshev", "--kernel",
+                           "--lanes",      "--run",          "compile_ms",
                            "--json",       "--quiet",        "(default 0.01: centimetres)",
-                           "m/s^2",        "ms_per_frame",   "velocity_residual"}) {
+                           "m/s^2",        "ms_per_frame",   "velocity_residual",
+                           "--cache",      "--no-usd"}) {
     expectContains(help, part);
   }
 }
@@ -51,7 +53,7 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
     std::string message;
   };
   const std::vector<Case> cases{
-      {{}, "say what to do: make, simulate, measure, scene, devices, material"},
+      {{}, "say what to do: make, simulate, measure, convert, scene, devices, material"},
       {{"simulat"}, "did you mean simulate?"},
       {{"make", "crul", "-o", "a.obj"}, "did you mean curl?"},
       {{"make", "curl"}, "--output is required"},

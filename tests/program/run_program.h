@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -27,6 +28,18 @@ struct ProgramResult {
 inline std::string readText(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Standard error without what is said where the driver compiles for longer than a second.
+inline std::string withoutCompileNotes(const std::string& err) {
+  std::string rest;
+  for (std::size_t begin = 0; begin < err.size();) {
+    const std::size_t end = std::min(err.find('\n', begin), err.size() - 1) + 1;
+    const std::string line = err.substr(begin, end - begin);
+    if (!line.starts_with("ringlet: compil")) rest += line;
+    begin = end;
+  }
+  return rest;
 }
 
 /// A program started in a folder, its outputs caught in files there.

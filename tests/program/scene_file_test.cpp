@@ -59,9 +59,11 @@ TEST(SceneFileProgram, SaysWhatOptionsSay) {
       "unit = 0.02\nup = 'Z'\n[material]\npreset = 'coil'\n[material.dials]\nhold = 0.5\n"
       "[motion]\nkind = 'nod'\namplitude = 0.6\nfrequency = 3\npre_roll = 0.25\n"
       "[simulation]\nfps = 30\nframes = 5\nsteps_per_frame = 4\ngravity = 5\npreload = 0.25\nroots = 2\n"
-      "max_stretch = 1.05\n[output]\nfolder = '../out'\nwidth = 0.001\nfiles = ['last.obj', 'hair.usda']\n");
+      "max_stretch = 1.05\n[output]\nfolder = '../out'\nwidth = 0.001\nfiles = ['last.obj', "
+      "'hair.usda']\ncache = 'float32'\n");
   const json scene = run(folder, {"simulate", "scenes/nod.toml"});
-  EXPECT_EQ(scene["outputs"], (json{"scenes/../out/hair.usda", "scenes/../out/last.obj"}));
+  EXPECT_EQ(scene["outputs"],
+            (json{"scenes/../out/hair.usda", "scenes/../out/hair.rgc", "scenes/../out/last.obj"}));
   EXPECT_FALSE(std::filesystem::exists(folder / "out/sheet.png"));
   EXPECT_EQ(scene["material"], "scene");
   const json options = run(folder, {"simulate",

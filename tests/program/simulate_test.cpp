@@ -1,8 +1,10 @@
 // `ringlet simulate`, from a file to files: what it writes, what it prints, how it fails and how it stops.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
@@ -79,10 +81,16 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   EXPECT_TRUE(out["warnings"].is_array());
   for (const char* stage : {"strand_step", "readback", "write"})
     EXPECT_TRUE(out["stages_ms"][stage].is_number()) << stage;
+  for (const char* part : {"start", "frames", "finish"})
+    EXPECT_GE(out["wall_s"][part].get<double>(), 0) << part;
+  for (const char* whom : {"device", "writer"}) EXPECT_GE(out["waits_ms"][whom].get<double>(), 0) << whom;
+  const double computed = 7 * out["ms_per_frame"].get<double>() / 1000;
+  EXPECT_NEAR(out["compute_share"].get<double>(), computed / out["wall_s"]["frames"].get<double>(), 1e-9);
   for (const char* key : {"device", "driver", "kernel"})
     EXPECT_FALSE(out[key].get<std::string>().empty()) << key;
   // 8 particles, 2 strands, and the head's poses: README, "Memory".
-  EXPECT_EQ(out["device_bytes"], GetParam() == std::string("gpu") ? json(8 * 64 + 2 * 136 + 341 * 48) : json());
+  EXPECT_EQ(out["device_bytes"],
+            GetParam() == std::string("gpu") ? json(8 * (64 + 2 * 16) + 2 * 136 + 3 * 341 * 48) : json());
   EXPECT_EQ(out["positions_hash"].get<std::string>().size(), 16u);
   EXPECT_EQ(out["outputs"], (json{"out/hair.usda", "out/last.obj", "out/sheet.png"}));
 
@@ -168,7 +176,8 @@ TEST(Simulate, SummaryNamesTheFilesAndQuietSaysNothing) {
                                            "--backend", "reference", "-o",       "a/b/out"};
   auto result = runProgram(folder, arguments);
   EXPECT_EQ(result.exitCode, 0);
-  EXPECT_EQ(result.err, "") << "no progress bar where standard error is no terminal";
+  EXPECT_EQ(test::withoutCompileNotes(result.err), "")
+      << "no progress bar where standard error is no terminal";
   for (const char* part : {"1 frame of 2 strands, 8 particles", "a/b/out/hair.usda", "a/b/out/last.obj",
                            "a/b/out/sheet.png", " ms "}) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part << " is missing in:\n" << result.out;
@@ -269,6 +278,60 @@ TEST(Simulate, ContactsAreForTheAsking) {
     EXPECT_TRUE(measured.contains(key)) << key;
     EXPECT_NE(help.find(key), std::string::npos) << key;
   }
+}
+
+// A file that may grow no further is as a full disk. The thread that writes finds out, the run ends with its
+// sentence, and what was finished can be read.
+TEST(Simulate, AFullDiskEndsTheRunAndKeepsItsFrames) {
+  const auto folder = scratchFolder("simulate_full");
+  writeSmallGroom(folder / "groom.obj");
+  struct rlimit before {};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  struct rlimit small = before;
+  small.rlim_cur = 1 << 20;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::signal(SIGXFSZ, SIG_IGN);  // as the program starts
+  const auto result = runProgram(
+      folder, {"simulate", "groom.obj", "--backend", "reference", "--frames", "7000", "-o", "out"});
+  std::signal(SIGXFSZ, SIG_DFL);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  const auto usd = readUsd(folder / "out/hair.usda.partial");
+  EXPECT_GE(usd.points.size(), 1u);
+  EXPECT_LT(usd.points.size(), 7000u);
+  const std::string kept =
+      "(the first " + std::to_string(usd.points.size()) + " frames are kept in out/hair.usda.partial)";
+  EXPECT_NE(result.err.find(kept), std::string::npos) << result.err;
+}
+
+TEST(Simulate, LanesAndRunsAreStatedOrRefused) {
+  const auto folder = scratchFolder("simulate_lanes");
+  writeSmallGroom(folder / "groom.obj");
+  struct Case {
+    std::vector<std::string> arguments;
+    int exitCode;
+    std::string message;
+  };
+  for (const Case& c : {
+           Case{{"--lanes", "3"}, 1, "3 lanes a strand were asked for; this device can have 1, 2"},
+           Case{{"--lanes", "0"}, 2, "--lanes: must be a whole number from 1 to 128"},
+           Case{{"--run", "3"}, 2, "--run: must be a whole number from 4 to 32"},
+           Case{{"--lanes", "1", "--run", "4"},
+                1,
+                "a strand of 5 particles does not fit: 1 lanes of 4 hold 4"},
+           Case{{"--lanes", "2", "--kernel", "serial"}, 2, "--lanes: only --backend gpu with --kernel auto"},
+           Case{{"--run", "8", "--backend", "reference"}, 2, "--run: only --backend gpu"},
+       }) {
+    std::vector<std::string> arguments{"simulate", "groom.obj", "--frames", "1", "-o", "out"};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const auto result = runProgram(folder, arguments);
+    EXPECT_EQ(result.exitCode, c.exitCode) << c.message;
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+  }
+  const json stated = simulate(folder, {"groom.obj", "--frames", "1", "--lanes", "2", "--run", "5"});
+  EXPECT_EQ(stated["kernel"].get<std::string>().substr(0, 11), "lanes 2 x 5");
+  EXPECT_GT(stated["compile_ms"].get<double>(), 0);
 }
 
 TEST(Simulate, UnknownDeviceIsNamed) {

@@ -57,7 +57,7 @@ const std::string kEverythingElse =
     "[body.moves]\ninterpolation = 'linear'\n[[body.moves.key]]\ntime = 1\n[[body.moves.key]]\ntime = 2\n"
     "position = [1, 0, 0]\n"
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
-    "[output]\nfolder = 'out'\nwidth = 0.001\nfiles = ['sheet.png', 'last.obj']\n";
+    "[output]\nfolder = 'out'\nwidth = 0.001\nfiles = ['sheet.png', 'last.obj']\ncache = '16bit'\n";
 
 const std::string kKind =
     "[groom]\nfile = 'hair.obj'\nunit = 1\nup = 'Z'\nscale = 0.9\nrotate_degrees = [90, 0, 0]\n"
@@ -183,6 +183,7 @@ TEST(SceneFile, EverythingIsRead) {
   EXPECT_EQ(s.output.folder, "files/out");
   EXPECT_EQ(s.output.width, 0.001);
   EXPECT_EQ(s.output.files, (std::vector<std::string>{"sheet.png", "last.obj"}));
+  EXPECT_EQ(s.output.cache, "16bit");
   EXPECT_TRUE(s.warnings.empty());
 }
 

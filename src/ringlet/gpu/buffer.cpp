@@ -79,10 +79,9 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind ki
 
   auto info = zeroed<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = self.capacity_;
-  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-  if (kind == BufferKind::stream) info.usage |= VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+               VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   VkBuffer buffer = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &buffer), attempt());
@@ -190,6 +189,15 @@ Status Buffer::fillZero() {
 std::uint64_t availableStorageBytes(const Device& device) {
   const auto type = chooseMemoryType(device, ~0u, BufferKind::storage);
   return type ? device.availableBytes(device.memory().memoryTypes[*type].heapIndex) : 0;
+}
+
+bool isOneMemory(const Device& device) {
+  const auto heapOf = [&](BufferKind kind) -> std::optional<std::uint32_t> {
+    const auto type = chooseMemoryType(device, ~0u, kind);
+    if (!type) return std::nullopt;
+    return device.memory().memoryTypes[*type].heapIndex;
+  };
+  return heapOf(BufferKind::storage) == heapOf(BufferKind::stream);
 }
 
 }  // namespace ringlet::gpu

@@ -15,7 +15,7 @@ namespace ringlet::gpu {
 
 enum class BufferKind {
   storage,  // close to the device; for what kernels read and write
-  stream,   // close to the host, always mapped, coherent; for uniforms and small things that cross often
+  stream,   // close to the host, always mapped, coherent; for what crosses often
 };
 
 class Buffer {
@@ -60,5 +60,7 @@ class Buffer {
 
 /// What is left of the memory that storage buffers are made in [bytes]; see Device::availableBytes.
 std::uint64_t availableStorageBytes(const Device& device);
+/// Whether streams are made in the same.
+bool isOneMemory(const Device& device);
 
 }  // namespace ringlet::gpu

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/pipeline_cache_file.h"
 
 namespace ringlet::gpu {
 namespace {
@@ -299,7 +300,8 @@ std::vector<DeviceListing> Device::list() {
   return listings;
 }
 
-Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const DeviceOptions& options) {
+Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const DeviceOptions& options,
+                                             const std::filesystem::path& cacheFolder) {
   auto instance = Instance::create(isValidationWanted());
   if (!instance) return instance.error();
   auto candidates = inspectAll(**instance, options);
@@ -344,14 +346,57 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
         vkGetInstanceProcAddr(self->instance_->handle(), "vkSetDebugUtilsObjectNameEXT"));
   }
 
-  auto cache = zeroed<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
-  RINGLET_VK_CHECK(self->vk().vkCreatePipelineCache(self->device_, &cache, nullptr, &self->pipelineCache_),
-                   "make a cache for compiled kernels");
+  if (Status opened = self->openPipelineCache(candidate.handle, cacheFolder); !opened) return opened.error();
   return self;
+}
+
+// With what the file of this device and driver holds. A driver takes nothing that is not its own; one that
+// refuses it altogether gets an empty cache.
+Status Device::openPipelineCache(VkPhysicalDevice physical, const std::filesystem::path& folder) {
+  std::vector<std::byte> kept;
+  if (!folder.empty()) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    std::string uuid;
+    for (std::uint8_t byte : properties.pipelineCacheUUID) uuid += fmt::format("{:02x}", byte);
+    pipelineCacheFile_ = folder / fmt::format("pipelines-{}.bin", uuid);
+    kept = readPipelineCache(pipelineCacheFile_);
+    // The header: size, version, vendor, device, UUID.
+    if (kept.size() < 32 || std::memcmp(&kept[8], &properties.vendorID, 4) != 0 ||
+        std::memcmp(&kept[12], &properties.deviceID, 4) != 0 ||
+        std::memcmp(&kept[16], properties.pipelineCacheUUID, VK_UUID_SIZE) != 0)
+      kept.clear();
+  }
+  auto info = zeroed<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
+  info.initialDataSize = kept.size();
+  info.pInitialData = kept.data();
+  if (kept.empty() || vk().vkCreatePipelineCache(device_, &info, nullptr, &pipelineCache_) != VK_SUCCESS) {
+    info.initialDataSize = 0;
+    RINGLET_VK_CHECK(vk().vkCreatePipelineCache(device_, &info, nullptr, &pipelineCache_),
+                     "make a cache for compiled kernels");
+  }
+  // An empty one is its header; some drivers never have more.
+  if (vk().vkGetPipelineCacheData(device_, pipelineCache_, &pipelineCacheBytes_, nullptr) != VK_SUCCESS)
+    pipelineCacheBytes_ = kLargestPipelineCache;
+  return {};
+}
+
+// Only where it grew.
+void Device::keepPipelineCache() const {
+  std::size_t size = 0;
+  if (pipelineCacheFile_.empty() ||
+      vk().vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS ||
+      size <= pipelineCacheBytes_ || size > kLargestPipelineCache)
+    return;
+  std::vector<std::byte> bytes(size);
+  if (vk().vkGetPipelineCacheData(device_, pipelineCache_, &size, bytes.data()) != VK_SUCCESS) return;
+  bytes.resize(size);
+  (void)writePipelineCache(pipelineCacheFile_, bytes);
 }
 
 Device::~Device() {
   if (!device_) return;
+  keepPipelineCache();
   table_.vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
   table_.vkDestroyDevice(device_, nullptr);
 }
@@ -386,6 +431,11 @@ VkResult Device::submit(VkCommandBuffer commands, VkFence fence) {
   info.pCommandBuffers = &commands;
   const std::lock_guard lock(queueMutex_);
   return table_.vkQueueSubmit(queue_, 1, &info, fence);
+}
+
+std::chrono::steady_clock::time_point Device::noteWait(std::chrono::steady_clock::time_point now) {
+  const std::lock_guard lock(queueMutex_);
+  return std::exchange(lastWait_, now);
 }
 
 void Device::nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const {

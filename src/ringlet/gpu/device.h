@@ -4,7 +4,10 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -65,9 +68,12 @@ class Device : public std::enable_shared_from_this<Device> {
  public:
   /// Opens the device `choice` names, by index or by part of its name in any case; an empty choice takes
   /// $RINGLET_DEVICE, else the best usable one (discrete, integrated, virtual, cpu). Where several have the
-  /// name, the best of them. RINGLET_VALIDATION=1 turns the validation layer on.
+  /// name, the best of them. RINGLET_VALIDATION=1 turns the validation layer on. `cacheFolder`: where
+  /// compiled kernels are kept, if the driver gives them; empty: nowhere. What is wrong with it is no
+  /// failure.
   static Result<std::shared_ptr<Device>> open(const std::string& choice = "",
-                                              const DeviceOptions& options = {});
+                                              const DeviceOptions& options = {},
+                                              const std::filesystem::path& cacheFolder = {});
   /// All devices, by index. Empty where there is no Vulkan.
   static std::vector<DeviceListing> list();
 
@@ -88,6 +94,8 @@ class Device : public std::enable_shared_from_this<Device> {
   VkDevice handle() const { return device_; }
   std::uint32_t queueFamily() const { return queueFamily_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
+  /// Where it is kept; empty: nowhere.
+  const std::filesystem::path& pipelineCacheFile() const { return pipelineCacheFile_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
   /// What is left of a heap [bytes]: of this process's budget where the driver tells it, else of all there is
   /// what this device has not taken.
@@ -96,11 +104,15 @@ class Device : public std::enable_shared_from_this<Device> {
   std::shared_ptr<void> countBytes(std::uint32_t heap, std::uint64_t bytes);
   /// Hands the commands to the queue; any thread may.
   VkResult submit(VkCommandBuffer commands, VkFence fence);
+  /// Of waits for submissions: notes when one ended, and tells when the one before it did. Any thread may.
+  std::chrono::steady_clock::time_point noteWait(std::chrono::steady_clock::time_point now);
   /// Names an object in validation messages; does nothing where the layer is off.
   void nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
  private:
   Device() = default;
+  Status openPipelineCache(VkPhysicalDevice physical, const std::filesystem::path& folder);
+  void keepPipelineCache() const;
 
   std::unique_ptr<Instance> instance_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
@@ -110,8 +122,11 @@ class Device : public std::enable_shared_from_this<Device> {
   VolkDeviceTable table_{};
   VkQueue queue_ = VK_NULL_HANDLE;
   std::mutex queueMutex_;
+  std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
+  std::filesystem::path pipelineCacheFile_;
+  std::size_t pipelineCacheBytes_ = 0;  // when it was new
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
   DeviceProperties properties_;

@@ -194,7 +194,6 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     const Buffer& buffer = buffers[i];
     if (self.kinds_[i] == BindingKind::uniform) {
-      RINGLET_ASSERT(buffer.kind() == BufferKind::stream, "a uniform binding takes a stream buffer");
       const std::uint64_t limit = device.properties().maxUniformBufferRange;
       if (buffer.capacity() > limit) {
         return Error{

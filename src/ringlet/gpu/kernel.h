@@ -73,7 +73,7 @@ class Kernel {
 /// buffers must live as long, and may be moved meanwhile.
 class Bindings {
  public:
-  /// One buffer a binding, in order; a uniform binding takes a stream buffer.
+  /// One buffer a binding, in order.
   static Result<Bindings> create(const Kernel& kernel,
                                  const std::vector<std::reference_wrapper<const Buffer>>& buffers);
   Bindings(Bindings&&) = default;

@@ -61,6 +61,9 @@ class Recorder {
     dispatchIndirect(kernel, bindings, std::as_bytes(std::span(&pushConstants, 1)), groupCounts, offset);
   }
 
+  /// No workgroup at all; but drivers that compile a kernel at its first dispatch do it here.
+  void dispatchNothing(const Kernel& kernel, const Bindings& bindings);
+
   /// What was recorded before is finished and visible to what follows: kernels, their group counts, and
   /// copies, reads and writes.
   /// The validation layer notices a barrier left out only where one of the two kernels declares the
@@ -81,7 +84,8 @@ class Recorder {
   Status submitAndWait();
 
   /// Of the last wait, in the order recorded [ms]: by the device's timestamps, else the submission's time on
-  /// the host's clock in equal parts. A name recorded twice stands here twice.
+  /// the host's clock in equal parts, less what went by before the wait for an earlier submission ended. A
+  /// name recorded twice stands here twice.
   const std::vector<std::pair<std::string, double>>& stageMilliseconds() const;
   /// From submit to the end of wait, on the host's clock [ms].
   double submissionMilliseconds() const;

@@ -99,7 +99,10 @@ Status UsdReader::readHeader() {
        {"uniform", "token", "type", "=", "\"linear\"", "float[]", "widths", "=", "["}) {
     if (Status found = expect(token); !found) return found;
   }
-  if (auto width = number(); !width) return width.error();
+  auto width = coordinate();
+  if (!width) return width.error();
+  if (!(*width > 0)) return wanted("a width above 0");
+  diameter_ = *width;
   for (std::string_view token :
        {"]", "(", "interpolation", "=", "\"constant\"", ")", "uniform", "token", "wrap", "=",
         "\"nonperiodic\"", "float3[]", "extent.timeSamples", "=", "{"}) {

@@ -31,6 +31,7 @@ class UsdReader {
   double framesPerSecond() const { return framesPerSecond_; }
   double metresPerUnit() const { return metresPerUnit_; }
   UpAxis up() const { return up_; }
+  float diameter() const { return diameter_; }  // of every strand [file unit]
   const std::vector<std::uint32_t>& particleCounts() const { return particleCounts_; }  // of each strand
 
  private:
@@ -61,6 +62,7 @@ class UsdReader {
   int frameCount_ = 0, framesRead_ = 0;
   double framesPerSecond_ = 0, metresPerUnit_ = 0;
   UpAxis up_ = UpAxis::y;
+  float diameter_ = 0;
   bool isFinished_ = false;
   std::vector<std::uint32_t> particleCounts_;
   std::size_t particleCount_ = 0;

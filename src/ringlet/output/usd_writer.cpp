@@ -120,7 +120,8 @@ Status UsdWriter::writeFrame(std::span<const Vec3f> points) {
 
   // The points, a line a strand, over the closing braces.
   std::uint64_t offset = end_;
-  buffer_ = fmt::format("        {}: [\n", timeCode);
+  buffer_.clear();  // and keeps its memory
+  fmt::format_to(std::back_inserter(buffer_), "        {}: [\n", timeCode);
   for (std::size_t strand = 0; strand + 1 < firstPoint_.size(); ++strand) {
     auto particles = points.subspan(firstPoint_[strand], firstPoint_[strand + 1] - firstPoint_[strand]);
     std::size_t used = buffer_.size();

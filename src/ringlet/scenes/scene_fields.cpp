@@ -489,8 +489,15 @@ std::span<const SceneField<SceneOutput>> outputFields() {
   using O = SceneOutput;
   static const SceneField<O> all[] = {
       {"folder", "", "none; -o says it", "For the results, made if it is not there.", &O::folder},
-      {"width", "m", "", "Diameter of strands in hair.usda.", &O::width, {1e-9, 1}},
+      {"width", "m", "", "Diameter of strands in hair.usda and hair.rgc.", &O::width, {1e-9, 1}},
       {"files", "", "all", "What is written.", &O::files, {}, "hair.usda, last.obj, sheet.png"},
+      {"cache",
+       "",
+       "none",
+       "Writes the animation as hair.rgc too, with this precision.",
+       &O::cache,
+       {},
+       "float32, 16bit"},
   };
   return all;
 }

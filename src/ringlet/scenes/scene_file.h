@@ -140,6 +140,7 @@ struct SceneOutput {
   std::filesystem::path folder;
   double width = 0.0005;
   std::vector<std::string> files{"hair.usda", "last.obj", "sheet.png"};
+  std::string cache;  // precision of hair.rgc; empty: it is not written
 };
 
 /// What a file says, checked as far as one can without opening what it names (but a material's file).

@@ -5,8 +5,9 @@
 
 namespace ringlet {
 
-Result<ComputeDevice> ComputeDevice::open(const std::string& choice) {
-  auto opened = gpu::Device::open(choice);
+Result<ComputeDevice> ComputeDevice::open(const std::string& choice,
+                                          const std::filesystem::path& cacheFolder) {
+  auto opened = gpu::Device::open(choice, {}, cacheFolder);
   if (!opened) return opened.error();
   ComputeDevice self;
   self.device_ = std::move(*opened);

@@ -1,6 +1,7 @@
 // ComputeDevice: the Vulkan device simulations run on, without showing Vulkan.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,7 +29,9 @@ class ComputeDevice {
   /// Opens the device `choice` names, by part of its name or by index; an empty choice takes $RINGLET_DEVICE,
   /// else the best (discrete, then integrated, then virtual, then CPU). Fails where there is no Vulkan or no
   /// such device.
-  static Result<ComputeDevice> open(const std::string& choice = "");
+  /// `cacheFolder`: where the driver's compiled kernels are kept between programs; empty: nowhere.
+  static Result<ComputeDevice> open(const std::string& choice = "",
+                                    const std::filesystem::path& cacheFolder = {});
 
   /// All devices, by index (the Vulkan loader's order). Empty where there is no Vulkan.
   static std::vector<DeviceSummary> list();

@@ -230,6 +230,10 @@ void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kerne
                             groom_->contactControl, offset);
 }
 
+void ContactStage::recordNothing(gpu::Recorder& recorder) const {
+  for (const gpu::Kernel& kernel : kernels_) recorder.dispatchNothing(kernel, *bindings_);
+}
+
 void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) const {
   recorder.beginStage("contact_motion");
   dispatch(recorder, ContactKernel::motion, step, contactGroups());

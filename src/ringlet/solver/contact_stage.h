@@ -31,6 +31,9 @@ class ContactStage {
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const RestContacts& contacts, DeviceGroom& groom);
 
+  /// Every kernel, without work: so that it is compiled before it is needed.
+  void recordNothing(gpu::Recorder& recorder) const;
+
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say.
   void recordLists(gpu::Recorder& recorder, std::uint32_t step) const;

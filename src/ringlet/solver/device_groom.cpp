@@ -1,6 +1,10 @@
 // Implements solver/device_groom.h.
 #include "ringlet/solver/device_groom.h"
 
+#include <fmt/format.h>
+
+#include <limits>
+
 namespace ringlet {
 namespace {
 
@@ -40,10 +44,37 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const RestState& rest, cons
 
 }  // namespace
 
+Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
+                                             std::span<const std::uint32_t> particleCounts,
+                                             const GroomRecords& records, const Settings& settings,
+                                             const KernelChoice& choice) {
+  const gpu::DeviceProperties& p = device.properties();
+  std::uint64_t most = std::min({p.maxStorageBufferRange, p.maxAllocationBytes,
+                                 std::uint64_t{std::numeric_limits<std::uint32_t>::max()}});
+  if (!settings.contacts.on && isSeenAsTexels(device, kLeastTexelBytes))
+    most = std::min(most, p.maxTexelRecords * sizeof(layout::vec4));
+  if (choice.mostBufferBytes > 0) most = std::min(most, choice.mostBufferBytes);
+  auto chunks = cutGroom(particleCounts, records, most,
+                         settings.contacts.on ? "contacts"
+                         : choice.taps        ? "taps"
+                                              : "");
+  if (!chunks) return chunks;
+  const std::uint64_t particles = chunks->back().particleEnd, strands = chunks->back().strandEnd;
+  std::uint64_t bytes = particles * records.perParticle() + strands * records.perStrand();
+  if (gpu::isOneMemory(device))
+    bytes += Simulation::kFramesInFlight *
+             (particles * records.perParticleOfFrame() + strands * records.perStrandOfFrame());
+  std::uint64_t available = gpu::availableStorageBytes(device);
+  if (choice.mostDeviceBytes > 0) available = std::min(available, choice.mostDeviceBytes);
+  const std::string what = fmt::format("a groom of {} strands and {} particles", strands, particles);
+  if (Status status = checkMemory(what, bytes, available); !status) return status.error();
+  return chunks;
+}
+
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
-                                        std::span<const GroomChunk> parts, const GroomRecords& records) {
-  auto poses =
-      Buffer::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), BufferKind::stream, "poses");
+                                        std::span<const GroomChunk> parts, const GroomRecords& records,
+                                        std::size_t slots) {
+  auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
   if (!poses) return poses.error();
   auto control = Buffer::create(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0,
                                 BufferKind::stream, "contact control");
@@ -61,13 +92,8 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
 std::vector<std::reference_wrapper<const Buffer>> DeviceGroom::inBindingOrder(std::size_t chunk) const {
   const DeviceChunk& c = chunks[chunk];
   return {c.positions, c.velocities, c.particles, c.strands,        c.reports,
-          c.scratch,   poses,        c.solved,    c.contactSystems, contactControl,
+          c.scratch,   poses.seen(), c.solved,    c.contactSystems, contactControl,
           c.positions, c.velocities, c.particles, c.strands,        c.contactSystems};
-}
-
-std::span<layout::StepPose> DeviceGroom::mappedPoses() const {
-  const auto bytes = poses.mapped();
-  return {reinterpret_cast<layout::StepPose*>(bytes.data()), bytes.size() / sizeof(layout::StepPose)};
 }
 
 std::uint64_t DeviceGroom::largestTexels() const {

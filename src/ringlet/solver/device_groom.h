@@ -14,6 +14,7 @@
 #include "ringlet/gpu/device.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/device_buffers.h"
+#include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"
 #include "shared/layout.h"
 
@@ -26,16 +27,27 @@ struct DeviceChunk {
   gpu::Buffer solved, contactSystems;  // empty unless needed (GroomRecords)
 };
 
+/// The chunks a device wants a groom in: as large as storage allows, and as texels do where it sees as many
+/// as the smallest storage buffers hold, as kernels read those faster. With contacts a strand may meet any
+/// other: all are in one. Fails, with the numbers, as cutGroom does and where the device has too little
+/// memory left.
+Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
+                                             std::span<const std::uint32_t> particleCounts,
+                                             const GroomRecords& records, const Settings& settings,
+                                             const KernelChoice& choice);
+
 struct DeviceGroom {
   std::vector<DeviceChunk> chunks;
-  gpu::Buffer poses, contactControl;
+  FrameInput poses;            // StepPose[kMaxStepPoses]
+  gpu::Buffer contactControl;  // empty without contacts
 
+  /// `slots`: frames in flight. Fails when the device lacks memory.
   static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest,
-                                    std::span<const GroomChunk> parts, const GroomRecords& records);
+                                    std::span<const GroomChunk> parts, const GroomRecords& records,
+                                    std::size_t slots);
 
   /// A chunk's buffers in binding order (layout.h).
   std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder(std::size_t chunk) const;
-  std::span<layout::StepPose> mappedPoses() const;
   /// The largest buffer that kernels read as texels [bytes].
   std::uint64_t largestTexels() const;
   std::uint64_t particleBytes() const;  // of all buffers with a record a particle

@@ -5,37 +5,26 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/solver/packed.h"
 
 namespace ringlet {
-namespace {
-
-using gpu::Buffer;
-using gpu::BufferKind;
-
-layout::vec4 packed(Vec3d v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
-layout::vec4 packed(Quatd q) {
-  return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
-}
-
-}  // namespace
 
 BodyPose carriedBy(Quatd headRotation, const BodyPose& root) {
   return {rotate(headRotation, root.position), headRotation * root.rotation};
 }
 
 Result<DeviceRoots> DeviceRoots::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        bool areMoving, std::span<const GroomChunk> chunks) {
+                                        bool areMoving, std::span<const GroomChunk> chunks,
+                                        std::size_t slots) {
   const std::uint64_t strands = areMoving ? rest.strands.size() : 0;
   DeviceRoots roots(settings.stepSeconds());
   roots.chunks_.assign(chunks.begin(), chunks.end());
   for (const GroomChunk& chunk : chunks) {
     const std::uint64_t poses =
         areMoving ? (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * chunk.strandCount() : 0;
-    auto buffer = Buffer::create(device, poses * sizeof(layout::RootPose), BufferKind::stream, "root poses");
-    if (!buffer) return buffer.error();
-    roots.poses_.push_back(std::move(*buffer));
+    auto input = FrameInput::create(device, poses * sizeof(layout::RootPose), slots, "root poses");
+    if (!input) return input.error();
+    roots.poses_.push_back(std::move(*input));
   }
   if (areMoving) roots.strandInGroom_.assign(rest.strandInGroom.begin(), rest.strandInGroom.end());
   roots.now_.resize(strands);
@@ -45,12 +34,17 @@ Result<DeviceRoots> DeviceRoots::create(gpu::Device& device, const RestState& re
 
 std::uint64_t DeviceRoots::largestBuffer() const {
   std::uint64_t largest = 0;
-  for (const Buffer& poses : poses_) largest = std::max(largest, poses.bytes());
+  for (const FrameInput& poses : poses_) largest = std::max(largest, poses.bytes());
   return largest;
 }
 std::uint64_t DeviceRoots::bytes() const {
   std::uint64_t bytes = 0;
-  for (const Buffer& poses : poses_) bytes += poses.bytes();
+  for (const FrameInput& poses : poses_) bytes += poses.bytes();
+  return bytes;
+}
+std::uint64_t DeviceRoots::writtenBytes() const {
+  std::uint64_t bytes = 0;
+  for (const FrameInput& poses : poses_) bytes += poses.writtenBytes();
   return bytes;
 }
 
@@ -69,7 +63,8 @@ void DeviceRoots::place(std::span<const BodyPose> now, std::span<const BodyPose>
   oneStepEarlier_ = inOrder(oneStepEarlier);
 }
 
-void DeviceRoots::writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses) {
+void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
+                             std::span<const BodyPose> poses) {
   const std::size_t count = now_.size();
   RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 2) * count,
                  "every strand has a pose in every step");
@@ -83,8 +78,7 @@ void DeviceRoots::writeFrame(std::span<const HeadPose> heads, std::span<const Bo
     }
     const Quatd head = normalized(heads[pose + 1].rotation);
     for (std::size_t c = 0; c < chunks_.size(); ++c) {
-      auto out =
-          reinterpret_cast<layout::RootPose*>(poses_[c].mapped().data()) + pose * chunks_[c].strandCount();
+      layout::RootPose* out = &poses_[c].of<layout::RootPose>(slot)[pose * chunks_[c].strandCount()];
       for (std::size_t s = chunks_[c].strandBegin; s < chunks_[c].strandEnd; ++s) {
         const BodyPose now = carriedBy(head, now_[s]);
         const Quatd turn = now.rotation * before[s].rotation.conjugate();

@@ -14,6 +14,7 @@
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"
 #include "shared/layout.h"
 
@@ -25,18 +26,20 @@ BodyPose carriedBy(Quatd headRotation, const BodyPose& root);
 
 class DeviceRoots {
  public:
-  /// Poses are BodyPose{} at first. Fails when the device lacks memory.
+  /// Poses are BodyPose{} at first. `slots`: frames in flight. Fails when the device lacks memory.
   static Result<DeviceRoots> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    bool areMoving, std::span<const GroomChunk> chunks);
+                                    bool areMoving, std::span<const GroomChunk> chunks, std::size_t slots);
 
   bool areMoving() const { return !now_.empty(); }
 
   /// Of a chunk, in binding order, storage and texels: from kBindRootPoses on.
   std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder(std::size_t chunk) const {
-    return {poses_[chunk], poses_[chunk]};
+    return {poses_[chunk].seen(), poses_[chunk].seen()};
   }
   std::uint64_t largestBuffer() const;
   std::uint64_t bytes() const;
+  /// The host's part, for frames in flight.
+  std::uint64_t writtenBytes() const;
 
   /// Poses of strand s, device order, in the head's frame.
   const BodyPose& now(std::size_t s) const { return now_[s]; }
@@ -44,9 +47,14 @@ class DeviceRoots {
 
   /// Before the next step and one step before that, in groom order.
   void place(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
-  /// A frame's poses. heads[0] is the head one step before the frame's start, heads[1] at its start, heads[2
-  /// + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then they stay.
-  void writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses);
+  /// Poses of the frame of a slot. heads[0] is the head one step before the frame's start, heads[1] at its
+  /// start, heads[2 + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then
+  /// they stay.
+  void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses);
+  /// A frame of this slot begins with it.
+  void record(gpu::Recorder& recorder, std::size_t slot) const {
+    for (const FrameInput& poses : poses_) poses.record(recorder, slot);
+  }
   /// A frame that is not stepped: roots are at once where they end, and still there, seen from the head.
   void endFrame(std::span<const BodyPose> poses);
 
@@ -56,7 +64,7 @@ class DeviceRoots {
   std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
 
   std::vector<GroomChunk> chunks_;
-  std::vector<gpu::Buffer> poses_;  // RootPose[steps + 1][strands of the chunk]
+  std::vector<FrameInput> poses_;  // of each chunk: RootPose[step][strand]
   double stepSeconds_;
   std::vector<std::uint32_t> strandInGroom_;
   std::vector<BodyPose> now_, oneStepEarlier_;  // in the head's frame, device order

@@ -10,19 +10,12 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/base/half.h"
 #include "ringlet/solver/device_buffers.h"
+#include "ringlet/solver/packed.h"
 
 namespace ringlet {
 namespace {
 
-using gpu::Buffer;
-using gpu::BufferKind;
-
 constexpr double kEndless = 1e15;  // [m]: a plane's bounds; its square is still a float
-
-layout::vec4 packed(Vec3d v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-layout::vec4 packed(Quatd q) { return packed(Vec3d{q.x, q.y, q.z}, q.w); }
 
 layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
   layout::BodyRest rest{};
@@ -80,16 +73,10 @@ void packCells(const DistanceGrid& grid, std::vector<PackedCell>& cells) {
       }
 }
 
-template <class T>
-std::span<T> mappedAs(const Buffer& buffer) {
-  const auto bytes = buffer.mapped();
-  return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
-}
-
 }  // namespace
 
 Result<DeviceWorld> DeviceWorld::create(gpu::Device& device, std::span<const Body> bodies,
-                                        const Settings& settings, const HeadPose& start) {
+                                        const Settings& settings, const HeadPose& start, std::size_t slots) {
   std::vector<layout::BodyRest> rests;
   std::vector<PackedCell> cells;
   for (const Body& body : bodies) {
@@ -100,13 +87,12 @@ Result<DeviceWorld> DeviceWorld::create(gpu::Device& device, std::span<const Bod
   const std::uint64_t steps = static_cast<std::uint64_t>(settings.stepsPerFrame);
   auto restBuffer = createFilled(device, rests, "bodies");
   if (!restBuffer) return restBuffer.error();
-  auto poses = Buffer::create(device, (steps + 1) * bodies.size() * sizeof(layout::BodyPose),
-                              BufferKind::stream, "body poses");
+  auto poses =
+      FrameInput::create(device, (steps + 1) * bodies.size() * sizeof(layout::BodyPose), slots, "body poses");
   if (!poses) return poses.error();
   auto cellBuffer = createFilled(device, cells, "distance grids");
   if (!cellBuffer) return cellBuffer.error();
-  auto air = Buffer::create(device, settings.air.on ? steps * sizeof(layout::StepAir) : 0, BufferKind::stream,
-                            "air");
+  auto air = FrameInput::create(device, settings.air.on ? steps * sizeof(layout::StepAir) : 0, slots, "air");
   if (!air) return air.error();
 
   const std::vector<WindMode> waves = settings.air.on ? windModes(settings.air) : std::vector<WindMode>{};
@@ -128,14 +114,14 @@ Result<DeviceWorld> DeviceWorld::create(gpu::Device& device, std::span<const Bod
   return world;
 }
 
-void DeviceWorld::writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses,
-                             double seconds) {
-  if (airSettings_.on) writeAir(heads, seconds);
+void DeviceWorld::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
+                             std::span<const BodyPose> poses, double seconds) {
+  if (airSettings_.on) writeAir(air_.of<layout::StepAir>(slot), heads, seconds);
   const std::size_t count = bodies_.size();
   if (count == 0) return;
   RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 1) * count,
                  "every body has a pose in every step");
-  const auto out = mappedAs<layout::BodyPose>(poses_);
+  const auto out = poses_.of<layout::BodyPose>(slot);
   for (std::size_t b = 0; b < count; ++b) {
     out[b] = {packed(now_[b].position - heads[0].position), packed(now_[b].rotation), packed(Quatd{}), {}};
   }
@@ -162,8 +148,8 @@ void DeviceWorld::endFrame(const HeadPose& head, std::span<const BodyPose> poses
 }
 
 // Of a step the air at its end, where the head was when it began: that is where positions are from.
-void DeviceWorld::writeAir(std::span<const HeadPose> heads, double seconds) {
-  const auto out = mappedAs<layout::StepAir>(air_);
+void DeviceWorld::writeAir(std::span<layout::StepAir> out, std::span<const HeadPose> heads,
+                           double seconds) const {
   for (std::size_t k = 0; k + 1 < heads.size(); ++k) {
     const double t = seconds + static_cast<double>(k + 1) * stepSeconds_;
     const Vec3d travel = (heads[k + 1].position - heads[k].position) / stepSeconds_;

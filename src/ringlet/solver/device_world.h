@@ -12,47 +12,62 @@
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/scene/wind.h"
+#include "ringlet/solver/frame_input.h"
 #include "shared/layout.h"
 
 namespace ringlet {
 
 class DeviceWorld {
  public:
-  /// Fails where checkBody does, and when the device lacks memory. `start`: the head's pose now.
+  /// Fails where checkBody does, and when the device lacks memory. `start`: the head's pose now. `slots`:
+  /// frames in flight.
   static Result<DeviceWorld> create(gpu::Device& device, std::span<const Body> bodies,
-                                    const Settings& settings, const HeadPose& start);
+                                    const Settings& settings, const HeadPose& start, std::size_t slots);
 
   std::size_t bodyCount() const { return bodies_.size(); }
   bool isTurbulent() const { return !waves_.empty(); }
 
   /// In binding order, storage and texels: from kBindBodies on.
   std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
-    return {rests_, poses_, cells_, air_, waveBuffer_, rests_, poses_, cells_, air_, waveBuffer_};
+    return {rests_, poses_.seen(), cells_, air_.seen(), waveBuffer_,
+            rests_, poses_.seen(), cells_, air_.seen(), waveBuffer_};
   }
   std::uint64_t largestBuffer() const { return std::max(cells_.bytes(), poses_.bytes()); }
   std::uint64_t bytes() const {
     return rests_.bytes() + poses_.bytes() + cells_.bytes() + air_.bytes() + waveBuffer_.bytes();
   }
+  /// The host's part, for frames in flight.
+  std::uint64_t writtenBytes() const { return poses_.writtenBytes() + air_.writtenBytes(); }
 
   /// Where bodies are before the next step, in the world.
   void placeBodies(std::span<const BodyPose> poses) { now_.assign(poses.begin(), poses.end()); }
-  /// A frame's poses and air. heads[0] is the head at the frame's start, heads[1 + k] at the end of step k;
-  /// `poses` as bodyPosesOf gives them, or none: then the head carries all. `seconds`: since the simulation
-  /// began.
-  void writeFrame(std::span<const HeadPose> heads, std::span<const BodyPose> poses, double seconds);
+  /// Poses and air of the frame of a slot. heads[0] is the head at the frame's start, heads[1 + k] at the end
+  /// of step k; `poses` as bodyPosesOf gives them, or none: then the head carries all. `seconds`: since the
+  /// simulation began.
+  void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses,
+                  double seconds);
+  /// A frame of this slot begins with it.
+  void record(gpu::Recorder& recorder, std::size_t slot) const {
+    poses_.record(recorder, slot);
+    air_.record(recorder, slot);
+  }
   /// A frame that is not stepped: bodies are at once where they end, `poses` as above.
   void endFrame(const HeadPose& head, std::span<const BodyPose> poses);
 
  private:
-  DeviceWorld(gpu::Buffer rests, gpu::Buffer poses, gpu::Buffer cells, gpu::Buffer air, gpu::Buffer waves)
+  DeviceWorld(gpu::Buffer rests, FrameInput poses, gpu::Buffer cells, FrameInput air, gpu::Buffer waves)
       : rests_(std::move(rests)),
         poses_(std::move(poses)),
         cells_(std::move(cells)),
         air_(std::move(air)),
         waveBuffer_(std::move(waves)) {}
-  void writeAir(std::span<const HeadPose> heads, double seconds);
+  void writeAir(std::span<layout::StepAir> out, std::span<const HeadPose> heads, double seconds) const;
 
-  gpu::Buffer rests_, poses_, cells_, air_, waveBuffer_;
+  gpu::Buffer rests_;
+  FrameInput poses_;  // BodyPose[step][body]
+  gpu::Buffer cells_;
+  FrameInput air_;  // StepAir[step]
+  gpu::Buffer waveBuffer_;
   std::vector<Body> bodies_;
   std::vector<layout::BodyRest> packed_;  // for their bounds
   std::vector<BodyPose> now_;             // in the world

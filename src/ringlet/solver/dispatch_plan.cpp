@@ -4,14 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 
 #include "shared/layout.h"
 
 namespace ringlet {
 namespace {
-
-constexpr std::uint32_t kRuns[] = {4, 8, 16};  // compiled run lengths
 
 // lavapipe ends every loop of an invocation once they have made 65,535 turns together, without a word. Others
 // have no such limit; theirs is a dispatch short enough not to be taken for a hang.
@@ -128,49 +125,6 @@ void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& ran
 }
 
 }  // namespace
-
-std::string StrandShape::describe() const {
-  return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
-}
-
-StrandShape chooseShape(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice) {
-  if (choice.form == KernelChoice::Form::serial || !limits.hasSubgroupShuffle) return {};
-  // lavapipe is fastest with long runs, where little is done twice; a GPU wants many short ones, for its
-  // registers.
-  const std::uint32_t preferred = choice.particlesPerLane > 0
-                                      ? static_cast<std::uint32_t>(choice.particlesPerLane)
-                                  : limits.isCpu ? 16
-                                                 : 4;
-  for (std::uint32_t run : kRuns) {
-    if (run < preferred || (choice.particlesPerLane > 0 && run != preferred)) continue;
-    const std::uint32_t lanes = std::bit_ceil((particleCount + run - 1) / run);
-    if (lanes <= limits.subgroupSize) return {lanes, run};
-  }
-  return {};
-}
-
-Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
-                                            const DeviceLimits& limits, const KernelChoice& choice) {
-  if (choice.particlesPerLane != 0 &&
-      std::find(std::begin(kRuns), std::end(kRuns), choice.particlesPerLane) == std::end(kRuns)) {
-    return Error{fmt::format("{} particles per lane was asked for; 4, 8 and 16 exist, 0 chooses",
-                             choice.particlesPerLane)};
-  }
-  std::vector<StrandRange> ranges;
-  for (std::uint32_t s = 0; s < particleCounts.size(); ++s) {
-    const StrandShape shape = chooseShape(particleCounts[s], limits, choice);
-    if (choice.form == KernelChoice::Form::lanes && shape.serial()) {
-      return Error{fmt::format(
-          "the lanes form was asked for, but a strand of {} particles does not fit: this device has "
-          "subgroups of {}{}. Leave the choice to ringlet or ask for the serial form",
-          particleCounts[s], limits.subgroupSize, limits.hasSubgroupShuffle ? "" : " without shuffles")};
-    }
-    if (ranges.empty() || ranges.back().shape != shape) ranges.push_back({shape, s, s, 0});
-    ranges.back().end = s + 1;
-    ranges.back().longest = std::max(ranges.back().longest, particleCounts[s]);
-  }
-  return ranges;
-}
 
 Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
                                               const Settings& settings, std::size_t bodyCount,

@@ -11,7 +11,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/scene/settings.h"
-#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/shape_plan.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet {
@@ -25,6 +25,9 @@ struct GroomRecords {
     return position + velocity + particleRest + scratch + solved + contactSystem;
   }
   std::uint64_t perStrand() const { return strandRest + report + rootPoses; }
+  // And for each frame in flight, in the host's memory: positions read back, poses taken over.
+  std::uint64_t perParticleOfFrame() const { return position; }
+  std::uint64_t perStrandOfFrame() const { return rootPoses; }
 };
 
 /// `anySerial`: some strand takes the strand-per-thread form.

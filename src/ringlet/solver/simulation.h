@@ -1,5 +1,8 @@
-// Simulation: one groom on one device. Everything is uploaded at creation; a frame costs one submission and
-// no traffic but the head's poses; positions come back when asked for.
+// Simulation: one groom on one device. Everything is uploaded at creation; a frame is one submission,
+// recorded once, which begins by taking the head's poses over and ends by bringing positions back.
+//
+//   submitFrame(1)  submitFrame(2)  waitFrame  framePositions -> 1   submitFrame(3)  waitFrame ...
+//   device:         1 ............................ 2 ................................ 3
 #pragma once
 
 #include <array>
@@ -18,6 +21,7 @@
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/compute_device.h"
+#include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 
@@ -46,7 +50,7 @@ struct ContactReport {
   double momentumError = 0;         // of the last step: |sum of contact momenta| over the sum of their sizes
 };
 
-/// Bytes of a simulation's buffers on its device, by what they grow with (README, "Memory").
+/// Bytes of a simulation's buffers, by what they grow with (README, "Memory").
 struct DeviceMemory {
   std::uint64_t particles = 0;     // state, rest, scratch, what contacts add to a solve
   std::uint64_t strands = 0;       // constants, reports
@@ -54,8 +58,11 @@ struct DeviceMemory {
   std::uint64_t contacts = 0;      // contact particles, their grid, who may touch whom
   std::uint64_t contactLists = 0;  // as long as they have become
   std::uint64_t world = 0;         // the head's poses, bodies with their grids, air
+  std::uint64_t frames = 0;        // in flight, in the host's memory: positions read back, poses, air
 
-  std::uint64_t total() const { return particles + strands + rootPoses + contacts + contactLists + world; }
+  std::uint64_t total() const {
+    return particles + strands + rootPoses + contacts + contactLists + world + frames;
+  }
 };
 
 /// Particles' positions and velocities, in groom order, relative to the head's origin and its translation,
@@ -71,11 +78,24 @@ struct ListedContact {
   float stiffnessShare = 0, dampingShare = 0;
 };
 
+/// Told when the driver begins to compile a simulation's kernels, which may take seconds, and when it is
+/// done.
+class CompileObserver {
+ public:
+  virtual ~CompileObserver() = default;
+  virtual void begin(std::size_t kernelCount) = 0;
+  virtual void end() = 0;  // also after a failure
+};
+
 /// How the strand kernel is laid over the device; the defaults choose by device and strand length.
 struct KernelChoice {
   enum class Form { automatic, lanes, serial };
-  Form form = Form::automatic;  // lanes x run with the star join, or one thread per strand
-  int particlesPerLane = 0;     // 4, 8 or 16; 0: choose
+  Form form = Form::automatic;            // lanes x run with the star join, or one thread per strand
+  int particlesPerLane = 0;               // 4 to 16, on a CPU device 24; 0: choose
+  int lanes = 0;                          // of a strand, a power of two; 0: choose
+  std::span<const ShapeCost> measured{};  // on this device, needed until create returns; none: a model's
+  bool manyKernels = false;               // the best shape for every strand, whatever kernels cost to make
+  CompileObserver* observer = nullptr;    // needed until create returns
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
@@ -111,7 +131,19 @@ class Simulation {
   ///   x_world = head.position + rotate(head.rotation, root.position + rotate(root.rotation, x_groom))
   Status stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
                    std::span<const BodyPose> rootPoses = {});
-  /// The same with the poses interpolated from the last one to `end`.
+  /// Frames in flight, the same bits as one by one: submitFrame takes what stepFrame does, hands the frame to
+  /// the device and returns; waitFrame waits for the oldest that was not waited for, and framePositions then
+  /// gives that one's positions (as positions() does), until the kFramesInFlight'th frame after it is
+  /// submitted. At most kFramesInFlight may be without their wait, and none when stepFrame is called. All
+  /// else here waits for them by itself and tells of the last submitted. With contacts, which may need room
+  /// in the middle of a frame, and where the head jumps, submitFrame waits for the frames before.
+  static constexpr std::size_t kFramesInFlight = 2;
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses = {},
+                     std::span<const BodyPose> rootPoses = {});
+  Status waitFrame();
+  std::vector<Vec3f> framePositions() const;
+
+  /// The same as stepFrame with the poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
   /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
@@ -143,14 +175,17 @@ class Simulation {
   /// Things the user should know of (a core spring capped for this step, gravity preload too large), a
   /// sentence each.
   const std::vector<std::string>& warnings() const;
-  /// Milliseconds spent on the device, by stage, summed over all frames; by GPU timestamps where the device
-  /// has them.
+  /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
+  /// the device has them.
   std::map<std::string, double> stageMilliseconds() const;
-  /// What is on the device now. The driver may take a little more for each of some dozen buffers.
+  /// Now: a frame in flight may yet make contact lists longer. The driver may take a little more for each of
+  /// some dozen buffers.
   DeviceMemory memory() const;
   /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
   /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
+  /// What it took to make the kernels, most of it the driver's compiler [ms]. Part of create.
+  double compileMilliseconds() const;
   /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".
   std::string kernelDescription() const;
 

@@ -3,32 +3,33 @@
 
 #include <fmt/format.h>
 
+#include <future>
 #include <span>
 
-#include "ringlet_shaders/strand_step_run16.h"
-#include "ringlet_shaders/strand_step_run16_taps.h"
-#include "ringlet_shaders/strand_step_run4.h"
-#include "ringlet_shaders/strand_step_run4_taps.h"
-#include "ringlet_shaders/strand_step_run8.h"
-#include "ringlet_shaders/strand_step_run8_taps.h"
+#include "ringlet_shaders/strand_step_baselines.h"
+#include "ringlet_shaders/strand_step_baselines_taps.h"
+#include "ringlet_shaders/strand_step_plain.h"
+#include "ringlet_shaders/strand_step_plain_taps.h"
 #include "ringlet_shaders/strand_step_serial_plain.h"
 #include "ringlet_shaders/strand_step_serial_taps.h"
+#include "ringlet_shaders/strand_step_surroundings.h"
+#include "ringlet_shaders/strand_step_surroundings_taps.h"
 #include "shared/layout.h"
 
 namespace ringlet {
 namespace {
 
-std::span<const std::uint32_t> spirvOf(const StrandShape& shape, bool taps) {
-  if (shape.serial())
-    return taps ? std::span<const std::uint32_t>(k_strand_step_serial_taps) : k_strand_step_serial_plain;
-  switch (shape.particlesPerLane) {
-    case 4:
-      return taps ? std::span<const std::uint32_t>(k_strand_step_run4_taps) : k_strand_step_run4;
-    case 8:
-      return taps ? std::span<const std::uint32_t>(k_strand_step_run8_taps) : k_strand_step_run8;
-    default:
-      return taps ? std::span<const std::uint32_t>(k_strand_step_run16_taps) : k_strand_step_run16;
-  }
+using Spirv = std::span<const std::uint32_t>;
+
+// Code that is only switched off the driver reads all the same: half a second a kernel on lavapipe.
+Spirv spirvOf(const StrandShape& shape, const StrandKernelOptions& options) {
+  const auto either = [&](Spirv plain, Spirv taps) { return options.taps ? taps : plain; };
+  if (shape.serial()) return either(k_strand_step_serial_plain, k_strand_step_serial_taps);
+  if (options.integrator != Integrator::jacobi)
+    return either(k_strand_step_baselines, k_strand_step_baselines_taps);
+  if (options.bodies || options.air)
+    return either(k_strand_step_surroundings, k_strand_step_surroundings_taps);
+  return either(k_strand_step_plain, k_strand_step_plain_taps);
 }
 
 std::uint32_t integratorConstant(Integrator integrator) {
@@ -50,7 +51,7 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   using enum gpu::BindingKind;
   gpu::KernelDescription description;
   description.name = "strand_step " + shape.describe();
-  description.spirv = spirvOf(shape, options.taps);
+  description.spirv = spirvOf(shape, options);
   description.bindings = {storage, storage, storage, storage, storage, storage, uniform, storage, storage,
                           storage, texels,  texels,  texels,  texels,  texels,  storage, storage, storage,
                           storage, storage, texels,  texels,  texels,  texels,  texels,  storage, texels};
@@ -69,9 +70,29 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});
+    description.constants.push_back({12, shape.particlesPerLane});
     description.wantsFullSubgroups = true;
   }
   return gpu::Kernel::create(device, description);
+}
+
+Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandShape> shapes,
+                                                     const StrandKernelOptions& options) {
+  std::vector<std::future<Result<gpu::Kernel>>> others;
+  for (const StrandShape& shape : shapes.subspan(1)) {
+    others.push_back(std::async(std::launch::async, [&device, &shape, &options] {
+      return createStrandKernel(device, shape, options);
+    }));
+  }
+  std::vector<Result<gpu::Kernel>> made;
+  made.push_back(createStrandKernel(device, shapes.front(), options));
+  for (auto& other : others) made.push_back(other.get());
+  std::vector<gpu::Kernel> kernels;
+  for (auto& kernel : made) {
+    if (!kernel) return kernel.error();
+    kernels.push_back(std::move(*kernel));
+  }
+  return kernels;
 }
 
 }  // namespace ringlet

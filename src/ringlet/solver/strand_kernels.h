@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/scene/settings.h"
-#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 
@@ -31,5 +33,10 @@ struct StrandKernelOptions {
 
 Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
                                        const StrandKernelOptions& options);
+
+/// One for each shape, made on threads of their own: lavapipe reads each for half a second, whatever its
+/// cache holds.
+Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandShape> shapes,
+                                                     const StrandKernelOptions& options);
 
 }  // namespace ringlet

@@ -1,0 +1,159 @@
+// What writing a frame costs: an animation's frames through every writer, and read back and compared. Times
+// are medians over frames; CPU time is the process's. Run:
+//   ringlet make head --strands 1000 --particles 64 -o head.obj
+//   ringlet simulate head.obj --frames 240 --cache float32 --no-usd -o out
+//   build/release/bench/output_bench out/hair.rgc
+// It writes beside its input and removes what it wrote.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ringlet/output/cache_reader.h"
+#include "ringlet/output/cache_writer.h"
+#include "ringlet/output/usd_reader.h"
+#include "ringlet/output/usd_writer.h"
+
+namespace {
+
+using namespace ringlet;
+using Frames = std::vector<std::vector<Vec3f>>;
+
+double wallNow() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+double cpuNow() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+// Wall and CPU milliseconds of many calls.
+struct Times {
+  std::vector<double> wall, cpu;
+
+  template <class Call>
+  bool time(Call&& call) {
+    const double wallBefore = wallNow(), cpuBefore = cpuNow();
+    const bool fine = call();
+    cpu.push_back(cpuNow() - cpuBefore);
+    wall.push_back(wallNow() - wallBefore);
+    return fine;
+  }
+  static double median(std::vector<double> values) {
+    std::ranges::nth_element(values, values.begin() + values.size() / 2);
+    return values[values.size() / 2];
+  }
+};
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "output_bench: {}\n", message);
+  return 1;
+}
+
+double farthestApart(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, length(Vec3d(a[i]) - Vec3d(b[i])));
+  return largest;
+}
+
+void printRow(const char* name, const Times& write, const Times& read, std::uint64_t bytes,
+              const Frames& frames, double apart, double bound) {
+  const double points = static_cast<double>(frames.size()) * static_cast<double>(frames[0].size());
+  fmt::print("{:<16}{:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>12.2f} {:>12.5f} {:>12.5f}\n", name,
+             Times::median(write.wall), Times::median(write.cpu), Times::median(read.wall),
+             Times::median(read.cpu), static_cast<double>(bytes) / points, 1000 * apart, 1000 * bound);
+  std::fflush(stdout);
+}
+
+template <class Writer>
+std::string writeAll(Writer& writer, const Frames& frames, Times& times) {
+  for (const auto& frame : frames) {
+    if (!times.time([&] { return static_cast<bool>(writer.addFrame(frame)); }))
+      return "a frame was not written";
+  }
+  const Status finished = writer.finish();
+  return finished ? "" : finished.error().message;
+}
+
+std::string benchCache(const char* name, const std::filesystem::path& path, const Groom& groom,
+                       CacheHeader header, CachePrecision precision, const Frames& frames) {
+  header.precision = precision;
+  Times write, read;
+  auto writer = CacheWriter::create(path, groom, header);
+  if (!writer) return writer.error().message;
+  if (const std::string wrong = writeAll(*writer, frames, write); !wrong.empty()) return wrong;
+  auto reader = CacheReader::open(path);
+  if (!reader) return reader.error().message;
+  std::vector<Vec3f> points;
+  double apart = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (!read.time([&] { return static_cast<bool>(reader->readFrame(static_cast<int>(k) + 1, points)); }))
+      return "a frame cannot be read";
+    apart = std::max(apart, header.metresPerUnit * farthestApart(points, frames[k]));
+  }
+  if (apart > reader->errorBound()) return "a frame read back is farther off than the file says";
+  printRow(name, write, read, writer->byteCount(), frames, apart, reader->errorBound());
+  return "";
+}
+
+std::string benchUsd(const std::filesystem::path& path, const Groom& groom, const CacheHeader& header,
+                     const Frames& frames) {
+  Times write, read;
+  auto writer = UsdWriter::create(path, groom,
+                                  {.framesPerSecond = header.framesPerSecond,
+                                   .metresPerUnit = header.metresPerUnit,
+                                   .up = header.up,
+                                   .diameter = header.diameter,
+                                   .frameCount = static_cast<int>(frames.size())});
+  if (!writer) return writer.error().message;
+  if (const std::string wrong = writeAll(*writer, frames, write); !wrong.empty()) return wrong;
+  const std::uint64_t bytes = std::filesystem::file_size(path);
+  auto reader = UsdReader::open(path);
+  if (!reader) return reader.error().message;
+  std::vector<Vec3f> points;
+  for (const auto& frame : frames) {
+    if (!read.time([&] { return static_cast<bool>(reader->readFrame(points)); }))
+      return "a frame cannot be read";
+    if (farthestApart(points, frame) > 0) return "a frame read back is another";
+  }
+  printRow("USD text", write, read, bytes, frames, 0, 0);
+  return "";
+}
+
+}  // namespace
+
+int main(int argumentCount, char** arguments) {
+  if (argumentCount != 2) return fail("name a cache, as out/hair.rgc");
+  const std::filesystem::path input = arguments[1], output = input.string() + ".bench";
+  auto reader = CacheReader::open(input);
+  if (!reader) return fail(reader.error().message);
+  Groom groom;
+  groom.firstPoint = reader->firstPoint();
+  Frames frames(static_cast<std::size_t>(reader->frameCount()));
+  if (frames.empty()) return fail(input.string() + " holds no frame");
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    if (Status read = reader->readFrame(static_cast<int>(k) + 1, frames[k]); !read)
+      return fail(read.error().message);
+  }
+
+  fmt::print("{} frames of {} strands, {} particles\n", frames.size(), reader->strandCount(),
+             reader->particleCount());
+  fmt::print("{:<16}{:>10} {:>10} {:>10} {:>10} {:>12} {:>12} {:>12}\n", "", "write ms", "CPU ms", "read ms",
+             "CPU ms", "bytes/point", "off by mm", "bound mm");
+  std::string wrong = benchUsd(output, groom, reader->header(), frames);
+  for (auto [name, precision] :
+       {std::pair{"cache, float32", CachePrecision::float32}, {"cache, 16bit", CachePrecision::bits16}}) {
+    if (wrong.empty()) wrong = benchCache(name, output, groom, reader->header(), precision, frames);
+  }
+  std::error_code ignored;
+  std::filesystem::remove(output, ignored);
+  return wrong.empty() ? 0 : fail(wrong);
+}

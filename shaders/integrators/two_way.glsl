@@ -1,0 +1,72 @@
+// `jacobi` for two lanes and hair alone: the same exact solve from both ends of the strand at once, lane 0 from the root and
+// lane 1 from the tip, met at the edge between them. No lane waits for what lies beyond its run, so no transfers and no
+// compliances of whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl).
+// Included by kernels/strand_step.comp.
+//
+//   root  o-o-o-o   o-o-o-o  tip
+//         lane 0 -> <- lane 1
+//
+// A particle is seen from the other end as its velocity without further pull, and how it gives way to one (its mobility):
+//   v = c + C f.   Over an edge of compliance A⁻¹ to a particle of mass m and right-hand side r:
+//   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
+// All sums of positive matrices: stiff edges cost no digits.
+
+const bool kFromBothEnds = kLanes == 2 && !kAddsMass && !kBendVaries;
+
+// A⁻¹ of an edge of this direction and length; void ones are never used.
+Symmetric complianceOf(vec3 direction, float edgeLength) {
+  ImplicitEdge one = implicitEdge(direction, stepSeconds(), strand.stretchStiffness, strand.stretchDamping, strand.bendStiffness,
+                                  compensatedBendDamping(strand.bendDamping, strand.bendStiffness, stepSeconds()));
+  float a = edgeLength / one.across;
+  return addOuter(symmetricDiagonal(a), -a * (one.along / (one.along + one.across)), direction);
+}
+
+// To the particle before it, the way this lane goes.
+bool isLinked(int j) { return j > 0 && (lane == 0 ? isEdge(j - 1) : isEdge(RUN - 1 - j)); }
+
+void solveFromBothEnds(vec3 pinned[3]) {
+  bool fromRoot = lane == 0;
+  // In the order this lane goes.
+  float mass[RUN];
+  vec3 r[RUN];
+  Symmetric C[RUN];
+  vec3 c[RUN];
+  vec3 forceBefore = forceFromRootward();
+  [[unroll]] for (int j = 0; j < RUN; ++j) {
+    int k = RUN - 1 - j;
+    vec3 rootSide = rightHandSide(j, j > 0 ? force[max(j - 1, 0)] : forceBefore);
+    vec3 tipSide = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
+    r[j] = fromRoot ? rootSide : tipSide;
+    mass[j] = fromRoot ? restEdge[j].x : restEdge[k].x;
+    if (j > 0) {
+      Symmetric S = add(C[max(j - 1, 0)], complianceOf(fromRoot ? eHat[max(j - 1, 0)] : eHat[k],
+                                                       fromRoot ? edgeLengthOf(max(j - 1, 0)) : edgeLengthOf(k)));
+      Symmetric E = inverse(addDiagonal(scale(S, mass[j]), 1.0));
+      C[j] = multiplyCommuting(E, S);
+      c[j] = multiply(E, c[max(j - 1, 0)] + multiply(S, r[j]));
+    }
+    if (!isLinked(j)) {  // an end of the strand
+      C[j] = symmetricDiagonal(1.0 / mass[j]);
+      c[j] = r[j] / mass[j];
+    }
+    if (fromRoot && isPinned(j)) {
+      C[j] = symmetricDiagonal(0.0);
+      c[j] = pinned[min(j, 2)];
+    }
+  }
+
+  // Across the edge between the lanes.
+  Symmetric apart = add(C[RUN - 1], complianceOf(eHat[RUN - 1], edgeLengthOf(RUN - 1)));
+  apart = add(apart, Symmetric(fromTipward(C[RUN - 1].d, 1), fromTipward(C[RUN - 1].o, 1)));
+  vec3 f = multiply(inverse(apart), fromTipward(c[RUN - 1], 1) - c[RUN - 1]);
+  if (!isEdge(RUN - 1)) f = vec3(0);
+  vec3 reaction = -fromRootward(f, 1);
+  if (!fromRoot) f = reaction;
+
+  vec3 solved[RUN];
+  [[unroll]] for (int j = RUN - 1; j >= 0; --j) {
+    solved[j] = c[j] + multiply(C[j], f);
+    f = isLinked(j) ? r[j] + f - mass[j] * solved[j] : vec3(0);
+  }
+  [[unroll]] for (int k = 0; k < RUN; ++k) v[k] = fromRoot ? solved[k] : solved[RUN - 1 - k];
+}

@@ -1,0 +1,35 @@
+// Implements compile_note.h.
+#include "program/compile_note.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace ringlet::program {
+
+void CompileNote::begin(std::size_t kernelCount) {
+  start_ = std::chrono::steady_clock::now();
+  isDone_ = hasSpoken_ = false;
+  watcher_ = std::thread([this, kernelCount] {
+    std::unique_lock lock(mutex_);
+    if (changed_.wait_for(lock, std::chrono::seconds(1), [this] { return isDone_; })) return;
+    fmt::print(stderr, "ringlet: compiling {} kernel{} for {}; the first use takes longest ...\n",
+               kernelCount, kernelCount == 1 ? "" : "s", device_);
+    hasSpoken_ = true;
+  });
+}
+
+void CompileNote::end() {
+  if (!watcher_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    isDone_ = true;
+  }
+  changed_.notify_one();
+  watcher_.join();
+  if (!hasSpoken_) return;
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+  fmt::print(stderr, "ringlet: compiled in {:.1f} s\n", seconds.count());
+}
+
+}  // namespace ringlet::program

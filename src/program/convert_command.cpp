@@ -1,0 +1,274 @@
+// Implements convert_command.h: options to a ConvertPlan. The conversion is convert_run.cpp.
+#include "program/convert_command.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "program/animation_source.h"
+#include "program/command_line.h"
+#include "program/convert_run.h"
+#include "program/exit_codes.h"
+#include "program/run_report.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr const char* kExample =
+    "Examples:\n"
+    "  ringlet convert out/hair.rgc hair.usda                    the same text as simulate writes\n"
+    "  ringlet convert out/hair.rgc small.rgc --precision 16bit\n"
+    "  ringlet convert out/hair.usda hair.rgc\n"
+    "  ringlet convert out/hair.rgc frames/ --frames 1:24        frames/hair.0001.obj to hair.0024.obj\n"
+    "  ringlet convert out/hair.rgc pose.obj --frame 12\n"
+    "  ringlet convert out/hair.rgc sheet.png\n"
+    "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
+    "\n"
+    "OUT's ending says what becomes of it. .usda, .rgc and .png count frames from 1 again; the names of "
+    ".obj\n"
+    "files keep the animation's numbers. Damaged frames are refused, whole ones beside them can be had with\n"
+    "--frames. A file that was not finished is read as far as it goes, and a warning says so.\n"
+    "\n"
+    "--json keys: frames strands particles bytes error_bound_m (how far any point may be from what was\n"
+    "simulated) warnings outputs (of a sequence the first and the last). With --info: format precision\n"
+    "finished frames strands particles fps metres_per_unit up width_m bytes bytes_per_point error_bound_m\n"
+    "warnings.\n"
+    "\n"
+    "Exit status: 0 done, 1 something failed, 2 wrong usage.";
+
+// The command line as typed.
+struct Typed {
+  std::filesystem::path input, output;
+  std::string frames;
+  std::optional<int> frame;
+  std::string precision;
+  bool info = false, json = false, quiet = false;
+};
+
+struct FrameRange {
+  int first = 1, last = 1;
+};
+
+// "3:7", or nothing.
+std::optional<FrameRange> parseRange(const std::string& text) {
+  const char *at = text.data(), *end = at + text.size();
+  FrameRange range;
+  auto [colon, first] = std::from_chars(at, end, range.first);
+  if (first != std::errc() || colon == end || *colon != ':') return std::nullopt;
+  auto [stop, last] = std::from_chars(colon + 1, end, range.last);
+  if (last != std::errc() || stop != end || range.first < 1 || range.last < range.first) return std::nullopt;
+  return range;
+}
+
+CLI::Validator isRange() {
+  return CLI::Validator(
+      [](std::string& text) {
+        if (parseRange(text)) return std::string();
+        return fmt::format("must be two frames from 1 up, as 1:24, not '{}'", text);
+      },
+      "");
+}
+
+// By the ending of its name; nothing where that says nothing.
+std::optional<ConvertTo> kindOf(const Typed& typed) {
+  const std::string extension = typed.output.extension().string();
+  if (extension == ".usda") return ConvertTo::usd;
+  if (extension == ".rgc") return ConvertTo::cache;
+  if (extension == ".png") return ConvertTo::sheet;
+  if (extension == ".obj") return typed.frame ? ConvertTo::obj : ConvertTo::objSequence;
+  std::error_code code;
+  if (extension.empty() || std::filesystem::is_directory(typed.output, code)) return ConvertTo::objSequence;
+  return std::nullopt;
+}
+
+// Throws CLI11's error for what makes no sense together.
+void checkOptions(const Typed& typed) {
+  if (typed.output.empty() && !typed.info)
+    throw CLI::ValidationError("OUT", "name the file to write, or say --info");
+  if (typed.info &&
+      (!typed.output.empty() || typed.frame || !typed.frames.empty() || !typed.precision.empty()))
+    throw CLI::ValidationError("--info", "only says what is in IN; leave out OUT and what OUT is to be");
+  if (typed.frame && !typed.frames.empty())
+    throw CLI::ValidationError("--frame", "is one frame, --frames several; say one of them");
+  if (typed.info) return;
+  const auto kind = kindOf(typed);
+  if (!kind)
+    throw CLI::ValidationError(
+        "OUT", fmt::format("'{}' must end in .usda, .rgc, .obj or .png, or be a folder for .obj files",
+                           typed.output.string()));
+  if (!typed.precision.empty() && kind != ConvertTo::cache)
+    throw CLI::ValidationError("--precision", "only a cache, .rgc, has one");
+}
+
+// Which frames, checked against those there are.
+Result<FrameRange> chooseFrames(const Typed& typed, const AnimationSource& source) {
+  const int count = source.frameCount();
+  if (count == 0) return Error{fmt::format("{} holds no frame", typed.input.string())};
+  FrameRange range{1, count};
+  if (typed.frame) range = {*typed.frame, *typed.frame};
+  if (!typed.frames.empty()) range = *parseRange(typed.frames);
+  if (range.last > count)
+    return Error{
+        fmt::format("{} has frames 1 to {}; there is no frame {}", typed.input.string(), count, range.last)};
+  return range;
+}
+
+// A writer begins with PATH.partial; that must not be what is read.
+Status checkOutput(const Typed& typed) {
+  std::error_code code;
+  for (const char* suffix : {"", ".partial"}) {
+    const std::filesystem::path taken = typed.output.string() + suffix;
+    if (std::filesystem::equivalent(taken, typed.input, code))
+      return Error{fmt::format("writing {} would overwrite {} while it is read; choose another name",
+                               typed.output.string(), typed.input.string())};
+  }
+  return {};
+}
+
+std::string sizeText(std::uint64_t bytes) {
+  return bytes < 1'000'000 ? fmt::format("{} bytes", bytes)
+                           : fmt::format("{:.1f} MB", 1e-6 * static_cast<double>(bytes));
+}
+
+std::string boundText(double bound) {
+  return bound == 0 ? "exact" : fmt::format("off by at most {:.3g} mm", 1000 * bound);
+}
+
+// Of all points of all frames.
+double bytesPerPoint(const AnimationSource& source) {
+  const double points = static_cast<double>(source.groom().firstPoint.back()) * source.frameCount();
+  return points > 0 ? static_cast<double>(source.byteCount()) / points : 0;
+}
+
+void printInfo(const Typed& typed, const AnimationSource& source) {
+  const CacheHeader& header = source.header();
+  const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
+  const char* up = header.up == UpAxis::z ? "Z" : "Y";
+  const double width = header.diameter * header.metresPerUnit;
+  if (typed.json) {
+    printJson({{"format", source.isCache() ? "cache" : "usd"},
+               {"precision", nameOf(header.precision)},
+               {"finished", source.isFinished()},
+               {"frames", source.frameCount()},
+               {"strands", strands},
+               {"particles", particles},
+               {"fps", header.framesPerSecond},
+               {"metres_per_unit", header.metresPerUnit},
+               {"up", up},
+               {"width_m", width},
+               {"bytes", source.byteCount()},
+               {"bytes_per_point", bytesPerPoint(source)},
+               {"error_bound_m", source.errorBound()},
+               {"warnings", source.warnings()}});
+    return;
+  }
+  fmt::print("{}: {}, {}\n", typed.input.string(),
+             source.isCache() ? "cache, " + nameOf(header.precision) : "USD text",
+             source.isFinished() ? "finished" : "not finished");
+  fmt::print("  frames        {} at {} a second, {:.3g} s\n", source.frameCount(), header.framesPerSecond,
+             source.frameCount() / header.framesPerSecond);
+  fmt::print("  strands       {}, {} particles, {:.3g} mm wide\n", strands, particles, 1000 * width);
+  fmt::print("  unit          {} m, {} up\n", header.metresPerUnit, up);
+  fmt::print("  size          {}, {:.2f} bytes a point\n", sizeText(source.byteCount()),
+             bytesPerPoint(source));
+  fmt::print("  points        {}\n", boundText(source.errorBound()));
+}
+
+void printOutcome(const Typed& typed, const AnimationSource& source, const ConvertOutcome& outcome,
+                  int frameCount) {
+  const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
+  if (typed.json) {
+    nlohmann::ordered_json json{{"frames", frameCount},
+                                {"strands", strands},
+                                {"particles", particles},
+                                {"bytes", outcome.byteCount},
+                                {"error_bound_m", outcome.errorBound},
+                                {"warnings", source.warnings()},
+                                {"outputs", nlohmann::json::array()}};
+    for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
+    printJson(json);
+  } else if (!typed.quiet) {
+    fmt::print("{} frame{} of {} strand{}, {} particles: {}{}, {}, {}\n", frameCount,
+               frameCount == 1 ? "" : "s", strands, strands == 1 ? "" : "s", particles,
+               outcome.outputs.front().string(),
+               outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "",
+               sizeText(outcome.byteCount), boundText(outcome.errorBound));
+  }
+}
+
+Status runConvert(const Typed& typed) {
+  auto source = AnimationSource::open(typed.input);
+  if (!source) return source.error();
+  for (const std::string& warning : source->warnings())
+    fmt::print(stderr, "ringlet convert: warning: {}\n", warning);
+  if (typed.info) {
+    printInfo(typed, *source);
+    return {};
+  }
+  if (!source->isFinished())
+    fmt::print(stderr, "ringlet convert: warning: {} was not finished; it has {} frames\n",
+               typed.input.string(), source->frameCount());
+  auto range = chooseFrames(typed, *source);
+  if (!range) return range.error();
+  if (Status free = checkOutput(typed); !free) return free;
+  const auto outcome = convert(
+      *source,
+      {.to = *kindOf(typed),
+       .output = typed.output,
+       .firstFrame = range->first,
+       .lastFrame = range->last,
+       .precision = typed.precision.empty() ? source->header().precision : precisionByName(typed.precision),
+       .showProgress = !typed.quiet});
+  if (!outcome) return outcome.error();
+  printOutcome(typed, *source, *outcome, range->last - range->first + 1);
+  return {};
+}
+
+int run(const Typed& typed) {
+  checkOptions(typed);
+  const Status done = runConvert(typed);
+  if (done) return kExitFine;
+  fmt::print(stderr, "ringlet convert: {}\n", done.error().message);
+  return kExitFailed;
+}
+
+}  // namespace
+
+void addConvertCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command =
+      app.add_subcommand("convert", "Makes another file of an animation, or says what is in it");
+  command->footer(kExample);
+  command->add_option("IN", typed->input, "An animation: hair.rgc or hair.usda, or their .partial")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "OUT", typed->output,
+          "File to write: .usda, .rgc, .png (six frames side by side) or .obj (name.0001.obj and so on); "
+          "or a folder for .obj files")
+      ->type_name("PATH");
+  command->add_option("--frames", typed->frames, "First and last frame, from 1 (default: all)")
+      ->check(isRange())
+      ->type_name("A:B");
+  command->add_option("--frame", typed->frame, "One frame, from 1; an .obj then has the name of OUT")
+      ->check(wholeBetween(1, 1'000'000'000))
+      ->type_name("N");
+  command
+      ->add_option("--precision", typed->precision,
+                   "Of an .rgc: float32 (every bit) or 16bit (default: that of IN; of USD float32)")
+      ->check(oneOf(precisionNames()))
+      ->type_name("PRECISION");
+  command->add_flag("--info", typed->info, "Say what is in IN, and write nothing");
+  command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");
+  command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,11 @@
+// `ringlet convert`: an animation as another file, and what is in one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ringlet::program {
+
+/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+void addConvertCommand(CLI::App& app, int& exitCode);
+
+}  // namespace ringlet::program

@@ -1,0 +1,143 @@
+// Implements convert_run.h.
+#include "program/convert_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <system_error>
+
+#include "program/progress_bar.h"
+#include "ringlet/groom/obj_file.h"
+#include "ringlet/output/cache_writer.h"
+#include "ringlet/output/sheet.h"
+#include "ringlet/output/usd_writer.h"
+
+namespace ringlet::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+int frameCountOf(const ConvertPlan& plan) { return plan.lastFrame - plan.firstFrame + 1; }
+
+// Calls visit(frame) once the source's groom is in the pose of that frame of the animation.
+Status forEachFrame(AnimationSource& source, const ConvertPlan& plan,
+                    const std::function<Status(int)>& visit) {
+  ProgressBar progress(frameCountOf(plan), plan.showProgress);
+  for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) {
+    progress.show(frame - plan.firstFrame);
+    if (Status read = source.readFrame(frame); !read) return read;
+    if (Status visited = visit(frame); !visited) return visited;
+  }
+  return {};
+}
+
+// All frames through a writer that is created, and finished.
+template <class Writer>
+Status throughWriter(AnimationSource& source, const ConvertPlan& plan, Result<Writer> writer) {
+  if (!writer) return writer.error();
+  const auto add = [&](int) { return writer->addFrame(source.groom().points); };
+  if (Status added = forEachFrame(source, plan, add); !added) {
+    const std::string partial = plan.output.string() + ".partial";
+    const bool isSaid = added.error().message.find(partial) != std::string::npos;  // by the writer
+    if (writer->frameCount() == 0 || isSaid) return added;
+    return Error{fmt::format("{} (the {} frames before it are kept in {})", added.error().message,
+                             writer->frameCount(), partial)};
+  }
+  return writer->finish();
+}
+
+Status toUsd(AnimationSource& source, const ConvertPlan& plan) {
+  const CacheHeader& header = source.header();
+  return throughWriter(source, plan,
+                       UsdWriter::create(plan.output, source.groom(),
+                                         {.framesPerSecond = header.framesPerSecond,
+                                          .metresPerUnit = header.metresPerUnit,
+                                          .up = header.up,
+                                          .diameter = header.diameter,
+                                          .frameCount = frameCountOf(plan)}));
+}
+
+Status toCache(AnimationSource& source, const ConvertPlan& plan) {
+  CacheHeader header = source.header();
+  header.precision = plan.precision;
+  return throughWriter(source, plan, CacheWriter::create(plan.output, source.groom(), header));
+}
+
+Status toSheet(AnimationSource& source, const ConvertPlan& plan) {
+  Sheet sheet(source.groom(), frameCountOf(plan), source.header().up);
+  const auto offer = [&](int frame) -> Status {
+    sheet.offer(frame - plan.firstFrame + 1, source.groom().points);
+    return {};
+  };
+  if (Status seen = forEachFrame(source, plan, offer); !seen) return seen;
+  return sheet.write(plan.output);
+}
+
+Status toObj(AnimationSource& source, const ConvertPlan& plan) {
+  const bool isSequence = plan.to == ConvertTo::objSequence;
+  if (isSequence && framePath(plan.output, 1).parent_path() == plan.output) {
+    std::error_code code;
+    fs::create_directories(plan.output, code);
+    if (code)
+      return Error{fmt::format("cannot create the folder {}: {}", plan.output.string(), code.message())};
+  }
+  return forEachFrame(source, plan, [&](int frame) {
+    return writeObj(isSequence ? framePath(plan.output, frame) : plan.output, source.groom());
+  });
+}
+
+// Bytes of the files of an outcome.
+std::uint64_t bytesOf(const ConvertPlan& plan) {
+  std::uint64_t bytes = 0;
+  std::error_code code;
+  if (plan.to != ConvertTo::objSequence) return fs::file_size(plan.output, code);
+  for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame)
+    bytes += fs::file_size(framePath(plan.output, frame), code);
+  return bytes;
+}
+
+// How far the source's frames may be from what was simulated.
+double errorBoundOf(const AnimationSource& source, const ConvertPlan& plan) {
+  double largest = 0;
+  for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame)
+    largest = std::max(largest, source.errorBound(frame));
+  return largest;
+}
+
+}  // namespace
+
+fs::path framePath(const fs::path& output, int frame) {
+  const bool isFolder = output.extension() != ".obj";
+  return isFolder ? output / fmt::format("hair.{:04}.obj", frame)
+                  : output.parent_path() / fmt::format("{}.{:04}.obj", output.stem().string(), frame);
+}
+
+Result<ConvertOutcome> convert(AnimationSource& source, const ConvertPlan& plan) {
+  const Status done = plan.to == ConvertTo::usd     ? toUsd(source, plan)
+                      : plan.to == ConvertTo::cache ? toCache(source, plan)
+                      : plan.to == ConvertTo::sheet ? toSheet(source, plan)
+                                                    : toObj(source, plan);
+  if (!done) return done.error();
+
+  ConvertOutcome outcome;
+  outcome.errorBound = errorBoundOf(source, plan);
+  if (plan.to == ConvertTo::cache && plan.precision == CachePrecision::bits16) {
+    // What was lost before and what is lost now may add up.
+    auto written = AnimationSource::open(plan.output);
+    if (!written) return written.error();
+    outcome.errorBound += written->errorBound();
+  }
+  if (plan.to == ConvertTo::objSequence) {
+    outcome.outputs = {framePath(plan.output, plan.firstFrame)};
+    if (plan.lastFrame > plan.firstFrame) outcome.outputs.push_back(framePath(plan.output, plan.lastFrame));
+    outcome.fileCount = frameCountOf(plan);
+  } else {
+    outcome.outputs = {plan.output};
+    outcome.fileCount = 1;
+  }
+  outcome.byteCount = bytesOf(plan);
+  return outcome;
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,51 @@
+// Implements frame_sink.h.
+#include "program/frame_sink.h"
+
+#include <utility>
+
+#include "program/stopwatch.h"
+#include "ringlet/output/finite_points.h"
+
+namespace ringlet::program {
+namespace {
+
+// Frames that wait to be written: enough that a slow one stops nobody, few enough for memory.
+constexpr std::size_t kRoom = 4;
+
+// From the solver's frame (metres, seen from the head's origin) to the file's.
+std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head, double metresPerUnit) {
+  std::vector<Vec3f> points(positions.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = Vec3f((head.position + Vec3d(positions[i])) / metresPerUnit);
+  return points;
+}
+
+}  // namespace
+
+FrameSink::FrameSink(const Groom& groom, FrameReaders readers)
+    : groom_(groom), readers_(std::move(readers)), thread_(kRoom) {}
+
+Status FrameSink::hand(ComputedFrame frame) {
+  return thread_.hand([this, frame = std::move(frame)]() mutable { return take(std::move(frame)); });
+}
+
+Status FrameSink::take(ComputedFrame frame) {
+  if (readers_.bodies) {
+    Stopwatch watch(watching_);
+    readers_.bodies->look(frame.positions, frame.head, frame.bodies);
+  }
+  Stopwatch watch(writing_);
+  std::vector<Vec3f> points = toFile(frame.positions, frame.head, groom_.metresPerUnit);
+  mostReplaced_ = std::max(mostReplaced_, replaceNonfinite(groom_, points));
+  if (readers_.observe) {
+    if (Status seen = readers_.observe(frame, points); !seen) return seen;
+  }
+  if (readers_.write) {
+    if (Status written = readers_.write(frame.number, std::move(points)); !written) return written;
+  }
+  last_ = std::move(frame);
+  ++frameCount_;
+  return {};
+}
+
+}  // namespace ringlet::program

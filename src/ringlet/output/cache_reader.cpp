@@ -1,0 +1,181 @@
+// Implements output/cache_reader.h.
+#include "ringlet/output/cache_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <system_error>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/groom/little_endian.h"
+#include "ringlet/output/cache_frame.h"
+
+namespace ringlet {
+namespace {
+
+using cache::ChunkKind;
+
+bool isBound(double value) { return std::isfinite(value) && value >= 0; }
+
+}  // namespace
+
+Result<CacheReader> CacheReader::open(const std::filesystem::path& path) {
+  CacheReader reader;
+  reader.path_ = path;
+  errno = 0;
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code))
+    return Error{fmt::format("cannot read {}: it is a folder", path.string())};
+  reader.file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!reader.file_)
+    return Error{fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno))};
+  reader.size_ = std::filesystem::file_size(path, code);
+  if (code) return Error{fmt::format("cannot read {}: {}", path.string(), code.message())};
+  if (Status read = reader.readHeader(); !read) return read.error();
+  if (Status read = reader.readStrands(); !read) return read.error();
+  reader.isFinished_ = reader.readIndex();
+  if (!reader.isFinished_) reader.scan();
+  return reader;
+}
+
+Status CacheReader::readHeader() {
+  std::vector<std::byte> bytes;
+  if (!read(0, cache::kHeaderBytes, bytes))
+    return Error{fmt::format("{}: has {} bytes; expected a Ringlet cache, whose header alone has {}",
+                             path_.string(), size_, cache::kHeaderBytes)};
+  const cache::ParsedHeader parsed = cache::parseHeader(bytes);
+  if (!parsed.header)
+    return Error{
+        fmt::format("{}: {}; expected a cache that `ringlet simulate --cache` or `ringlet convert` "
+                    "wrote",
+                    path_.string(), parsed.fault)};
+  header_ = *parsed.header;
+  return {};
+}
+
+Status CacheReader::readStrands() {
+  const std::uint64_t at = cache::kHeaderBytes;
+  std::vector<std::byte> bytes;
+  if (!read(at, cache::kChunkHeaderBytes, bytes)) return damaged("ends before its strands");
+  const cache::ChunkHeader chunk = cache::parseChunkHeader(bytes);
+  const std::uint64_t strandCount = chunk.number;
+  if (!readChunk(at, ChunkKind::strands, strandCount, 4 * strandCount, content_))
+    return damaged("has damaged strand lengths");
+  std::uint64_t total = 0;
+  for (std::size_t s = 0; s < strandCount; ++s) {
+    const std::uint32_t count = readU32(content_, 4 * s);
+    total += count;
+    if (count == 0 || total > std::numeric_limits<std::uint32_t>::max())
+      return damaged("has strand lengths that no groom has");
+    firstPoint_.push_back(static_cast<std::uint32_t>(total));
+  }
+  if (total == 0) return damaged("has no strands");
+  framesAt_ = at + cache::kChunkHeaderBytes + chunk.storedBytes;
+  return {};
+}
+
+// Where the frames are, from the file's end; false if that is not whole.
+bool CacheReader::readIndex() {
+  std::vector<std::byte> end;
+  if (size_ < framesAt_ + cache::kEndBytes || !read(size_ - cache::kEndBytes, cache::kEndBytes, end))
+    return false;
+  if (!std::ranges::equal(std::span(end).last(cache::kEndMagic.size()),
+                          std::as_bytes(std::span(cache::kEndMagic))))
+    return false;
+  const std::uint64_t at = readU64(end, 0);
+  std::vector<std::byte> bytes;
+  if (at < framesAt_ || !read(at, cache::kChunkHeaderBytes, bytes)) return false;
+  const std::uint64_t count = cache::parseChunkHeader(bytes).number;
+  if (count > std::numeric_limits<int>::max() ||
+      !readChunk(at, ChunkKind::index, count, cache::kIndexEntryBytes * count, content_))
+    return false;
+  std::vector<Frame> frames(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t entry = cache::kIndexEntryBytes * k;
+    frames[k] = {readU64(content_, entry), readF64(content_, entry + 8)};
+    if (!isBound(frames[k].errorBound)) return false;
+  }
+  frames_ = std::move(frames);
+  return !frames_.empty();
+}
+
+// From chunk to chunk, as far as they are whole. Only the last frame's bytes are read: a killed program
+// leaves no other torn.
+void CacheReader::scan() {
+  std::uint64_t at = framesAt_;
+  std::vector<std::byte> bytes;
+  bool meetsIndex = false;
+  while (read(at, cache::kChunkHeaderBytes, bytes)) {
+    const cache::ChunkHeader chunk = cache::parseChunkHeader(bytes);
+    meetsIndex = chunk.kind == ChunkKind::index;
+    if (chunk.kind != ChunkKind::frame || chunk.number != frames_.size() + 1 || !isBound(chunk.errorBound) ||
+        chunk.storedBytes > size_ - at - cache::kChunkHeaderBytes ||
+        frames_.size() == std::numeric_limits<int>::max())
+      break;
+    frames_.push_back({at, chunk.errorBound});
+    at += cache::kChunkHeaderBytes + chunk.storedBytes;
+  }
+  std::vector<Vec3f> ignored;
+  while (!frames_.empty() && !readFrame(frameCount(), ignored)) {
+    at = frames_.back().offset;
+    meetsIndex = false;
+    frames_.pop_back();
+  }
+  if (meetsIndex) {
+    warnings_.push_back(fmt::format("{}: its index is damaged; its {} frames were found without it",
+                                    path_.string(), frames_.size()));
+  } else if (at < size_) {
+    warnings_.push_back(
+        fmt::format("{}: frame {} is torn or damaged; dropped the last {} bytes, {} frames are whole",
+                    path_.string(), frames_.size() + 1, size_ - at, frames_.size()));
+  }
+}
+
+Status CacheReader::readFrame(int frame, std::vector<Vec3f>& points) {
+  RINGLET_ASSERT(frame >= 1 && frame <= frameCount(), "a frame that the file has");
+  const std::uint64_t contentBytes = cache::frameBytes(header_.precision, strandCount(), particleCount());
+  const auto number = static_cast<std::uint64_t>(frame);
+  if (!readChunk(frames_[number - 1].offset, ChunkKind::frame, number, contentBytes, content_))
+    return damaged(fmt::format("frame {} is damaged: its bytes are not those that were written", frame));
+  points.resize(particleCount());
+  if (!cache::decodeFrame(header_.precision, firstPoint_, content_, points))
+    return damaged(fmt::format("frame {} has a point that is not finite", frame));
+  return {};
+}
+
+// Any bytes of the file, if it has them.
+bool CacheReader::read(std::uint64_t offset, std::size_t count, std::vector<std::byte>& bytes) {
+  if (offset > size_ || count > size_ - offset) return false;
+  bytes.resize(count);
+  return fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) == 0 &&
+         std::fread(bytes.data(), 1, count, file_.get()) == count;
+}
+
+// The content of the chunk at `offset`, which must be of this kind, number and size. No memory is taken for
+// what the file is too short for.
+bool CacheReader::readChunk(std::uint64_t offset, ChunkKind kind, std::uint64_t number,
+                            std::uint64_t contentBytes, std::vector<std::byte>& content) {
+  if (!read(offset, cache::kChunkHeaderBytes, chunk_)) return false;
+  const cache::ChunkHeader chunk = cache::parseChunkHeader(chunk_);
+  if (chunk.kind != kind || chunk.number != number || !cache::canHold(chunk.storedBytes, contentBytes) ||
+      chunk.storedBytes > size_ || !read(offset, cache::kChunkHeaderBytes + chunk.storedBytes, chunk_))
+    return false;
+  content.resize(contentBytes);
+  return cache::unpack(chunk_, content);
+}
+
+double CacheReader::errorBound() const {
+  double largest = 0;
+  for (const Frame& frame : frames_) largest = std::max(largest, frame.errorBound);
+  return largest;
+}
+
+Error CacheReader::damaged(std::string_view what) const {
+  return Error{fmt::format("{}: {}", path_.string(), what)};
+}
+
+}  // namespace ringlet

@@ -1,0 +1,103 @@
+// Implements output/cache_writer.h.
+#include "ringlet/output/cache_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/groom/little_endian.h"
+
+namespace ringlet {
+namespace {
+
+using cache::ChunkKind;
+
+std::string_view textOf(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+}  // namespace
+
+Result<CacheWriter> CacheWriter::create(const std::filesystem::path& path, const Groom& topology,
+                                        const CacheHeader& header) {
+  RINGLET_ASSERT(topology.strandCount() > 0, "a groom without strands is not written");
+  auto file = ByteFile::create(path.string() + ".partial");
+  if (!file) return file.error();
+  CacheWriter writer(std::move(*file));
+  writer.path_ = path;
+  writer.firstPoint_ = topology.firstPoint;
+  writer.header_ = header;
+
+  std::vector<std::byte> counts;
+  for (std::size_t s = 0; s < topology.strandCount(); ++s)
+    appendU32(counts, topology.firstPoint[s + 1] - topology.firstPoint[s]);
+  if (Status written = writer.append(cache::headerBytes(header)); !written) return written.error();
+  const auto strandCount = static_cast<std::uint32_t>(topology.strandCount());
+  if (Status written = writer.append(writer.packer_.pack(ChunkKind::strands, strandCount, 0, counts));
+      !written)
+    return written.error();
+  return writer;
+}
+
+CacheWriter::~CacheWriter() {
+  if (!file_.isOpen() || !index_.empty()) return;
+  std::error_code ignored;
+  std::filesystem::remove(file_.path(), ignored);
+}
+
+Status CacheWriter::append(std::span<const std::byte> bytes) {
+  Status written = file_.writeAt(end_, textOf(bytes));
+  if (written) {
+    end_ += bytes.size();
+    return {};
+  }
+  // What there was before is whole, also where this fails: a reader drops the torn end.
+  const Status ignored = file_.truncate(end_);
+  if (index_.empty()) return written;
+  return Error{fmt::format("{} (the first {} frames are kept in {})", written.error().message, index_.size(),
+                           file_.path().string())};
+}
+
+Status CacheWriter::addFrame(std::span<const Vec3f> points) {
+  RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
+  const auto content = encoder_.encode(header_.precision, firstPoint_, points);
+  const Entry entry{end_, encoder_.errorBound() * header_.metresPerUnit};
+  const auto number = static_cast<std::uint32_t>(index_.size() + 1);
+  if (Status written = append(packer_.pack(ChunkKind::frame, number, entry.errorBound, content)); !written)
+    return written;
+  index_.push_back(entry);
+  return {};
+}
+
+Status CacheWriter::finish() {
+  RINGLET_ASSERT(!index_.empty(), "a file without frames is not finished but dropped");
+  std::vector<std::byte> content, end;
+  for (const Entry& entry : index_) {
+    appendU64(content, entry.offset);
+    appendF64(content, entry.errorBound);
+  }
+  appendU64(end, end_);
+  for (char c : cache::kEndMagic) end.push_back(static_cast<std::byte>(c));
+  const auto frames = static_cast<std::uint32_t>(index_.size());
+  if (Status written = append(packer_.pack(ChunkKind::index, frames, 0, content)); !written) return written;
+  if (Status written = append(end); !written) return written;
+
+  if (Status closed = file_.close(); !closed) return closed;
+  std::error_code code;
+  std::filesystem::rename(file_.path(), path_, code);
+  if (code) {
+    return Error{fmt::format("cannot name {} as {}: {}; all frames are kept under the first name",
+                             file_.path().string(), path_.string(), code.message())};
+  }
+  return {};
+}
+
+double CacheWriter::errorBound() const {
+  double largest = 0;
+  for (const Entry& entry : index_) largest = std::max(largest, entry.errorBound);
+  return largest;
+}
+
+}  // namespace ringlet

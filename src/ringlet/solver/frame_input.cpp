@@ -1,0 +1,27 @@
+// Implements solver/frame_input.h.
+#include "ringlet/solver/frame_input.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace ringlet {
+
+using gpu::Buffer;
+using gpu::BufferKind;
+
+Result<FrameInput> FrameInput::create(gpu::Device& device, std::uint64_t bytes, std::size_t slots,
+                                      const std::string& name) {
+  auto seen = Buffer::create(device, bytes, BufferKind::storage, name);
+  if (!seen) return seen.error();
+  FrameInput input(std::move(*seen));
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    auto written =
+        Buffer::create(device, bytes, BufferKind::stream, fmt::format("{} of frame slot {}", name, slot));
+    if (!written) return written.error();
+    input.written_.push_back(std::move(*written));
+  }
+  return input;
+}
+
+}  // namespace ringlet

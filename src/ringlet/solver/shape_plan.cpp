@@ -1,0 +1,207 @@
+// Implements solver/shape_plan.h.
+#include "ringlet/solver/shape_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace ringlet {
+namespace {
+
+// The model: a lane costs its particles, real or not, and for each doubling of lanes a join; [ns] of a step.
+struct CostModel {
+  double particle;   // in one of several lanes
+  double fromEnds;   // in one of two, which solve from both ends
+  double alone;      // in a strand's only lane, which has nothing to do twice
+  double join;       // of a lane, for each doubling of lanes
+  double longRun;    // how much dearer a particle is for each one a run has above four
+  double serial;     // a particle of the serial form
+  double perKernel;  // a kernel more, on every step: see below
+};
+
+// Of the CPU device measured on lavapipe 22.3 (two cores, 1,024 strands, CPU time): runs of 4 to 16 in 1 to 8
+// lanes are within a tenth of it. It does everything for all lanes, and a long run is nothing to it. Of GPUs
+// not measured, but reasoned: a particle of a run is some 50 registers, so that long runs leave fewer strands
+// at a time to wait with; a join is a few shuffles; the serial form goes through memory.
+//
+// A kernel more costs 0.4 s at every start to prepare (lavapipe; a second more the first time), and a
+// dispatch and a barrier in every frame. Over 30,000 steps, two and a half minutes of animation, that is 15
+// microseconds a step: 1.5 % of the step of a thousand strands of 100 particles, and more than the whole step
+// of ten. GPUs' drivers are quicker, and their dispatches too.
+constexpr CostModel kCpu{.particle = 8.5,
+                         .fromEnds = 6.5,
+                         .alone = 7.2,
+                         .join = 8,
+                         .longRun = 0,
+                         .serial = 46,
+                         .perKernel = 15'000};
+constexpr CostModel kGpu{.particle = 0.5,
+                         .fromEnds = 0.35,
+                         .alone = 0.5,
+                         .join = 0.25,
+                         .longRun = 0.125,
+                         .serial = 5,
+                         .perKernel = 10'000};
+
+const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
+
+double modelCost(const StrandShape& shape, const CostModel& model, bool isHairAlone) {
+  if (shape.serial()) return model.serial;
+  const double particle = (shape.lanes == 1                  ? model.alone
+                           : shape.lanes == 2 && isHairAlone ? model.fromEnds
+                                                             : model.particle) *
+                          (1 + model.longRun * (shape.particlesPerLane - kShortestRun));
+  return shape.lanes * (shape.particlesPerLane * particle + std::countr_zero(shape.lanes) * model.join);
+}
+
+// What may be chosen from: as asked for, by rising capacity; the serial form, where allowed, last.
+std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, bool isHairAlone) {
+  std::vector<ShapeCost> costs = shapeCosts(limits, isHairAlone, choice.measured);
+  const bool isStated = choice.lanes > 0 || choice.particlesPerLane > 0;
+  std::erase_if(costs, [&](const ShapeCost& c) {
+    if (c.shape.serial()) return choice.form == KernelChoice::Form::lanes;
+    return choice.form == KernelChoice::Form::serial ||
+           (choice.lanes > 0 && c.shape.lanes != static_cast<std::uint32_t>(choice.lanes)) ||
+           (choice.particlesPerLane > 0 &&
+            c.shape.particlesPerLane != static_cast<std::uint32_t>(choice.particlesPerLane));
+  });
+  // Where lanes or runs are stated, serial is only what does not fit them.
+  if (isStated && !costs.empty() && costs.back().shape.serial()) costs.back().nanoseconds = 1e9;
+  return costs;
+}
+
+// Of the ways to cut the strands at the candidates' capacities the cheapest, from the shortest strands on.
+// best[j]: up to candidate j's capacity, which is the last in use.
+struct Cut {
+  double cost = std::numeric_limits<double>::infinity();
+  std::size_t end = 0;         // strands it covers
+  std::ptrdiff_t before = -1;  // the candidate in use for shorter strands
+};
+
+std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
+                                        std::span<const ShapeCost> costs, double perKernel) {
+  std::vector<std::uint64_t> particlesBefore{0};
+  for (std::uint32_t count : counts) particlesBefore.push_back(particlesBefore.back() + count);
+  std::vector<Cut> best(costs.size());
+  for (std::size_t j = 0; j < costs.size(); ++j) {
+    const StrandShape& shape = costs[j].shape;
+    best[j].end =
+        shape.serial()
+            ? counts.size()
+            : static_cast<std::size_t>(std::ranges::upper_bound(counts, shape.capacity()) - counts.begin());
+    for (std::ptrdiff_t i = -1; i < static_cast<std::ptrdiff_t>(j); ++i) {
+      const Cut from = i < 0 ? Cut{.cost = 0} : best[static_cast<std::size_t>(i)];
+      if (from.end >= best[j].end) continue;
+      const double units = shape.serial()
+                               ? static_cast<double>(particlesBefore.back() - particlesBefore[from.end])
+                               : static_cast<double>(best[j].end - from.end);
+      const double cost = from.cost + perKernel + units * costs[j].nanoseconds;
+      if (cost < best[j].cost) best[j].cost = cost, best[j].before = i;
+    }
+  }
+
+  std::ptrdiff_t last = -1;
+  for (std::size_t j = 0; j < best.size(); ++j) {
+    if (best[j].end == counts.size() &&
+        (last < 0 || best[j].cost < best[static_cast<std::size_t>(last)].cost))
+      last = static_cast<std::ptrdiff_t>(j);
+  }
+  std::vector<StrandRange> ranges;
+  for (; last >= 0; last = best[static_cast<std::size_t>(last)].before) {
+    const Cut& cut = best[static_cast<std::size_t>(last)];
+    const std::size_t begin = cut.before < 0 ? 0 : best[static_cast<std::size_t>(cut.before)].end;
+    ranges.push_back({costs[static_cast<std::size_t>(last)].shape, static_cast<std::uint32_t>(begin),
+                      static_cast<std::uint32_t>(cut.end), counts[cut.end - 1]});
+  }
+  std::ranges::reverse(ranges);
+  return ranges;
+}
+
+// What the device does not have at all, by name.
+Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool isHairAlone) {
+  const int run = choice.particlesPerLane;
+  const int longest = static_cast<int>(longestRun(limits, choice.lanes, isHairAlone));
+  if (run != 0 && (run < static_cast<int>(kShortestRun) || run > longest))
+    return Error{fmt::format("{} particles per lane was asked for; {} to {} are possible, 0 chooses", run,
+                             kShortestRun, longest)};
+  const auto lanes = static_cast<std::uint32_t>(std::max(choice.lanes, 0));
+  if (choice.lanes != 0 && (!std::has_single_bit(lanes) || lanes > limits.subgroupSize)) {
+    std::string possible;
+    for (std::uint32_t l = 1; l <= limits.subgroupSize; l *= 2)
+      possible += fmt::format("{}{}", l == 1 ? "" : 2 * l > limits.subgroupSize ? " or " : ", ", l);
+    return Error{fmt::format("{} lanes a strand were asked for; this device can have {}, 0 chooses",
+                             choice.lanes, possible)};
+  }
+  return {};
+}
+
+Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice,
+                 bool isHairAlone) {
+  const std::uint32_t lanes =
+      choice.lanes > 0 ? static_cast<std::uint32_t>(choice.lanes) : limits.subgroupSize;
+  const int run = choice.particlesPerLane > 0 ? choice.particlesPerLane
+                                              : static_cast<int>(longestRun(limits, lanes, isHairAlone));
+  return Error{fmt::format(
+      "the lanes form was asked for, but a strand of {} particles does not fit: {}. Leave the choice to "
+      "ringlet "
+      "or ask for the serial form",
+      particleCount,
+      limits.hasSubgroupShuffle
+          ? fmt::format("{} lanes of {} hold {}", lanes, run, lanes * static_cast<std::uint32_t>(run))
+          : "this device has no subgroup shuffles")};
+}
+
+}  // namespace
+
+std::string StrandShape::describe() const {
+  return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
+}
+
+// 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but two
+// lanes save enough.
+std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool isHairAlone) {
+  if (!limits.isCpu) return 16;
+  return isHairAlone && (lanes == 0 || lanes == 2) ? 32 : 24;
+}
+
+std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool isHairAlone,
+                                  std::span<const ShapeCost> measured) {
+  const CostModel& model = modelOf(limits);
+  std::vector<ShapeCost> costs;
+  for (std::uint32_t lanes = 1; limits.hasSubgroupShuffle && lanes <= limits.subgroupSize; lanes *= 2) {
+    for (std::uint32_t run = kShortestRun; run <= longestRun(limits, lanes, isHairAlone); ++run)
+      costs.push_back({{lanes, run}, 0});
+  }
+  std::ranges::stable_sort(costs, {}, [](const ShapeCost& c) { return c.shape.capacity(); });
+  costs.push_back({});
+  double ratios = 0;
+  int known = 0;
+  for (ShapeCost& c : costs) {
+    c.nanoseconds = modelCost(c.shape, model, isHairAlone);
+    const auto found = std::ranges::find(measured, c.shape, &ShapeCost::shape);
+    if (found != measured.end()) ratios += std::log(found->nanoseconds / c.nanoseconds), ++known;
+  }
+  for (ShapeCost& c : costs) {
+    const auto found = std::ranges::find(measured, c.shape, &ShapeCost::shape);
+    c.nanoseconds = found != measured.end() ? found->nanoseconds
+                    : known > 0             ? c.nanoseconds * std::exp(ratios / known)
+                                            : c.nanoseconds;
+  }
+  return costs;
+}
+
+Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
+                                            const DeviceLimits& limits, const KernelChoice& choice,
+                                            bool isHairAlone) {
+  if (Status possible = checkChoice(limits, choice, isHairAlone); !possible) return possible.error();
+  const std::vector<ShapeCost> costs = candidates(limits, choice, isHairAlone);
+  const bool isHeld = !costs.empty() &&
+                      (costs.back().shape.serial() || particleCounts.back() <= costs.back().shape.capacity());
+  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, isHairAlone);
+  return cheapestRanges(particleCounts, costs, choice.manyKernels ? 0 : modelOf(limits).perKernel);
+}
+
+}  // namespace ringlet

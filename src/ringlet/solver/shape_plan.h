@@ -1,0 +1,47 @@
+// Which strands run in which shape: few kernels, and short strands that do not pay for long ones. Pure
+// arithmetic, no device.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/solver/simulation.h"
+#include "ringlet/solver/strand_shape.h"
+
+namespace ringlet {
+
+/// What the plan must know of a device.
+struct DeviceLimits {
+  std::uint32_t subgroupSize = 1;
+  bool hasSubgroupShuffle = false;
+  bool isCpu = false;
+  std::uint32_t maxGroupCount = 65535;
+};
+
+/// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. Two lanes that solve
+/// hair alone from both its ends (shaders/integrators/two_way.glsl) take longer runs.
+std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool isHairAlone);
+
+/// Strands [begin, end) in device order, all of one shape.
+struct StrandRange {
+  StrandShape shape;
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t longest = 0;  // particles of its longest strand
+  std::uint32_t chunk = 0;    // the strands are within (groom_chunks.h)
+};
+
+/// Every shape the device has, the serial one last, with the cost a model by kind of device gives it. Where
+/// `measured` has some, theirs in place of it, and the others' in proportion.
+std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool isHairAlone = true,
+                                  std::span<const ShapeCost> measured = {});
+
+/// Ranges of equal shape, the cheapest of all ways to cut. `particleCounts`: of the strands in device order,
+/// rising. `isHairAlone`: no contacts, bodies or air, which kernels are another matter with. Fails where the
+/// choice asks for lanes that the device or the strands do not allow.
+Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
+                                            const DeviceLimits& limits, const KernelChoice& choice,
+                                            bool isHairAlone = true);
+
+}  // namespace ringlet

@@ -1,0 +1,30 @@
+// How a strand may lie over a device, and what that costs: data for the choice in shape_plan.h.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ringlet {
+
+/// Particles a lane holds: not fewer than can be pinned. The longest run is the device's (shape_plan.h).
+inline constexpr std::uint32_t kShortestRun = 4;
+
+/// A strand laid over a device: lanes x run, or one thread per strand (lanes = 0).
+struct StrandShape {
+  std::uint32_t lanes = 0;  // a power of two, a subgroup at most
+  std::uint32_t particlesPerLane = 0;
+
+  bool serial() const { return lanes == 0; }
+  std::uint32_t capacity() const { return lanes * particlesPerLane; }  // particles; serial: any number
+  std::string describe() const;                                        // "lanes 4 x 16" or "serial"
+  bool operator==(const StrandShape&) const = default;
+};
+
+/// Device time, strands being many.
+struct ShapeCost {
+  StrandShape shape;
+  double nanoseconds = 0;  // of one outer step of one strand, however long; serial: of one of its particles
+};
+
+}  // namespace ringlet

@@ -1,0 +1,73 @@
+// The file of a driver's compiled kernels: whole or nothing, and whatever is in it, a device opens.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/pipeline_cache_file.h"
+#include "tests/support/gpu_test.h"
+
+namespace ringlet::gpu {
+namespace {
+
+std::filesystem::path scratch(const char* name) {
+  const auto folder = std::filesystem::temp_directory_path() / "ringlet_pipeline_cache_test" / name;
+  std::filesystem::remove_all(folder);
+  return folder;
+}
+
+std::vector<std::byte> sample(std::size_t size) {
+  std::vector<std::byte> bytes(size, std::byte{7});
+  const std::uint32_t header[] = {32, 1};
+  std::memcpy(bytes.data(), header, sizeof header);
+  return bytes;
+}
+
+TEST(PipelineCacheFile, ComesBackAsItWas) {
+  const auto folder = scratch("back");
+  const auto bytes = sample(1000);
+  ASSERT_TRUE(writePipelineCache(folder / "made" / "a.bin", bytes)) << "the folder is made";
+  EXPECT_EQ(readPipelineCache(folder / "made" / "a.bin"), bytes);
+  EXPECT_TRUE(writePipelineCache(folder / "made" / "a.bin", sample(50)));
+  EXPECT_EQ(readPipelineCache(folder / "made" / "a.bin").size(), 50u);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "made"), {}), 1)
+      << "nothing beside it";
+}
+
+TEST(PipelineCacheFile, WhatIsBrokenIsNothing) {
+  const auto folder = scratch("broken");
+  EXPECT_TRUE(readPipelineCache(folder / "none.bin").empty());
+  std::filesystem::create_directories(folder / "a_folder.bin");
+  EXPECT_TRUE(readPipelineCache(folder / "a_folder.bin").empty());
+  auto bytes = sample(40);
+  bytes.resize(31);
+  ASSERT_TRUE(writePipelineCache(folder / "short.bin", bytes));
+  EXPECT_TRUE(readPipelineCache(folder / "short.bin").empty());
+  bytes = sample(40);
+  bytes[4] = std::byte{2};
+  ASSERT_TRUE(writePipelineCache(folder / "version.bin", bytes));
+  EXPECT_TRUE(readPipelineCache(folder / "version.bin").empty());
+  EXPECT_FALSE(writePipelineCache(folder / "a_folder.bin", sample(40)));
+  EXPECT_FALSE(writePipelineCache("/proc/nowhere/a.bin", sample(40)));
+}
+
+class PipelineCache : public test::GpuTest {};
+
+// Of the right shape, but no driver's.
+TEST_F(PipelineCache, DevicesOpenWhateverTheFolderHolds) {
+  const auto folder = scratch("device");
+  auto first = Device::open("", {}, folder);
+  ASSERT_TRUE(first) << first.error().message;
+  const auto file = (*first)->pipelineCacheFile();
+  EXPECT_EQ(file.parent_path(), folder);
+  first->reset();
+  ASSERT_TRUE(writePipelineCache(file, sample(4096)));
+  auto second = Device::open("", {}, folder);
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_TRUE((*second)->validationMessages().empty());
+}
+
+}  // namespace
+}  // namespace ringlet::gpu

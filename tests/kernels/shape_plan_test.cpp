@@ -1,0 +1,176 @@
+// Which strands run in which shape: that they fit, that it costs little more than it must, with few kernels.
+// No device needed.
+#include "ringlet/solver/shape_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+
+namespace ringlet::test {
+namespace {
+
+const DeviceLimits kLavapipe{8, true, true, 65535};
+const DeviceLimits kDiscrete{32, true, false, 65535};
+const DeviceLimits kWithoutShuffle{32, false, false, 65535};
+
+std::vector<StrandRange> rangesOf(std::vector<std::uint32_t> counts, const DeviceLimits& limits,
+                                  const KernelChoice& choice = {}) {
+  std::ranges::sort(counts);
+  auto ranges = planRanges(counts, limits, choice);
+  EXPECT_TRUE(ranges) << ranges.error().message;
+  return ranges ? *ranges : std::vector<StrandRange>{};
+}
+
+StrandShape shapeOf(std::uint32_t particleCount, const DeviceLimits& limits,
+                    const KernelChoice& choice = {}) {
+  return rangesOf({particleCount}, limits, choice).at(0).shape;
+}
+
+// Of a step, by the model; without what kernels cost.
+double costOf(const std::vector<StrandRange>& ranges, const DeviceLimits& limits) {
+  const auto costs = shapeCosts(limits);
+  double sum = 0;
+  for (const StrandRange& range : ranges) {
+    EXPECT_FALSE(range.shape.serial());
+    sum += (range.end - range.begin) * std::ranges::find(costs, range.shape, &ShapeCost::shape)->nanoseconds;
+  }
+  return sum;
+}
+
+std::string messageOf(std::uint32_t particleCount, const KernelChoice& choice) {
+  const auto ranges = planRanges(std::vector{particleCount}, kLavapipe, choice);
+  return ranges ? "" : ranges.error().message;
+}
+
+TEST(ShapePlan, ShapesHoldTheirStrand) {
+  for (const DeviceLimits& limits : {kLavapipe, kDiscrete, kWithoutShuffle}) {
+    for (std::uint32_t n = 2; n < 1200; ++n) {
+      const StrandShape shape = shapeOf(n, limits);
+      EXPECT_EQ(shape.serial(), !limits.hasSubgroupShuffle ||
+                                    n > limits.subgroupSize * longestRun(limits, limits.subgroupSize, true));
+      if (shape.serial()) continue;
+      EXPECT_GE(shape.capacity(), n);
+      EXPECT_LE(shape.lanes, limits.subgroupSize);
+      EXPECT_EQ(shape.lanes & (shape.lanes - 1), 0u) << "lanes must be a power of two";
+    }
+  }
+}
+
+// Long runs on the CPU, two lanes where they do; many lanes on a GPU.
+TEST(ShapePlan, RoundLengthsHaveRoundShapes) {
+  EXPECT_EQ(shapeOf(16, kLavapipe), (StrandShape{1, 16}));
+  EXPECT_EQ(shapeOf(32, kLavapipe), (StrandShape{2, 16}));
+  EXPECT_EQ(shapeOf(64, kLavapipe), (StrandShape{2, 32}));
+  const auto amongBodies = planRanges(std::vector{64u}, kLavapipe, {}, false);
+  ASSERT_TRUE(amongBodies);
+  EXPECT_EQ(amongBodies->at(0).shape, (StrandShape{4, 16}));
+  EXPECT_EQ(shapeOf(128, kLavapipe), (StrandShape{8, 16}));
+  EXPECT_EQ(shapeOf(32, kDiscrete), (StrandShape{8, 4}));
+  EXPECT_EQ(shapeOf(64, kDiscrete), (StrandShape{16, 4}));
+  EXPECT_EQ(shapeOf(128, kDiscrete), (StrandShape{32, 4}));
+}
+
+// As many strands and particles of 16 to 128 as of 72 each.
+TEST(ShapePlan, MixedLengthsCostLittleMoreThanEqualOnes) {
+  std::vector<std::uint32_t> counts;
+  for (int k = 0; k < 10; ++k) {
+    for (std::uint32_t n = 16; n <= 128; ++n) counts.push_back(n);
+  }
+  const double particles = std::accumulate(counts.begin(), counts.end(), 0.0);
+  const double equal = particles / 72 * costOf(rangesOf({72}, kLavapipe), kLavapipe);
+  const auto ranges = rangesOf(counts, kLavapipe);
+  EXPECT_LE(costOf(ranges, kLavapipe), 1.15 * equal);
+  EXPECT_LE(ranges.size(), 8u) << "kernels";
+}
+
+TEST(ShapePlan, FewStrandsOrNearlyEqualOnesGetOneKernel) {
+  std::vector<std::uint32_t> few, alike;
+  for (std::uint32_t n = 16; n <= 128; n += 8) few.push_back(n);
+  for (std::uint32_t s = 0; s < 1000; ++s) alike.push_back(60 + s % 5);
+  EXPECT_EQ(rangesOf(few, kLavapipe).size(), 1u);
+  EXPECT_EQ(rangesOf(alike, kLavapipe).size(), 1u);
+  EXPECT_GT(rangesOf(few, kLavapipe, {.manyKernels = true}).size(), 5u);
+}
+
+// Every way to give three lengths a shape each.
+TEST(ShapePlan, NoOtherChoiceIsCheaper) {
+  const DeviceLimits limits{2, true, true, 65535};
+  constexpr double kPerKernel = 15'000;  // as the model has it
+  const auto costs = shapeCosts(limits);
+  for (const auto& [a, b, c, each] : {std::array{9u, 17u, 30u, 40u},
+                                      {4u, 5u, 6u, 1000u},
+                                      {16u, 17u, 32u, 600u},
+                                      {2u, 20u, 24u, 300u},
+                                      {10u, 11u, 32u, 2000u}}) {
+    const std::uint32_t lengths[] = {a, b, c};
+    std::vector<std::uint32_t> counts;
+    for (std::uint32_t n : lengths) counts.insert(counts.end(), each, n);
+    double cheapest = std::numeric_limits<double>::infinity();
+    std::size_t chosen[3];
+    for (chosen[0] = 0; chosen[0] < costs.size(); ++chosen[0]) {
+      for (chosen[1] = 0; chosen[1] < costs.size(); ++chosen[1]) {
+        for (chosen[2] = 0; chosen[2] < costs.size(); ++chosen[2]) {
+          double cost = kPerKernel * static_cast<double>(std::set(chosen, chosen + 3).size());
+          for (int k = 0; k < 3; ++k) {
+            const ShapeCost& shape = costs[chosen[k]];
+            const bool fits = shape.shape.serial() || shape.shape.capacity() >= lengths[k];
+            cost += fits ? each * shape.nanoseconds * (shape.shape.serial() ? lengths[k] : 1)
+                         : std::numeric_limits<double>::infinity();
+          }
+          cheapest = std::min(cheapest, cost);
+        }
+      }
+    }
+    const auto ranges = rangesOf(counts, limits);
+    EXPECT_NEAR(costOf(ranges, limits) + kPerKernel * static_cast<double>(ranges.size()), cheapest,
+                1e-9 * cheapest)
+        << a << ' ' << b << ' ' << c;
+  }
+}
+
+TEST(ShapePlan, MeasuredCostsDecide) {
+  const ShapeCost measured[] = {{{2, 32}, 900}, {{8, 8}, 700}};
+  const KernelChoice tuned{.measured = measured};
+  EXPECT_EQ(shapeOf(64, kLavapipe, tuned), (StrandShape{8, 8}));
+  const auto costs = shapeCosts(kLavapipe, true, tuned.measured);
+  EXPECT_EQ(std::ranges::find(costs, StrandShape{8, 8}, &ShapeCost::shape)->nanoseconds, 700);
+  // What was not measured keeps its proportion to the rest: the mean of these two.
+  const auto model = shapeCosts(kLavapipe);
+  const auto ratio = [&](StrandShape shape) {
+    return std::ranges::find(costs, shape, &ShapeCost::shape)->nanoseconds /
+           std::ranges::find(model, shape, &ShapeCost::shape)->nanoseconds;
+  };
+  EXPECT_NEAR(ratio({2, 16}), std::sqrt(ratio({2, 32}) * ratio({8, 8})), 1e-12);
+  const ShapeCost quickSerial[] = {{{}, 1}, {{2, 32}, 900}};
+  EXPECT_TRUE(shapeOf(64, kLavapipe, {.measured = quickSerial}).serial());
+}
+
+TEST(ShapePlan, StatedLanesAndRunsAreKept) {
+  EXPECT_EQ(shapeOf(30, kLavapipe, {.lanes = 8}), (StrandShape{8, 4}));
+  EXPECT_EQ(shapeOf(30, kLavapipe, {.particlesPerLane = 5}), (StrandShape{8, 5}));
+  EXPECT_EQ(shapeOf(30, kLavapipe, {.particlesPerLane = 15, .lanes = 4}), (StrandShape{4, 15}));
+  const auto ranges = rangesOf({10, 16, 17, 64}, kLavapipe, {.particlesPerLane = 16, .lanes = 1});
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_EQ(ranges[0].end, 2u);
+  EXPECT_TRUE(ranges[1].shape.serial());
+}
+
+TEST(ShapePlan, RefusesWhatCannotBe) {
+  using Form = KernelChoice::Form;
+  const auto has = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(messageOf(300, {Form::lanes}), "300 particles does not fit: 8 lanes of 24 hold 192");
+  has(messageOf(80, {.form = Form::lanes, .lanes = 2}), "2 lanes of 32 hold 64");
+  has(messageOf(64, {Form::automatic, 3}), "3 particles per lane was asked for; 4 to 32");
+  has(messageOf(64, {Form::automatic, 33}), "33 particles per lane");
+  for (int lanes : {-1, 3, 16}) has(messageOf(64, {.lanes = lanes}), "this device can have 1, 2, 4 or 8");
+}
+
+}  // namespace
+}  // namespace ringlet::test

@@ -1,0 +1,285 @@
+// `ringlet simulate --cache` and `ringlet convert`: every way from one file to another, ranges, what is said
+// of files that are unfinished, torn or wrong.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/output/cache_reader.h"
+#include "tests/program/run_program.h"
+#include "tests/support/strict_usd.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ProgramResult;
+using test::readText;
+using test::readUsd;
+using test::runProgram;
+using test::scratchFolder;
+
+constexpr int kFrames = 5;
+
+// A folder with out/hair.usda, out/hair.rgc and out/last.obj of one run: two strands, Z up, 30 frames a
+// second.
+class Convert : public testing::Test {
+ protected:
+  void SetUp() override { simulate("float32"); }
+
+  void simulate(const std::string& precision) {
+    folder_ = scratchFolder("convert");
+    std::ofstream(folder_ / "groom.obj") << "v 0 0 0\nv 0 -1 0.2\nv 0.1 -2 0\nv 0 -3 0.1\nv 0 -4 0\n"
+                                            "v 2 0 0\nv 2 -1 0\nv 2.1 -2 0\nl 1 2 3 4 5\nl 6 7 8\n";
+    const auto result =
+        run({"simulate", "groom.obj", "--up", "Z", "--fps", "30", "--width", "0.0007", "--backend",
+             "reference", "--frames", std::to_string(kFrames), "--cache", precision, "-o", "out"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    for (const char* file : {"out/hair.usda", "out/hair.rgc", "out/last.obj", "out/sheet.png"})
+      ASSERT_NE(result.out.find(file), std::string::npos) << file << " is missing in:\n" << result.out;
+  }
+
+  ProgramResult run(const std::vector<std::string>& arguments) { return runProgram(folder_, arguments); }
+
+  // Converts and expects that to work; what it prints with --json.
+  json convert(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "convert");
+    arguments.push_back("--json");
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return json::parse(result.out, nullptr, false);
+  }
+
+  std::vector<Vec3f> pointsOf(const fs::path& path) {
+    auto groom = readGroom(folder_ / path);
+    EXPECT_TRUE(groom);
+    return groom ? groom->groom.points : std::vector<Vec3f>{};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Convert, AFloat32CacheBecomesTheTextThatSimulateWrites) {
+  const json out = convert({"out/hair.rgc", "again.usda"});
+  EXPECT_EQ(readText(folder_ / "again.usda"), readText(folder_ / "out/hair.usda"));
+  EXPECT_EQ(out["frames"], kFrames);
+  EXPECT_EQ(out["strands"], 2);
+  EXPECT_EQ(out["particles"], 8);
+  EXPECT_EQ(out["error_bound_m"], 0);
+  EXPECT_EQ(out["warnings"], json::array());
+  EXPECT_EQ(out["outputs"], json{"again.usda"});
+  EXPECT_EQ(out["bytes"], fs::file_size(folder_ / "again.usda"));
+}
+
+TEST_F(Convert, UsdTextBecomesTheCacheThatSimulateWrites) {
+  convert({"out/hair.usda", "again.rgc"});
+  EXPECT_EQ(readText(folder_ / "again.rgc"), readText(folder_ / "out/hair.rgc"));
+}
+
+TEST_F(Convert, A16BitCacheIsOffByNoMoreThanItSays) {
+  const auto exact = readUsd(folder_ / "out/hair.usda");
+  const std::string fromFloats =
+      (convert({"out/hair.rgc", "small.rgc", "--precision", "16bit"}), readText(folder_ / "small.rgc"));
+  const json out = convert({"small.rgc", "small.usda"}), info = convert({"small.rgc", "--info"});
+  EXPECT_EQ(out["error_bound_m"], info["error_bound_m"]);
+  const double bound = info["error_bound_m"].get<double>();
+  EXPECT_GT(bound, 0);
+  EXPECT_LT(bound, 0.04 / 65535) << "strands 4 cm long";
+  const auto rounded = readUsd(folder_ / "small.usda");
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Vec3d apart = Vec3d(rounded.points.at(frame)[i]) - Vec3d(exact.points.at(frame)[i]);
+      EXPECT_LE(0.01 * length(apart), bound) << "frame " << frame << " particle " << i;
+    }
+  }
+  simulate("16bit");
+  EXPECT_EQ(readText(folder_ / "out/hair.rgc"), fromFloats) << "as simulate writes it at once";
+}
+
+TEST_F(Convert, PrecisionIsKeptUnlessSaid) {
+  convert({"out/hair.rgc", "small.rgc", "--precision", "16bit"});
+  convert({"small.rgc", "kept.rgc"});
+  EXPECT_EQ(convert({"kept.rgc", "--info"})["precision"], "16bit");
+  convert({"small.rgc", "float.rgc", "--precision", "float32"});
+  EXPECT_EQ(convert({"float.rgc", "--info"})["precision"], "float32");
+}
+
+TEST_F(Convert, FramesBecomeObjFiles) {
+  const auto usd = readUsd(folder_ / "out/hair.usda");
+  const json all = convert({"out/hair.rgc", "pose.obj"});
+  EXPECT_EQ(all["outputs"], (json{"pose.0001.obj", "pose.0005.obj"}));
+  const json some = convert({"out/hair.usda", "frames", "--frames", "2:3"});
+  EXPECT_EQ(some["outputs"], (json{"frames/hair.0002.obj", "frames/hair.0003.obj"}));
+  EXPECT_EQ(some["frames"], 2);
+  for (int frame = 1; frame <= kFrames; ++frame)
+    EXPECT_EQ(pointsOf("pose.000" + std::to_string(frame) + ".obj"), usd.points.at(frame));
+  EXPECT_EQ(pointsOf("frames/hair.0003.obj"), usd.points.at(3));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "frames"), {}), 2);
+
+  for (const char* input : {"out/hair.rgc", "out/hair.usda"}) {
+    convert({input, "one.obj", "--frame", "4"});
+    EXPECT_EQ(pointsOf("one.obj"), usd.points.at(4)) << input;
+  }
+  convert({"out/hair.rgc", "last.obj", "--frame", std::to_string(kFrames)});
+  EXPECT_EQ(readText(folder_ / "last.obj"), readText(folder_ / "out/last.obj"));
+}
+
+TEST_F(Convert, RangesCountFromOneAgain) {
+  const auto whole = readUsd(folder_ / "out/hair.usda");
+  convert({"out/hair.rgc", "part.usda", "--frames", "3:5"});
+  const auto part = readUsd(folder_ / "part.usda");
+  ASSERT_EQ(part.points.size(), 3u);
+  for (int frame = 1; frame <= 3; ++frame) EXPECT_EQ(part.points.at(frame), whole.points.at(frame + 2));
+  convert({"out/hair.rgc", "part.rgc", "--frame", "2"});
+  EXPECT_EQ(convert({"part.rgc", "--info"})["frames"], 1);
+}
+
+TEST_F(Convert, TheSheetIsThatOfSimulate) {
+  for (const char* input : {"out/hair.rgc", "out/hair.usda"}) {
+    convert({input, "sheet.png"});
+    EXPECT_EQ(readText(folder_ / "sheet.png"), readText(folder_ / "out/sheet.png")) << input;
+  }
+}
+
+TEST_F(Convert, InfoSaysWhatIsInside) {
+  const json cache = convert({"out/hair.rgc", "--info"}), usd = convert({"out/hair.usda", "--info"});
+  EXPECT_EQ(cache["format"], "cache");
+  EXPECT_EQ(usd["format"], "usd");
+  for (const json& info : {cache, usd}) {
+    EXPECT_EQ(info["precision"], "float32");
+    EXPECT_EQ(info["finished"], true);
+    EXPECT_EQ(info["frames"], kFrames);
+    EXPECT_EQ(info["strands"], 2);
+    EXPECT_EQ(info["particles"], 8);
+    EXPECT_EQ(info["fps"], 30);
+    EXPECT_EQ(info["metres_per_unit"], 0.01);
+    EXPECT_EQ(info["up"], "Z");
+    EXPECT_NEAR(info["width_m"].get<double>(), 0.0007, 1e-9);
+    EXPECT_EQ(info["error_bound_m"], 0);
+    EXPECT_DOUBLE_EQ(info["bytes_per_point"].get<double>(), info["bytes"].get<double>() / (8 * kFrames));
+  }
+  EXPECT_EQ(cache["bytes"], fs::file_size(folder_ / "out/hair.rgc"));
+  const auto text = run({"convert", "out/hair.rgc", "--info"});
+  for (const char* part : {"cache, float32, finished", "5 at 30 a second", "2, 8 particles, 0.7 mm wide",
+                           "Z up", "bytes a point", "exact"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << " is missing in:\n" << text.out;
+}
+
+TEST_F(Convert, ACacheInPlaceOfUsd) {
+  const auto result = run({"simulate", "groom.obj", "--backend", "reference", "--frames", "2", "--cache",
+                           "16bit", "--no-usd", "--json", "-o", "small"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["outputs"],
+            (json{"small/hair.rgc", "small/last.obj", "small/sheet.png"}));
+  EXPECT_FALSE(fs::exists(folder_ / "small/hair.usda"));
+}
+
+TEST_F(Convert, MeasureReadsCachesToo) {
+  const auto usd = run({"measure", "groom.obj", "out/hair.usda", "--json"});
+  ASSERT_EQ(usd.exitCode, 0) << usd.err;
+  EXPECT_EQ(run({"measure", "groom.obj", "out/hair.rgc", "--json"}).out, usd.out);
+  fs::remove(folder_ / "out/hair.usda");
+  EXPECT_EQ(run({"measure", "groom.obj", "out", "--json"}).out, usd.out) << "in a folder";
+}
+
+// What a killed run leaves: no index, and half of a frame.
+TEST_F(Convert, AnUnfinishedCacheIsReadAsFarAsItGoes) {
+  const std::string whole = readText(folder_ / "out/hair.rgc");
+  std::uint64_t indexAt = 0;
+  std::memcpy(&indexAt, whole.data() + whole.size() - 16, 8);
+  std::ofstream(folder_ / "cut.rgc.partial", std::ios::binary) << whole.substr(0, indexAt);
+  std::ofstream(folder_ / "torn.rgc.partial", std::ios::binary) << whole.substr(0, indexAt - 7);
+  struct Case {
+    std::string name, message;
+    int frames;
+  };
+  for (const Case& c : {Case{"cut.rgc.partial", "was not finished; it has 5 frames", 5},
+                        Case{"torn.rgc.partial", "frame 5 is torn or damaged", 4}}) {
+    const json info = convert({c.name, "--info"});
+    EXPECT_EQ(info["finished"], false);
+    EXPECT_EQ(info["frames"], c.frames);
+    const auto result = run({"convert", c.name, "rest.usda"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+    EXPECT_EQ(readUsd(folder_ / "rest.usda").points.size(), static_cast<std::size_t>(c.frames));
+  }
+}
+
+TEST_F(Convert, AKilledRunLeavesItsFrames) {
+  test::RunningProgram program(folder_, {"simulate", "groom.obj", "--backend", "reference", "--frames",
+                                         "1000000", "--cache", "float32", "--no-usd", "-o", "killed"});
+  const fs::path partial = folder_ / "killed/hair.rgc.partial";
+  const bool began = program.waitUntil([&] { return fs::exists(partial) && fs::file_size(partial) > 5000; });
+  program.send(SIGKILL);
+  EXPECT_EQ(program.wait().exitCode, -1);
+  ASSERT_TRUE(began);
+  auto reader = CacheReader::open(partial);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_GT(reader->frameCount(), 5);
+  EXPECT_FALSE(reader->isFinished());
+}
+
+TEST_F(Convert, FailuresAreOneSentenceAndExit1) {
+  std::ofstream(folder_ / "wrong.rgc") << "hello";
+  std::ofstream(folder_ / "file") << "x";
+  std::string damaged = readText(folder_ / "out/hair.rgc");
+  damaged[170] ^= 1;
+  std::ofstream(folder_ / "damaged.rgc", std::ios::binary) << damaged;
+  std::string later = readText(folder_ / "out/hair.rgc");
+  later[later.size() / 2] ^= 1;
+  std::ofstream(folder_ / "later.rgc", std::ios::binary) << later;
+  fs::create_directories(folder_ / "here");
+  fs::copy(folder_ / "out/hair.rgc", folder_ / "here/hair.rgc.partial");
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  for (const Case& c :
+       {Case{{"none.rgc", "a.usda"}, "none.rgc"}, Case{{"wrong.rgc", "a.usda"}, "5 bytes"},
+        Case{{"groom.obj", "a.usda"}, "must end in .usda or .rgc"},
+        Case{{"damaged.rgc", "a.usda"}, "frame 1 is damaged"},
+        Case{{"later.rgc", "b.usda"}, "frames before it are kept in b.usda.partial"},
+        Case{{"out/hair.rgc", "a.usda", "--frames", "2:6"}, "has frames 1 to 5; there is no frame 6"},
+        Case{{"out/hair.usda", "a.obj", "--frame", "6"}, "there is no frame 6"},
+        Case{{"out/hair.rgc", "out/hair.rgc"}, "choose another name"},
+        Case{{"here/hair.rgc.partial", "here/hair.rgc"}, "choose another name"},
+        Case{{"out/hair.rgc", "none/a.usda"}, "none/a.usda"}, Case{{"out/hair.rgc", "file"}, "file"}}) {
+    std::vector<std::string> arguments{"convert"};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exitCode, 1) << c.message;
+    EXPECT_EQ(result.out, "");
+    EXPECT_NE(result.err.find("ringlet convert: "), std::string::npos);
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(readText(folder_ / "here/hair.rgc.partial"), readText(folder_ / "out/hair.rgc")) << "untouched";
+  EXPECT_EQ(convert({"damaged.rgc", "rest.usda", "--frames", "2:5"})["frames"], 4) << "the others can be had";
+}
+
+TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string message;
+  };
+  for (const Case& c :
+       {Case{{"convert", "out/hair.rgc"}, "--info"},
+        Case{{"convert", "out/hair.rgc", "a.fbx"}, ".usda, .rgc, .obj"},
+        Case{{"convert", "out/hair.rgc", "a.usda", "--info"}, "leave out OUT"},
+        Case{{"convert", "out/hair.rgc", "a.usda", "--precision", "16bit"}, "only a cache"},
+        Case{{"convert", "out/hair.rgc", "a.rgc", "--precision", "8bit"}, "there is no '8bit'"},
+        Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "2", "--frames", "1:2"}, "say one of them"},
+        Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "0"}, "from 1"},
+        Case{{"convert", "out/hair.rgc", "a.obj", "--frames", "5:2"}, "as 1:24"},
+        Case{{"convert", "out/hair.rgc", "a.obj", "--frames", "2"}, "as 1:24"},
+        Case{{"simulate", "groom.obj", "--cache", "float16", "-o", "x"}, "there is no 'float16'"}}) {
+    const auto result = run(c.arguments);
+    EXPECT_EQ(result.exitCode, 2) << c.message;
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace ringlet
