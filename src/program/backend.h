@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -60,6 +61,8 @@ class Backend {
   virtual std::string kernel() const = 0;
   /// Of making it [ms]; 0 where there is nothing to compile.
   virtual double compileMilliseconds() const { return 0; }
+  /// Of its buffers on the device; none where there is no device.
+  virtual std::optional<std::uint64_t> deviceBytes() const = 0;
 };
 
 /// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open). `tells`: a line on standard

@@ -35,6 +35,7 @@ class GpuBackend : public Backend {
   std::string driver() const override { return device_.driver(); }
   std::string kernel() const override { return simulation_.kernelDescription(); }
   double compileMilliseconds() const override { return simulation_.compileMilliseconds(); }
+  std::optional<std::uint64_t> deviceBytes() const override { return simulation_.memory().total(); }
 
  private:
   ComputeDevice device_;

@@ -68,6 +68,7 @@ class ReferenceBackend : public Backend {
   }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::vector<std::string> deviceMessages() const override { return {}; }
+  std::optional<std::uint64_t> deviceBytes() const override { return std::nullopt; }
   std::string device() const override { return "CPU, one thread"; }
   std::string driver() const override { return "none"; }
   std::string kernel() const override { return "reference, double precision"; }

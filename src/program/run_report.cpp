@@ -91,6 +91,8 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["device"] = outcome.device;
   json["driver"] = outcome.driver;
   json["kernel"] = outcome.kernel;
+  json["device_bytes"] =
+      outcome.deviceBytes ? nlohmann::ordered_json(*outcome.deviceBytes) : nlohmann::ordered_json();
   json["compile_ms"] = outcome.compileMilliseconds;
   json["backend"] = names.backend;
   json["positions_hash"] = outcome.positionsHash;

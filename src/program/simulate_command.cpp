@@ -56,8 +56,8 @@ constexpr const char* kExample =
     "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
     "at a\n"
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
-    "device driver kernel compile_ms (making the kernels, once) backend positions_hash integrator material "
-    "steps_per_frame fps\n"
+    "device driver kernel device_bytes (of the simulation's buffers, at the end; null for reference)\n"
+    "compile_ms (making the kernels, once) backend positions_hash integrator material steps_per_frame fps\n"
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
@@ -424,8 +424,8 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->group(machine);
   command
       ->add_option("--run", typed->run,
-                   "Particles a lane holds, 4 to 16, on a CPU device to 24, to 32 in two lanes (default: chosen by device and "
-                   "length)")
+                   "Particles a lane holds, 4 to 16, on a CPU device to 24, to 32 in two lanes (default: "
+                   "chosen by device and length)")
       ->check(wholeBetween(4, 32))
       ->type_name("K")
       ->group(machine);

@@ -331,6 +331,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   outcome.device = (*backend)->device();
   outcome.driver = (*backend)->driver();
   outcome.kernel = (*backend)->kernel();
+  outcome.deviceBytes = (*backend)->deviceBytes();
   outcome.compileMilliseconds = (*backend)->compileMilliseconds();
   outcome.stages = (*backend)->stageMilliseconds();
   for (const auto& [stage, milliseconds] : stagesBefore) outcome.stages[stage] -= milliseconds;

@@ -81,8 +81,9 @@ struct SimulateOutcome {
   std::optional<ContactNumbers> contactNumbers;  // where they are measured
   std::optional<BodyNumbers> bodyNumbers;        // where there are bodies; of every frame
   std::string device, driver, kernel;
-  double compileMilliseconds = 0;  // of the kernels, once
-  std::string positionsHash;  // of the last frame
+  std::optional<std::uint64_t> deviceBytes;  // of the simulation's buffers at the end, on a device
+  double compileMilliseconds = 0;            // of the kernels, once
+  std::string positionsHash;                 // of the last frame
   bool interrupted = false;
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> outputs;

@@ -110,6 +110,18 @@ TEST_F(Buffers, TooLargeIsRefusedWithBothNumbers) {
   }
 }
 
+// What is taken is counted for as long as it is kept, so that what is left can be told beforehand.
+TEST_F(Buffers, WhatIsLeftOfTheMemoryIsKnown) {
+  constexpr std::uint64_t kBytes = 8 << 20;
+  const std::uint64_t before = gpu::availableStorageBytes(gpu());
+  {
+    const auto buffer = Buffer::create(gpu(), kBytes, BufferKind::storage, "counted");
+    ASSERT_TRUE(buffer) << buffer.error().message;
+    EXPECT_LE(gpu::availableStorageBytes(gpu()), before - kBytes);
+  }
+  EXPECT_GT(gpu::availableStorageBytes(gpu()), before - kBytes);
+}
+
 TEST_F(Buffers, PastTheEndIsTheCallersFault) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");  // the driver has threads
   auto buffer = Buffer::create(gpu(), 16, BufferKind::storage, "small");

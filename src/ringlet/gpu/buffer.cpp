@@ -110,6 +110,7 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind ki
   RINGLET_VK_CHECK(device.vk().vkAllocateMemory(device.handle(), &allocation, nullptr, &memory),
                    fmt::format("{} (in a memory of {} bytes)", attempt(), heapBytes));
   self.memory_ = OwnedMemory(device.shared_from_this(), memory);
+  self.counted_ = device.countBytes(chosen.heapIndex, requirements.size);
   RINGLET_VK_CHECK(device.vk().vkBindBufferMemory(device.handle(), buffer, memory, 0), attempt());
 
   // Stays mapped: coherent memory needs no flush, and unmapping comes with freeing.
@@ -183,6 +184,20 @@ Status Buffer::fillZero() {
   if (Status status = recorder->begin(); !status) return status;
   recorder->fillZero(*this);
   return recorder->submitAndWait();
+}
+
+std::uint64_t availableStorageBytes(const Device& device) {
+  const auto type = chooseMemoryType(device, ~0u, BufferKind::storage);
+  return type ? device.availableBytes(device.memory().memoryTypes[*type].heapIndex) : 0;
+}
+
+bool isOneMemory(const Device& device) {
+  const auto heapOf = [&](BufferKind kind) -> std::optional<std::uint32_t> {
+    const auto type = chooseMemoryType(device, ~0u, kind);
+    if (!type) return std::nullopt;
+    return device.memory().memoryTypes[*type].heapIndex;
+  };
+  return heapOf(BufferKind::storage) == heapOf(BufferKind::stream);
 }
 
 }  // namespace ringlet::gpu

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -48,6 +49,7 @@ class Buffer {
 
   Device* device_ = nullptr;  // held open by what follows
   OwnedMemory memory_;
+  std::shared_ptr<void> counted_;  // among what is taken of the device's memory
   OwnedBuffer buffer_;
   std::byte* mapped_ = nullptr;
   std::uint64_t bytes_ = 0;
@@ -55,5 +57,10 @@ class Buffer {
   BufferKind kind_ = BufferKind::storage;
   std::string name_;
 };
+
+/// What is left of the memory that storage buffers are made in [bytes]; see Device::availableBytes.
+std::uint64_t availableStorageBytes(const Device& device);
+/// Whether streams are made in the same.
+bool isOneMemory(const Device& device);
 
 }  // namespace ringlet::gpu

@@ -24,6 +24,7 @@ struct Candidate {
   DeviceListing listing;
   std::uint32_t queueFamily = 0;
   std::vector<const char*> extensions;  // to switch on
+  bool hasMemoryBudget = false;
 };
 
 std::string_view typeName(VkPhysicalDeviceType type) {
@@ -147,6 +148,7 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   // What came after 1.1 is asked for only where it is known.
   const bool hasDriverProperties =
       p.apiVersion >= VK_API_VERSION_1_2 || has(VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
+  candidate.hasMemoryBudget = has(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);  // to ask needs no switching on
   const bool hasSizeControlInCore = p.apiVersion >= VK_API_VERSION_1_3;
   const bool hasSizeControl = hasSizeControlInCore || has(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
 
@@ -313,6 +315,8 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
   self->properties_ = candidate.listing.properties;
   self->options_ = options;
   self->queueFamily_ = candidate.queueFamily;
+  self->physical_ = candidate.handle;
+  self->hasMemoryBudget_ = candidate.hasMemoryBudget;
   vkGetPhysicalDeviceMemoryProperties(candidate.handle, &self->memory_);
 
   const float priority = 1;
@@ -399,6 +403,26 @@ Device::~Device() {
 
 std::vector<std::string> Device::validationMessages() const {
   return validationLog() ? validationLog()->messages() : std::vector<std::string>{};
+}
+
+std::uint64_t Device::availableBytes(std::uint32_t heap) const {
+  std::uint64_t whole = memory_.memoryHeaps[heap].size, taken = takenBytes_[heap];
+  if (hasMemoryBudget_) {
+    auto budget = zeroed<VkPhysicalDeviceMemoryBudgetPropertiesEXT>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT);
+    auto memory =
+        zeroed<VkPhysicalDeviceMemoryProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2);
+    memory.pNext = &budget;
+    vkGetPhysicalDeviceMemoryProperties2(physical_, &memory);
+    whole = std::min<std::uint64_t>(whole, budget.heapBudget[heap]);
+    taken = std::max<std::uint64_t>(taken, budget.heapUsage[heap]);
+  }
+  return whole - std::min(whole, taken);
+}
+
+std::shared_ptr<void> Device::countBytes(std::uint32_t heap, std::uint64_t bytes) {
+  takenBytes_[heap] += bytes;
+  return {this, [self = shared_from_this(), heap, bytes](void*) { self->takenBytes_[heap] -= bytes; }};
 }
 
 VkResult Device::submit(VkCommandBuffer commands, VkFence fence) {

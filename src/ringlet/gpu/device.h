@@ -2,6 +2,8 @@
 // recorders hold their device open, so it closes with the last of them.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -95,6 +97,11 @@ class Device : public std::enable_shared_from_this<Device> {
   /// Where it is kept; empty: nowhere.
   const std::filesystem::path& pipelineCacheFile() const { return pipelineCacheFile_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+  /// What is left of a heap [bytes]: of this process's budget where the driver tells it, else of all there is
+  /// what this device has not taken.
+  std::uint64_t availableBytes(std::uint32_t heap) const;
+  /// Counts bytes of a heap as taken for as long as what it returns is kept.
+  std::shared_ptr<void> countBytes(std::uint32_t heap, std::uint64_t bytes);
   /// Hands the commands to the queue; any thread may.
   VkResult submit(VkCommandBuffer commands, VkFence fence);
   /// Of waits for submissions: notes when one ended, and tells when the one before it did. Any thread may.
@@ -108,6 +115,9 @@ class Device : public std::enable_shared_from_this<Device> {
   void keepPipelineCache() const;
 
   std::unique_ptr<Instance> instance_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  bool hasMemoryBudget_ = false;
+  std::array<std::atomic<std::uint64_t>, VK_MAX_MEMORY_HEAPS> takenBytes_{};
   VkDevice device_ = VK_NULL_HANDLE;
   VolkDeviceTable table_{};
   VkQueue queue_ = VK_NULL_HANDLE;

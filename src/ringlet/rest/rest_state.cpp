@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -258,6 +259,10 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
                                  std::span<const std::uint32_t> order) {
   if (Status status = checkSettings(settings, material); !status) return status.error();
   if (groom.strandCount() == 0) return Error{"the groom has no strands; simulating needs at least one"};
+  if (groom.points.size() > std::numeric_limits<std::uint32_t>::max()) {
+    return Error{fmt::format("the groom has {} particles; {} are the most", groom.points.size(),
+                             std::numeric_limits<std::uint32_t>::max())};
+  }
   if (!(groom.metresPerUnit > 0) || !std::isfinite(groom.metresPerUnit)) {
     return Error{fmt::format("metresPerUnit is {}; it must be a positive number", groom.metresPerUnit)};
   }
@@ -266,6 +271,10 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   std::vector<std::uint32_t> groomOrder;
   if (order.empty()) order = groomOrder = deviceOrder(groom);
   RINGLET_ASSERT(isDeviceOrder(order, groom), "the order names every strand once, by rising particle count");
+  // Doubling as they grow would take up to half as much again.
+  state.strands.reserve(groom.strandCount());
+  state.particles.reserve(groom.points.size());
+  state.points.reserve(groom.points.size());
   for (std::uint32_t index : order) {
     const auto strand = inMetres(groom.strand(index), groom.metresPerUnit);
     if (Status status = checkStrand(strand, index); !status) return status.error();

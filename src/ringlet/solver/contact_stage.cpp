@@ -21,8 +21,6 @@ constexpr std::uint32_t kGroupSize = 64;
 // Blocks of a contact particle's lists at most, to begin with.
 constexpr std::uint32_t kFirstMostBlocks = 4;
 constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists are made anew
-// Lists are read as texels where a device sees at least this much, what the smallest storage buffers hold.
-constexpr std::uint64_t kLeastTexelBytes = 128ull << 20;
 
 // Where the device writes how many workgroups run.
 constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectContacts),
@@ -95,12 +93,22 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
     self.kernels_.push_back(std::move(*kernel));
   }
 
-  auto rests = createFilled(device, contactRests(rest, settings, particles), "contacts");
-  if (!rests) return rests.error();
-  auto neighbours = createFilled(device, neighbourTable(contacts.graph), "neighbours");
-  if (!neighbours) return neighbours.error();
+  const auto table = neighbourTable(contacts.graph);
   const std::uint64_t gridWords =
       2 * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
+  const std::uint64_t needed =
+      count * (sizeof(layout::ContactRest) + sizeof(layout::ContactPlace) + sizeof(layout::ContactHistory)) +
+      gridWords * sizeof(std::uint32_t) + table.size() * sizeof(table[0]) +
+      rest.points.size() * (sizeof(std::uint32_t) + sizeof(layout::vec4));
+  if (Status status = checkMemory(fmt::format("the contacts of {} particles", count), needed,
+                                  gpu::availableStorageBytes(device));
+      !status)
+    return status.error();
+
+  auto rests = createFilled(device, contactRests(rest, settings, particles), "contacts");
+  if (!rests) return rests.error();
+  auto neighbours = createFilled(device, table, "neighbours");
+  if (!neighbours) return neighbours.error();
   auto indices = createFilled(device, contactIndices(rest, particles), "contact indices");
   if (!indices) return indices.error();
   auto grid = createZero(device, gridWords * sizeof(std::uint32_t), "contact grid");
@@ -121,6 +129,16 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   return self;
 }
 
+std::uint64_t ContactStage::bytes() const {
+  const Buffers& b = *buffers_;
+  return b.contacts.bytes() + b.neighbours.bytes() + b.indices.bytes() + b.grid.bytes() + b.places.bytes() +
+         b.histories.bytes() + b.guesses.bytes();
+}
+std::uint64_t ContactStage::listBytes() const {
+  const Lists& l = *lists_;
+  return l.heads.bytes() + l.pairs.bytes() + l.liveHeads.bytes() + l.lives.bytes() + l.forces.bytes();
+}
+
 std::uint32_t ContactStage::contactGroups() const {
   return static_cast<std::uint32_t>((particles_.size() + kGroupSize - 1) / kGroupSize);
 }
@@ -129,43 +147,48 @@ layout::ContactControl& ContactStage::control() const {
   return *reinterpret_cast<layout::ContactControl*>(groom_->contactControl.mapped().data());
 }
 
-// As large as `near_` and `live_` say; and what the kernels see of them.
+// As large as `near_` and `live_` say; and what the kernels see of them. Those there were are gone before the
+// new ones are made.
 Status ContactStage::createLists() {
-  const auto create = [&](const char* name, std::uint64_t bytes) -> Result<gpu::Buffer> {
-    if (bytes <= largestList_) return createZero(*device_, bytes, name);
+  const std::uint64_t count = particles_.size();
+  const std::uint64_t liveCount = std::uint64_t{live_.blocks} * layout::kLiveBlock;
+  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+  const std::pair<const char*, std::uint64_t> sizes[] = {
+      {"contact lists", count * (2 + 2 * near_.most) * kWord},
+      {"contact pairs", std::uint64_t{near_.blocks} * layout::kListBlock * sizeof(layout::ContactPair)},
+      {"live contacts' lists", 2 * count * (1 + live_.most) * kWord},
+      {"live contacts", 2 * liveCount * sizeof(layout::ContactLife)},
+      {"contact forces", liveCount * sizeof(layout::ContactForce)}};
+  lists_.reset();
+  std::uint64_t total = 0;
+  for (const auto& [name, bytes] : sizes) {
+    total += bytes;
+    if (bytes <= largestList_) continue;
     return Error{fmt::format(
         "the {} of {} contact particles, up to {} for one, need a buffer of {} MiB, and this device's are {} "
         "MiB at most; use a smaller contact radius, or prune more",
-        name, particles_.size(), near_.most * layout::kListBlock, bytes >> 20, largestList_ >> 20)};
-  };
-  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-  const std::uint64_t count = particles_.size();
-  lists_.reset();
-  auto heads = create("contact lists", count * (2 + 2 * near_.most) * kWord);
-  if (!heads) return heads.error();
-  auto pairs =
-      create("contact pairs", std::uint64_t{near_.blocks} * layout::kListBlock * sizeof(layout::ContactPair));
-  if (!pairs) return pairs.error();
-  auto liveHeads = create("live contacts' lists", 2 * count * (1 + live_.most) * kWord);
-  if (!liveHeads) return liveHeads.error();
-  const std::uint64_t liveCount = std::uint64_t{live_.blocks} * layout::kLiveBlock;
-  auto lives = create("live contacts", 2 * liveCount * sizeof(layout::ContactLife));
-  if (!lives) return lives.error();
-  auto forces = create("contact forces", liveCount * sizeof(layout::ContactForce));
-  if (!forces) return forces.error();
-  lists_.emplace(Lists{std::move(*heads), std::move(*pairs), std::move(*liveHeads), std::move(*lives),
-                       std::move(*forces)});
+        name, count, near_.most * layout::kListBlock, bytes >> 20, largestList_ >> 20)};
+  }
+  const std::string what = fmt::format("the lists of {} contact particles", count);
+  if (Status status = checkMemory(what, total, gpu::availableStorageBytes(*device_)); !status) return status;
+  std::vector<gpu::Buffer> made;
+  for (const auto& [name, bytes] : sizes) {
+    auto list = createZero(*device_, bytes, name);
+    if (!list) return list.error();
+    made.push_back(std::move(*list));
+  }
+  lists_.emplace(Lists{std::move(made[0]), std::move(made[1]), std::move(made[2]), std::move(made[3]),
+                       std::move(made[4])});
 
   // In the order of layout.h: storage, then texels.
   const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
-  const auto& [positions, velocities, solved] =
-      std::tie(groom_->positions, groom_->velocities, groom_->solved);
+  const auto& [positions, velocities, solved] = std::tie(hair().positions, hair().velocities, hair().solved);
   const Lists& lists = *lists_;
   // clang-format off
   auto bindings = gpu::Bindings::create(kernels_[0], {
       positions, velocities, solved, contacts, neighbours, indices, grid, places, histories, guesses,
       lists.heads, lists.pairs, lists.liveHeads, lists.lives, lists.forces,
-      groom_->contactSystems, groom_->contactControl,
+      hair().contactSystems, groom_->contactControl,
       positions, velocities, solved, contacts, neighbours, indices, places, histories, guesses,
       lists.pairs, lists.lives, lists.forces});
   // clang-format on
@@ -307,7 +330,7 @@ std::uint64_t ContactStage::takePairTests() {
 
 Status ContactStage::forget() {
   control().isListed = control().steps = 0;
-  if (Status status = groom_->contactSystems.fillZero(); !status) return status;
+  if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
   return lists_->liveHeads.fillZero();
 }
 
@@ -362,9 +385,9 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
 // J_a = momentum - 2 D v of the last iterate, in kg m/s. What a pinned particle received is not known, and
 // left out.
 Result<double> ContactStage::momentumError(const RestState& rest) const {
-  auto systems = downloadAll<layout::ContactSystem>(groom_->contactSystems, rest.points.size());
+  auto systems = downloadAll<layout::ContactSystem>(hair().contactSystems, rest.points.size());
   if (!systems) return systems.error();
-  auto solved = downloadAll<layout::vec4>(groom_->solved, rest.points.size());
+  auto solved = downloadAll<layout::vec4>(hair().solved, rest.points.size());
   if (!solved) return solved.error();
   Vec3d sum{};
   double sizes = 0;

@@ -26,8 +26,8 @@ namespace ringlet {
 
 class ContactStage {
  public:
-  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` must
-  /// live as long, in one place.
+  /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` is of
+  /// one chunk, and must live as long, in one place.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const RestContacts& contacts, DeviceGroom& groom);
 
@@ -45,6 +45,10 @@ class ContactStage {
   std::uint32_t haltedStep() const { return control().step; }
   /// Makes longer lists, keeping what pairs remember; recordings made before are no longer good.
   Status makeRoom();
+
+  /// Of the buffers made once, and of the lists [bytes].
+  std::uint64_t bytes() const;
+  std::uint64_t listBytes() const;
 
   /// Pairs looked at in the frame that ended, both sides counted; and starts counting anew.
   std::uint64_t takePairTests();
@@ -82,6 +86,7 @@ class ContactStage {
                         std::uint64_t offset) const;
   std::uint32_t contactGroups() const;
   layout::ContactControl& control() const;
+  const DeviceChunk& hair() const { return groom_->chunks[0]; }
 
   gpu::Device* device_ = nullptr;
   std::vector<gpu::Kernel> kernels_;       // by ContactKernel

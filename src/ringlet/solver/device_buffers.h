@@ -15,11 +15,15 @@
 namespace ringlet {
 
 template <class T>
-Result<gpu::Buffer> createFilled(gpu::Device& device, const std::vector<T>& values, const std::string& name) {
-  auto buffer = gpu::Buffer::create(device, values.size() * sizeof(T), gpu::BufferKind::storage, name);
+Result<gpu::Buffer> createFilled(gpu::Device& device, std::span<const T> values, const std::string& name) {
+  auto buffer = gpu::Buffer::create(device, values.size_bytes(), gpu::BufferKind::storage, name);
   if (!buffer) return buffer;
-  if (Status status = buffer->upload(std::as_bytes(std::span(values))); !status) return status.error();
+  if (Status status = buffer->upload(std::as_bytes(values)); !status) return status.error();
   return buffer;
+}
+template <class T>
+Result<gpu::Buffer> createFilled(gpu::Device& device, const std::vector<T>& values, const std::string& name) {
+  return createFilled(device, std::span<const T>(values), name);
 }
 
 inline Result<gpu::Buffer> createZero(gpu::Device& device, std::uint64_t bytes, const std::string& name) {
@@ -39,6 +43,10 @@ Result<std::vector<T>> downloadAll(const gpu::Buffer& buffer, std::size_t count,
   }
   return values;
 }
+
+/// What grows, or is cut to fit, is read as texels where a device sees at least this much of a buffer
+/// [bytes]: what the smallest storage buffers hold.
+inline constexpr std::uint64_t kLeastTexelBytes = 128ull << 20;
 
 /// Whether a kernel on the device sees all of a buffer of this size as texels (gpu::BindingKind).
 inline bool isSeenAsTexels(const gpu::Device& device, std::uint64_t bytes) {

@@ -1,58 +1,154 @@
 // Implements solver/device_groom.h.
 #include "ringlet/solver/device_groom.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "ringlet/solver/device_buffers.h"
+#include <limits>
 
 namespace ringlet {
+namespace {
 
 using gpu::Buffer;
 using gpu::BufferKind;
 
-Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
-                                        std::uint64_t scratchRecords, bool withContacts, bool keepsSolved,
-                                        std::size_t slots) {
-  const std::uint64_t stateBytes = rest.points.size() * sizeof(layout::vec4);
-  auto positions = createZero(device, stateBytes, "positions");
+Result<DeviceChunk> createChunk(gpu::Device& device, const RestState& rest, const GroomChunk& part,
+                                const GroomRecords& records) {
+  const std::uint64_t particleCount = part.particleCount(), strandCount = part.strandCount();
+  auto positions = createZero(device, particleCount * records.position, "positions");
   if (!positions) return positions.error();
-  auto velocities = createZero(device, stateBytes, "velocities");
+  auto velocities = createZero(device, particleCount * records.velocity, "velocities");
   if (!velocities) return velocities.error();
-  auto particles = createFilled(device, rest.particles, "particles");
+  auto particles =
+      createFilled(device, std::span(rest.particles).subspan(part.particleBegin, particleCount), "particles");
   if (!particles) return particles.error();
-  auto strands = createFilled(device, rest.strands, "strands");
+  auto strands = Buffer::create(device, strandCount * records.strandRest, BufferKind::storage, "strands");
   if (!strands) return strands.error();
-  auto reports = createZero(device, rest.strands.size() * sizeof(layout::StrandReport), "reports");
+  auto reports = createZero(device, strandCount * records.report, "reports");
   if (!reports) return reports.error();
-  auto scratch = createZero(device, scratchRecords * sizeof(layout::vec4), "scratch");
+  auto scratch = createZero(device, particleCount * records.scratch, "scratch");
   if (!scratch) return scratch.error();
-  auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
-  if (!poses) return poses.error();
-  const std::uint64_t contactParticles = withContacts ? rest.points.size() : 0;
-  auto solved = createZero(device, keepsSolved ? stateBytes : 0, "solved velocities");
+  auto solved = createZero(device, particleCount * records.solved, "solved velocities");
   if (!solved) return solved.error();
-  auto systems = createZero(device, contactParticles * sizeof(layout::ContactSystem), "contact systems");
+  auto systems = createZero(device, particleCount * records.contactSystem, "contact systems");
   if (!systems) return systems.error();
-  auto control = Buffer::create(device, withContacts ? sizeof(layout::ContactControl) : 0, BufferKind::stream,
-                                "contact control");
-  if (!control) return control.error();
-  return DeviceGroom{std::move(*positions), std::move(*velocities), std::move(*particles),
-                     std::move(*strands),   std::move(*reports),    std::move(*scratch),
-                     std::move(*poses),     std::move(*solved),     std::move(*systems),
-                     std::move(*control)};
+  return DeviceChunk{part,
+                     std::move(*positions),
+                     std::move(*velocities),
+                     std::move(*particles),
+                     std::move(*strands),
+                     std::move(*reports),
+                     std::move(*scratch),
+                     std::move(*solved),
+                     std::move(*systems)};
 }
 
-bool DeviceGroom::fitsTexels(const gpu::Device& device) const {
-  return isSeenAsTexels(
-      device, std::max({positions.bytes(), particles.bytes(), strands.bytes(), contactSystems.bytes()}));
+}  // namespace
+
+Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
+                                             std::span<const std::uint32_t> particleCounts,
+                                             const GroomRecords& records, const Settings& settings,
+                                             const KernelChoice& choice) {
+  const gpu::DeviceProperties& p = device.properties();
+  std::uint64_t most = std::min({p.maxStorageBufferRange, p.maxAllocationBytes,
+                                 std::uint64_t{std::numeric_limits<std::uint32_t>::max()}});
+  if (!settings.contacts.on && isSeenAsTexels(device, kLeastTexelBytes))
+    most = std::min(most, p.maxTexelRecords * sizeof(layout::vec4));
+  if (choice.mostBufferBytes > 0) most = std::min(most, choice.mostBufferBytes);
+  auto chunks = cutGroom(particleCounts, records, most,
+                         settings.contacts.on ? "contacts"
+                         : choice.taps        ? "taps"
+                                              : "");
+  if (!chunks) return chunks;
+  const std::uint64_t particles = chunks->back().particleEnd, strands = chunks->back().strandEnd;
+  std::uint64_t bytes = particles * records.perParticle() + strands * records.perStrand();
+  if (gpu::isOneMemory(device))
+    bytes += Simulation::kFramesInFlight *
+             (particles * records.perParticleOfFrame() + strands * records.perStrandOfFrame());
+  std::uint64_t available = gpu::availableStorageBytes(device);
+  if (choice.mostDeviceBytes > 0) available = std::min(available, choice.mostDeviceBytes);
+  const std::string what = fmt::format("a groom of {} strands and {} particles", strands, particles);
+  if (Status status = checkMemory(what, bytes, available); !status) return status.error();
+  return chunks;
+}
+
+Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
+                                        std::span<const GroomChunk> parts, const GroomRecords& records,
+                                        std::size_t slots) {
+  auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
+  if (!poses) return poses.error();
+  auto control = Buffer::create(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0,
+                                BufferKind::stream, "contact control");
+  if (!control) return control.error();
+  DeviceGroom groom{{}, std::move(*poses), std::move(*control)};
+  for (const GroomChunk& part : parts) {
+    auto chunk = createChunk(device, rest, part, records);
+    if (!chunk) return chunk.error();
+    groom.chunks.push_back(std::move(*chunk));
+  }
+  if (Status status = groom.uploadStrands(rest); !status) return status.error();
+  return groom;
+}
+
+std::vector<std::reference_wrapper<const Buffer>> DeviceGroom::inBindingOrder(std::size_t chunk) const {
+  const DeviceChunk& c = chunks[chunk];
+  return {c.positions, c.velocities, c.particles, c.strands,        c.reports,
+          c.scratch,   poses.seen(), c.solved,    c.contactSystems, contactControl,
+          c.positions, c.velocities, c.particles, c.strands,        c.contactSystems};
+}
+
+std::uint64_t DeviceGroom::largestTexels() const {
+  std::uint64_t largest = 0;
+  for (const DeviceChunk& c : chunks)
+    largest = std::max(
+        {largest, c.positions.bytes(), c.particles.bytes(), c.strands.bytes(), c.contactSystems.bytes()});
+  return largest;
+}
+
+std::uint64_t DeviceGroom::particleBytes() const {
+  std::uint64_t bytes = 0;
+  for (const DeviceChunk& c : chunks)
+    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles.bytes() + c.scratch.bytes() +
+             c.solved.bytes() + c.contactSystems.bytes();
+  return bytes;
+}
+
+std::uint64_t DeviceGroom::strandBytes() const {
+  std::uint64_t bytes = 0;
+  for (const DeviceChunk& c : chunks) bytes += c.strands.bytes() + c.reports.bytes();
+  return bytes;
+}
+
+Status DeviceGroom::uploadStrands(const RestState& rest) {
+  constexpr std::size_t kPieceStrands = 1 << 16;  // 7 MiB
+  std::vector<layout::StrandRest> piece;
+  for (DeviceChunk& chunk : chunks) {
+    for (std::size_t done = 0; done < chunk.part.strandCount(); done += piece.size()) {
+      const auto begin = rest.strands.begin() + static_cast<std::ptrdiff_t>(chunk.part.strandBegin + done);
+      const std::size_t count = std::min(kPieceStrands, chunk.part.strandCount() - done);
+      piece.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+      for (layout::StrandRest& strand : piece) strand.firstParticle -= chunk.part.particleBegin;
+      if (Status status =
+              chunk.strands.upload(std::as_bytes(std::span(piece)), done * sizeof(layout::StrandRest));
+          !status)
+        return status;
+    }
+  }
+  return {};
+}
+
+Result<std::vector<layout::StrandReport>> DeviceGroom::downloadReports() const {
+  std::vector<layout::StrandReport> reports(chunks.back().part.strandEnd);
+  for (const DeviceChunk& chunk : chunks) {
+    const auto part = std::span(reports).subspan(chunk.part.strandBegin, chunk.part.strandCount());
+    if (Status status = chunk.reports.download(std::as_writable_bytes(part)); !status) return status.error();
+  }
+  return reports;
 }
 
 std::vector<std::uint32_t> groomIndices(const RestState& rest) {
   std::vector<std::uint32_t> indices(rest.points.size());
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    for (std::uint32_t i = 0; i < rest.strands[s].particleCount; ++i)
-      indices[rest.strands[s].firstParticle + i] = rest.firstInGroom[s] + i;
-  }
+  GroomPlaces place(rest);
+  for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<std::uint32_t>(place(i));
   return indices;
 }
 

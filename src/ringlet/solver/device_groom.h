@@ -1,9 +1,11 @@
-// DeviceGroom: the buffers of one groom on one device, and the ways in and out of them. Constant and changing
-// data never share a buffer; all upload at creation and in setState, all download here.
+// DeviceGroom: the buffers of one groom on one device, chunk by chunk (groom_chunks.h), and the ways in and
+// out of them. Constant and changing data never share a buffer; all upload at creation and in setState, all
+// download here, in pieces, so that the host never holds a second copy of what it asked for.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -11,53 +13,132 @@
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/frame_input.h"
+#include "ringlet/solver/groom_chunks.h"
 #include "shared/layout.h"
 
 namespace ringlet {
 
-struct DeviceGroom {
+/// What kernels see of some of the strands; their firstParticle counts within the chunk.
+struct DeviceChunk {
+  GroomChunk part;
   gpu::Buffer positions, velocities, particles, strands, reports, scratch;
-  FrameInput poses;                                    // StepPose[kMaxStepPoses]
-  gpu::Buffer solved, contactSystems, contactControl;  // empty without contacts
+  gpu::Buffer solved, contactSystems;  // empty unless needed (GroomRecords)
+};
 
-  /// `scratchRecords`: vec4s of scratch (serial form) and taps. `slots`: frames in flight.
-  /// `keepsSolved`: a solve's result stands beside the velocities it began from.
-  static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest, std::uint64_t scratchRecords,
-                                    bool withContacts, bool keepsSolved, std::size_t slots);
+/// The chunks a device wants a groom in: as large as storage allows, and as texels do where it sees as many
+/// as the smallest storage buffers hold, as kernels read those faster. With contacts a strand may meet any
+/// other: all are in one. Fails, with the numbers, as cutGroom does and where the device has too little
+/// memory left.
+Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
+                                             std::span<const std::uint32_t> particleCounts,
+                                             const GroomRecords& records, const Settings& settings,
+                                             const KernelChoice& choice);
 
-  /// The buffers in binding order (layout.h).
-  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
-    return {positions,      velocities,     particles, strands,    reports,   scratch, poses.seen(),  solved,
-            contactSystems, contactControl, positions, velocities, particles, strands, contactSystems};
-  }
-  /// Whether the device sees all of them as texels.
-  bool fitsTexels(const gpu::Device& device) const;
+struct DeviceGroom {
+  std::vector<DeviceChunk> chunks;
+  FrameInput poses;            // StepPose[kMaxStepPoses]
+  gpu::Buffer contactControl;  // empty without contacts
+
+  /// `slots`: frames in flight. Fails when the device lacks memory.
+  static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest,
+                                    std::span<const GroomChunk> parts, const GroomRecords& records,
+                                    std::size_t slots);
+
+  /// A chunk's buffers in binding order (layout.h).
+  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder(std::size_t chunk) const;
+  /// The largest buffer that kernels read as texels [bytes].
+  std::uint64_t largestTexels() const;
+  std::uint64_t particleBytes() const;  // of all buffers with a record a particle
+  std::uint64_t strandBytes() const;
+
+  /// All of them anew, as the rest state has them.
+  Status uploadStrands(const RestState& rest);
+  /// In device order.
+  Result<std::vector<layout::StrandReport>> downloadReports() const;
+
+  using Field = gpu::Buffer DeviceChunk::*;
+  /// Fills a buffer of vec4s a particle: valueAt(i) of particle i, device order, asked for in that order.
+  template <class ValueAt>
+  Status uploadEach(Field field, ValueAt&& valueAt);
+  /// Each value to change(value).
+  template <class Change>
+  Status changeEach(Field field, Change&& change);
+  /// take(i, value) for each particle, in device order; from the `row`th row of all particles on (taps).
+  template <class Take>
+  Status downloadEach(Field field, Take&& take, std::uint64_t row = 0) const;
 };
 
 /// The groom's index of each particle, in device order.
 std::vector<std::uint32_t> groomIndices(const RestState& rest);
 
-/// From device order to groom order and back, a value per particle.
-template <class To, class From, class Convert>
-std::vector<To> inGroomOrder(const RestState& rest, std::span<const From> deviceValues, Convert convert) {
-  std::vector<To> values(deviceValues.size());
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    const std::size_t from = rest.strands[s].firstParticle, to = rest.firstInGroom[s];
-    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
-      values[to + i] = convert(deviceValues[from + i]);
+/// The same one by one, asked for in device order: which strand, and where in the groom, particle i is.
+class GroomPlaces {
+ public:
+  explicit GroomPlaces(const RestState& rest) : rest_(&rest) {}
+  std::size_t strandOf(std::size_t i) {
+    while (i >= rest_->strands[strand_].firstParticle + std::size_t{rest_->strands[strand_].particleCount})
+      ++strand_;
+    return strand_;
   }
-  return values;
+  std::size_t operator()(std::size_t i) {
+    const std::size_t s = strandOf(i);
+    return rest_->firstInGroom[s] + i - rest_->strands[s].firstParticle;
+  }
+
+ private:
+  const RestState* rest_;
+  std::size_t strand_ = 0;
+};
+
+// What crosses at once: 16 MiB of vec4s.
+inline constexpr std::size_t kPieceRecords = 1 << 20;
+
+template <class ValueAt>
+Status DeviceGroom::uploadEach(Field field, ValueAt&& valueAt) {
+  std::vector<layout::vec4> piece;
+  for (DeviceChunk& chunk : chunks) {
+    for (std::size_t done = 0; done < chunk.part.particleCount(); done += piece.size()) {
+      piece.resize(std::min(kPieceRecords, chunk.part.particleCount() - done));
+      for (std::size_t k = 0; k < piece.size(); ++k) piece[k] = valueAt(chunk.part.particleBegin + done + k);
+      if (Status status = (chunk.*field).upload(std::as_bytes(std::span(piece)), done * sizeof(layout::vec4));
+          !status)
+        return status;
+    }
+  }
+  return {};
 }
-template <class To, class From, class Convert>
-std::vector<To> inDeviceOrder(const RestState& rest, std::span<const From> groomValues, Convert convert) {
-  std::vector<To> values(groomValues.size());
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    const std::size_t to = rest.strands[s].firstParticle, from = rest.firstInGroom[s];
-    for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
-      values[to + i] = convert(groomValues[from + i]);
+
+template <class Change>
+Status DeviceGroom::changeEach(Field field, Change&& change) {
+  for (DeviceChunk& chunk : chunks) {
+    const std::size_t count = chunk.part.particleCount();
+    for (std::size_t done = 0; done < count; done += kPieceRecords) {
+      auto piece = downloadAll<layout::vec4>(chunk.*field, std::min(kPieceRecords, count - done), done);
+      if (!piece) return piece.error();
+      for (layout::vec4& value : *piece) value = change(value);
+      if (Status status =
+              (chunk.*field).upload(std::as_bytes(std::span(*piece)), done * sizeof(layout::vec4));
+          !status)
+        return status;
+    }
   }
-  return values;
+  return {};
+}
+
+template <class Take>
+Status DeviceGroom::downloadEach(Field field, Take&& take, std::uint64_t row) const {
+  for (const DeviceChunk& chunk : chunks) {
+    const std::size_t count = chunk.part.particleCount();
+    for (std::size_t done = 0; done < count; done += kPieceRecords) {
+      const auto piece =
+          downloadAll<layout::vec4>(chunk.*field, std::min(kPieceRecords, count - done), row * count + done);
+      if (!piece) return piece.error();
+      for (std::size_t k = 0; k < piece->size(); ++k) take(chunk.part.particleBegin + done + k, (*piece)[k]);
+    }
+  }
+  return {};
 }
 
 }  // namespace ringlet

@@ -1,37 +1,51 @@
 // Implements solver/device_roots.h.
 #include "ringlet/solver/device_roots.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/solver/packed.h"
 
 namespace ringlet {
-namespace {
-
-layout::vec4 packed(Vec3d v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
-layout::vec4 packed(Quatd q) {
-  return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
-}
-
-}  // namespace
 
 BodyPose carriedBy(Quatd headRotation, const BodyPose& root) {
   return {rotate(headRotation, root.position), headRotation * root.rotation};
 }
 
 Result<DeviceRoots> DeviceRoots::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        bool areMoving, std::size_t slots) {
+                                        bool areMoving, std::span<const GroomChunk> chunks,
+                                        std::size_t slots) {
   const std::uint64_t strands = areMoving ? rest.strands.size() : 0;
-  const std::uint64_t poses = (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * strands;
-  auto buffer = FrameInput::create(device, poses * sizeof(layout::RootPose), slots, "root poses");
-  if (!buffer) return buffer.error();
-  DeviceRoots roots(std::move(*buffer), settings.stepSeconds());
+  DeviceRoots roots(settings.stepSeconds());
+  roots.chunks_.assign(chunks.begin(), chunks.end());
+  for (const GroomChunk& chunk : chunks) {
+    const std::uint64_t poses =
+        areMoving ? (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * chunk.strandCount() : 0;
+    auto input = FrameInput::create(device, poses * sizeof(layout::RootPose), slots, "root poses");
+    if (!input) return input.error();
+    roots.poses_.push_back(std::move(*input));
+  }
   if (areMoving) roots.strandInGroom_.assign(rest.strandInGroom.begin(), rest.strandInGroom.end());
   roots.now_.resize(strands);
   roots.oneStepEarlier_.resize(strands);
   return roots;
+}
+
+std::uint64_t DeviceRoots::largestBuffer() const {
+  std::uint64_t largest = 0;
+  for (const FrameInput& poses : poses_) largest = std::max(largest, poses.bytes());
+  return largest;
+}
+std::uint64_t DeviceRoots::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const FrameInput& poses : poses_) bytes += poses.bytes();
+  return bytes;
+}
+std::uint64_t DeviceRoots::writtenBytes() const {
+  std::uint64_t bytes = 0;
+  for (const FrameInput& poses : poses_) bytes += poses.writtenBytes();
+  return bytes;
 }
 
 std::vector<BodyPose> DeviceRoots::inOrder(std::span<const BodyPose> poses) const {
@@ -55,7 +69,6 @@ void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
   RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 2) * count,
                  "every strand has a pose in every step");
   if (count == 0) return;
-  const auto out = poses_.of<layout::RootPose>(slot);
   std::vector<BodyPose> before(count);  // what carried the strand one pose earlier
   for (std::size_t s = 0; s < count; ++s) before[s] = carriedBy(heads[0].rotation, oneStepEarlier_[s]);
   for (std::size_t pose = 0; pose + 1 < heads.size(); ++pose) {
@@ -64,12 +77,15 @@ void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
       oneStepEarlier_ = std::exchange(now_, std::move(next));
     }
     const Quatd head = normalized(heads[pose + 1].rotation);
-    for (std::size_t s = 0; s < count; ++s) {
-      const BodyPose now = carriedBy(head, now_[s]);
-      const Quatd turn = now.rotation * before[s].rotation.conjugate();
-      const Vec3d velocity = (now.position - before[s].position) / stepSeconds_;
-      out[pose * count + s] = {packed(now.position), packed(now.rotation), packed(turn), packed(velocity)};
-      before[s] = now;
+    for (std::size_t c = 0; c < chunks_.size(); ++c) {
+      layout::RootPose* out = &poses_[c].of<layout::RootPose>(slot)[pose * chunks_[c].strandCount()];
+      for (std::size_t s = chunks_[c].strandBegin; s < chunks_[c].strandEnd; ++s) {
+        const BodyPose now = carriedBy(head, now_[s]);
+        const Quatd turn = now.rotation * before[s].rotation.conjugate();
+        const Vec3d velocity = (now.position - before[s].position) / stepSeconds_;
+        *out++ = {packed(now.position), packed(now.rotation), packed(turn), packed(velocity)};
+        before[s] = now;
+      }
     }
   }
 }

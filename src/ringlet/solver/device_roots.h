@@ -15,6 +15,7 @@
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/frame_input.h"
+#include "ringlet/solver/groom_chunks.h"
 #include "shared/layout.h"
 
 namespace ringlet {
@@ -27,15 +28,18 @@ class DeviceRoots {
  public:
   /// Poses are BodyPose{} at first. `slots`: frames in flight. Fails when the device lacks memory.
   static Result<DeviceRoots> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    bool areMoving, std::size_t slots);
+                                    bool areMoving, std::span<const GroomChunk> chunks, std::size_t slots);
 
   bool areMoving() const { return !now_.empty(); }
 
-  /// In binding order, storage and texels: from kBindRootPoses on.
-  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
-    return {poses_.seen(), poses_.seen()};
+  /// Of a chunk, in binding order, storage and texels: from kBindRootPoses on.
+  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder(std::size_t chunk) const {
+    return {poses_[chunk].seen(), poses_[chunk].seen()};
   }
-  std::uint64_t largestBuffer() const { return poses_.seen().bytes(); }
+  std::uint64_t largestBuffer() const;
+  std::uint64_t bytes() const;
+  /// The host's part, for frames in flight.
+  std::uint64_t writtenBytes() const;
 
   /// Poses of strand s, device order, in the head's frame.
   const BodyPose& now(std::size_t s) const { return now_[s]; }
@@ -44,20 +48,23 @@ class DeviceRoots {
   /// Before the next step and one step before that, in groom order.
   void place(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
   /// Poses of the frame of a slot. heads[0] is the head one step before the frame's start, heads[1] at its
-  /// start, heads[2
-  /// + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then they stay.
+  /// start, heads[2 + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then
+  /// they stay.
   void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses);
   /// A frame of this slot begins with it.
-  void record(gpu::Recorder& recorder, std::size_t slot) const { poses_.record(recorder, slot); }
+  void record(gpu::Recorder& recorder, std::size_t slot) const {
+    for (const FrameInput& poses : poses_) poses.record(recorder, slot);
+  }
   /// A frame that is not stepped: roots are at once where they end, and still there, seen from the head.
   void endFrame(std::span<const BodyPose> poses);
 
  private:
-  DeviceRoots(FrameInput poses, double stepSeconds) : poses_(std::move(poses)), stepSeconds_(stepSeconds) {}
+  explicit DeviceRoots(double stepSeconds) : stepSeconds_(stepSeconds) {}
   // Of one step, groom order, to device order.
   std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
 
-  FrameInput poses_;  // RootPose[step][strand]
+  std::vector<GroomChunk> chunks_;
+  std::vector<FrameInput> poses_;  // of each chunk: RootPose[step][strand]
   double stepSeconds_;
   std::vector<std::uint32_t> strandInGroom_;
   std::vector<BodyPose> now_, oneStepEarlier_;  // in the head's frame, device order

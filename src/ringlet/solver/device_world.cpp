@@ -10,16 +10,12 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/base/half.h"
 #include "ringlet/solver/device_buffers.h"
+#include "ringlet/solver/packed.h"
 
 namespace ringlet {
 namespace {
 
 constexpr double kEndless = 1e15;  // [m]: a plane's bounds; its square is still a float
-
-layout::vec4 packed(Vec3d v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
-layout::vec4 packed(Quatd q) { return packed(Vec3d{q.x, q.y, q.z}, q.w); }
 
 layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
   layout::BodyRest rest{};

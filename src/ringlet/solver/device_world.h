@@ -32,7 +32,12 @@ class DeviceWorld {
     return {rests_, poses_.seen(), cells_, air_.seen(), waveBuffer_,
             rests_, poses_.seen(), cells_, air_.seen(), waveBuffer_};
   }
-  std::uint64_t largestBuffer() const { return std::max(cells_.bytes(), poses_.seen().bytes()); }
+  std::uint64_t largestBuffer() const { return std::max(cells_.bytes(), poses_.bytes()); }
+  std::uint64_t bytes() const {
+    return rests_.bytes() + poses_.bytes() + cells_.bytes() + air_.bytes() + waveBuffer_.bytes();
+  }
+  /// The host's part, for frames in flight.
+  std::uint64_t writtenBytes() const { return poses_.writtenBytes() + air_.writtenBytes(); }
 
   /// Where bodies are before the next step, in the world.
   void placeBodies(std::span<const BodyPose> poses) { now_.assign(poses.begin(), poses.end()); }

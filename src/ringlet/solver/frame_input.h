@@ -24,6 +24,9 @@ class FrameInput {
 
   /// What kernels see.
   const gpu::Buffer& seen() const { return seen_; }
+  std::uint64_t bytes() const { return seen_.bytes(); }
+  /// Of all frames' copies.
+  std::uint64_t writtenBytes() const { return written_.size() * seen_.bytes(); }
   /// What the host writes for the frame of this slot, while that is not submitted.
   template <class T>
   std::span<T> of(std::size_t slot) const {

@@ -29,6 +29,7 @@ struct StrandRange {
   StrandShape shape;
   std::uint32_t begin = 0, end = 0;
   std::uint32_t longest = 0;  // particles of its longest strand
+  std::uint32_t chunk = 0;    // the strands are within (groom_chunks.h)
 };
 
 /// Every shape the device has, the serial one last, with the cost a model by kind of device gives it. Where

@@ -1,5 +1,5 @@
-// Implements solver/simulation.h: the frame is one recorded list of dispatches, replayed with new poses; one
-// recording for each frame in flight.
+// Implements solver/simulation.h, less its frames (simulation_frames.cpp): what is made at creation, and the
+// ways to and from the hair's state.
 #include "ringlet/solver/simulation.h"
 
 #include <fmt/format.h>
@@ -10,78 +10,30 @@
 #include <iterator>
 #include <limits>
 
-#include "ringlet/gpu/kernel.h"
-#include "ringlet/gpu/recorder.h"
+#include "ringlet/base/assert.h"
 #include "ringlet/rest/rest_contacts.h"
-#include "ringlet/rest/rest_state.h"
 #include "ringlet/rest/strand_order.h"
-#include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_buffers.h"
-#include "ringlet/solver/device_groom.h"
-#include "ringlet/solver/device_roots.h"
-#include "ringlet/solver/device_world.h"
-#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/groom_chunks.h"
+#include "ringlet/solver/packed.h"
+#include "ringlet/solver/simulation_implementation.h"
 #include "ringlet/solver/strand_kernels.h"
 
 namespace ringlet {
 namespace {
 
-layout::vec4 packed(Vec3d v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
-layout::vec4 packed(Vec3f v) { return {v.x, v.y, v.z, 0}; }
-layout::vec4 packed(Quatd q) {
-  return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
-}
-// An object rather than a function: loops over particles see through it.
-constexpr auto unpacked = [](layout::vec4 v) { return Vec3f{v.x, v.y, v.z}; };
-
-DeviceLimits limitsOf(const gpu::Device& device) {
-  const gpu::DeviceProperties& p = device.properties();
-  return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
-}
-
-// Where the head is and was one outer step before.
-struct HeadHistory {
-  HeadPose oneStepEarlier, now;
-
-  Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
-  Quatd turn() const { return now.rotation * oneStepEarlier.rotation.conjugate(); }
-  // To a place elsewhere, as fast and turning as before, seen from the head.
-  void jump(const HeadPose& to) {
-    const Quatd turned = normalized(to.rotation * now.rotation.conjugate());
-    const Vec3d step = rotate(turned, now.position - oneStepEarlier.position);
-    const Quatd turn = turned * this->turn() * turned.conjugate();
-    now = to;
-    oneStepEarlier = {to.position - step, normalized(turn.conjugate() * to.rotation), to.shift};
-  }
-};
-
-// A place for a frame in flight.
-struct FrameSlot {
-  gpu::Buffer positions;    // as the frame left them, in the host's memory
-  gpu::Recorder recorder;   // goes first, waiting for what it writes
-  bool isRecorded = false;  // as a whole frame
-
-  static Result<FrameSlot> create(gpu::Device& device, std::size_t particles) {
-    auto recorder = gpu::Recorder::create(device, "frame");
-    if (!recorder) return recorder.error();
-    auto positions = gpu::Buffer::create(device, particles * sizeof(layout::vec4), gpu::BufferKind::stream,
-                                         "positions read back");
-    if (!positions) return positions.error();
-    return FrameSlot{std::move(*positions), std::move(*recorder)};
-  }
-  std::span<const layout::vec4> values() const {
-    const auto bytes = positions.mapped();
-    return {reinterpret_cast<const layout::vec4*>(bytes.data()), bytes.size() / sizeof(layout::vec4)};
-  }
-};
-
-std::string describe(std::span<const StrandRange> ranges, std::uint32_t subgroupSize) {
-  std::string text;
+// Ranges of one shape stand together.
+std::vector<StrandShape> shapesOf(std::span<const StrandRange> ranges) {
+  std::vector<StrandShape> shapes;
   for (const StrandRange& range : ranges) {
-    text += (text.empty() ? "" : ", ") + range.shape.describe();
+    if (shapes.empty() || shapes.back() != range.shape) shapes.push_back(range.shape);
   }
+  return shapes;
+}
+
+std::string describe(std::span<const StrandShape> shapes, std::uint32_t subgroupSize) {
+  std::string text;
+  for (const StrandShape& shape : shapes) text += (text.empty() ? "" : ", ") + shape.describe();
   return fmt::format("{} (subgroup {})", text, subgroupSize);
 }
 
@@ -102,60 +54,10 @@ class CompileNotice {
 
 }  // namespace
 
-struct Simulation::Implementation {
-  ComputeDevice device;
-  RestState rest;
-  Settings settings;
-  Material material;
-  KernelChoice choice;
-  HeadHistory head;
-
-  DeviceGroom buffers;
-  DeviceWorld world;
-  DeviceRoots roots;
-  std::vector<StrandRange> ranges;
-  std::vector<PlannedDispatch> plan;
-  std::vector<gpu::Kernel> kernels{};  // one a range
-  std::vector<gpu::Bindings> bindings{};
-
-  std::optional<ContactStage> contacts{};
-  ContactReport contactReport{};  // what is known of the rest pose, and sums
-
-  std::uint64_t stepsDone = 0;
-  std::map<std::string, double> stageMilliseconds{};
-
-  double compileMilliseconds = 0;
-
-  Status makeKernels(bool hasBodies);
-
-  // Frame n has slot n % kFramesInFlight: submitted to the device, finished by it, waited for by the caller.
-  std::uint64_t submitted = 0, finished = 0, waited = 0;
-  bool isReadBack = false;           // the last frame's positions are those on the device
-  std::optional<Error> lostFrame{};  // after which nothing can be told of any
-  std::vector<FrameSlot> slots{};    // go first, waiting for what still uses the rest
-
-  layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
-  FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
-  Status beginFrame(std::size_t slot);
-  void endFrame(FrameSlot& slot);
-  Status recordFrame(std::size_t slot);
-  Status recordContactFrame(std::size_t slot, std::uint32_t firstStep, bool predictFirst);
-  Status recordPass(gpu::Recorder& recorder, const SolvePass& pass);
-  void dispatchAll(gpu::Recorder& recorder, std::span<const PlannedDispatch> dispatches);
-  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                     std::span<const BodyPose> rootPoses);
-  Status finishFrames(std::uint64_t end);
-  Status finishFrames() { return finishFrames(submitted); }
-  Status runToEnd(std::size_t slot);
-  Status addContacts();
-  void writePoses(std::size_t slot, std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                  std::span<const BodyPose> rootPoses);
-  Status jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
-                std::span<const BodyPose> rootPoses);
-  Status carryTo(const HeadPose& end);
-  Status uploadState(std::span<const layout::vec4> positions, std::span<const layout::vec4> velocities);
-  Status placeAtRest();
-};
+DeviceLimits limitsOf(const gpu::Device& device) {
+  const gpu::DeviceProperties& p = device.properties();
+  return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
+}
 
 Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom,
                                       const Material& material, const Settings& settings,
@@ -174,23 +76,21 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const bool isHairAlone = !settings.contacts.on && !settings.air.on && bodies.empty();
   auto ranges = planRanges(counts, limits, choice, isHairAlone);
   if (!ranges) return ranges.error();
+  const bool anySerial =
+      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
+  const GroomRecords records = groomRecords(settings, choice, anySerial, !bodies.empty());
+  const auto chunks = cutForDevice(device.gpu(), counts, records, settings, choice);
+  if (!chunks) return chunks.error();
+  *ranges = cutRanges(*ranges, *chunks);
   auto plan = planFrame(*ranges, limits, settings, bodies.size(), kStrandGroupSize);
   if (!plan) return plan.error();
 
-  const bool anySerial =
-      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
-  const std::uint64_t scratchPerParticle =
-      (anySerial ? layout::kScratchPerParticle + (bodies.empty() ? 0 : layout::kBodyScratch) +
-                       (settings.air.on ? layout::kAirScratch : 0)
-                 : 0) +
-      (choice.taps ? layout::kTapCount : 0);
-  auto buffers =
-      DeviceGroom::create(device.gpu(), *rest, rest->points.size() * scratchPerParticle, settings.contacts.on,
-                          settings.contacts.on || (anySerial && !bodies.empty()), kFramesInFlight);
+  auto buffers = DeviceGroom::create(device.gpu(), *rest, *chunks, records, kFramesInFlight);
   if (!buffers) return buffers.error();
   auto world = DeviceWorld::create(device.gpu(), bodies, settings, start, kFramesInFlight);
   if (!world) return world.error();
-  auto roots = DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots, kFramesInFlight);
+  auto roots =
+      DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots, *chunks, kFramesInFlight);
   if (!roots) return roots.error();
 
   std::unique_ptr<Implementation> self(new Implementation{device,
@@ -208,9 +108,10 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   if (settings.contacts.on) {
     if (Status status = self->addContacts(); !status) return status.error();
   }
+  self->rest.particles = {};  // the device has them
   if (Status status = self->makeKernels(!bodies.empty()); !status) return status.error();
   for (std::size_t slot = 0; slot < kFramesInFlight; ++slot) {
-    auto made = FrameSlot::create(device.gpu(), self->rest.points.size());
+    auto made = FrameSlot::create(device.gpu(), self->buffers);
     if (!made) return made.error();
     self->slots.push_back(std::move(*made));
     if (Status status = self->recordFrame(slot); !status) return status.error();
@@ -221,25 +122,26 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
 // Made, several at a time, and compiled by a dispatch of nothing: some drivers compile only then.
 Status Simulation::Implementation::makeKernels(bool hasBodies) {
   const auto start = std::chrono::steady_clock::now();
-  const CompileNotice notice(choice.observer, ranges.size() + (contacts ? kContactKernelCount : 0));
+  const std::vector<StrandShape> shapes = shapesOf(ranges);
+  const CompileNotice notice(choice.observer, shapes.size() + (contacts ? kContactKernelCount : 0));
   const bool oneSmoothing = std::all_of(rest.strands.begin(), rest.strands.end(),
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
-  const bool fitsTexels =
-      buffers.fitsTexels(device.gpu()) &&
-      isSeenAsTexels(device.gpu(), std::max(world.largestBuffer(), roots.largestBuffer()));
+  const bool fitsTexels = isSeenAsTexels(
+      device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer()}));
   const StrandKernelOptions options{settings.integrator,  oneSmoothing,        bendVaries,        choice.taps,
                                     settings.contacts.on, fitsTexels,          choice.residual,   hasBodies,
                                     settings.air.on,      world.isTurbulent(), choice.movingRoots};
-  auto made = createStrandKernels(device.gpu(), ranges, options);
+  auto made = createStrandKernels(device.gpu(), shapes, options);
   if (!made) return made.error();
   kernels = std::move(*made);
-  auto buffersInOrder = buffers.inBindingOrder();
-  std::ranges::copy(world.inBindingOrder(), std::back_inserter(buffersInOrder));
-  std::ranges::copy(roots.inBindingOrder(), std::back_inserter(buffersInOrder));
-  for (const gpu::Kernel& kernel : kernels) {
-    auto bound = gpu::Bindings::create(kernel, buffersInOrder);
+  for (const StrandRange& range : ranges) {
+    kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
+    auto buffersInOrder = buffers.inBindingOrder(range.chunk);
+    std::ranges::copy(world.inBindingOrder(), std::back_inserter(buffersInOrder));
+    std::ranges::copy(roots.inBindingOrder(range.chunk), std::back_inserter(buffersInOrder));
+    auto bound = gpu::Bindings::create(kernels[kernelOf.back()], buffersInOrder);
     if (!bound) return bound.error();
     bindings.push_back(std::move(*bound));
   }
@@ -247,40 +149,15 @@ Status Simulation::Implementation::makeKernels(bool hasBodies) {
   auto recorder = gpu::Recorder::create(device.gpu(), "compile");
   if (!recorder) return recorder.error();
   if (Status status = recorder->begin(); !status) return status;
-  for (std::size_t k = 0; k < kernels.size(); ++k) recorder->dispatchNothing(kernels[k], bindings[k]);
+  for (std::size_t k = 0; k < kernels.size(); ++k) {
+    const auto range = static_cast<std::size_t>(std::ranges::find(kernelOf, k) - kernelOf.begin());
+    recorder->dispatchNothing(kernels[k], bindings[range]);
+  }
   if (contacts) contacts->recordNothing(*recorder);
   if (Status status = recorder->submitAndWait(); !status) return status;
   compileMilliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return {};
-}
-
-layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDispatch& dispatch) const {
-  layout::StepParameters p{};
-  p.gravity = packed(settings.gravity);
-  p.gravity.w = static_cast<float>(settings.stepSeconds());
-  p.maxStretch = static_cast<float>(settings.maxStretch);
-  p.coreRelaxedShare = static_cast<float>(material.coreRelaxedShare);
-  p.coreElongationLow = static_cast<float>(material.coreElongationLow);
-  p.coreElongationHigh = static_cast<float>(material.coreElongationHigh);
-  p.strandBegin = dispatch.strandBegin;
-  p.strandEnd = dispatch.strandEnd;
-  p.stepBegin = dispatch.stepBegin;
-  p.stepEnd = dispatch.stepEnd;
-  p.rootCount = static_cast<std::uint32_t>(settings.rootCount);
-  p.pointIterations = static_cast<std::uint32_t>(settings.pointIterations);
-  p.chebyshev = settings.chebyshev ? 1 : 0;
-  p.forceLoops = static_cast<std::uint32_t>(settings.forceLoops);
-  p.dampingLoops = static_cast<std::uint32_t>(settings.dampingLoops);
-  p.particleCount = static_cast<std::uint32_t>(rest.points.size());
-  p.phases = dispatch.phases;
-  p.loopBegin = dispatch.loopBegin;
-  p.loopEnd = dispatch.loopEnd;
-  p.bodyCount = static_cast<std::uint32_t>(world.bodyCount());
-  p.dragStrength = static_cast<float>(kStandardGravity / (settings.air.fallSpeed * settings.air.fallSpeed));
-  p.dragAlong = static_cast<float>(settings.air.alongShare);
-  p.strandCount = static_cast<std::uint32_t>(rest.strands.size());
-  return p;
 }
 
 Status Simulation::Implementation::addContacts() {
@@ -295,175 +172,10 @@ Status Simulation::Implementation::addContacts() {
   return {};
 }
 
-void Simulation::Implementation::dispatchAll(gpu::Recorder& recorder,
-                                             std::span<const PlannedDispatch> dispatches) {
-  recorder.beginStage("strand_step");
-  for (std::size_t d = 0; d < dispatches.size(); ++d) {
-    const PlannedDispatch& now = dispatches[d];
-    // Only dispatches on the same strands depend on each other; but the validation layer sees whole buffers,
-    // and takes those on other strands for hazards.
-    if (d > 0) recorder.barrier();
-    recorder.dispatch(kernels[now.range], bindings[now.range], parametersOf(now), now.groupCount);
-  }
-  recorder.endStage();
-}
-
-// A recording takes over what the host wrote for the frame, and at its end brings positions back.
-Status Simulation::Implementation::beginFrame(std::size_t slot) {
-  gpu::Recorder& recorder = slots[slot].recorder;
-  if (Status status = recorder.begin(); !status) return status;
-  buffers.poses.record(recorder, slot);
-  world.record(recorder, slot);
-  roots.record(recorder, slot);
-  recorder.barrier();
-  return {};
-}
-void Simulation::Implementation::endFrame(FrameSlot& slot) {
-  slot.recorder.barrier();
-  slot.recorder.copyBuffer(buffers.positions, slot.positions, slot.positions.bytes());
-}
-
-// The whole frame, once: what changes from frame to frame is in its inputs.
-Status Simulation::Implementation::recordFrame(std::size_t slot) {
-  if (contacts) return recordContactFrame(slot, 0, true);
-  if (Status status = beginFrame(slot); !status) return status;
-  dispatchAll(slots[slot].recorder, plan);
-  endFrame(slots[slot]);
-  slots[slot].isRecorded = true;
-  return {};
-}
-
-Status Simulation::Implementation::recordPass(gpu::Recorder& recorder, const SolvePass& pass) {
-  const auto dispatches =
-      planPass(ranges, limitsOf(device.gpu()), settings, world.bodyCount(), kStrandGroupSize, pass);
-  if (!dispatches) return dispatches.error();
-  dispatchAll(recorder, *dispatches);
-  recorder.barrier();
-  return {};
-}
-
-// The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h).
-Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uint32_t firstStep,
-                                                      bool predictFirst) {
-  if (Status status = beginFrame(slot); !status) return status;
-  gpu::Recorder& recorder = slots[slot].recorder;
-  if (predictFirst) {
-    if (Status status = recordPass(recorder, {.step = firstStep}); !status) return status;
-  }
-  const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
-  for (std::uint32_t step = firstStep; step < steps; ++step) {
-    contacts->recordLists(recorder, step);
-    recorder.barrier();
-    contacts->recordLife(recorder);
-    recorder.barrier();
-    for (int iteration = 1; iteration <= settings.contacts.iterations; ++iteration) {
-      const bool isLast = iteration == settings.contacts.iterations;
-      const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
-      if (Status status = recordPass(recorder, pass); !status) return status;
-      if (isLast) continue;
-      contacts->recordGather(recorder);
-      recorder.barrier();
-    }
-  }
-  endFrame(slots[slot]);
-  slots[slot].isRecorded = firstStep == 0 && predictFirst;
-  return {};
-}
-
-Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPoses,
-                                               std::span<const BodyPose> bodyPoses,
-                                               std::span<const BodyPose> rootPoses) {
-  RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(settings.stepsPerFrame),
-                 "a frame takes one pose per outer step");
-  if (lostFrame) return *lostFrame;
-  RINGLET_ASSERT(submitted - waited < kFramesInFlight, "more frames in flight than there are places");
-  const HeadPose& end = stepPoses.back();
-  const bool jumps = settings.jumps(length(end.position - head.now.position));
-  // A frame with contacts may not be over when the device stops.
-  if (contacts || jumps) {
-    if (Status status = finishFrames(); !status) return status;
-  }
-  const std::size_t slot = submitted % kFramesInFlight;
-  if (jumps) {
-    if (Status status = jumpTo(end, bodyPoses, rootPoses); !status) return status;
-    ++finished;
-  } else {
-    writePoses(slot, stepPoses, bodyPoses, rootPoses);
-    if (!slots[slot].isRecorded) {
-      if (Status status = recordFrame(slot); !status) return status;
-    }
-    if (Status status = slots[slot].recorder.submit(); !status) return status;
-  }
-  ++submitted;
-  stepsDone += stepPoses.size();
-  isReadBack = true;
-  return {};
-}
-
-// Until frame `end`, not itself, is over.
-Status Simulation::Implementation::finishFrames(std::uint64_t end) {
-  if (lostFrame) return *lostFrame;
-  while (finished < end) {
-    if (Status status = runToEnd(finished % kFramesInFlight); !status) {
-      lostFrame = status.error();
-      return status;
-    }
-    ++finished;
-  }
-  return {};
-}
-
-// A frame that stopped because a list was too long goes on from its step with longer ones: no pair is
-// dropped.
-Status Simulation::Implementation::runToEnd(std::size_t slot) {
-  gpu::Recorder& recorder = slots[slot].recorder;
-  while (true) {
-    if (Status status = recorder.wait(); !status) return status;
-    for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
-      stageMilliseconds[stage] += milliseconds;
-    if (!contacts) return {};
-    contactReport.pairTests += contacts->takePairTests();
-    if (!contacts->isHalted()) return {};
-    if (Status status = contacts->makeRoom(); !status) return status;
-    for (FrameSlot& other : slots) other.isRecorded = false;
-    if (Status status = recordContactFrame(slot, contacts->haltedStep(), false); !status) return status;
-    if (Status status = recorder.submit(); !status) return status;
-  }
-}
-
-void Simulation::Implementation::writePoses(std::size_t slot, std::span<const HeadPose> stepPoses,
-                                            std::span<const BodyPose> bodyPoses,
-                                            std::span<const BodyPose> rootPoses) {
-  const double T = settings.stepSeconds();
-  std::vector<HeadPose> heads{head.oneStepEarlier, head.now};
-  heads.insert(heads.end(), stepPoses.begin(), stepPoses.end());
-  world.writeFrame(slot, std::span(heads).subspan(1), bodyPoses, static_cast<double>(stepsDone) * T);
-  roots.writeFrame(slot, heads, rootPoses);
-  const auto poses = buffers.poses.of<layout::StepPose>(slot);
-  poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};
-  for (std::size_t k = 0; k < stepPoses.size(); ++k) {
-    const Vec3d before = head.velocity(T);
-    head = {head.now, stepPoses[k]};
-    head.now.rotation = normalized(head.now.rotation);
-    poses[1 + k] = {packed(head.now.rotation), packed(head.turn()), packed(head.velocity(T) - before)};
-    poses[1 + k].velocityChange.w = static_cast<float>(head.now.shift);
-  }
-}
-
-Status Simulation::Implementation::uploadState(std::span<const layout::vec4> positions,
-                                               std::span<const layout::vec4> velocities) {
+// To be changed by other than a frame: what was read back is then no longer so.
+DeviceGroom& Simulation::Implementation::changed() {
   isReadBack = false;
-  if (Status status = buffers.positions.upload(std::as_bytes(positions)); !status) return status;
-  return buffers.velocities.upload(std::as_bytes(velocities));
-}
-
-// A frame that no kernel steps.
-Status Simulation::Implementation::jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
-                                          std::span<const BodyPose> rootPoses) {
-  world.endFrame(end, bodyPoses);
-  roots.endFrame(rootPoses);
-  if (Status status = carryTo(end); !status) return status;
-  return buffers.positions.download(slotOf(submitted).positions.mapped());
+  return buffers;
 }
 
 // Rigidly: seen from the head nothing changes.
@@ -472,37 +184,41 @@ Status Simulation::Implementation::carryTo(const HeadPose& end) {
   const bool turns = length(Vec3d{turned.x, turned.y, turned.z}) > 1e-12;
   head.jump(end);
   if (!turns) return {};
-  const std::size_t count = rest.points.size();
-  auto positions = downloadAll<layout::vec4>(buffers.positions, count);
-  if (!positions) return positions.error();
-  auto velocities = downloadAll<layout::vec4>(buffers.velocities, count);
-  if (!velocities) return velocities.error();
-  for (auto* values : {&*positions, &*velocities}) {
-    for (layout::vec4& v : *values) v = packed(rotate(turned, static_cast<Vec3d>(unpacked(v))));
-  }
   if (contacts) {
     if (Status status = contacts->forget(); !status) return status;
   }
-  return uploadState(*positions, *velocities);
+  for (const DeviceGroom::Field field : {&DeviceChunk::positions, &DeviceChunk::velocities}) {
+    const auto rotated = [&](layout::vec4 v) {
+      return packed(rotate(turned, static_cast<Vec3d>(unpacked(v))));
+    };
+    if (Status status = changed().changeEach(field, rotated); !status) return status;
+  }
+  return {};
 }
 
 // The rest pose carried by the head and the roots, moving with them.
 Status Simulation::Implementation::placeAtRest() {
-  std::vector<layout::vec4> positions(rest.points.size()), velocities(rest.points.size());
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    const BodyPose now = carriedBy(head.now.rotation, roots.areMoving() ? roots.now(s) : BodyPose{});
-    const BodyPose earlier =
-        carriedBy(head.oneStepEarlier.rotation, roots.areMoving() ? roots.oneStepEarlier(s) : BodyPose{});
-    for (std::uint32_t k = 0; k < rest.strands[s].particleCount; ++k) {
-      const std::uint32_t i = rest.strands[s].firstParticle + k;
-      const Vec3d p = static_cast<Vec3d>(rest.points[i]);
-      const Vec3d here = now.position + rotate(now.rotation, p);
-      const Vec3d before = earlier.position + rotate(earlier.rotation, p);
-      positions[i] = packed(here);
-      velocities[i] = packed((here - before) / settings.stepSeconds());
-    }
-  }
-  return uploadState(positions, velocities);
+  const auto nowAt = [&](std::size_t s) {
+    return carriedBy(head.now.rotation, roots.areMoving() ? roots.now(s) : BodyPose{});
+  };
+  const auto earlierAt = [&](std::size_t s) {
+    return carriedBy(head.oneStepEarlier.rotation, roots.areMoving() ? roots.oneStepEarlier(s) : BodyPose{});
+  };
+  const auto placedBy = [](const BodyPose& pose, Vec3d p) {
+    return pose.position + rotate(pose.rotation, p);
+  };
+  GroomPlaces places(rest);
+  const auto positionAt = [&](std::size_t i) {
+    return packed(placedBy(nowAt(places.strandOf(i)), static_cast<Vec3d>(rest.points[i])));
+  };
+  if (Status status = changed().uploadEach(&DeviceChunk::positions, positionAt); !status) return status;
+  places = GroomPlaces(rest);
+  const auto velocityAt = [&](std::size_t i) {
+    const std::size_t s = places.strandOf(i);
+    const Vec3d p = static_cast<Vec3d>(rest.points[i]);
+    return packed((placedBy(nowAt(s), p) - placedBy(earlierAt(s), p)) / settings.stepSeconds());
+  };
+  return changed().uploadEach(&DeviceChunk::velocities, velocityAt);
 }
 
 Simulation::Simulation(std::unique_ptr<Implementation> self) : self_(std::move(self)) {}
@@ -510,58 +226,26 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                             std::span<const BodyPose> rootPoses) {
-  RINGLET_ASSERT(self_->lostFrame || self_->waited == self_->submitted,
-                 "stepFrame while frames are in flight");
-  if (Status status = self_->submitFrame(stepPoses, bodyPoses, rootPoses); !status) return status;
-  return waitFrame();
-}
-
-Status Simulation::submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
-                               std::span<const BodyPose> rootPoses) {
-  return self_->submitFrame(stepPoses, bodyPoses, rootPoses);
-}
-
-Status Simulation::waitFrame() {
-  RINGLET_ASSERT(self_->waited < self_->submitted, "waitFrame without submitFrame");
-  if (Status status = self_->finishFrames(self_->waited + 1); !status) return status;
-  ++self_->waited;
-  return {};
-}
-
-std::vector<Vec3f> Simulation::framePositions() const {
-  RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
-                 "framePositions before waitFrame, or after its place was taken");
-  return inGroomOrder<Vec3f, layout::vec4>(self_->rest, self_->slotOf(self_->waited - 1).values(), unpacked);
-}
-
-Status Simulation::stepFrame(const HeadPose& end) {
-  const HeadPose start = self_->head.now;
-  std::vector<HeadPose> poses;
-  for (int k = 1; k <= self_->settings.stepsPerFrame; ++k) {
-    poses.push_back(interpolate(start, end, double(k) / self_->settings.stepsPerFrame));
-  }
-  return stepFrame(poses);
+Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom::Field field) const {
+  std::vector<Vec3f> values(rest.points.size());
+  GroomPlaces place(rest);
+  const auto take = [&](std::size_t i, layout::vec4 value) { values[place(i)] = unpacked(value); };
+  if (Status status = buffers.downloadEach(field, take); !status) return status.error();
+  return values;
 }
 
 Result<std::vector<Vec3f>> Simulation::positions() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
-  if (self_->isReadBack) {
-    return inGroomOrder<Vec3f, layout::vec4>(self_->rest, self_->slotOf(self_->submitted - 1).values(),
-                                             unpacked);
-  }
-  auto values = downloadAll<layout::vec4>(self_->buffers.positions, self_->rest.points.size());
-  if (!values) return values.error();
-  return inGroomOrder<Vec3f, layout::vec4>(self_->rest, *values, unpacked);
+  if (self_->isReadBack) return self_->slotOf(self_->submitted - 1).inGroomOrder(self_->rest, self_->buffers);
+  return self_->inGroomOrder(&DeviceChunk::positions);
 }
 
 Result<HairState> Simulation::state() const {
   auto p = positions();
   if (!p) return p.error();
-  auto values = downloadAll<layout::vec4>(self_->buffers.velocities, self_->rest.points.size());
-  if (!values) return values.error();
-  return HairState{std::move(*p), inGroomOrder<Vec3f, layout::vec4>(self_->rest, *values, unpacked)};
+  auto v = self_->inGroomOrder(&DeviceChunk::velocities);
+  if (!v) return v.error();
+  return HairState{std::move(*p), std::move(*v)};
 }
 
 Status Simulation::setState(const HairState& state) {
@@ -572,9 +256,12 @@ Status Simulation::setState(const HairState& state) {
   if (self_->contacts) {
     if (Status status = self_->contacts->forget(); !status) return status;
   }
-  const auto pack = [](Vec3f v) { return packed(v); };
-  return self_->uploadState(inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.positions, pack),
-                            inDeviceOrder<layout::vec4, Vec3f>(self_->rest, state.velocities, pack));
+  const auto upload = [&](DeviceGroom::Field field, const std::vector<Vec3f>& values) {
+    GroomPlaces place(self_->rest);
+    return self_->changed().uploadEach(field, [&](std::size_t i) { return packed(values[place(i)]); });
+  };
+  if (Status status = upload(&DeviceChunk::positions, state.positions); !status) return status;
+  return upload(&DeviceChunk::velocities, state.velocities);
 }
 
 void Simulation::placeBodies(std::span<const BodyPose> poses) {
@@ -599,14 +286,14 @@ Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {
     const Vec3f shift = static_cast<Vec3f>(shifts[self_->rest.strandInGroom[s]]);
     strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
   }
-  return self_->buffers.strands.upload(std::as_bytes(std::span(strands)));
+  return self_->buffers.uploadStrands(self_->rest);
 }
 
 const HeadPose& Simulation::head() const { return self_->head.now; }
 
 Result<SimulationReport> Simulation::report() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
-  auto reports = downloadAll<layout::StrandReport>(self_->buffers.reports, self_->rest.strands.size());
+  const auto reports = self_->buffers.downloadReports();
   if (!reports) return reports.error();
   SimulationReport total;
   std::uint64_t edges = 0, limited = 0;
@@ -658,18 +345,31 @@ Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) c
   RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount,
                  "taps are written only with KernelChoice::taps");
   if (Status status = self_->finishFrames(); !status) return status.error();
-  const std::size_t count = self_->rest.points.size();
-  auto values = downloadAll<layout::vec4>(self_->buffers.scratch, count, field * count);
-  if (!values) return values.error();
-  return inGroomOrder<std::array<float, 4>, layout::vec4>(self_->rest, *values, [](layout::vec4 v) {
-    return std::array<float, 4>{v.x, v.y, v.z, v.w};
-  });
+  std::vector<std::array<float, 4>> values(self_->rest.points.size());
+  GroomPlaces place(self_->rest);
+  const auto take = [&](std::size_t i, layout::vec4 v) { values[place(i)] = {v.x, v.y, v.z, v.w}; };
+  if (Status status = self_->buffers.downloadEach(&DeviceChunk::scratch, take, field); !status)
+    return status.error();
+  return values;
+}
+
+DeviceMemory Simulation::memory() const {
+  const Implementation& s = *self_;
+  DeviceMemory memory;
+  memory.particles = s.buffers.particleBytes();
+  memory.strands = s.buffers.strandBytes();
+  memory.rootPoses = s.roots.bytes();
+  if (s.contacts) memory.contacts = s.contacts->bytes(), memory.contactLists = s.contacts->listBytes();
+  memory.world = s.buffers.poses.bytes() + s.buffers.contactControl.bytes() + s.world.bytes();
+  memory.frames = s.buffers.poses.writtenBytes() + s.world.writtenBytes() + s.roots.writtenBytes();
+  for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();
+  return memory;
 }
 
 double Simulation::compileMilliseconds() const { return self_->compileMilliseconds; }
 
 std::string Simulation::kernelDescription() const {
-  return describe(self_->ranges, self_->device.gpu().properties().subgroupSize);
+  return describe(shapesOf(self_->ranges), self_->device.gpu().properties().subgroupSize);
 }
 
 }  // namespace ringlet

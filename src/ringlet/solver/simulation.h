@@ -50,6 +50,21 @@ struct ContactReport {
   double momentumError = 0;         // of the last step: |sum of contact momenta| over the sum of their sizes
 };
 
+/// Bytes of a simulation's buffers, by what they grow with (README, "Memory").
+struct DeviceMemory {
+  std::uint64_t particles = 0;     // state, rest, scratch, what contacts add to a solve
+  std::uint64_t strands = 0;       // constants, reports
+  std::uint64_t rootPoses = 0;     // of strands that have poses of their own
+  std::uint64_t contacts = 0;      // contact particles, their grid, who may touch whom
+  std::uint64_t contactLists = 0;  // as long as they have become
+  std::uint64_t world = 0;         // the head's poses, bodies with their grids, air
+  std::uint64_t frames = 0;        // in flight, in the host's memory: positions read back, poses, air
+
+  std::uint64_t total() const {
+    return particles + strands + rootPoses + contacts + contactLists + world + frames;
+  }
+};
+
 /// Particles' positions and velocities, in groom order, relative to the head's origin and its translation,
 /// along world axes.
 struct HairState {
@@ -84,6 +99,9 @@ struct KernelChoice {
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
+  // Less than the device has, for tests; 0: what it has [bytes].
+  std::uint64_t mostBufferBytes = 0;  // of one buffer: more is cut into chunks
+  std::uint64_t mostDeviceBytes = 0;  // of all
 };
 
 class Simulation {
@@ -160,6 +178,9 @@ class Simulation {
   /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
   /// the device has them.
   std::map<std::string, double> stageMilliseconds() const;
+  /// Now: a frame in flight may yet make contact lists longer. The driver may take a little more for each of
+  /// some dozen buffers.
+  DeviceMemory memory() const;
   /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
   /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;

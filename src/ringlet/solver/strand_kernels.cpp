@@ -76,16 +76,16 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
   return gpu::Kernel::create(device, description);
 }
 
-Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandRange> ranges,
+Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandShape> shapes,
                                                      const StrandKernelOptions& options) {
   std::vector<std::future<Result<gpu::Kernel>>> others;
-  for (const StrandRange& range : ranges.subspan(1)) {
-    others.push_back(std::async(std::launch::async, [&device, &range, &options] {
-      return createStrandKernel(device, range.shape, options);
+  for (const StrandShape& shape : shapes.subspan(1)) {
+    others.push_back(std::async(std::launch::async, [&device, &shape, &options] {
+      return createStrandKernel(device, shape, options);
     }));
   }
   std::vector<Result<gpu::Kernel>> made;
-  made.push_back(createStrandKernel(device, ranges.front().shape, options));
+  made.push_back(createStrandKernel(device, shapes.front(), options));
   for (auto& other : others) made.push_back(other.get());
   std::vector<gpu::Kernel> kernels;
   for (auto& kernel : made) {

@@ -9,7 +9,7 @@
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/scene/settings.h"
-#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 
@@ -34,9 +34,9 @@ struct StrandKernelOptions {
 Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
                                        const StrandKernelOptions& options);
 
-/// One for each range, made on threads of their own: lavapipe reads each for half a second, whatever its
+/// One for each shape, made on threads of their own: lavapipe reads each for half a second, whatever its
 /// cache holds.
-Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandRange> ranges,
+Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandShape> shapes,
                                                      const StrandKernelOptions& options);
 
 }  // namespace ringlet

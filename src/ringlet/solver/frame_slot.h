@@ -1,0 +1,33 @@
+// FrameSlot: a place for a frame in flight: its recording, and where its positions come back to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/device_groom.h"
+
+namespace ringlet {
+
+struct FrameSlot {
+  std::vector<gpu::Buffer> positions;  // of each chunk, as the frame left them, in the host's memory
+  gpu::Recorder recorder;              // goes first, waiting for what it writes
+  bool isRecorded = false;             // as a whole frame
+
+  /// Fails when the device lacks memory.
+  static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom);
+
+  /// Brings positions back, at the frame's end.
+  void recordPositions(const DeviceGroom& groom);
+  /// Brings them back now, after a frame that is not recorded.
+  Status downloadPositions(const DeviceGroom& groom);
+  std::vector<Vec3f> inGroomOrder(const RestState& rest, const DeviceGroom& groom) const;
+  std::uint64_t bytes() const;
+};
+
+}  // namespace ringlet

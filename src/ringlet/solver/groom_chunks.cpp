@@ -1,0 +1,106 @@
+// Implements solver/groom_chunks.h.
+#include "ringlet/solver/groom_chunks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "shared/layout.h"
+
+namespace ringlet {
+namespace {
+
+std::uint64_t largestOfParticle(const GroomRecords& r) {
+  return std::max({r.position, r.velocity, r.particleRest, r.scratch, r.solved, r.contactSystem});
+}
+std::uint64_t largestOfStrand(const GroomRecords& r) {
+  return std::max({r.strandRest, r.report, r.rootPoses});
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
+}
+
+}  // namespace
+
+GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, bool anySerial,
+                          bool anyBodies) {
+  const std::uint64_t serialScratch = layout::kScratchPerParticle + (anyBodies ? layout::kBodyScratch : 0) +
+                                      (settings.air.on ? layout::kAirScratch : 0);
+  GroomRecords records;
+  records.position = records.velocity = sizeof(layout::vec4);
+  records.particleRest = sizeof(layout::ParticleRest);
+  records.scratch =
+      ((anySerial ? serialScratch : 0) + (choice.taps ? layout::kTapCount : 0)) * sizeof(layout::vec4);
+  // A solve's result stands beside the velocities it began from.
+  if (settings.contacts.on || (anySerial && anyBodies)) records.solved = sizeof(layout::vec4);
+  if (settings.contacts.on) records.contactSystem = sizeof(layout::ContactSystem);
+  records.strandRest = sizeof(layout::StrandRest);
+  records.report = sizeof(layout::StrandReport);
+  if (choice.movingRoots)
+    records.rootPoses = (static_cast<std::uint64_t>(settings.stepsPerFrame) + 1) * sizeof(layout::RootPose);
+  return records;
+}
+
+Result<std::vector<GroomChunk>> cutGroom(std::span<const std::uint32_t> particleCounts,
+                                         const GroomRecords& records, std::uint64_t mostBytes,
+                                         const std::string& wholeFor) {
+  const std::uint64_t mostParticles = mostBytes / largestOfParticle(records);
+  const std::uint64_t mostStrands = mostBytes / largestOfStrand(records);
+  std::vector<GroomChunk> chunks;
+  std::uint32_t particles = 0;
+  for (std::uint32_t s = 0; s < particleCounts.size(); ++s) {
+    const std::uint32_t count = particleCounts[s];
+    if (count > mostParticles || mostStrands == 0) {
+      return Error{fmt::format(
+          "a strand of {} particles needs a buffer of {}, and this device's are {} at most; cut it into "
+          "fewer particles, or use fewer steps a frame, another device or the reference",
+          count, mebibytes(std::max(count * largestOfParticle(records), largestOfStrand(records))),
+          mebibytes(mostBytes))};
+    }
+    if (chunks.empty() || chunks.back().strandCount() == mostStrands ||
+        std::uint64_t{chunks.back().particleCount()} + count > mostParticles)
+      chunks.push_back({s, s, particles, particles});
+    particles += count;
+    chunks.back().strandEnd = s + 1;
+    chunks.back().particleEnd = particles;
+  }
+  if (chunks.size() > 1 && !wholeFor.empty()) {
+    return Error{fmt::format(
+        "{} need the whole groom in one piece: its {} strands of {} particles need buffers of up to {}, and "
+        "this device's are {} at most, enough for {} particles; use fewer or coarser strands, or another "
+        "device",
+        wholeFor, particleCounts.size(), particles,
+        mebibytes(std::max(particles * largestOfParticle(records),
+                           particleCounts.size() * largestOfStrand(records))),
+        mebibytes(mostBytes), mostParticles)};
+  }
+  return chunks;
+}
+
+std::vector<StrandRange> cutRanges(std::span<const StrandRange> ranges, std::span<const GroomChunk> chunks) {
+  std::vector<StrandRange> pieces;
+  for (const StrandRange& range : ranges) {
+    for (std::uint32_t c = 0; c < chunks.size(); ++c) {
+      const std::uint32_t begin = std::max(range.begin, chunks[c].strandBegin);
+      const std::uint32_t end = std::min(range.end, chunks[c].strandEnd);
+      if (begin >= end) continue;
+      StrandRange piece = range;
+      piece.begin = begin - chunks[c].strandBegin;
+      piece.end = end - chunks[c].strandBegin;
+      piece.chunk = c;
+      pieces.push_back(piece);
+    }
+  }
+  return pieces;
+}
+
+Status checkMemory(const std::string& what, std::uint64_t neededBytes, std::uint64_t availableBytes) {
+  if (neededBytes <= availableBytes) return {};
+  return Error{
+      fmt::format("{} needs {} of the device's memory, which has {} left; use fewer or coarser strands, or "
+                  "another device",
+                  what, mebibytes(neededBytes), mebibytes(availableBytes))};
+}
+
+}  // namespace ringlet

@@ -1,0 +1,102 @@
+// What a Simulation holds, for the two files that implement it: simulation.cpp, all but its frames, and
+// simulation_frames.cpp.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/contact_stage.h"
+#include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/device_roots.h"
+#include "ringlet/solver/device_world.h"
+#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/frame_slot.h"
+#include "ringlet/solver/simulation.h"
+#include "shared/layout.h"
+
+namespace ringlet {
+
+DeviceLimits limitsOf(const gpu::Device& device);
+
+// Where the head is and was one outer step before.
+struct HeadHistory {
+  HeadPose oneStepEarlier, now;
+
+  Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
+  Quatd turn() const { return now.rotation * oneStepEarlier.rotation.conjugate(); }
+  // To a place elsewhere, as fast and turning as before, seen from the head.
+  void jump(const HeadPose& to) {
+    const Quatd turned = normalized(to.rotation * now.rotation.conjugate());
+    const Vec3d step = rotate(turned, now.position - oneStepEarlier.position);
+    const Quatd turn = turned * this->turn() * turned.conjugate();
+    now = to;
+    oneStepEarlier = {to.position - step, normalized(turn.conjugate() * to.rotation), to.shift};
+  }
+};
+
+struct Simulation::Implementation {
+  ComputeDevice device;
+  RestState rest;
+  Settings settings;
+  Material material;
+  KernelChoice choice;
+  HeadHistory head;
+
+  DeviceGroom buffers;
+  DeviceWorld world;
+  DeviceRoots roots;
+  std::vector<StrandRange> ranges;
+  std::vector<PlannedDispatch> plan;
+  std::vector<gpu::Kernel> kernels{};     // one a shape
+  std::vector<std::size_t> kernelOf{};    // each range's
+  std::vector<gpu::Bindings> bindings{};  // one a range
+
+  std::optional<ContactStage> contacts{};
+  ContactReport contactReport{};  // what is known of the rest pose, and sums
+
+  std::uint64_t stepsDone = 0;
+  std::map<std::string, double> stageMilliseconds{};
+
+  double compileMilliseconds = 0;
+
+  // Frame n has slot n % kFramesInFlight: submitted to the device, finished by it, waited for by the caller.
+  std::uint64_t submitted = 0, finished = 0, waited = 0;
+  bool isReadBack = false;           // the last frame's positions are those on the device
+  std::optional<Error> lostFrame{};  // after which nothing can be told of any
+  std::vector<FrameSlot> slots{};    // go first, waiting for what still uses the rest
+
+  // simulation.cpp
+  Status makeKernels(bool hasBodies);
+  Status addContacts();
+  Status placeAtRest();
+  Status carryTo(const HeadPose& end);
+  DeviceGroom& changed();
+  Result<std::vector<Vec3f>> inGroomOrder(DeviceGroom::Field field) const;
+
+  // simulation_frames.cpp
+  layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
+  FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
+  Status beginFrame(std::size_t slot);
+  Status recordFrame(std::size_t slot);
+  Status recordContactFrame(std::size_t slot, std::uint32_t firstStep, bool predictFirst);
+  Status recordPass(gpu::Recorder& recorder, const SolvePass& pass);
+  void dispatchAll(gpu::Recorder& recorder, std::span<const PlannedDispatch> dispatches);
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                     std::span<const BodyPose> rootPoses);
+  Status finishFrames(std::uint64_t end);
+  Status finishFrames() { return finishFrames(submitted); }
+  Status runToEnd(std::size_t slot);
+  void writePoses(std::size_t slot, std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                  std::span<const BodyPose> rootPoses);
+  Status jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
+                std::span<const BodyPose> rootPoses);
+};
+
+}  // namespace ringlet

@@ -1,0 +1,102 @@
+// The README's bytes a particle, a strand and a contact, against the buffers there are.
+#include <gtest/gtest.h>
+
+#include <bit>
+
+#include "ringlet/solver/simulation.h"
+#include "tests/support/gpu_test.h"
+#include "tests/support/parity.h"
+#include "tests/support/sample_bodies.h"
+
+namespace ringlet::test {
+namespace {
+
+class Memory : public GpuTest {
+ protected:
+  const Groom groom_ = randomGroom(std::vector<int>(50, 20), 3);
+  const std::uint64_t strandCount_ = 50, particleCount_ = 1000;
+
+  DeviceMemory of(const Settings& settings, const KernelChoice& kernel, bool bodies = false) {
+    const auto simulation = make(settings, kernel, bodies);
+    return simulation ? simulation->memory() : DeviceMemory{};
+  }
+  Result<Simulation> make(const Settings& settings, const KernelChoice& kernel = {}, bool bodies = false) {
+    auto simulation = Simulation::create(device(), groom_, {}, settings, {}, {}, kernel,
+                                         bodies ? sampleBodies() : std::vector<Body>{});
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    return simulation;
+  }
+};
+
+TEST_F(Memory, OfAParticleAndAStrand) {
+  const KernelChoice serial{.form = KernelChoice::Form::serial};
+  Settings airy;
+  airy.air.on = true;
+  const DeviceMemory plain = of({}, {});
+  EXPECT_EQ(plain.particles, 64 * particleCount_);
+  EXPECT_EQ(plain.strands, 136 * strandCount_);
+  EXPECT_EQ(plain.rootPoses + plain.contacts + plain.contactLists, 0u);
+  EXPECT_EQ(plain.world, 341u * 48);
+  EXPECT_EQ(plain.frames, 2 * (16 * particleCount_ + 341 * 48));
+  EXPECT_EQ(plain.total(), plain.particles + plain.strands + plain.world + plain.frames);
+  EXPECT_EQ(of({}, {}, true).particles, 64 * particleCount_) << "bodies cost lanes nothing";
+  EXPECT_EQ(of({}, serial).particles, (64 + 128) * particleCount_);
+  EXPECT_EQ(of({}, serial, true).particles, (64 + 128 + 128) * particleCount_);
+  EXPECT_EQ(of(airy, serial).particles, (64 + 128 + 32) * particleCount_);
+  const DeviceMemory moving = of({}, {.movingRoots = true});
+  EXPECT_EQ(moving.rootPoses, 64 * (8 + 1) * strandCount_);
+  EXPECT_EQ(moving.frames, plain.frames + 2 * moving.rootPoses);
+  EXPECT_EQ(of({}, {.taps = true}).particles, (64 + 128) * particleCount_);
+}
+
+TEST_F(Memory, OfContacts) {
+  Settings settings;
+  settings.contacts.on = true;
+  auto simulation = make(settings);
+  ASSERT_TRUE(simulation);
+  const DeviceMemory memory = simulation->memory();
+  EXPECT_EQ(memory.particles, (64 + 64) * particleCount_);
+  const std::uint64_t contacts = simulation->contactReport()->contactParticles;
+  ASSERT_GT(contacts, 0u);
+  // A contact particle: 140 and two buckets of 8 or more, up to twice as many; a particle 20; a strand 16,
+  // and up to 16 for each it may touch.
+  const std::uint64_t buckets = std::bit_ceil(std::max<std::uint64_t>(2 * contacts, 1024));
+  const std::uint64_t least = 140 * contacts + 8 * buckets + 20 * particleCount_ + 16 * strandCount_;
+  const std::uint64_t pairs = simulation->contactReport()->pairs;
+  EXPECT_GE(memory.contacts, least);
+  EXPECT_LE(memory.contacts, least + 16 * 2 * pairs + 16 * strandCount_ + buckets / 256 + 8);
+  // Lists begin with a block of 16 pairs of 8 bytes and one contact of 64 a contact particle, and 80 to find
+  // them.
+  EXPECT_EQ(memory.contactLists, contacts * (16 * 8 + 80) + (contacts / 4 + 1) * 4 * 64);
+}
+
+// Lists as long as hair that lies in itself makes them: 8 bytes a pair and side, 64 a contact and side, and a
+// part that is empty.
+TEST_F(Memory, OfListedContacts) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < 200; ++s) {
+    const double x = 0.0002 * (s % 20), z = 0.0002 * (s / 20);
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 8; ++i) strand.push_back(Vec3f(Vec3d{x, -0.002 * i, z}));
+    groom.addStrand(strand);
+  }
+  Settings settings;
+  settings.contacts.on = true;
+  settings.contacts.radius = 0.001;
+  auto simulation = Simulation::create(device(), groom, {}, settings);
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  const std::uint64_t before = simulation->memory().contactLists;
+  ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  const auto report = simulation->contactReport();
+  ASSERT_TRUE(report);
+  const std::uint64_t after = simulation->memory().contactLists;
+  EXPECT_GT(after, before) << "lists had to grow";
+  const std::uint64_t filled = 2 * (8 * report->listed + 64 * report->contacts);
+  EXPECT_GE(after, filled);
+  EXPECT_LE(after, 2 * filled + 600 * report->contactParticles);
+  RecordProperty("bytes", std::to_string(after));
+}
+
+}  // namespace
+}  // namespace ringlet::test
