@@ -56,7 +56,8 @@ constexpr const char* kExample =
     "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
     "at a\n"
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
-    "device driver kernel compile_ms (making the kernels, once) backend positions_hash integrator material "
+    "device driver kernel tuned (shapes as `ringlet tune` measured) compile_ms (making the kernels, once) "
+    "backend positions_hash integrator material "
     "steps_per_frame fps\n"
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
@@ -74,7 +75,8 @@ struct Typed {
   MaterialChoice material;
   ContactChoice contacts;
   std::string backend = "gpu", device, kernel = "auto", cache;
-  bool measuresContacts = false, noChebyshev = false, noUsd = false, json = false, quiet = false;
+  bool measuresContacts = false, noChebyshev = false, noUsd = false, untuned = false, json = false,
+       quiet = false;
 };
 
 template <class Value>
@@ -167,6 +169,8 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
     throw CLI::ValidationError(typed.kernel != "auto" ? "--kernel" : "--device",
                                "only --backend gpu has a device and kernels");
   }
+  if (typed.untuned && typed.backend == "reference")
+    throw CLI::ValidationError("--untuned", "only --backend gpu is ever tuned");
   if ((typed.lanes || typed.run) && (typed.backend == "reference" || typed.kernel == "serial")) {
     throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
                                "only --backend gpu with --kernel auto or lanes has lanes and runs");
@@ -219,6 +223,7 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
                                                    : Form::automatic;
   options.kernel.lanes = typed.lanes.value_or(0);
   options.kernel.particlesPerLane = typed.run.value_or(0);
+  options.usesTuned = !typed.untuned;
   options.showProgress = !typed.quiet;
   return options;
 }
@@ -424,10 +429,16 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->group(machine);
   command
       ->add_option("--run", typed->run,
-                   "Particles a lane holds, 4 to 16, on a CPU device to 24, to 32 in two lanes (default: chosen by device and "
+                   "Particles a lane holds, 4 to 16, on a CPU device to 24, to 32 in two lanes (default: "
+                   "chosen by device and "
                    "length)")
       ->check(wholeBetween(4, 32))
       ->type_name("K")
+      ->group(machine);
+
+  command
+      ->add_flag("--untuned", typed->untuned,
+                 "Choose lanes and run by the built-in model, whatever `ringlet tune` measured")
       ->group(machine);
 
   // What is said and written.

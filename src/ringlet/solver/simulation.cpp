@@ -36,11 +36,6 @@ layout::vec4 packed(Quatd q) {
 // An object rather than a function: loops over particles see through it.
 constexpr auto unpacked = [](layout::vec4 v) { return Vec3f{v.x, v.y, v.z}; };
 
-DeviceLimits limitsOf(const gpu::Device& device) {
-  const gpu::DeviceProperties& p = device.properties();
-  return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
-}
-
 // Where the head is and was one outer step before.
 struct HeadHistory {
   HeadPose oneStepEarlier, now;
@@ -168,7 +163,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   auto rest = buildRestState(groom, material, settings, order);
   if (!rest) return rest.error();
 
-  const DeviceLimits limits = limitsOf(device.gpu());
+  const DeviceLimits limits = device.limits();
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
   const bool isHairAlone = !settings.contacts.on && !settings.air.on && bodies.empty();
@@ -335,7 +330,7 @@ Status Simulation::Implementation::recordFrame(std::size_t slot) {
 
 Status Simulation::Implementation::recordPass(gpu::Recorder& recorder, const SolvePass& pass) {
   const auto dispatches =
-      planPass(ranges, limitsOf(device.gpu()), settings, world.bodyCount(), kStrandGroupSize, pass);
+      planPass(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize, pass);
   if (!dispatches) return dispatches.error();
   dispatchAll(recorder, *dispatches);
   recorder.barrier();
