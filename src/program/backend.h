@@ -52,23 +52,32 @@ class Backend {
   virtual Result<ContactReport> contactReport() = 0;
   /// By stage of computing, summed over all frames waited for [ms].
   virtual std::map<std::string, double> stageMilliseconds() const = 0;
-  /// Of the hair and its settings, and what the device's own watchers say.
+  /// Of the hair and its settings; and of the device: its own watchers', its tuned shapes where they cannot
+  /// be read.
   virtual std::vector<std::string> warnings() const = 0;
   virtual std::vector<std::string> deviceMessages() const = 0;
 
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
   virtual std::string kernel() const = 0;
+  /// Whether shapes were chosen by what `ringlet tune` measured.
+  virtual bool isTuned() const { return false; }
   /// Of making it [ms]; 0 where there is nothing to compile.
   virtual double compileMilliseconds() const { return 0; }
   /// Of its buffers on the device; none where there is no device.
   virtual std::optional<std::uint64_t> deviceBytes() const = 0;
 };
 
-/// The Vulkan solver on the device `deviceChoice` names (see ComputeDevice::open). `tells`: a line on standard
-/// error where kernels take long to compile.
-Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
-                                                const KernelChoice& kernel, bool tells);
+/// Where and how the GPU's solver runs.
+struct GpuChoice {
+  std::string device;  // see ComputeDevice::open
+  KernelChoice kernel;
+  bool usesTuned = true;  // what `ringlet tune` remembered, for hair alone
+  bool tells = true;      // a line on standard error where kernels take long to compile, or want tuning again
+};
+
+/// The Vulkan solver.
+Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu);
 
 /// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
 /// warns of.

@@ -1,17 +1,21 @@
 // `--backend gpu`: ringlet::Simulation behind backend.h.
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <utility>
 
 #include "program/backend.h"
 #include "program/cache_folder.h"
 #include "program/compile_note.h"
+#include "program/tuned_shapes.h"
 
 namespace ringlet::program {
 namespace {
 
 class GpuBackend : public Backend {
  public:
-  GpuBackend(ComputeDevice device, Simulation simulation)
-      : device_(std::move(device)), simulation_(std::move(simulation)) {}
+  GpuBackend(ComputeDevice device, Simulation simulation, TunedShapes tuned)
+      : device_(std::move(device)), simulation_(std::move(simulation)), tuned_(std::move(tuned)) {}
 
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                      std::span<const BodyPose> rootPoses) override {
@@ -24,9 +28,10 @@ class GpuBackend : public Backend {
   Result<ContactReport> contactReport() override { return simulation_.contactReport(); }
   std::map<std::string, double> stageMilliseconds() const override { return simulation_.stageMilliseconds(); }
   std::vector<std::string> warnings() const override { return simulation_.warnings(); }
-  /// The validation layer's, where it is on.
+  /// The validation layer's too, where it is on.
   std::vector<std::string> deviceMessages() const override {
     std::vector<std::string> all;
+    if (!tuned_.warning.empty()) all.push_back(tuned_.warning);
     for (const std::string& message : device_.validationMessages())
       all.push_back("Vulkan validation: " + message);
     return all;
@@ -34,24 +39,38 @@ class GpuBackend : public Backend {
   std::string device() const override { return device_.name(); }
   std::string driver() const override { return device_.driver(); }
   std::string kernel() const override { return simulation_.kernelDescription(); }
+  bool isTuned() const override { return !tuned_.costs.empty(); }
   double compileMilliseconds() const override { return simulation_.compileMilliseconds(); }
   std::optional<std::uint64_t> deviceBytes() const override { return simulation_.memory().total(); }
 
  private:
   ComputeDevice device_;
   Simulation simulation_;
+  TunedShapes tuned_;
 };
+
+// What was measured is true of hair alone, stepped by jacobi, and of use where there is a choice.
+bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
+  return input.settings.integrator == Integrator::jacobi && !input.settings.contacts.on &&
+         !input.settings.air.on && input.bodies.empty() && kernel.form != KernelChoice::Form::serial &&
+         (kernel.lanes == 0 || kernel.particlesPerLane == 0);
+}
 
 }  // namespace
 
-Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const std::string& deviceChoice,
-                                                const KernelChoice& kernel, bool tells) {
-  auto device = ComputeDevice::open(deviceChoice, cacheFolder());
+Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu) {
+  auto device = ComputeDevice::open(gpu.device, cacheFolder());
   if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
-  KernelChoice choice = kernel;
+  TunedShapes tuned;
+  if (gpu.usesTuned && mayBeTuned(input, gpu.kernel)) tuned = recallShapes(*device);
+  if (tuned.isOutdated && gpu.tells)
+    fmt::print(stderr, "ringlet: {} was tuned with another driver or ringlet; `ringlet tune` does it anew\n",
+               device->name());
+  KernelChoice choice = gpu.kernel;
+  choice.measured = tuned.costs;
   choice.movingRoots = !input.rootStarts.empty();
   CompileNote note(device->name());
-  if (tells) choice.observer = &note;
+  if (gpu.tells) choice.observer = &note;
   auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
                                        input.oneStepEarlier, choice, input.bodies);
   if (!simulation) return simulation.error();
@@ -63,7 +82,8 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
   if (!input.rootShifts.empty()) {
     if (Status shifted = simulation->setRootShifts(input.rootShifts); !shifted) return shifted.error();
   }
-  return std::unique_ptr<Backend>(std::make_unique<GpuBackend>(std::move(*device), std::move(*simulation)));
+  return std::unique_ptr<Backend>(
+      std::make_unique<GpuBackend>(std::move(*device), std::move(*simulation), std::move(tuned)));
 }
 
 }  // namespace ringlet::program

@@ -16,6 +16,7 @@
 #include "program/measure_command.h"
 #include "program/scene_command.h"
 #include "program/simulate_command.h"
+#include "program/tune_command.h"
 
 int main(int argumentCount, char** arguments) {
   using namespace ringlet::program;
@@ -34,6 +35,7 @@ int main(int argumentCount, char** arguments) {
   addConvertCommand(app, exitCode);
   addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);
+  addTuneCommand(app, exitCode);
   addMaterialCommand(app, exitCode);
 
   try {

@@ -21,19 +21,19 @@ std::string clockTime(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(int frameCount, bool wanted)
-    : frameCount_(frameCount), enabled_(wanted && isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(int count, bool wanted, const char* what)
+    : count_(count), what_(what), enabled_(wanted && isatty(STDERR_FILENO) == 1) {}
 
-void ProgressBar::show(int finishedFrames) {
+void ProgressBar::show(int finished) {
   const auto now = Clock::now();
-  if (!enabled_ || (visible_ && now - lastShown_ < kPause && finishedFrames < frameCount_)) return;
+  if (!enabled_ || (visible_ && now - lastShown_ < kPause && finished < count_)) return;
   lastShown_ = now;
   visible_ = true;
-  const double share = static_cast<double>(finishedFrames) / frameCount_;
+  const double share = static_cast<double>(finished) / count_;
   const int filled = static_cast<int>(share * kWidth);
-  std::string line = fmt::format("\r  frame {}/{} [{:#<{}}{:.<{}}]", finishedFrames, frameCount_, "", filled,
-                                 "", kWidth - filled);
-  if (finishedFrames > 0) {
+  std::string line =
+      fmt::format("\r  {} {}/{} [{:#<{}}{:.<{}}]", what_, finished, count_, "", filled, "", kWidth - filled);
+  if (finished > 0) {
     const double seconds = std::chrono::duration<double>(now - start_).count();
     line += fmt::format(" {} left", clockTime(seconds / share - seconds));
   }

@@ -8,17 +8,18 @@ namespace ringlet::program {
 
 class ProgressBar {
  public:
-  ProgressBar(int frameCount, bool wanted);
+  ProgressBar(int count, bool wanted, const char* what = "frame");
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
 
-  void show(int finishedFrames);
+  void show(int finished);
   /// Leaves an empty line for what comes next.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  int frameCount_;
+  int count_;
+  const char* what_;
   bool enabled_;
   bool visible_ = false;
   Clock::time_point start_ = Clock::now(), lastShown_{};

@@ -91,6 +91,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["device"] = outcome.device;
   json["driver"] = outcome.driver;
   json["kernel"] = outcome.kernel;
+  json["tuned"] = outcome.isTuned;
   json["device_bytes"] =
       outcome.deviceBytes ? nlohmann::ordered_json(*outcome.deviceBytes) : nlohmann::ordered_json();
   json["compile_ms"] = outcome.compileMilliseconds;
@@ -112,9 +113,9 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
                                  outcome.frameCount == 1 ? "" : "s", outcome.strandCount,
                                  outcome.strandCount == 1 ? "" : "s", outcome.particleCount,
                                  outcome.interrupted ? " (interrupted)" : "");
-  text += fmt::format("  stepped by    {}, {} step{} a frame, on {} ({})\n", names.integrator,
+  text += fmt::format("  stepped by    {}, {} step{} a frame, on {} ({}{})\n", names.integrator,
                       settings.stepsPerFrame, settings.stepsPerFrame == 1 ? "" : "s", outcome.device,
-                      outcome.kernel);
+                      outcome.kernel, outcome.isTuned ? ", tuned" : "");
   text +=
       fmt::format("  a frame took  {:.2f} ms to step, {:.2f} ms to read back, {:.2f} ms to write\n",
                   outcome.millisecondsPerFrame, outcome.stages.at("readback"), outcome.stages.at("write"));

@@ -80,7 +80,7 @@ struct Typed {
   RunNames names{.material = "scene"};
   std::string core = "on", framesOn = "smoothed";
   std::filesystem::path file;  // to write the scene to
-  bool list = false, keys = false, json = false, quiet = false;
+  bool list = false, keys = false, untuned = false, json = false, quiet = false;
 };
 
 // What a scene measures beside the run's own numbers.
@@ -340,6 +340,9 @@ void resolve(Typed& typed) {
     throw CLI::ValidationError("--device", "only --backend gpu has a device");
   if (!typed.file.empty() && !typed.run.folder.empty())
     throw CLI::ValidationError("--output", "with --write nothing is run; leave one of the two out");
+  if (typed.run.onReference && typed.untuned)
+    throw CLI::ValidationError("--untuned", "only --backend gpu is ever tuned");
+  typed.run.usesTuned = !typed.untuned;
   typed.run.showProgress = !typed.quiet;
 }
 
@@ -427,6 +430,10 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->add_option("--device", typed->run.device,
                    "Vulkan device, by index or part of its name; see `ringlet devices`")
       ->type_name("D")
+      ->group(solver);
+  command
+      ->add_flag("--untuned", typed->untuned,
+                 "Choose the kernel's shapes by the built-in model, whatever `ringlet tune` measured")
       ->group(solver);
 
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");

@@ -56,8 +56,10 @@ constexpr const char* kExample =
     "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
     "at a\n"
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
-    "device driver kernel device_bytes (of the simulation's buffers, at the end; null for reference)\n"
-    "compile_ms (making the kernels, once) backend positions_hash integrator material steps_per_frame fps\n"
+    "device driver kernel tuned (shapes as `ringlet tune` measured) device_bytes (of the simulation's "
+    "buffers, at\n"
+    "the end; null for reference) compile_ms (making the kernels, once) backend positions_hash integrator\n"
+    "material steps_per_frame fps\n"
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
@@ -74,7 +76,8 @@ struct Typed {
   MaterialChoice material;
   ContactChoice contacts;
   std::string backend = "gpu", device, kernel = "auto", cache;
-  bool measuresContacts = false, noChebyshev = false, noUsd = false, json = false, quiet = false;
+  bool measuresContacts = false, noChebyshev = false, noUsd = false, untuned = false, json = false,
+       quiet = false;
 };
 
 template <class Value>
@@ -167,6 +170,8 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
     throw CLI::ValidationError(typed.kernel != "auto" ? "--kernel" : "--device",
                                "only --backend gpu has a device and kernels");
   }
+  if (typed.untuned && typed.backend == "reference")
+    throw CLI::ValidationError("--untuned", "only --backend gpu is ever tuned");
   if ((typed.lanes || typed.run) && (typed.backend == "reference" || typed.kernel == "serial")) {
     throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
                                "only --backend gpu with --kernel auto or lanes has lanes and runs");
@@ -219,6 +224,7 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
                                                    : Form::automatic;
   options.kernel.lanes = typed.lanes.value_or(0);
   options.kernel.particlesPerLane = typed.run.value_or(0);
+  options.usesTuned = !typed.untuned;
   options.showProgress = !typed.quiet;
   return options;
 }
@@ -428,6 +434,11 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
                    "chosen by device and length)")
       ->check(wholeBetween(4, 32))
       ->type_name("K")
+      ->group(machine);
+
+  command
+      ->add_flag("--untuned", typed->untuned,
+                 "Choose lanes and run by the built-in model, whatever `ringlet tune` measured")
       ->group(machine);
 
   // What is said and written.

@@ -103,7 +103,7 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
-  return makeGpuBackend(made, options.device, kernel, options.showProgress);
+  return makeGpuBackend(made, {options.device, kernel, options.usesTuned, options.showProgress});
 }
 
 // The motion up to the first frame, so that hair begins it as it moves.
@@ -331,6 +331,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   outcome.device = (*backend)->device();
   outcome.driver = (*backend)->driver();
   outcome.kernel = (*backend)->kernel();
+  outcome.isTuned = (*backend)->isTuned();
   outcome.deviceBytes = (*backend)->deviceBytes();
   outcome.compileMilliseconds = (*backend)->compileMilliseconds();
   outcome.stages = (*backend)->stageMilliseconds();

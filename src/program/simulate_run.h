@@ -37,7 +37,8 @@ struct RunOptions {
   double width = 0.0005;     // diameter of strands in hair.usda and hair.rgc [m]
   bool onReference = false;  // rather than on the GPU
   std::string device;
-  KernelChoice kernel;  // its residual: measured where the integrator has one, on the GPU
+  KernelChoice kernel;    // its residual: measured where the integrator has one, on the GPU
+  bool usesTuned = true;  // strand shapes by what `ringlet tune` measured
   bool showProgress = true;
   bool measuresContacts = false;  // every step and frame, with contacts on or off; costs CPU time
 };
@@ -81,6 +82,7 @@ struct SimulateOutcome {
   std::optional<ContactNumbers> contactNumbers;  // where they are measured
   std::optional<BodyNumbers> bodyNumbers;        // where there are bodies; of every frame
   std::string device, driver, kernel;
+  bool isTuned = false;                      // shapes were chosen by what `ringlet tune` measured
   std::optional<std::uint64_t> deviceBytes;  // of the simulation's buffers at the end, on a device
   double compileMilliseconds = 0;            // of the kernels, once
   std::string positionsHash;                 // of the last frame

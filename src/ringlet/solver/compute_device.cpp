@@ -25,6 +25,10 @@ std::vector<DeviceSummary> ComputeDevice::list() {
 
 std::string ComputeDevice::name() const { return device_->properties().name; }
 std::string ComputeDevice::driver() const { return device_->properties().driver; }
+DeviceLimits ComputeDevice::limits() const {
+  const gpu::DeviceProperties& p = device_->properties();
+  return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
+}
 std::vector<std::string> ComputeDevice::validationMessages() const { return device_->validationMessages(); }
 
 }  // namespace ringlet

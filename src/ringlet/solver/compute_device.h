@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
+#include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 namespace gpu {
@@ -38,6 +39,7 @@ class ComputeDevice {
 
   std::string name() const;
   std::string driver() const;
+  DeviceLimits limits() const;
 
   /// Messages of the validation layer so far (it is on when RINGLET_VALIDATION=1); a correct program has
   /// none.

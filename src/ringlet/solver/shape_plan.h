@@ -12,14 +12,6 @@
 
 namespace ringlet {
 
-/// What the plan must know of a device.
-struct DeviceLimits {
-  std::uint32_t subgroupSize = 1;
-  bool hasSubgroupShuffle = false;
-  bool isCpu = false;
-  std::uint32_t maxGroupCount = 65535;
-};
-
 /// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. Two lanes that solve
 /// hair alone from both its ends (shaders/integrators/two_way.glsl) take longer runs.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool isHairAlone);

@@ -54,11 +54,6 @@ class CompileNotice {
 
 }  // namespace
 
-DeviceLimits limitsOf(const gpu::Device& device) {
-  const gpu::DeviceProperties& p = device.properties();
-  return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
-}
-
 Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom,
                                       const Material& material, const Settings& settings,
                                       const HeadPose& start, const HeadPose& oneStepEarlier,
@@ -70,7 +65,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   auto rest = buildRestState(groom, material, settings, order);
   if (!rest) return rest.error();
 
-  const DeviceLimits limits = limitsOf(device.gpu());
+  const DeviceLimits limits = device.limits();
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
   const bool isHairAlone = !settings.contacts.on && !settings.air.on && bodies.empty();

@@ -74,7 +74,7 @@ Status Simulation::Implementation::recordFrame(std::size_t slot) {
 
 Status Simulation::Implementation::recordPass(gpu::Recorder& recorder, const SolvePass& pass) {
   const auto dispatches =
-      planPass(ranges, limitsOf(device.gpu()), settings, world.bodyCount(), kStrandGroupSize, pass);
+      planPass(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize, pass);
   if (!dispatches) return dispatches.error();
   dispatchAll(recorder, *dispatches);
   recorder.barrier();

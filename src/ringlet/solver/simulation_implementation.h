@@ -23,8 +23,6 @@
 
 namespace ringlet {
 
-DeviceLimits limitsOf(const gpu::Device& device);
-
 // Where the head is and was one outer step before.
 struct HeadHistory {
   HeadPose oneStepEarlier, now;

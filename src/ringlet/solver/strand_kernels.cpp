@@ -46,6 +46,15 @@ std::uint32_t integratorConstant(Integrator integrator) {
 
 }  // namespace
 
+// FNV-1a, word by word.
+std::string strandKernelHash() {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const Spirv code : {Spirv(k_strand_step_plain), Spirv(k_strand_step_serial_plain)}) {
+    for (const std::uint32_t word : code) hash = (hash ^ word) * 0x100000001b3;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
 Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
                                        const StrandKernelOptions& options) {
   using enum gpu::BindingKind;

@@ -10,6 +10,14 @@ namespace ringlet {
 /// Particles a lane holds: not fewer than can be pinned. The longest run is the device's (shape_plan.h).
 inline constexpr std::uint32_t kShortestRun = 4;
 
+/// What the plan must know of a device.
+struct DeviceLimits {
+  std::uint32_t subgroupSize = 1;
+  bool hasSubgroupShuffle = false;
+  bool isCpu = false;
+  std::uint32_t maxGroupCount = 65535;
+};
+
 /// A strand laid over a device: lanes x run, or one thread per strand (lanes = 0).
 struct StrandShape {
   std::uint32_t lanes = 0;  // a power of two, a subgroup at most
@@ -26,5 +34,9 @@ struct ShapeCost {
   StrandShape shape;
   double nanoseconds = 0;  // of one outer step of one strand, however long; serial: of one of its particles
 };
+
+/// Of the code of the strand kernels for hair alone, 16 hexadecimal digits: with other code measured costs
+/// mean nothing.
+std::string strandKernelHash();
 
 }  // namespace ringlet

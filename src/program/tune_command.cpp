@@ -1,0 +1,199 @@
+// Implements tune_command.h: options to lengths, and the table. The timing is tune_run.cpp, the file
+// tuned_shapes.cpp.
+#include "program/tune_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/cache_folder.h"
+#include "program/command_line.h"
+#include "program/exit_codes.h"
+#include "program/run_report.h"
+#include "program/tune_run.h"
+#include "program/tuned_shapes.h"
+#include "ringlet/groom/groom_file.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr const char* kHelp =
+    "Examples:\n"
+    "  ringlet tune\n"
+    "  ringlet tune groom.hair --seconds 60\n"
+    "  ringlet tune --particles 24 100 --device 0\n"
+    "\n"
+    "A strand is laid over a device as lanes x run, or one thread a strand (serial). Which shape is fastest\n"
+    "is the device's matter: tune times them in turn, each held against another first, and remembers device\n"
+    "times in strand_shapes.toml in $RINGLET_CACHE_DIR (else $XDG_CACHE_HOME/ringlet, ~/.cache/ringlet).\n"
+    "`simulate` and `scene` then choose by these where hair is alone (jacobi; no contacts, bodies or air), "
+    "on\n"
+    "the same device and driver and with the same ringlet; what was not timed counts as the model has it, "
+    "in\n"
+    "proportion. Another shape gives other last bits: --untuned leaves it aside. Tuning again replaces what\n"
+    "was measured before.\n"
+    "\n"
+    "--json keys: device driver rounds left_out (shapes there was no time for) shapes (of each particles "
+    "shape\n"
+    "lanes run (0: serial) ns_per_particle_step model_ns_per_particle_step difference against) file\n"
+    "interrupted. difference: the farthest particle from where `against` has it after a frame, as a share "
+    "of\n"
+    "the strands' length.\n"
+    "\n"
+    "Exit status: 0 done, 1 something failed, 2 wrong usage, 130 Ctrl-C (nothing is remembered).";
+
+// The command line as typed.
+struct Typed {
+  std::filesystem::path groom;
+  std::vector<std::uint32_t> particles;
+  std::string device;
+  TuneOptions options;
+  bool json = false, quiet = false;
+};
+
+nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& outcome,
+                              const std::filesystem::path& file) {
+  nlohmann::ordered_json json{{"device", device.name()},
+                              {"driver", device.driver()},
+                              {"rounds", outcome.rounds},
+                              {"left_out", outcome.leftOut},
+                              {"shapes", nlohmann::json::array()}};
+  for (const TimedShape& one : outcome.timed) {
+    json["shapes"].push_back({{"particles", one.particleCount},
+                              {"shape", one.shape.describe()},
+                              {"lanes", one.shape.lanes},
+                              {"run", one.shape.particlesPerLane},
+                              {"ns_per_particle_step", one.nanoseconds},
+                              {"model_ns_per_particle_step", one.model},
+                              {"difference", one.difference},
+                              {"against", one.against.describe()}});
+  }
+  json["file"] = file.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(file.string());
+  json["interrupted"] = outcome.interrupted;
+  return json;
+}
+
+// The fastest of each length has a star.
+std::string asText(const ComputeDevice& device, const TuneOutcome& outcome,
+                   const std::filesystem::path& file) {
+  std::string text = fmt::format(
+      "{} ({}), ns a particle and step, medians of {} rounds\n"
+      "  particles  shape           measured     model  differs by\n",
+      device.name(), device.driver(), outcome.rounds);
+  for (const TimedShape& one : outcome.timed) {
+    const bool isFastest = std::ranges::none_of(outcome.timed, [&](const TimedShape& other) {
+      return other.particleCount == one.particleCount && other.nanoseconds < one.nanoseconds;
+    });
+    text += fmt::format("  {:>9}  {:<14} {:>9.4g} {:>9.4g}  {:.1e} from {}\n", one.particleCount,
+                        one.shape.describe() + (isFastest ? " *" : ""), one.nanoseconds, one.model,
+                        one.difference, one.against.describe());
+  }
+  if (!file.empty()) text += fmt::format("  remembered in {}\n", file.string());
+  return text;
+}
+
+Result<std::vector<std::uint32_t>> lengthsOf(const Typed& typed) {
+  if (typed.groom.empty()) {
+    std::vector<std::uint32_t> lengths = typed.particles.empty() ? TuneOptions{}.lengths : typed.particles;
+    std::ranges::sort(lengths);
+    const auto [first, last] = std::ranges::unique(lengths);
+    lengths.erase(first, last);
+    return lengths;
+  }
+  const auto loaded = readGroom(typed.groom);
+  if (!loaded) return loaded.error();
+  std::vector<std::uint32_t> counts;
+  for (std::size_t s = 0; s < loaded->groom.strandCount(); ++s)
+    counts.push_back(static_cast<std::uint32_t>(loaded->groom.strand(s).size()));
+  if (counts.empty())
+    return Error{fmt::format("{}: has no strands to take lengths from", typed.groom.string())};
+  return typicalLengths(std::move(counts));
+}
+
+int fail(const Error& error) {
+  fmt::print(stderr, "ringlet tune: {}\n", error.message);
+  return kExitFailed;
+}
+
+int run(Typed& typed) {
+  auto lengths = lengthsOf(typed);
+  if (!lengths) return fail(lengths.error());
+  typed.options.lengths = std::move(*lengths);
+  typed.options.showProgress = !typed.quiet;
+  const auto device = ComputeDevice::open(typed.device, cacheFolder());
+  if (!device) return fail(device.error());
+  const auto outcome = timeShapes(*device, typed.options);
+  if (!outcome) return fail(outcome.error());
+
+  // The table is shown even where it cannot be remembered.
+  Result<std::filesystem::path> file = std::filesystem::path{};
+  if (!outcome->interrupted) file = rememberShapes(*device, outcome->costs);
+  const std::filesystem::path written = file ? *file : std::filesystem::path{};
+  for (const std::string& message : device->validationMessages())
+    fmt::print(stderr, "ringlet tune: warning: Vulkan validation: {}\n", message);
+  if (outcome->leftOut > 0)
+    fmt::print(stderr, "ringlet tune: warning: no time for {} of the shapes; give it more with --seconds\n",
+               outcome->leftOut);
+  if (typed.json) {
+    printJson(asJson(*device, *outcome, written));
+  } else if (!typed.quiet && !outcome->interrupted) {
+    fmt::print("{}", asText(*device, *outcome, written));
+  }
+  if (outcome->interrupted) {
+    fmt::print(stderr, "ringlet tune: interrupted; nothing was remembered\n");
+    return kExitInterrupted;
+  }
+  return file ? kExitFine : fail(file.error());
+}
+
+}  // namespace
+
+void addTuneCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command =
+      app.add_subcommand("tune", "Measures which strand shapes are fastest on a device, and remembers it");
+  command->footer(kHelp);
+  CLI::Option* groom =
+      command
+          ->add_option("GROOM", typed->groom,
+                       "A .hair, .obj or .tfx file whose strands' lengths to tune for: four at "
+                       "most that stand for all")
+          ->type_name("FILE");
+  command
+      ->add_option(
+          "--particles", typed->particles,
+          "Particles of the strands to tune for, 8 numbers at most, 2 to 3000 (default 16 32 64 128)")
+      ->check(wholeBetween(2, 3000))
+      ->expected(1, 8)
+      ->type_name("N")
+      ->excludes(groom);
+  command
+      ->add_option("--strands", typed->options.strandCount,
+                   "Strands of each length, 1 to 100,000 (default: as many as have 65,536 particles on a CPU "
+                   "device, 1,048,576 on others)")
+      ->check(wholeBetween(1, 100'000))
+      ->type_name("N");
+  command
+      ->add_option(
+          "--seconds", typed->options.seconds,
+          "How long it may take, about; a third of it for timing, the rest for compiling (default 20)")
+      ->check(between(0.1, 3600))
+      ->type_name("S");
+  command
+      ->add_option(
+          "--device", typed->device,
+          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
+          "else the best)")
+      ->type_name("D");
+  command->add_flag("--json", typed->json, "Print one JSON object instead of the table");
+  command->add_flag("--quiet", typed->quiet, "No progress bar and no table");
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,255 @@
+// Implements tune_run.h.
+#include "program/tune_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "program/interruption.h"
+#include "program/progress_bar.h"
+#include "ringlet/groom/generate.h"
+#include "ringlet/solver/shape_plan.h"
+#include "ringlet/solver/simulation.h"
+
+namespace ringlet::program {
+namespace {
+
+constexpr double kAgreement = 1e-5;  // of a strand's length, as for the double reference in tests
+constexpr double kLength = 0.25;     // of the strands [m]
+constexpr int kFewestRounds = 3, kMostRounds = 101;
+constexpr double kShareForMaking = 0.7;  // of the time; the rest is for rounds
+// Of each length, so that no lane of the device is idle: two cores have some 16 lanes, large GPUs 300,000.
+// Beyond a million the serial form's scratch (128 bytes each) may not fit one buffer.
+constexpr std::uint32_t kParticlesOnCpu = 1 << 16, kParticlesOnGpu = 1 << 20;
+
+// Where the head is at the end of the frame that verifies: aside and turned.
+const HeadPose kMoved{{0.02, 0, 0.005}, {0, std::sin(0.03), 0, std::cos(0.03)}};
+
+class Clock {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// A shape to be timed with strands of one length; the first two of a length are held against each other.
+struct Entry {
+  std::uint32_t particleCount = 0;
+  StrandShape shape;
+  bool isOfPair = false;
+};
+
+// Of each number of lanes the shortest run that holds a strand, those first which the model likes; then the
+// serial form: with the longest strands, and where another would have none to be held against.
+std::vector<Entry> entriesOf(std::uint32_t particleCount, bool isLongest, const DeviceLimits& limits) {
+  std::vector<ShapeCost> costs = shapeCosts(limits);
+  std::erase_if(costs, [&](const ShapeCost& c) {
+    const std::uint32_t lanes = c.shape.lanes;
+    if (lanes == 0) return true;
+    const std::uint32_t run = std::max(kShortestRun, (particleCount + lanes - 1) / lanes);
+    const bool hasIdleLanes = lanes > 1 && particleCount <= (lanes / 2) * kShortestRun;
+    return c.shape.particlesPerLane != run || hasIdleLanes;
+  });
+  std::ranges::stable_sort(costs, {}, &ShapeCost::nanoseconds);
+  if (isLongest || costs.size() < 2) costs.push_back({});
+  std::vector<Entry> entries;
+  if (costs.size() < 2) return entries;  // no choice
+  for (const ShapeCost& c : costs) entries.push_back({particleCount, c.shape, entries.size() < 2});
+  return entries;
+}
+
+// The pairs of all lengths first, in case time runs out.
+std::vector<Entry> allEntries(std::span<const std::uint32_t> lengths, const DeviceLimits& limits) {
+  std::vector<Entry> all;
+  for (const std::uint32_t length : lengths) {
+    const auto some = entriesOf(length, length == lengths.back(), limits);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  std::ranges::stable_partition(all, &Entry::isOfPair);
+  return all;
+}
+
+// Curls, as near to a square as their number allows.
+Result<Groom> hairOf(std::uint32_t particleCount, std::uint32_t strandCount) {
+  SwatchParameters swatch;
+  swatch.curl.length = kLength;
+  swatch.curl.turns = std::min(8.0, particleCount / 4.0);
+  swatch.curl.particleCount = static_cast<int>(particleCount);
+  swatch.columnCount = static_cast<int>(std::ceil(std::sqrt(strandCount)));
+  swatch.rowCount = static_cast<int>(strandCount) / swatch.columnCount;
+  swatch.spacing = 0.001;
+  return makeSwatch(swatch);
+}
+
+// A simulation in one shape, and what it took.
+struct Runner {
+  TimedShape result;
+  Simulation simulation;
+  std::size_t strandCount = 0;
+  std::vector<Vec3f> positions;   // after the frame that verifies
+  std::vector<double> samples{};  // [ms] of a frame
+
+  static Result<Runner> create(const ComputeDevice& device, const Entry& entry, std::uint32_t strandCount) {
+    const auto groom = hairOf(entry.particleCount, strandCount);
+    if (!groom) return groom.error();
+    KernelChoice choice;
+    choice.form = entry.shape.serial() ? KernelChoice::Form::serial : KernelChoice::Form::lanes;
+    choice.lanes = static_cast<int>(entry.shape.lanes);
+    choice.particlesPerLane = static_cast<int>(entry.shape.particlesPerLane);
+    auto simulation = Simulation::create(device, *groom, {}, Settings{}, {}, {}, choice);
+    if (!simulation) return simulation.error();
+    if (Status stepped = simulation->stepFrame(kMoved); !stepped) return stepped.error();
+    auto positions = simulation->positions();
+    if (!positions) return positions.error();
+    return Runner{{.particleCount = entry.particleCount, .shape = entry.shape, .against = {}},
+                  std::move(*simulation),
+                  groom->strandCount(),
+                  std::move(*positions)};
+  }
+
+  // Not a number is not near.
+  double differenceFrom(const Runner& other) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const double apart = length(static_cast<Vec3d>(positions[i]) - static_cast<Vec3d>(other.positions[i]));
+      if (!(apart <= largest)) largest = apart;
+    }
+    return largest / kLength;
+  }
+
+  // The head stands where it came to, so that all see the same.
+  Status time() {
+    const double before = simulation.stageMilliseconds()["strand_step"];
+    if (Status stepped = simulation.stepFrame(kMoved); !stepped) return stepped;
+    samples.push_back(simulation.stageMilliseconds()["strand_step"] - before);
+    return {};
+  }
+
+  // Of the samples; a clock too coarse for a frame shows 0, which no cost can be.
+  void finish(std::span<const ShapeCost> model) {
+    const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
+    std::ranges::nth_element(samples, middle);
+    const double particleSteps =
+        static_cast<double>(strandCount) * result.particleCount * Settings{}.stepsPerFrame;
+    result.nanoseconds = std::max(1e6 * *middle / particleSteps, 1e-6);
+    result.model = std::ranges::find(model, result.shape, &ShapeCost::shape)->nanoseconds /
+                   (result.shape.serial() ? 1 : result.particleCount);
+  }
+};
+
+Error inShape(const Entry& entry, const Error& cause) {
+  return Error{fmt::format("strands of {} particles in the shape {}: {}", entry.particleCount,
+                           entry.shape.describe(), cause.message)};
+}
+
+// Holds the last of them against the first of its length.
+Status verifyLast(std::vector<Runner>& runners) {
+  Runner& last = runners.back();
+  Runner& first = *std::ranges::find_if(runners, [&](const Runner& runner) {
+    return runner.result.particleCount == last.result.particleCount;
+  });
+  if (&first == &last) return {};
+  const double difference = last.differenceFrom(first);
+  last.result.difference = difference;
+  last.result.against = first.result.shape;
+  if (first.result.difference == 0)
+    first.result.difference = difference, first.result.against = last.result.shape;
+  if (difference <= kAgreement) return {};
+  return Error{fmt::format(
+      "strands of {} particles in the shapes {} and {} are {:.1e} of their length apart after a frame, "
+      "{:.0e} is "
+      "allowed: one of the two is wrong on this device. Nothing was remembered; `--backend reference` tells "
+      "which",
+      last.result.particleCount, first.result.shape.describe(), last.result.shape.describe(), difference,
+      kAgreement)};
+}
+
+// A shape that holds strands of several lengths costs what it does on average.
+std::vector<ShapeCost> costsOf(std::span<const TimedShape> timed) {
+  std::vector<ShapeCost> costs;
+  std::vector<int> counts;
+  for (const TimedShape& one : timed) {
+    const double cost = one.nanoseconds * (one.shape.serial() ? 1 : one.particleCount);
+    const auto found = std::ranges::find(costs, one.shape, &ShapeCost::shape);
+    if (found == costs.end()) {
+      costs.push_back({one.shape, cost}), counts.push_back(1);
+    } else {
+      found->nanoseconds += cost, ++counts[static_cast<std::size_t>(found - costs.begin())];
+    }
+  }
+  for (std::size_t i = 0; i < costs.size(); ++i) costs[i].nanoseconds /= counts[i];
+  return costs;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts) {
+  std::ranges::sort(counts);
+  std::vector<std::uint32_t> lengths;
+  for (std::size_t quarter = 1; quarter <= 4 && !counts.empty(); ++quarter)
+    lengths.push_back(counts[(counts.size() * quarter + 3) / 4 - 1]);
+  const auto [first, last] = std::ranges::unique(lengths);
+  lengths.erase(first, last);
+  return lengths;
+}
+
+Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& options) {
+  const Clock clock;
+  const DeviceLimits limits = device.limits();
+  const std::vector<Entry> entries = allEntries(options.lengths, limits);
+  if (entries.empty())
+    return Error{
+        fmt::format("{} has only the serial form for strands of {} particles; there is nothing to choose",
+                    device.name(), options.lengths.back())};
+  TuneOutcome outcome;
+  ProgressBar progress(static_cast<int>(std::ceil(options.seconds)), options.showProgress, "second");
+  const auto isTimeFor = [&](double share) {
+    progress.show(static_cast<int>(std::min(clock.seconds(), std::ceil(options.seconds))));
+    return clock.seconds() < share * options.seconds;
+  };
+  catchInterruption();
+
+  std::vector<Runner> runners;
+  for (std::size_t e = 0; e < entries.size() && !wasInterrupted(); ++e) {
+    const Entry& entry = entries[e];
+    const bool endsPair = entry.isOfPair && e % 2 == 1;
+    if (!isTimeFor(kShareForMaking) && e > 0 && !endsPair) {
+      outcome.leftOut = entries.size() - e;
+      break;
+    }
+    const auto filling = (limits.isCpu ? kParticlesOnCpu : kParticlesOnGpu) / entry.particleCount;
+    const auto strandCount = options.strandCount ? static_cast<std::uint32_t>(*options.strandCount) : filling;
+    auto runner = Runner::create(device, entry, std::max(strandCount, 1u));
+    if (!runner) return inShape(entry, runner.error());
+    runners.push_back(std::move(*runner));
+    if (Status verified = verifyLast(runners); !verified) return verified.error();
+  }
+
+  while (!wasInterrupted() && outcome.rounds < kMostRounds &&
+         (isTimeFor(1) || outcome.rounds < kFewestRounds)) {
+    for (Runner& runner : runners) {
+      if (Status timed = runner.time(); !timed) return timed.error();
+    }
+    ++outcome.rounds;
+  }
+  outcome.interrupted = wasInterrupted();
+  if (outcome.interrupted) return outcome;
+
+  const std::vector<ShapeCost> model = shapeCosts(limits);
+  for (Runner& runner : runners) {
+    runner.finish(model);
+    outcome.timed.push_back(runner.result);
+  }
+  std::ranges::stable_sort(outcome.timed, {}, &TimedShape::particleCount);
+  outcome.costs = costsOf(outcome.timed);
+  return outcome;
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,49 @@
+// Times strand shapes against each other on one device, each first held against another.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/solver/compute_device.h"
+#include "ringlet/solver/strand_shape.h"
+
+namespace ringlet::program {
+
+struct TuneOptions {
+  std::vector<std::uint32_t> lengths{16, 32, 64, 128};  // particles a strand, rising
+  std::optional<int> strandCount;                       // of each length; none: enough to fill the device
+  double seconds =
+      20;  // after which no shape is begun and no round; the first two shapes and three rounds are
+  bool showProgress = true;
+};
+
+/// A shape with strands of one length.
+struct TimedShape {
+  std::uint32_t particleCount = 0;  // of a strand
+  StrandShape shape;
+  double nanoseconds = 0;  // device time of a particle and step, the median over rounds
+  double model = 0;        // the same by the model
+  double difference = 0;   // from `against` after a frame: the farthest particle, as a share of the length
+  StrandShape against;
+};
+
+struct TuneOutcome {
+  std::vector<TimedShape> timed;  // by length
+  std::vector<ShapeCost> costs;   // for KernelChoice::measured
+  int rounds = 0;
+  std::size_t leftOut = 0;   // shapes there was no time for
+  bool interrupted = false;  // Ctrl-C came; nothing is timed
+};
+
+/// Of these lengths (of particles, one a strand) four at most that stand for all, the longest among them.
+std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts);
+
+/// Fails where two shapes are further apart than 1e-5 of the strands' length after a frame, where there is
+/// nothing to choose from, and as Simulation::create does. About `seconds` of time, most of it compiling.
+Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& options);
+
+}  // namespace ringlet::program
