@@ -98,8 +98,9 @@ Status run(int strands, int particles) {
   fmt::print("{} strands, {} particles, {} on {}\n", groom->strandCount(), groom->points.size(),
              simulation->kernelDescription(), device->name());
   fmt::print("  every {}th strand is, bit for bit, where it is alone\n", stride);
-  fmt::print("  device   {:.0f} MiB: particles {:.0f}, strands {:.0f}\n", mebibytes(memory.total()),
-             mebibytes(memory.particles), mebibytes(memory.strands));
+  fmt::print("  device   {:.0f} MiB: particles {:.0f}, strands {:.0f}, frames in flight {:.0f}\n",
+             mebibytes(memory.total()), mebibytes(memory.particles), mebibytes(memory.strands),
+             mebibytes(memory.frames));
   fmt::print("  host     {:.0f} MiB with the groom, {:.0f} at most while starting, {:.0f} at most in all\n",
              hostBefore, hostCreated, peakHostMebibytes());
   fmt::print("  start    {:.1f} s\n  frame    {:.0f} ms (8 steps)\n  readback {:.0f} ms\n", created,

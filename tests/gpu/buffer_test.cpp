@@ -120,6 +120,9 @@ TEST_F(Buffers, WhatIsLeftOfTheMemoryIsKnown) {
     EXPECT_LE(gpu::availableStorageBytes(gpu()), before - kBytes);
   }
   EXPECT_GT(gpu::availableStorageBytes(gpu()), before - kBytes);
+  const auto stream = Buffer::create(gpu(), kBytes, BufferKind::stream, "counted");
+  ASSERT_TRUE(stream) << stream.error().message;
+  EXPECT_EQ(gpu::availableStorageBytes(gpu()) <= before - kBytes, gpu::isOneMemory(gpu()));
 }
 
 TEST_F(Buffers, PastTheEndIsTheCallersFault) {
