@@ -18,7 +18,7 @@ TEST(Help, EveryCommandHasOptionsWithDefaultsAndAnExample) {
   const auto folder = scratchFolder("help");
   const std::vector<std::vector<std::string>> commands{
       {},        {"make"},    {"make", "curl"}, {"make", "swatch"}, {"make", "head"}, {"simulate"},
-      {"scene"}, {"measure"}, {"devices"},      {"material"},       {"convert"}};
+      {"scene"}, {"measure"}, {"devices"},      {"material"},       {"convert"},      {"tune"}};
   for (std::vector<std::string> command : commands) {
     command.push_back("--help");
     const auto result = runProgram(folder, command);
@@ -35,7 +35,7 @@ TEST(Help, EveryCommandHasOptionsWithDefaultsAndAnExample) {
                            "--lanes",      "--run",          "compile_ms",
                            "--json",       "--quiet",        "(default 0.01: centimetres)",
                            "m/s^2",        "ms_per_frame",   "velocity_residual",
-                           "--cache",      "--no-usd"}) {
+                           "--cache",      "--no-usd",       "--untuned"}) {
     expectContains(help, part);
   }
 }
@@ -53,7 +53,7 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
     std::string message;
   };
   const std::vector<Case> cases{
-      {{}, "say what to do: make, simulate, measure, convert, scene, devices, material"},
+      {{}, "say what to do: make, simulate, measure, convert, scene, devices, tune, material"},
       {{"simulat"}, "did you mean simulate?"},
       {{"make", "crul", "-o", "a.obj"}, "did you mean curl?"},
       {{"make", "curl"}, "--output is required"},

@@ -56,6 +56,7 @@ class RunningProgram {
     process_ = fork();
     if (process_ != 0) return;
     if (chdir(folder_.c_str()) != 0) _exit(120);
+    setenv("RINGLET_CACHE_DIR", RINGLET_BUILD_DIR "/tests/cache", 0);  // not the user's, who may have tuned
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), STDERR_FILENO);
     execv(pointers[0], pointers.data());
