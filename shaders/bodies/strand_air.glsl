@@ -20,7 +20,7 @@ void feelAir(uint step) {
       }
     }
     AirDrag drag =
-        airDrag(velocity(i) - wind, tangentAt(i), parameters.dragStrength, parameters.dragAlong, stepSeconds());
+        airDrag(velocity(i) - headChange - wind, tangentAt(i), parameters.dragStrength, parameters.dragAlong, stepSeconds());
     scratch[slot(i, kDrag)] = vec4(drag.across, drag.along, 0, 0);
     setScratch(i, kDrag + 1, wind);
   }

@@ -41,6 +41,7 @@ const uint kDrag = kScratchPerParticle + (kBodies ? kBodyScratch : 0);  // x acr
 const uint kStride = kDrag + (kAir ? kAirScratch : 0);
 
 uint count;  // particles of the strand
+vec3 headChange = vec3(0);  // what velocities still lack to be relative to the head as it travels in this step
 float maxStretch = 0.0;
 uint limitedEdges = 0;
 uint degenerateEdges = 0;
@@ -169,7 +170,7 @@ vec3 forceOn(uint i) {
 }
 vec3 rightHandSide(uint i) {
   float m = mass(i);
-  vec3 sum = m * velocity(i) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
+  vec3 sum = m * (velocity(i) - headChange) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
   if (withContacts()) sum += contactSystemOf(strand.firstParticle + i).momentum.xyz;
   if (kAir) {
     vec4 drag = scratch[slot(i, kDrag)];
@@ -368,7 +369,8 @@ void storeReport(uint strandIndex) {
 }
 
 void springs(uint step) {
-  for (uint i = 0; i < count; ++i) setVelocity(i, velocity(i) - headVelocityChange(step));
+  // With contacts the last step's velocities are still wanted (contact_motion.comp): taken off in the right-hand side.
+  for (uint i = 0; i < count && !kContacts; ++i) setVelocity(i, velocity(i) - headVelocityChange(step));
   float coreScale = springSweep(step);
   coreSweep(coreScale);
   if (kMeasureResidual) {
@@ -391,6 +393,7 @@ void main() {
   strand = strandRest(strandAt);
   count = strand.particleCount;
   for (uint step = parameters.stepBegin; step < parameters.stepEnd; ++step) {
+    if (kContacts) headChange = headVelocityChange(step);
     if ((parameters.phases & kPhaseSprings) != 0) springs(step);
     if ((parameters.phases & kPhaseSolve) != 0) {
       if (kIntegrator == kIntegratorJacobi) {
