@@ -19,6 +19,17 @@ Error failure(const char* what, const std::filesystem::path& path, int code) {
 
 }  // namespace
 
+Result<OpenFile> openToRead(const std::filesystem::path& path) {
+  errno = 0;
+  std::error_code code;
+  if (std::filesystem::is_directory(path, code))
+    return Error{fmt::format("cannot read {}: it is a folder", path.string())};
+  OpenFile file(std::fopen(path.c_str(), "rb"));
+  if (!file)
+    return Error{fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno))};
+  return file;
+}
+
 Result<ByteFile> ByteFile::create(const std::filesystem::path& path) {
   ByteFile made;
   made.path_ = path;
@@ -49,6 +60,17 @@ Status ByteFile::truncate(std::uint64_t size) {
 Status ByteFile::close() {
   errno = 0;
   if (std::fclose(file_.release()) != 0) return failure("finish writing", path_, errno);
+  return {};
+}
+
+Status ByteFile::closeAs(const std::filesystem::path& finished) {
+  if (Status closed = close(); !closed) return closed;
+  std::error_code code;
+  std::filesystem::rename(path_, finished, code);
+  if (code) {
+    return Error{fmt::format("cannot name {} as {}: {}; all frames are kept under the first name",
+                             path_.string(), finished.string(), code.message())};
+  }
   return {};
 }
 

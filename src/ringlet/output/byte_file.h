@@ -12,6 +12,14 @@
 
 namespace ringlet {
 
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
+
+/// To be read from its beginning.
+Result<OpenFile> openToRead(const std::filesystem::path& path);
+
 /// Unbuffered: what a call wrote is with the operating system when it returns, so killing the program loses
 /// none of it.
 class ByteFile {
@@ -24,16 +32,15 @@ class ByteFile {
   Status truncate(std::uint64_t size);
   /// Some file systems tell only here that the disk is full.
   Status close();
+  /// Closes it and gives it the name of a finished file. Where it cannot have that, it keeps its own.
+  Status closeAs(const std::filesystem::path& finished);
 
   /// False once closed, or moved from.
   bool isOpen() const { return file_ != nullptr; }
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  std::unique_ptr<std::FILE, Closer> file_;
+  OpenFile file_;
   std::filesystem::path path_;
 };
 

@@ -26,13 +26,10 @@ bool isBound(double value) { return std::isfinite(value) && value >= 0; }
 Result<CacheReader> CacheReader::open(const std::filesystem::path& path) {
   CacheReader reader;
   reader.path_ = path;
-  errno = 0;
+  auto opened = openToRead(path);
+  if (!opened) return opened.error();
+  reader.file_ = std::move(*opened);
   std::error_code code;
-  if (std::filesystem::is_directory(path, code))
-    return Error{fmt::format("cannot read {}: it is a folder", path.string())};
-  reader.file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!reader.file_)
-    return Error{fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno))};
   reader.size_ = std::filesystem::file_size(path, code);
   if (code) return Error{fmt::format("cannot read {}: {}", path.string(), code.message())};
   if (Status read = reader.readHeader(); !read) return read.error();

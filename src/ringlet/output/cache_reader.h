@@ -10,6 +10,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/output/byte_file.h"
 #include "ringlet/output/cache_format.h"
 
 namespace ringlet {
@@ -40,9 +41,6 @@ class CacheReader {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   struct Frame {
     std::uint64_t offset = 0;  // of its chunk [byte]
     double errorBound = 0;     // [m]
@@ -58,7 +56,7 @@ class CacheReader {
                  std::uint64_t contentBytes, std::vector<std::byte>& content);
   Error damaged(std::string_view what) const;
 
-  std::unique_ptr<std::FILE, Closer> file_;
+  OpenFile file_;
   std::filesystem::path path_;
   std::uint64_t size_ = 0;      // of the file [byte]
   std::uint64_t framesAt_ = 0;  // where the first frame's chunk begins [byte]

@@ -84,14 +84,7 @@ Status CacheWriter::finish() {
   if (Status written = append(packer_.pack(ChunkKind::index, frames, 0, content)); !written) return written;
   if (Status written = append(end); !written) return written;
 
-  if (Status closed = file_.close(); !closed) return closed;
-  std::error_code code;
-  std::filesystem::rename(file_.path(), path_, code);
-  if (code) {
-    return Error{fmt::format("cannot name {} as {}: {}; all frames are kept under the first name",
-                             file_.path().string(), path_.string(), code.message())};
-  }
-  return {};
+  return file_.closeAs(path_);
 }
 
 double CacheWriter::errorBound() const {

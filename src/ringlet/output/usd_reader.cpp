@@ -37,13 +37,9 @@ std::optional<T> parse(std::string_view text) {
 Result<UsdReader> UsdReader::open(const std::filesystem::path& path) {
   UsdReader reader;
   reader.path_ = path;
-  errno = 0;
-  std::error_code code;
-  if (std::filesystem::is_directory(path, code))
-    return Error{fmt::format("cannot read {}: it is a folder", path.string())};
-  reader.file_.reset(std::fopen(path.c_str(), "rb"));
-  if (!reader.file_)
-    return Error{fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno))};
+  auto opened = openToRead(path);
+  if (!opened) return opened.error();
+  reader.file_ = std::move(*opened);
   if (Status read = reader.readHeader(); !read) return read.error();
   return reader;
 }

@@ -13,6 +13,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/output/byte_file.h"
 #include "ringlet/output/up_axis.h"
 
 namespace ringlet {
@@ -35,10 +36,6 @@ class UsdReader {
   const std::vector<std::uint32_t>& particleCounts() const { return particleCounts_; }  // of each strand
 
  private:
-  struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-
   UsdReader() = default;
   Status readHeader();
   Status readExtents();
@@ -54,7 +51,7 @@ class UsdReader {
   Result<float> coordinate();
   Error wanted(std::string_view what);
 
-  std::unique_ptr<std::FILE, Closer> file_;
+  OpenFile file_;
   std::filesystem::path path_;
   std::string buffer_;             // read, from at_ on not yet used
   std::size_t at_ = 0;             // in buffer_

@@ -183,14 +183,7 @@ Error UsdWriter::keepFinishedFrames(const Error& cause) {
 
 Status UsdWriter::finish() {
   RINGLET_ASSERT(frameCount_ > 0, "a file without frames is not finished but dropped");
-  if (Status closed = file_.close(); !closed) return closed;
-  std::error_code code;
-  std::filesystem::rename(file_.path(), path_, code);
-  if (code) {
-    return Error{fmt::format("cannot name {} as {}: {}; all frames are kept under the first name",
-                             file_.path().string(), path_.string(), code.message())};
-  }
-  return {};
+  return file_.closeAs(path_);
 }
 
 }  // namespace ringlet
