@@ -185,5 +185,20 @@ TEST_F(StrandStep, AFrameAgreesWithDouble) {
   }
 }
 
+// Two long lanes pay only where they solve from both ends; others would compile long kernels for nothing.
+TEST_F(StrandStep, OnlyWhatIsSolvedFromBothEndsHasLongRuns) {
+  const Groom groom = randomGroom({64}, 3);
+  const auto shapeOf = [&](Integrator integrator, const Material& material) {
+    auto simulation = Simulation::create(device(), groom, material, settingsFor(integrator));
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    return simulation ? simulation->kernelDescription() : "";
+  };
+  if (shapeOf(Integrator::jacobi, {}).find("2 x 32") == std::string::npos)
+    GTEST_SKIP() << "this device takes shorter runs";
+  for (Integrator integrator : {Integrator::pointJacobi, Integrator::paper})
+    EXPECT_NE(shapeOf(integrator, {}).find("4 x 16"), std::string::npos);
+  EXPECT_NE(shapeOf(Integrator::jacobi, varyingMaterial()).find("4 x 16"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace ringlet::test

@@ -48,18 +48,18 @@ constexpr CostModel kGpu{.particle = 0.5,
 
 const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
 
-double modelCost(const StrandShape& shape, const CostModel& model, bool isHairAlone) {
+double modelCost(const StrandShape& shape, const CostModel& model, bool fromBothEnds) {
   if (shape.serial()) return model.serial;
-  const double particle = (shape.lanes == 1                  ? model.alone
-                           : shape.lanes == 2 && isHairAlone ? model.fromEnds
-                                                             : model.particle) *
+  const double particle = (shape.lanes == 1                   ? model.alone
+                           : shape.lanes == 2 && fromBothEnds ? model.fromEnds
+                                                              : model.particle) *
                           (1 + model.longRun * (shape.particlesPerLane - kShortestRun));
   return shape.lanes * (shape.particlesPerLane * particle + std::countr_zero(shape.lanes) * model.join);
 }
 
 // What may be chosen from: as asked for, by rising capacity; the serial form, where allowed, last.
-std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, bool isHairAlone) {
-  std::vector<ShapeCost> costs = shapeCosts(limits, isHairAlone, choice.measured);
+std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, bool fromBothEnds) {
+  std::vector<ShapeCost> costs = shapeCosts(limits, fromBothEnds, choice.measured);
   const bool isStated = choice.lanes > 0 || choice.particlesPerLane > 0;
   std::erase_if(costs, [&](const ShapeCost& c) {
     if (c.shape.serial()) return choice.form == KernelChoice::Form::lanes;
@@ -121,9 +121,9 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
 }
 
 // What the device does not have at all, by name.
-Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool isHairAlone) {
+Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool fromBothEnds) {
   const int run = choice.particlesPerLane;
-  const int longest = static_cast<int>(longestRun(limits, choice.lanes, isHairAlone));
+  const int longest = static_cast<int>(longestRun(limits, choice.lanes, fromBothEnds));
   if (run != 0 && (run < static_cast<int>(kShortestRun) || run > longest))
     return Error{fmt::format("{} particles per lane was asked for; {} to {} are possible, 0 chooses", run,
                              kShortestRun, longest)};
@@ -139,11 +139,11 @@ Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool 
 }
 
 Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice,
-                 bool isHairAlone) {
+                 bool fromBothEnds) {
   const std::uint32_t lanes =
       choice.lanes > 0 ? static_cast<std::uint32_t>(choice.lanes) : limits.subgroupSize;
   const int run = choice.particlesPerLane > 0 ? choice.particlesPerLane
-                                              : static_cast<int>(longestRun(limits, lanes, isHairAlone));
+                                              : static_cast<int>(longestRun(limits, lanes, fromBothEnds));
   return Error{fmt::format(
       "the lanes form was asked for, but a strand of {} particles does not fit: {}. Leave the choice to "
       "ringlet "
@@ -162,17 +162,17 @@ std::string StrandShape::describe() const {
 
 // 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but two
 // lanes save enough.
-std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool isHairAlone) {
+std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool fromBothEnds) {
   if (!limits.isCpu) return 16;
-  return isHairAlone && (lanes == 0 || lanes == 2) ? 32 : 24;
+  return fromBothEnds && (lanes == 0 || lanes == 2) ? 32 : 24;
 }
 
-std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool isHairAlone,
+std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromBothEnds,
                                   std::span<const ShapeCost> measured) {
   const CostModel& model = modelOf(limits);
   std::vector<ShapeCost> costs;
   for (std::uint32_t lanes = 1; limits.hasSubgroupShuffle && lanes <= limits.subgroupSize; lanes *= 2) {
-    for (std::uint32_t run = kShortestRun; run <= longestRun(limits, lanes, isHairAlone); ++run)
+    for (std::uint32_t run = kShortestRun; run <= longestRun(limits, lanes, fromBothEnds); ++run)
       costs.push_back({{lanes, run}, 0});
   }
   std::ranges::stable_sort(costs, {}, [](const ShapeCost& c) { return c.shape.capacity(); });
@@ -180,7 +180,7 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool isHairAlone,
   double ratios = 0;
   int known = 0;
   for (ShapeCost& c : costs) {
-    c.nanoseconds = modelCost(c.shape, model, isHairAlone);
+    c.nanoseconds = modelCost(c.shape, model, fromBothEnds);
     const auto found = std::ranges::find(measured, c.shape, &ShapeCost::shape);
     if (found != measured.end()) ratios += std::log(found->nanoseconds / c.nanoseconds), ++known;
   }
@@ -195,12 +195,12 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool isHairAlone,
 
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice,
-                                            bool isHairAlone) {
-  if (Status possible = checkChoice(limits, choice, isHairAlone); !possible) return possible.error();
-  const std::vector<ShapeCost> costs = candidates(limits, choice, isHairAlone);
+                                            bool fromBothEnds) {
+  if (Status possible = checkChoice(limits, choice, fromBothEnds); !possible) return possible.error();
+  const std::vector<ShapeCost> costs = candidates(limits, choice, fromBothEnds);
   const bool isHeld = !costs.empty() &&
                       (costs.back().shape.serial() || particleCounts.back() <= costs.back().shape.capacity());
-  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, isHairAlone);
+  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, fromBothEnds);
   return cheapestRanges(particleCounts, costs, choice.manyKernels ? 0 : modelOf(limits).perKernel);
 }
 

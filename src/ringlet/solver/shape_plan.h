@@ -14,7 +14,7 @@ namespace ringlet {
 
 /// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. Two lanes that solve
 /// hair alone from both its ends (shaders/integrators/two_way.glsl) take longer runs.
-std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool isHairAlone);
+std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool fromBothEnds);
 
 /// Strands [begin, end) in device order, all of one shape.
 struct StrandRange {
@@ -26,14 +26,15 @@ struct StrandRange {
 
 /// Every shape the device has, the serial one last, with the cost a model by kind of device gives it. Where
 /// `measured` has some, theirs in place of it, and the others' in proportion.
-std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool isHairAlone = true,
+std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromBothEnds = true,
                                   std::span<const ShapeCost> measured = {});
 
 /// Ranges of equal shape, the cheapest of all ways to cut. `particleCounts`: of the strands in device order,
-/// rising. `isHairAlone`: no contacts, bodies or air, which kernels are another matter with. Fails where the
-/// choice asks for lanes that the device or the strands do not allow.
+/// rising. `fromBothEnds`: two lanes solve so (shaders/integrators/two_way.glsl): `jacobi` and hair alone,
+/// without contacts, bodies, air or bending that varies along it. Fails where the choice asks for lanes that
+/// the device or the strands do not allow.
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice,
-                                            bool isHairAlone = true);
+                                            bool fromBothEnds = true);
 
 }  // namespace ringlet

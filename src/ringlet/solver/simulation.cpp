@@ -68,8 +68,10 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const DeviceLimits limits = device.limits();
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
-  const bool isHairAlone = !settings.contacts.on && !settings.air.on && bodies.empty();
-  auto ranges = planRanges(counts, limits, choice, isHairAlone);
+  const bool fromBothEnds = settings.integrator == Integrator::jacobi && !settings.contacts.on &&
+                            !settings.air.on && bodies.empty() &&
+                            material.bendStiffnessProfile.points.empty();
+  auto ranges = planRanges(counts, limits, choice, fromBothEnds);
   if (!ranges) return ranges.error();
   const bool anySerial =
       std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
