@@ -8,19 +8,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <random>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "bench/clocks.h"
 #include "ringlet/base/box_pairs.h"
 #include "ringlet/solver/simulation.h"
 
 namespace {
 
 using namespace ringlet;
+using bench::median;
+using bench::processCpuSeconds;
 
 constexpr int kParticles = 16;                // of a strand
 constexpr double kRadius = 0.003;             // [m]
@@ -76,12 +77,6 @@ struct Near {
 };
 Near nearPairs(const std::vector<Vec3f>& rest, const std::vector<Vec3f>& points);
 
-double processCpuSeconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
 Near nearPairs(const std::vector<Vec3f>& rest, const std::vector<Vec3f>& points) {
   const double R = 2 * kRadius, start = processCpuSeconds();
   std::vector<Box> boxes;
@@ -102,12 +97,6 @@ Near nearPairs(const std::vector<Vec3f>& rest, const std::vector<Vec3f>& points)
   }
   near.seconds = processCpuSeconds() - start;
   return near;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 void contacts(benchmark::State& state) {
@@ -134,8 +123,7 @@ void contacts(benchmark::State& state) {
     auto before = simulation->stageMilliseconds();
     const double cpu = processCpuSeconds();
     if (!simulation->stepFrame(HeadPose{})) return state.SkipWithError("a step failed");
-    samples["cpu_per_core"].push_back(1e3 * (processCpuSeconds() - cpu) /
-                                      std::max(1u, std::thread::hardware_concurrency()));
+    samples["cpu_per_core"].push_back(1e3 * (processCpuSeconds() - cpu) / bench::coreCount());
     for (const auto& [stage, milliseconds] : simulation->stageMilliseconds())
       samples[stage].push_back(milliseconds - before[stage]);
   }

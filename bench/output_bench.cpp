@@ -7,13 +7,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "bench/clocks.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/usd_reader.h"
@@ -24,32 +23,17 @@ namespace {
 using namespace ringlet;
 using Frames = std::vector<std::vector<Vec3f>>;
 
-double wallNow() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-double cpuNow() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 // Wall and CPU milliseconds of many calls.
 struct Times {
   std::vector<double> wall, cpu;
 
   template <class Call>
   bool time(Call&& call) {
-    const double wallBefore = wallNow(), cpuBefore = cpuNow();
+    const double wallBefore = bench::wallSeconds(), cpuBefore = bench::processCpuSeconds();
     const bool fine = call();
-    cpu.push_back(cpuNow() - cpuBefore);
-    wall.push_back(wallNow() - wallBefore);
+    cpu.push_back(1e3 * (bench::processCpuSeconds() - cpuBefore));
+    wall.push_back(1e3 * (bench::wallSeconds() - wallBefore));
     return fine;
-  }
-  static double median(std::vector<double> values) {
-    std::ranges::nth_element(values, values.begin() + values.size() / 2);
-    return values[values.size() / 2];
   }
 };
 
@@ -68,8 +52,8 @@ void printRow(const char* name, const Times& write, const Times& read, std::uint
               const Frames& frames, double apart, double bound) {
   const double points = static_cast<double>(frames.size()) * static_cast<double>(frames[0].size());
   fmt::print("{:<16}{:>10.2f} {:>10.2f} {:>10.2f} {:>10.2f} {:>12.2f} {:>12.5f} {:>12.5f}\n", name,
-             Times::median(write.wall), Times::median(write.cpu), Times::median(read.wall),
-             Times::median(read.cpu), static_cast<double>(bytes) / points, 1000 * apart, 1000 * bound);
+             bench::median(write.wall), bench::median(write.cpu), bench::median(read.wall),
+             bench::median(read.cpu), static_cast<double>(bytes) / points, 1000 * apart, 1000 * bound);
   std::fflush(stdout);
 }
 

@@ -8,12 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <string>
 #include <vector>
 
+#include "bench/clocks.h"
 #include "reference/step.h"
 #include "ringlet/scenes/builtin_scene.h"
 #include "ringlet/solver/simulation.h"
@@ -21,6 +20,9 @@
 namespace {
 
 using namespace ringlet;
+using bench::median;
+using bench::processCpuSeconds;
+using bench::wallSeconds;
 
 constexpr int kStrands = 1000, kParticles = 64;
 constexpr double kFramesPerSecond = 60;
@@ -97,23 +99,6 @@ double largestDistance(const Path& a, const Path& b) {
   return largest;
 }
 
-double processCpuMilliseconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return 1e3 * double(t.tv_sec) + 1e-6 * double(t.tv_nsec);
-}
-
-double wallMilliseconds() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
-
 struct Cost {
   double device = 0, wall = 0, cpu = 0;  // a frame [ms]
 };
@@ -124,11 +109,11 @@ Result<Cost> timeFrames(const ComputeDevice& device, const BuiltinScene& scene) 
   std::vector<double> deviceSamples, wallSamples, cpuSamples;
   for (int frame = -2; frame < kTimedFrames; ++frame) {  // drivers compile at the first dispatch
     const double before = simulation->stageMilliseconds()["strand_step"];
-    const double wall = wallMilliseconds(), cpu = processCpuMilliseconds();
+    const double wall = wallSeconds(), cpu = processCpuSeconds();
     if (Status stepped = simulation->stepFrame(HeadPose{}); !stepped) return stepped.error();
     if (frame < 0) continue;
-    wallSamples.push_back(wallMilliseconds() - wall);
-    cpuSamples.push_back(processCpuMilliseconds() - cpu);
+    wallSamples.push_back(1e3 * (wallSeconds() - wall));
+    cpuSamples.push_back(1e3 * (processCpuSeconds() - cpu));
     deviceSamples.push_back(simulation->stageMilliseconds()["strand_step"] - before);
   }
   return Cost{median(deviceSamples), median(wallSamples), median(cpuSamples)};
