@@ -49,7 +49,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"groom", {"base", "groom"}},
       {"scene", {"base", "scene"}},
       {"bodies", {"base", "groom", "scene", "bodies"}},
-      {"motion", {"base", "groom", "scene", "bodies", "motion"}},
+      {"motion", {"base", "scene", "bodies", "motion"}},
       {"rest", {"base", "groom", "scene", "rest"}},
       {"scenes", {"base", "groom", "scene", "rest", "bodies", "scenes"}},
       {"gpu", {"base", "gpu"}},

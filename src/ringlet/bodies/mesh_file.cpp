@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/groom/obj_text.h"
-#include "ringlet/groom/quoted.h"
-#include "ringlet/groom/whole_file.h"
 
 namespace ringlet {
 namespace {

@@ -1,13 +1,12 @@
 // Implements gpu/pipeline_cache_file.h.
 #include "ringlet/gpu/pipeline_cache_file.h"
 
-#include <unistd.h>
-
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <string>
 #include <system_error>
+#include <utility>
+
+#include "ringlet/base/whole_file.h"
 
 namespace ringlet::gpu {
 namespace {
@@ -27,33 +26,16 @@ bool hasHeader(std::span<const std::byte> bytes) {
 std::vector<std::byte> readPipelineCache(const std::filesystem::path& path) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);
-  if (code || size < kHeaderBytes || size > kLargestPipelineCache) return {};
-  std::vector<std::byte> bytes(size);
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) return {};
-  return hasHeader(bytes) ? bytes : std::vector<std::byte>{};
+  if (code || size > kLargestPipelineCache) return {};
+  auto bytes = readWholeFile(path);
+  return bytes && hasHeader(*bytes) ? std::move(*bytes) : std::vector<std::byte>{};
 }
 
 bool writePipelineCache(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   if (bytes.size() > kLargestPipelineCache) return false;
-  std::error_code code;
-  std::filesystem::create_directories(path.parent_path(), code);
-  std::filesystem::path beside = path;
-  beside += "." + std::to_string(getpid());  // two programs may end at once
-  {
-    std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (!file) {
-      std::filesystem::remove(beside, code);
-      return false;
-    }
-  }
-  std::filesystem::rename(beside, path, code);
-  if (!code) return true;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  return false;
+  std::error_code ignored;  // the write tells
+  std::filesystem::create_directories(path.parent_path(), ignored);
+  return static_cast<bool>(writeWholeFile(path, bytes));
 }
 
 }  // namespace ringlet::gpu

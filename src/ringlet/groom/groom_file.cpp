@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/groom/tfx_file.h"
-#include "ringlet/groom/whole_file.h"
 
 namespace ringlet {
 namespace {

@@ -22,11 +22,11 @@
 #include <string_view>
 #include <vector>
 
+#include "ringlet/base/little_endian.h"
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/groom/groom_check.h"
-#include "ringlet/groom/little_endian.h"
 #include "ringlet/groom/point_records.h"
-#include "ringlet/groom/quoted.h"
-#include "ringlet/groom/whole_file.h"
 
 namespace ringlet {
 namespace {

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/groom/edge_chains.h"
 #include "ringlet/groom/groom_check.h"
 #include "ringlet/groom/obj_text.h"
-#include "ringlet/groom/quoted.h"
-#include "ringlet/groom/whole_file.h"
 
 namespace ringlet {
 namespace {

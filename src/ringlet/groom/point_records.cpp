@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "ringlet/groom/little_endian.h"
+#include "ringlet/base/little_endian.h"
 
 namespace ringlet {
 

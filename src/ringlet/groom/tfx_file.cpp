@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/groom/little_endian.h"
+#include "ringlet/base/little_endian.h"
 #include "ringlet/groom/point_records.h"
 
 namespace ringlet {

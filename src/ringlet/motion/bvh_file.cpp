@@ -9,8 +9,8 @@
 #include <new>
 #include <numbers>
 
-#include "ringlet/groom/quoted.h"
-#include "ringlet/groom/whole_file.h"
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/motion/joint_name.h"
 
 namespace ringlet {

@@ -11,8 +11,8 @@
 #include <new>
 #include <type_traits>
 
-#include "ringlet/groom/quoted.h"
-#include "ringlet/groom/whole_file.h"
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/motion/gltf_bytes.h"
 #include "ringlet/motion/gltf_file.h"
 

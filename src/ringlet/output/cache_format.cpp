@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/groom/little_endian.h"
+#include "ringlet/base/little_endian.h"
 
 namespace ringlet::cache {
 namespace {

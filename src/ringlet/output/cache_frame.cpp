@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ringlet/groom/little_endian.h"
+#include "ringlet/base/little_endian.h"
 
 namespace ringlet::cache {
 namespace {

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/groom/little_endian.h"
+#include "ringlet/base/little_endian.h"
 #include "ringlet/output/cache_frame.h"
 
 namespace ringlet {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "ringlet/groom/whole_file.h"
+#include "ringlet/base/whole_file.h"
 
 namespace ringlet {
 namespace {

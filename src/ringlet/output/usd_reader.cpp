@@ -9,7 +9,7 @@
 #include <limits>
 #include <system_error>
 
-#include "ringlet/groom/quoted.h"
+#include "ringlet/base/quoted.h"
 
 namespace ringlet {
 namespace {

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "ringlet/base/nearest_name.h"
-#include "ringlet/groom/quoted.h"
-#include "ringlet/groom/whole_file.h"
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ringlet/base/nearest_name.h"
-#include "ringlet/groom/quoted.h"
-#include "ringlet/groom/whole_file.h"
+#include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 
 namespace ringlet {
 namespace {

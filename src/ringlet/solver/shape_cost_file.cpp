@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "ringlet/groom/whole_file.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/rest/toml_file.h"
 
 namespace ringlet {

@@ -1,5 +1,5 @@
-// Implements groom/whole_file.h.
-#include "ringlet/groom/whole_file.h"
+// Implements base/whole_file.h.
+#include "ringlet/base/whole_file.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// Implements groom/quoted.h.
-#include "ringlet/groom/quoted.h"
+// Implements base/quoted.h.
+#include "ringlet/base/quoted.h"
 
 #include <fmt/format.h>
 
