@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "bench/clocks.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/solver/simulation.h"
 
@@ -19,9 +19,6 @@ using namespace ringlet;
 constexpr int kFrames = 3;
 constexpr std::size_t kSampled = 1000;  // strands
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 double peakHostMebibytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -35,10 +32,10 @@ HeadPose headAt(int frame) {
 
 // Frames done, and what each took [s]; or why not.
 Result<double> step(Simulation& simulation) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = bench::wallSeconds();
   for (int frame = 1; frame <= kFrames; ++frame)
     if (Status status = simulation.stepFrame(headAt(frame)); !status) return status.error();
-  return secondsSince(start) / kFrames;
+  return (bench::wallSeconds() - start) / kFrames;
 }
 
 // Particles of the sampled strands that are elsewhere when those are simulated without the others.
@@ -73,17 +70,17 @@ Status run(int strands, int particles) {
   if (!groom) return groom.error();
   const double hostBefore = peakHostMebibytes();
 
-  auto start = std::chrono::steady_clock::now();
+  double start = bench::wallSeconds();
   auto simulation = Simulation::create(*device, *groom, {}, {});
   if (!simulation) return simulation.error();
-  const double created = secondsSince(start);
+  const double created = bench::wallSeconds() - start;
   const double hostCreated = peakHostMebibytes();
   const auto frame = step(*simulation);
   if (!frame) return frame.error();
-  start = std::chrono::steady_clock::now();
+  start = bench::wallSeconds();
   const auto positions = simulation->positions();
   if (!positions) return positions.error();
-  const double read = secondsSince(start);
+  const double read = bench::wallSeconds() - start;
   const auto report = simulation->report();
   if (!report) return report.error();
 

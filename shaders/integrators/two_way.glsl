@@ -1,7 +1,8 @@
 // `jacobi` for two lanes and hair alone: the same exact solve from both ends of the strand at once, lane 0 from the root and
 // lane 1 from the tip, met at the edge between them. No lane waits for what lies beyond its run, so no transfers and no
 // compliances of whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl).
-// Included by kernels/strand_step.comp.
+// Mirrored by
+// reference/strand_solve.h. Included by kernels/strand_step.comp.
 //
 //   root  o-o-o-o   o-o-o-o  tip
 //         lane 0 -> <- lane 1

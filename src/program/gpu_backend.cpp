@@ -8,6 +8,7 @@
 #include "program/cache_folder.h"
 #include "program/compile_note.h"
 #include "program/tuned_shapes.h"
+#include "ringlet/solver/shape_plan.h"
 
 namespace ringlet::program {
 namespace {
@@ -49,11 +50,10 @@ class GpuBackend : public Backend {
   TunedShapes tuned_;
 };
 
-// What was measured is true of hair alone, stepped by jacobi, and of use where there is a choice.
+// Where what was measured is true, and there is a choice.
 bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
-  return input.settings.integrator == Integrator::jacobi && !input.settings.contacts.on &&
-         !input.settings.air.on && input.bodies.empty() && kernel.form != KernelChoice::Form::serial &&
-         (kernel.lanes == 0 || kernel.particlesPerLane == 0);
+  return solvesFromBothEnds(input.settings, input.material, !input.bodies.empty()) &&
+         kernel.form != KernelChoice::Form::serial && (kernel.lanes == 0 || kernel.particlesPerLane == 0);
 }
 
 }  // namespace

@@ -18,10 +18,13 @@ std::filesystem::path scratch(const char* name) {
   return folder;
 }
 
+const PipelineCacheOwner kOwner{1, 2, {3, 4, 5}};
+
 std::vector<std::byte> sample(std::size_t size) {
   std::vector<std::byte> bytes(size, std::byte{7});
-  const std::uint32_t header[] = {32, 1};
+  const std::uint32_t header[] = {32, 1, kOwner.vendor, kOwner.device};
   std::memcpy(bytes.data(), header, sizeof header);
+  std::memcpy(&bytes[sizeof header], kOwner.uuid.data(), kOwner.uuid.size());
   return bytes;
 }
 
@@ -29,26 +32,30 @@ TEST(PipelineCacheFile, ComesBackAsItWas) {
   const auto folder = scratch("back");
   const auto bytes = sample(1000);
   ASSERT_TRUE(writePipelineCache(folder / "made" / "a.bin", bytes)) << "the folder is made";
-  EXPECT_EQ(readPipelineCache(folder / "made" / "a.bin"), bytes);
+  EXPECT_EQ(readPipelineCache(folder / "made" / "a.bin", kOwner), bytes);
   EXPECT_TRUE(writePipelineCache(folder / "made" / "a.bin", sample(50)));
-  EXPECT_EQ(readPipelineCache(folder / "made" / "a.bin").size(), 50u);
+  EXPECT_EQ(readPipelineCache(folder / "made" / "a.bin", kOwner).size(), 50u);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "made"), {}), 1)
       << "nothing beside it";
 }
 
 TEST(PipelineCacheFile, WhatIsBrokenIsNothing) {
   const auto folder = scratch("broken");
-  EXPECT_TRUE(readPipelineCache(folder / "none.bin").empty());
+  EXPECT_TRUE(readPipelineCache(folder / "none.bin", kOwner).empty());
   std::filesystem::create_directories(folder / "a_folder.bin");
-  EXPECT_TRUE(readPipelineCache(folder / "a_folder.bin").empty());
+  EXPECT_TRUE(readPipelineCache(folder / "a_folder.bin", kOwner).empty());
   auto bytes = sample(40);
   bytes.resize(31);
   ASSERT_TRUE(writePipelineCache(folder / "short.bin", bytes));
-  EXPECT_TRUE(readPipelineCache(folder / "short.bin").empty());
+  EXPECT_TRUE(readPipelineCache(folder / "short.bin", kOwner).empty());
   bytes = sample(40);
   bytes[4] = std::byte{2};
   ASSERT_TRUE(writePipelineCache(folder / "version.bin", bytes));
-  EXPECT_TRUE(readPipelineCache(folder / "version.bin").empty());
+  EXPECT_TRUE(readPipelineCache(folder / "version.bin", kOwner).empty());
+  ASSERT_TRUE(writePipelineCache(folder / "others.bin", sample(40)));
+  EXPECT_EQ(readPipelineCache(folder / "others.bin", kOwner).size(), 40u);
+  EXPECT_TRUE(readPipelineCache(folder / "others.bin", {1, 2, {3, 4, 6}}).empty());
+  EXPECT_TRUE(readPipelineCache(folder / "others.bin", {1, 3, {3, 4, 5}}).empty());
   EXPECT_FALSE(writePipelineCache(folder / "a_folder.bin", sample(40)));
   EXPECT_FALSE(writePipelineCache("/proc/nowhere/a.bin", sample(40)));
 }

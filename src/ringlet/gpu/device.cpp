@@ -357,15 +357,12 @@ Status Device::openPipelineCache(VkPhysicalDevice physical, const std::filesyste
   if (!folder.empty()) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical, &properties);
+    const PipelineCacheOwner owner{properties.vendorID, properties.deviceID,
+                                   std::to_array(properties.pipelineCacheUUID)};
     std::string uuid;
-    for (std::uint8_t byte : properties.pipelineCacheUUID) uuid += fmt::format("{:02x}", byte);
+    for (std::uint8_t byte : owner.uuid) uuid += fmt::format("{:02x}", byte);
     pipelineCacheFile_ = folder / fmt::format("pipelines-{}.bin", uuid);
-    kept = readPipelineCache(pipelineCacheFile_);
-    // The header: size, version, vendor, device, UUID.
-    if (kept.size() < 32 || std::memcmp(&kept[8], &properties.vendorID, 4) != 0 ||
-        std::memcmp(&kept[12], &properties.deviceID, 4) != 0 ||
-        std::memcmp(&kept[16], properties.pipelineCacheUUID, VK_UUID_SIZE) != 0)
-      kept.clear();
+    kept = readPipelineCache(pipelineCacheFile_, owner);
   }
   auto info = zeroed<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
   info.initialDataSize = kept.size();

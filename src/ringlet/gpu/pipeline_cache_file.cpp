@@ -11,24 +11,30 @@
 namespace ringlet::gpu {
 namespace {
 
-// VkPipelineCacheHeaderVersionOne: its size and version stand first.
-constexpr std::size_t kHeaderBytes = 32;
+// VkPipelineCacheHeaderVersionOne.
+struct Header {
+  std::uint32_t size, version;
+  PipelineCacheOwner owner;
+};
+static_assert(sizeof(Header) == 32);
 
-bool hasHeader(std::span<const std::byte> bytes) {
-  std::uint32_t words[2];
-  if (bytes.size() < kHeaderBytes) return false;
-  std::memcpy(words, bytes.data(), sizeof words);
-  return words[0] >= kHeaderBytes && words[0] <= bytes.size() && words[1] == 1;
+bool isOf(const PipelineCacheOwner& owner, std::span<const std::byte> bytes) {
+  Header header;
+  if (bytes.size() < sizeof header) return false;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  return header.size >= sizeof header && header.size <= bytes.size() && header.version == 1 &&
+         header.owner.vendor == owner.vendor && header.owner.device == owner.device &&
+         header.owner.uuid == owner.uuid;
 }
 
 }  // namespace
 
-std::vector<std::byte> readPipelineCache(const std::filesystem::path& path) {
+std::vector<std::byte> readPipelineCache(const std::filesystem::path& path, const PipelineCacheOwner& owner) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   if (code || size > kLargestPipelineCache) return {};
   auto bytes = readWholeFile(path);
-  return bytes && hasHeader(*bytes) ? std::move(*bytes) : std::vector<std::byte>{};
+  return bytes && isOf(owner, *bytes) ? std::move(*bytes) : std::vector<std::byte>{};
 }
 
 bool writePipelineCache(const std::filesystem::path& path, std::span<const std::byte> bytes) {

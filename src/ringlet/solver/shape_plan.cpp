@@ -59,7 +59,8 @@ double modelCost(const StrandShape& shape, const CostModel& model, bool fromBoth
 
 // What may be chosen from: as asked for, by rising capacity; the serial form, where allowed, last.
 std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, bool fromBothEnds) {
-  std::vector<ShapeCost> costs = shapeCosts(limits, fromBothEnds, choice.measured);
+  std::vector<ShapeCost> costs =
+      shapeCosts(limits, fromBothEnds, fromBothEnds ? choice.measured : std::vector<ShapeCost>{});
   const bool isStated = choice.lanes > 0 || choice.particlesPerLane > 0;
   std::erase_if(costs, [&](const ShapeCost& c) {
     if (c.shape.serial()) return choice.form == KernelChoice::Form::lanes;
@@ -158,6 +159,11 @@ Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const 
 
 std::string StrandShape::describe() const {
   return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
+}
+
+bool solvesFromBothEnds(const Settings& settings, const Material& material, bool hasBodies) {
+  return settings.integrator == Integrator::jacobi && !settings.contacts.on && !settings.air.on &&
+         !hasBodies && material.bendStiffnessProfile.points.empty();
 }
 
 // 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but two

@@ -12,8 +12,13 @@
 
 namespace ringlet {
 
+/// Whether two lanes solve a strand from both its ends (shaders/integrators/two_way.glsl): hair alone,
+/// stepped by `jacobi`, without contacts, bodies, air or bending that varies along it. What `ringlet tune`
+/// measures is such hair, and true of no other.
+bool solvesFromBothEnds(const Settings& settings, const Material& material, bool hasBodies);
+
 /// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. Two lanes that solve
-/// hair alone from both its ends (shaders/integrators/two_way.glsl) take longer runs.
+/// from both ends take longer runs.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool fromBothEnds);
 
 /// Strands [begin, end) in device order, all of one shape.
@@ -30,9 +35,7 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromBothEnds 
                                   std::span<const ShapeCost> measured = {});
 
 /// Ranges of equal shape, the cheapest of all ways to cut. `particleCounts`: of the strands in device order,
-/// rising. `fromBothEnds`: two lanes solve so (shaders/integrators/two_way.glsl): `jacobi` and hair alone,
-/// without contacts, bodies, air or bending that varies along it. Fails where the choice asks for lanes that
-/// the device or the strands do not allow.
+/// rising. Fails where the choice asks for lanes that the device or the strands do not allow.
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice,
                                             bool fromBothEnds = true);
