@@ -1,8 +1,8 @@
-// `jacobi` for two lanes and hair alone: the same exact solve from both ends of the strand at once, lane 0 from the root and
-// lane 1 from the tip, met at the edge between them. No lane waits for what lies beyond its run, so no transfers and no
-// compliances of whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl).
-// Mirrored by
-// reference/strand_solve.h. Included by kernels/strand_step.comp.
+// `jacobi` for one or two lanes and hair alone: the same exact solve, in two lanes from both ends of the strand at once, lane 0
+// from the root and lane 1 from the tip, met at the edge between them; in one lane from the root to the tip and back. No lane
+// waits for what lies beyond its run, so no transfers and no compliances of whole runs are needed: 2/5 of the work of the
+// elimination with a star join (integrators/jacobi.glsl). Four lanes, the inner two a turn after the outer, were tried: what
+// is done twice costs what the star does. Mirrored by reference/strand_solve.h. Included by kernels/strand_step.comp.
 //
 //   root  o-o-o-o   o-o-o-o  tip
 //         lane 0 -> <- lane 1
@@ -12,7 +12,7 @@
 //   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
 // All sums of positive matrices: stiff edges cost no digits.
 
-const bool kFromBothEnds = kLanes == 2 && !kAddsMass && !kBendVaries;
+const bool kFromEnds = kLanes <= 2 && !kAddsMass && !kBendVaries;
 
 // A⁻¹ of an edge of this direction and length; void ones are never used.
 Symmetric complianceOf(vec3 direction, float edgeLength) {
@@ -25,7 +25,17 @@ Symmetric complianceOf(vec3 direction, float edgeLength) {
 // To the particle before it, the way this lane goes.
 bool isLinked(int j) { return j > 0 && (lane == 0 ? isEdge(j - 1) : isEdge(RUN - 1 - j)); }
 
-void solveFromBothEnds(vec3 pinned[3]) {
+// Across the edge between the lanes, from what their last particles' mobilities are; each lane's own.
+vec3 forceBetweenLanes(Symmetric C, vec3 c) {
+  Symmetric apart = add(C, complianceOf(eHat[RUN - 1], edgeLengthOf(RUN - 1)));
+  apart = add(apart, Symmetric(fromTipward(C.d, 1), fromTipward(C.o, 1)));
+  vec3 f = multiply(inverse(apart), fromTipward(c, 1) - c);
+  if (!isEdge(RUN - 1)) f = vec3(0);
+  vec3 reaction = -fromRootward(f, 1);
+  return lane == 0 ? f : reaction;
+}
+
+void solveFromEnds(vec3 pinned[3]) {
   bool fromRoot = lane == 0;
   // In the order this lane goes.
   float mass[RUN];
@@ -56,14 +66,7 @@ void solveFromBothEnds(vec3 pinned[3]) {
     }
   }
 
-  // Across the edge between the lanes.
-  Symmetric apart = add(C[RUN - 1], complianceOf(eHat[RUN - 1], edgeLengthOf(RUN - 1)));
-  apart = add(apart, Symmetric(fromTipward(C[RUN - 1].d, 1), fromTipward(C[RUN - 1].o, 1)));
-  vec3 f = multiply(inverse(apart), fromTipward(c[RUN - 1], 1) - c[RUN - 1]);
-  if (!isEdge(RUN - 1)) f = vec3(0);
-  vec3 reaction = -fromRootward(f, 1);
-  if (!fromRoot) f = reaction;
-
+  vec3 f = kLanes == 1 ? vec3(0) : forceBetweenLanes(C[RUN - 1], c[RUN - 1]);
   vec3 solved[RUN];
   [[unroll]] for (int j = RUN - 1; j >= 0; --j) {
     solved[j] = c[j] + multiply(C[j], f);

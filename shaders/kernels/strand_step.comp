@@ -258,8 +258,8 @@ void solveVelocities(uint step) {
   if (kBodies) solveAmongBodies(step, pinned);
 #endif
   if (kIntegrator == kIntegratorJacobi && !kBodies) {
-    if (kFromBothEnds) {
-      solveFromBothEnds(pinned);
+    if (kFromEnds) {
+      solveFromEnds(pinned);
     } else {
       solveStrandBlock(pinned);
     }

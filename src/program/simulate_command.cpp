@@ -429,10 +429,11 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("L")
       ->group(machine);
   command
-      ->add_option("--run", typed->run,
-                   "Particles a lane holds, 4 to 16, on a CPU device to 24, to 32 in two lanes (default: "
-                   "chosen by device and length)")
-      ->check(wholeBetween(4, 32))
+      ->add_option(
+          "--run", typed->run,
+          "Particles a lane holds, 4 to 16, on a CPU device to 24, to 64 in one or two lanes (default: "
+          "chosen by device and length)")
+      ->check(wholeBetween(kShortestRun, kLongestRun))
       ->type_name("K")
       ->group(machine);
 

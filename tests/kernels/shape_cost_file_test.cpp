@@ -46,7 +46,7 @@ TEST(ShapeCostFile, SaysWhatIsWrongAndWhere) {
       {head + "shapes = [{ lanes = 4, run = 8, nanoseconds = -1 }]\n", "nanoseconds, a number above 0"},
       {head + "shapes = [{ lanes = 3, run = 8, nanoseconds = 1 }]\n", "a power of two"},
       {head + "shapes = [{ lanes = 0, run = 8, nanoseconds = 1 }]\n", "lanes, a whole number from 1 to 128"},
-      {head + "shapes = [{ lanes = 4, run = 1e9, nanoseconds = 1 }]\n", "run, a whole number from 4 to 32"},
+      {head + "shapes = [{ lanes = 4, run = 1e9, nanoseconds = 1 }]\n", "run, a whole number from 4 to 64"},
   };
   for (const auto& [text, message] : cases) {
     std::ofstream(path) << text;

@@ -61,10 +61,10 @@ TEST(ShapePlan, ShapesHoldTheirStrand) {
   }
 }
 
-// Long runs on the CPU, two lanes where they do; many lanes on a GPU.
+// Long runs on the CPU, one or two lanes where they do; many lanes on a GPU.
 TEST(ShapePlan, RoundLengthsHaveRoundShapes) {
   EXPECT_EQ(shapeOf(16, kLavapipe), (StrandShape{1, 16}));
-  EXPECT_EQ(shapeOf(32, kLavapipe), (StrandShape{2, 16}));
+  EXPECT_EQ(shapeOf(32, kLavapipe), (StrandShape{1, 32}));
   EXPECT_EQ(shapeOf(64, kLavapipe), (StrandShape{2, 32}));
   const auto amongBodies = planRanges(std::vector{64u}, kLavapipe, {}, false);
   ASSERT_TRUE(amongBodies);
@@ -150,6 +150,17 @@ TEST(ShapePlan, MeasuredCostsDecide) {
   EXPECT_TRUE(shapeOf(64, kLavapipe, {.measured = quickSerial}).serial());
 }
 
+// They take long to make.
+TEST(ShapePlan, TheLongestRunsMustBeAskedForOrMeasured) {
+  EXPECT_EQ(shapeOf(64, kLavapipe, {.lanes = 1}), (StrandShape{1, 64}));
+  const ShapeCost measured[] = {{{2, 32}, 550}, {{1, 64}, 500}};
+  EXPECT_EQ(shapeOf(64, kLavapipe, {.measured = measured}), (StrandShape{1, 64}));
+  EXPECT_EQ(shapeOf(50, kLavapipe, {.measured = measured}), (StrandShape{2, 25})) << "1 x 50 was not";
+  const auto amongBodies = planRanges(std::vector{64u}, kLavapipe, {.measured = measured}, false);
+  ASSERT_TRUE(amongBodies);
+  EXPECT_EQ(amongBodies->at(0).shape, (StrandShape{4, 16})) << "measured without bodies";
+}
+
 TEST(ShapePlan, StatedLanesAndRunsAreKept) {
   EXPECT_EQ(shapeOf(30, kLavapipe, {.lanes = 8}), (StrandShape{8, 4}));
   EXPECT_EQ(shapeOf(30, kLavapipe, {.particlesPerLane = 5}), (StrandShape{8, 5}));
@@ -166,9 +177,9 @@ TEST(ShapePlan, RefusesWhatCannotBe) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
   has(messageOf(300, {Form::lanes}), "300 particles does not fit: 8 lanes of 24 hold 192");
-  has(messageOf(80, {.form = Form::lanes, .lanes = 2}), "2 lanes of 32 hold 64");
-  has(messageOf(64, {Form::automatic, 3}), "3 particles per lane was asked for; 4 to 32");
-  has(messageOf(64, {Form::automatic, 33}), "33 particles per lane");
+  has(messageOf(130, {.form = Form::lanes, .lanes = 2}), "2 lanes of 64 hold 128");
+  has(messageOf(64, {Form::automatic, 3}), "3 particles per lane was asked for; 4 to 64");
+  has(messageOf(64, {Form::automatic, 65}), "65 particles per lane");
   for (int lanes : {-1, 3, 16}) has(messageOf(64, {.lanes = lanes}), "this device can have 1, 2, 4 or 8");
 }
 

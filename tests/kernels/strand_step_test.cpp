@@ -82,6 +82,15 @@ TEST_F(StrandStep, RunsOfEveryKindAgree) {
                    {.form = KernelChoice::Form::lanes, .particlesPerLane = run, .lanes = 4}},
                   fmt::format("jacobi, 4 lanes of {}", run));
   }
+  for (int lanes : {1, 2}) {
+    Settings settings = settingsFor(Integrator::jacobi);
+    settings.rootCount = lanes;
+    expectOneStep({randomGroom({2, 40, 3, 33, 40 * lanes, 40 * lanes - 1, 30 * lanes}, 41),
+                   {},
+                   settings,
+                   {.form = KernelChoice::Form::lanes, .particlesPerLane = 40, .lanes = lanes}},
+                  fmt::format("jacobi, {} long lanes", lanes));
+  }
   expectOneStep({randomGroom({9, 40, 90, 9, 150, 90, 200}, 31),
                  {},
                  settingsFor(Integrator::jacobi),
@@ -185,8 +194,8 @@ TEST_F(StrandStep, AFrameAgreesWithDouble) {
   }
 }
 
-// Two long lanes pay only where they solve from both ends; others would compile long kernels for nothing.
-TEST_F(StrandStep, OnlyWhatIsSolvedFromBothEndsHasLongRuns) {
+// Few long lanes pay only where they solve from the strand's ends; others would compile long kernels for nothing.
+TEST_F(StrandStep, OnlyWhatIsSolvedFromItsEndsHasLongRuns) {
   const Groom groom = randomGroom({64}, 3);
   const auto shapeOf = [&](Integrator integrator, const Material& material) {
     auto simulation = Simulation::create(device(), groom, material, settingsFor(integrator));

@@ -316,7 +316,7 @@ TEST(Simulate, LanesAndRunsAreStatedOrRefused) {
   for (const Case& c : {
            Case{{"--lanes", "3"}, 1, "3 lanes a strand were asked for; this device can have 1, 2"},
            Case{{"--lanes", "0"}, 2, "--lanes: must be a whole number from 1 to 128"},
-           Case{{"--run", "3"}, 2, "--run: must be a whole number from 4 to 32"},
+           Case{{"--run", "3"}, 2, "--run: must be a whole number from 4 to 64"},
            Case{{"--lanes", "1", "--run", "4"},
                 1,
                 "a strand of 5 particles does not fit: 1 lanes of 4 hold 4"},

@@ -17,7 +17,7 @@ namespace ringlet {
 namespace {
 
 constexpr const char* kWhat = "measured strand shapes";
-constexpr std::int64_t kMostLanes = 128, kLongestRun = 32;  // of any device
+constexpr std::int64_t kMostLanes = 128;  // of any device
 
 Error inFile(const std::string& name, const toml::node& node, const std::string& message) {
   return Error{fmt::format("{}: line {}: {}", name, lineOf(node), message)};

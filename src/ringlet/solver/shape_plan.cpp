@@ -14,56 +14,68 @@ namespace {
 // The model: a lane costs its particles, real or not, and for each doubling of lanes a join; [ns] of a step.
 struct CostModel {
   double particle;   // in one of several lanes
-  double fromEnds;   // in one of two, which solve from both ends
-  double alone;      // in a strand's only lane, which has nothing to do twice
+  double fromEnds;   // in one of two, which solve from the strand's ends
+  double alone;      // in a strand's only lane, which has nothing to do twice,
+  double rootToTip;  // and which solves from the strand's ends
   double join;       // of a lane, for each doubling of lanes
   double longRun;    // how much dearer a particle is for each one a run has above four
   double serial;     // a particle of the serial form
   double perKernel;  // a kernel more, on every step: see below
 };
 
-// Of the CPU device measured on lavapipe 22.3 (two cores, 1,024 strands, CPU time): runs of 4 to 16 in 1 to 8
-// lanes are within a tenth of it. It does everything for all lanes, and a long run is nothing to it. Of GPUs
-// not measured, but reasoned: a particle of a run is some 50 registers, so that long runs leave fewer strands
-// at a time to wait with; a join is a few shuffles; the serial form goes through memory.
+// Of the CPU device fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
+// particles): within a fifth of each. It does everything for all lanes, and a long run is nothing to it. Of
+// GPUs not measured, but reasoned: a particle of a run is some 50 registers, so that long runs leave fewer
+// strands at a time to wait with; a join is a few shuffles; the serial form goes through memory.
 //
 // A kernel more costs 0.4 s at every start to prepare (lavapipe; a second more the first time), and a
 // dispatch and a barrier in every frame. Over 30,000 steps, two and a half minutes of animation, that is 15
 // microseconds a step: 1.5 % of the step of a thousand strands of 100 particles, and more than the whole step
 // of ten. GPUs' drivers are quicker, and their dispatches too.
-constexpr CostModel kCpu{.particle = 8.5,
-                         .fromEnds = 6.5,
-                         .alone = 7.2,
-                         .join = 8,
+constexpr CostModel kCpu{.particle = 10.5,
+                         .fromEnds = 8.2,
+                         .alone = 8,
+                         .rootToTip = 7.3,
+                         .join = 4,
                          .longRun = 0,
-                         .serial = 46,
+                         .serial = 53,
                          .perKernel = 15'000};
 constexpr CostModel kGpu{.particle = 0.5,
                          .fromEnds = 0.35,
                          .alone = 0.5,
+                         .rootToTip = 0.35,
                          .join = 0.25,
                          .longRun = 0.125,
                          .serial = 5,
                          .perKernel = 10'000};
 
+// Longer runs are faster still on a CPU device, but a kernel of 64 particles a lane takes lavapipe 5 s to
+// make for the first time: only where they are asked for, or were measured.
+constexpr std::uint32_t kLongestUnaskedRun = 32;
+
 const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
 
-double modelCost(const StrandShape& shape, const CostModel& model, bool fromBothEnds) {
+double particleCost(std::uint32_t lanes, const CostModel& model, bool fromEnds) {
+  if (lanes == 1) return fromEnds ? model.rootToTip : model.alone;
+  return lanes == 2 && fromEnds ? model.fromEnds : model.particle;
+}
+
+double modelCost(const StrandShape& shape, const CostModel& model, bool fromEnds) {
   if (shape.serial()) return model.serial;
-  const double particle = (shape.lanes == 1                   ? model.alone
-                           : shape.lanes == 2 && fromBothEnds ? model.fromEnds
-                                                              : model.particle) *
+  const double particle = particleCost(shape.lanes, model, fromEnds) *
                           (1 + model.longRun * (shape.particlesPerLane - kShortestRun));
   return shape.lanes * (shape.particlesPerLane * particle + std::countr_zero(shape.lanes) * model.join);
 }
 
 // What may be chosen from: as asked for, by rising capacity; the serial form, where allowed, last.
-std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, bool fromBothEnds) {
-  std::vector<ShapeCost> costs =
-      shapeCosts(limits, fromBothEnds, fromBothEnds ? choice.measured : std::vector<ShapeCost>{});
+std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, bool fromEnds) {
+  const auto measured = fromEnds ? choice.measured : std::span<const ShapeCost>{};
+  std::vector<ShapeCost> costs = shapeCosts(limits, fromEnds, measured);
   const bool isStated = choice.lanes > 0 || choice.particlesPerLane > 0;
   std::erase_if(costs, [&](const ShapeCost& c) {
     if (c.shape.serial()) return choice.form == KernelChoice::Form::lanes;
+    const bool isMeasured = std::ranges::find(measured, c.shape, &ShapeCost::shape) != measured.end();
+    if (c.shape.particlesPerLane > kLongestUnaskedRun && !isStated && !isMeasured) return true;
     return choice.form == KernelChoice::Form::serial ||
            (choice.lanes > 0 && c.shape.lanes != static_cast<std::uint32_t>(choice.lanes)) ||
            (choice.particlesPerLane > 0 &&
@@ -122,9 +134,9 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
 }
 
 // What the device does not have at all, by name.
-Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool fromBothEnds) {
+Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool fromEnds) {
   const int run = choice.particlesPerLane;
-  const int longest = static_cast<int>(longestRun(limits, choice.lanes, fromBothEnds));
+  const int longest = static_cast<int>(longestRun(limits, choice.lanes, fromEnds));
   if (run != 0 && (run < static_cast<int>(kShortestRun) || run > longest))
     return Error{fmt::format("{} particles per lane was asked for; {} to {} are possible, 0 chooses", run,
                              kShortestRun, longest)};
@@ -140,11 +152,11 @@ Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool 
 }
 
 Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice,
-                 bool fromBothEnds) {
+                 bool fromEnds) {
   const std::uint32_t lanes =
       choice.lanes > 0 ? static_cast<std::uint32_t>(choice.lanes) : limits.subgroupSize;
   const int run = choice.particlesPerLane > 0 ? choice.particlesPerLane
-                                              : static_cast<int>(longestRun(limits, lanes, fromBothEnds));
+                                              : static_cast<int>(longestRun(limits, lanes, fromEnds));
   return Error{fmt::format(
       "the lanes form was asked for, but a strand of {} particles does not fit: {}. Leave the choice to "
       "ringlet "
@@ -161,24 +173,24 @@ std::string StrandShape::describe() const {
   return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
 }
 
-bool solvesFromBothEnds(const Settings& settings, const Material& material, bool hasBodies) {
+bool solvesFromEnds(const Settings& settings, const Material& material, bool hasBodies) {
   return settings.integrator == Integrator::jacobi && !settings.contacts.on && !settings.air.on &&
          !hasBodies && material.bendStiffnessProfile.points.empty();
 }
 
-// 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but two
-// lanes save enough.
-std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool fromBothEnds) {
+// 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but what
+// one or two lanes save is worth it.
+std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool fromEnds) {
   if (!limits.isCpu) return 16;
-  return fromBothEnds && (lanes == 0 || lanes == 2) ? 32 : 24;
+  return fromEnds && lanes <= 2 ? kLongestRun : 24;
 }
 
-std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromBothEnds,
+std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromEnds,
                                   std::span<const ShapeCost> measured) {
   const CostModel& model = modelOf(limits);
   std::vector<ShapeCost> costs;
   for (std::uint32_t lanes = 1; limits.hasSubgroupShuffle && lanes <= limits.subgroupSize; lanes *= 2) {
-    for (std::uint32_t run = kShortestRun; run <= longestRun(limits, lanes, fromBothEnds); ++run)
+    for (std::uint32_t run = kShortestRun; run <= longestRun(limits, lanes, fromEnds); ++run)
       costs.push_back({{lanes, run}, 0});
   }
   std::ranges::stable_sort(costs, {}, [](const ShapeCost& c) { return c.shape.capacity(); });
@@ -186,7 +198,7 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromBothEnds,
   double ratios = 0;
   int known = 0;
   for (ShapeCost& c : costs) {
-    c.nanoseconds = modelCost(c.shape, model, fromBothEnds);
+    c.nanoseconds = modelCost(c.shape, model, fromEnds);
     const auto found = std::ranges::find(measured, c.shape, &ShapeCost::shape);
     if (found != measured.end()) ratios += std::log(found->nanoseconds / c.nanoseconds), ++known;
   }
@@ -201,12 +213,12 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromBothEnds,
 
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice,
-                                            bool fromBothEnds) {
-  if (Status possible = checkChoice(limits, choice, fromBothEnds); !possible) return possible.error();
-  const std::vector<ShapeCost> costs = candidates(limits, choice, fromBothEnds);
+                                            bool fromEnds) {
+  if (Status possible = checkChoice(limits, choice, fromEnds); !possible) return possible.error();
+  const std::vector<ShapeCost> costs = candidates(limits, choice, fromEnds);
   const bool isHeld = !costs.empty() &&
                       (costs.back().shape.serial() || particleCounts.back() <= costs.back().shape.capacity());
-  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, fromBothEnds);
+  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, fromEnds);
   return cheapestRanges(particleCounts, costs, choice.manyKernels ? 0 : modelOf(limits).perKernel);
 }
 

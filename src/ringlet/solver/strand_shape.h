@@ -7,8 +7,8 @@
 
 namespace ringlet {
 
-/// Particles a lane holds: not fewer than can be pinned. The longest run is the device's (shape_plan.h).
-inline constexpr std::uint32_t kShortestRun = 4;
+/// Particles a lane holds: not fewer than can be pinned; of any device. A device's longest run: shape_plan.h.
+inline constexpr std::uint32_t kShortestRun = 4, kLongestRun = 64;
 
 /// What the plan must know of a device.
 struct DeviceLimits {
