@@ -1,6 +1,7 @@
 // Bodies in the lanes form: what they ask of this lane's particles, in the velocity solve and after the move. Included by
 // kernels/strand_step.comp. Mirrored by reference/kernels/body_step.h. First all particles are looked at, and those that
-// may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one.
+// may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one. Looks are a
+// loop too, over some at a time: written out for every particle they were half of the kernel's code.
 #include "bodies/near_bodies.glsl"
 #include "equations/body_contact.glsl"
 
@@ -25,6 +26,17 @@ vec3 pStart[RUN];  // where particles were before the move
 vec3 picked(vec3 values[RUN], vec3 next, int k) {
   vec3 value = next;
   [[unroll]] for (int j = 0; j < RUN; ++j) value = j == k ? values[j] : value;
+  return value;
+}
+// The same for looks, of the j-th in a part of the run.
+const int kPart = 3;
+const uint kLookParts = (RUN + kPart) / kPart;  // the next lane's first is looked at too
+vec3 pickedInPart(vec3 values[RUN], vec3 next, uint part, int j) {
+  vec3 value = next;
+  [[unroll]] for (int q = 0; q < kLookParts; ++q) {
+    int k = q * kPart + j;
+    if (k < RUN) value = q == part ? values[min(k, RUN - 1)] : value;
+  }
   return value;
 }
 // Along the strand at particle k; edgeBefore: direction of the edge that ends at this lane's first.
@@ -121,17 +133,23 @@ bool findPushes(uint step) {
     uint edgeBits = 0;
     float roomBefore = 0.0;  // what is left to the body when particle k - 1 has gone its way
     bool isBuried = lane == 0;
-    [[unroll]] for (int k = 0; k <= RUN; ++k) {
-      vec3 position = k < RUN ? p[min(k, RUN - 1)] : pNext;
-      vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : vNext;
-      float way = T * length(velocity - bodyVelocityAt(body, position, T));
-      float distance = bodyDistance(body.rest, placeAtStart(body, position)).distance;
-      float left = distance - 1.001 * way - 2.0 * kTouchDistance;
-      isBuried = isBuried && k < kMostBuried && distance < -kOutside;
-      if (k < RUN && isFree(min(k, RUN - 1)) && left <= 0.0 && !isBuried) particleBits |= 1u << k;
-      if (k > 0 && isEdge(max(k - 1, 0)) && left + roomBefore <= eLength[max(k - 1, 0)]) edgeBits |= 1u << (k - 1);
-      roomBefore = left;
-    }
+    vec3 placeBefore = vec3(0);
+    uint part = 0;
+    [[dont_unroll]] do {
+      [[unroll]] for (int j = 0; j < kPart; ++j) {
+        int k = int(part) * kPart + j;
+        vec3 position = pickedInPart(p, pNext, part, j);
+        vec3 velocity = pickedInPart(v, vNext, part, j);
+        float way = T * length(velocity - bodyVelocityAt(body, position, T));
+        float distance = bodyDistance(body.rest, placeAtStart(body, position)).distance;
+        float left = distance - 1.001 * way - 2.0 * kTouchDistance;
+        isBuried = isBuried && k < kMostBuried && distance < -kOutside;
+        if (k < RUN && isFree(k) && left <= 0.0 && !isBuried) particleBits |= 1u << k;
+        if (k > 0 && k <= RUN && isEdge(k - 1) && left + roomBefore <= length(position - placeBefore)) edgeBits |= 1u << (k - 1);
+        roomBefore = left;
+        placeBefore = position;
+      }
+    } while (++part < kLookParts);
     if (particleBits != 0) do {
       int k = findLSB(particleBits);
       particleBits &= particleBits - 1;
@@ -205,11 +223,16 @@ void keepParticlesOut(uint step, Room room) {
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     uint bits = 0;
-    [[unroll]] for (int k = 0; k < RUN; ++k) {
-      vec3 y1 = placeAtEnd(body, p[k]);
-      float way = length(y1 - placeAtStart(body, pStart[k]));
-      if (isFree(k) && bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance) bits |= 1u << k;
-    }
+    uint part = 0;
+    [[dont_unroll]] do {
+      [[unroll]] for (int j = 0; j < kPart; ++j) {
+        int k = int(part) * kPart + j;
+        vec3 y1 = placeAtEnd(body, pickedInPart(p, vec3(0), part, j));
+        float way = length(y1 - placeAtStart(body, pickedInPart(pStart, vec3(0), part, j)));
+        bool isNear = bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance;
+        if (k < RUN && isFree(k) && isNear) bits |= 1u << k;
+      }
+    } while (++part < kLookParts);
     if (bits != 0) do {
       int k = findLSB(bits);
       bits &= bits - 1;
@@ -246,13 +269,20 @@ void keepEdgesOut(uint step, Room room) {
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     uint bits = 0;
-    float before = 0.0;
-    [[unroll]] for (int k = 0; k <= RUN; ++k) {
-      vec3 here = k < RUN ? p[min(k, RUN - 1)] : pNext;
-      float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
-      if (k > 0 && isEdge(max(k - 1, 0)) && distance + before <= 1.001 * length(here - p[max(k - 1, 0)])) bits |= 1u << (k - 1);
-      before = distance;
-    }
+    float distanceBefore = 0.0;
+    vec3 placeBefore = vec3(0);
+    uint part = 0;
+    [[dont_unroll]] do {
+      [[unroll]] for (int j = 0; j < kPart; ++j) {
+        int k = int(part) * kPart + j;
+        vec3 here = pickedInPart(p, pNext, part, j);
+        float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
+        bool isNear = distance + distanceBefore <= 1.001 * length(here - placeBefore);
+        if (k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - 1);
+        distanceBefore = distance;
+        placeBefore = here;
+      }
+    } while (++part < kLookParts);
     if (bits != 0) do {
       int k = findLSB(bits);
       bits &= bits - 1;

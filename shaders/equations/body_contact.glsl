@@ -6,6 +6,8 @@
 
 #include "shared/body_buffers.glsl"
 
+const float kDone = 1e30;           // [m] gone: this way's loop is over. Found things are carried round it until then, since
+                                    // lavapipe computes on for lanes that are done, and keeps only what is carried
 const float kTouchDistance = 1e-5;  // [m]: nearer counts as touching; a tenth of a hair
 const float kOutside = 1e-4;        // [m]: no deeper counts as outside, and is put outside at once
 const int kTraceTurns = 16;         // looks along a way; grazing ones give up and count as touching
@@ -28,20 +30,27 @@ struct Touch {
   vec3 place;       // in the body's frame [m]
   vec3 from;        // what was there at the step's start [m]
   float along;      // edges: share of the way from particle k to k + 1
+  float before;     // particles: distance at the step's start [m]
 };
 
 Touch traceParticle(BodyRest body, vec3 y0, vec3 y1) {
   vec3 way = y1 - y0;
   float wayLength = length(way);
-  Touch touch = Touch(true, bodyDistance(body, y0), y0, y0, 0.0);
+  Touch touch = Touch(true, Surface(0.0, vec3(0)), y0, y0, 0.0, 0.0);
   float gone = 0.0;
   int turn = 0;
-  if (touch.surface.distance > kTouchDistance) do {
-    gone += touch.surface.distance;
-    touch.found = gone < wayLength;
-    touch.place = y0 + (gone / max(wayLength, 1e-20)) * way;
-    touch.surface = bodyDistance(body, touch.place);
-  } while (++turn < kTraceTurns && touch.found && touch.surface.distance > kTouchDistance);
+  do {
+    vec3 place = y0 + (gone / max(wayLength, 1e-20)) * way;
+    Surface surface = bodyDistance(body, place);
+    if (gone < kDone) {
+      touch.place = place;
+      touch.surface = surface;
+      if (turn == 0) touch.before = surface.distance;
+      touch.found = surface.distance <= kTouchDistance || turn == kTraceTurns || gone + surface.distance < wayLength;
+    }
+    gone = surface.distance > kTouchDistance && touch.found && turn < kTraceTurns ? gone + surface.distance : kDone;
+    ++turn;
+  } while (gone < kDone);
   return touch;
 }
 
@@ -88,17 +97,22 @@ EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
 Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
   float longest = max(length(a1 - a0), length(b1 - b0));
   float gone = 0.0;
-  bool passes = false;
-  EdgeSurface deepest = edgeDistance(body, a0, b0);
+  EdgeSurface deepest = EdgeSurface(false, 0.0, Surface(0.0, vec3(0)), a0, 0.0);
   int turn = 0;
-  if (deepest.nearest > kTouchDistance) do {
-    gone += deepest.nearest;
-    passes = gone >= longest;
+  bool passes = false;
+  do {
     float share = gone / max(longest, 1e-20);
-    deepest = edgeDistance(body, a0 + share * (a1 - a0), b0 + share * (b1 - b0));
-  } while (++turn < kTraceTurns && !passes && deepest.nearest > kTouchDistance);
+    EdgeSurface here = edgeDistance(body, a0 + share * (a1 - a0), b0 + share * (b1 - b0));
+    bool touches = here.nearest <= kTouchDistance || turn == kTraceTurns;
+    if (gone < kDone) {
+      deepest = here;
+      passes = !touches && gone + here.nearest >= longest;
+    }
+    gone = touches || passes ? kDone : gone + here.nearest;
+    ++turn;
+  } while (gone < kDone);
   return Touch(!passes && deepest.isWithin && deepest.surface.distance <= kTouchDistance, deepest.surface, deepest.place,
-               a0 + deepest.along * (b0 - a0), deepest.along);
+               a0 + deepest.along * (b0 - a0), deepest.along, 0.0);
 }
 
 /// How fast what touches must at least part from the body along n [m/s]; negative: how fast it may near it.
@@ -143,21 +157,23 @@ struct KeptOut {
   vec3 normal;
 };
 KeptOut keptOut(BodyRest body, vec3 y0, vec3 y1) {
-  bool isOutside = bodyDistance(body, y0).distance >= -kOutside;
   Touch touch = traceParticle(body, y0, y1);
   // Onto the plane where it touched, then out of what curves beyond it; else back to the place itself.
   float beyond = dot(touch.surface.normal, y1 - touch.place) + touch.surface.distance;
   vec3 normal = touch.surface.normal;
   vec3 y = y1 - min(beyond, 0.0) * normal;
-  [[unroll]] for (int turn = 0; turn < 3; ++turn) {
+  float depth = -1.0;
+  int turn = 0;
+  do {
     Surface surface = bodyDistance(body, y);
-    if (surface.distance < 0.0) {
-      y -= surface.distance * surface.normal;
+    if (depth < 0.0) depth = surface.distance;
+    if (depth < 0.0 && turn < 3) {
+      y -= depth * surface.normal;
       normal = surface.normal;
     }
-  }
-  if (bodyDistance(body, y).distance < -kOutside) y = touch.place;
-  return KeptOut(isOutside && touch.found && y != y1, y, normal);
+  } while (depth < 0.0 && ++turn <= 3);
+  if (depth < -kOutside) y = touch.place;
+  return KeptOut(touch.before >= -kOutside && touch.found && y != y1, y, normal);
 }
 
 #endif

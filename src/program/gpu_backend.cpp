@@ -52,7 +52,7 @@ class GpuBackend : public Backend {
 
 // Where what was measured is true, and there is a choice.
 bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
-  return solvesFromEnds(input.settings, input.material, !input.bodies.empty()) &&
+  return strandWork(input.settings, input.material, !input.bodies.empty()) == StrandWork::hairAlone &&
          kernel.form != KernelChoice::Form::serial && (kernel.lanes == 0 || kernel.particlesPerLane == 0);
 }
 

@@ -19,16 +19,16 @@ const DeviceLimits kDiscrete{32, true, false, 65535};
 const DeviceLimits kWithoutShuffle{32, false, false, 65535};
 
 std::vector<StrandRange> rangesOf(std::vector<std::uint32_t> counts, const DeviceLimits& limits,
-                                  const KernelChoice& choice = {}) {
+                                  const KernelChoice& choice = {}, StrandWork work = StrandWork::hairAlone) {
   std::ranges::sort(counts);
-  auto ranges = planRanges(counts, limits, choice);
+  auto ranges = planRanges(counts, limits, choice, work);
   EXPECT_TRUE(ranges) << ranges.error().message;
   return ranges ? *ranges : std::vector<StrandRange>{};
 }
 
-StrandShape shapeOf(std::uint32_t particleCount, const DeviceLimits& limits,
-                    const KernelChoice& choice = {}) {
-  return rangesOf({particleCount}, limits, choice).at(0).shape;
+StrandShape shapeOf(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice = {},
+                    StrandWork work = StrandWork::hairAlone) {
+  return rangesOf({particleCount}, limits, choice, work).at(0).shape;
 }
 
 // Of a step, by the model; without what kernels cost.
@@ -51,8 +51,9 @@ TEST(ShapePlan, ShapesHoldTheirStrand) {
   for (const DeviceLimits& limits : {kLavapipe, kDiscrete, kWithoutShuffle}) {
     for (std::uint32_t n = 2; n < 1200; ++n) {
       const StrandShape shape = shapeOf(n, limits);
-      EXPECT_EQ(shape.serial(), !limits.hasSubgroupShuffle ||
-                                    n > limits.subgroupSize * longestRun(limits, limits.subgroupSize, true));
+      EXPECT_EQ(shape.serial(),
+                !limits.hasSubgroupShuffle ||
+                    n > limits.subgroupSize * longestRun(limits, limits.subgroupSize, StrandWork::hairAlone));
       if (shape.serial()) continue;
       EXPECT_GE(shape.capacity(), n);
       EXPECT_LE(shape.lanes, limits.subgroupSize);
@@ -66,9 +67,9 @@ TEST(ShapePlan, RoundLengthsHaveRoundShapes) {
   EXPECT_EQ(shapeOf(16, kLavapipe), (StrandShape{1, 16}));
   EXPECT_EQ(shapeOf(32, kLavapipe), (StrandShape{1, 32}));
   EXPECT_EQ(shapeOf(64, kLavapipe), (StrandShape{2, 32}));
-  const auto amongBodies = planRanges(std::vector{64u}, kLavapipe, {}, false);
-  ASSERT_TRUE(amongBodies);
-  EXPECT_EQ(amongBodies->at(0).shape, (StrandShape{4, 16}));
+  EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::plain), (StrandShape{4, 16}));
+  EXPECT_EQ(shapeOf(16, kLavapipe, {}, StrandWork::bodies), (StrandShape{2, 8}));
+  EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::bodies), (StrandShape{8, 8}));
   EXPECT_EQ(shapeOf(128, kLavapipe), (StrandShape{8, 16}));
   EXPECT_EQ(shapeOf(32, kDiscrete), (StrandShape{8, 4}));
   EXPECT_EQ(shapeOf(64, kDiscrete), (StrandShape{16, 4}));
@@ -137,7 +138,7 @@ TEST(ShapePlan, MeasuredCostsDecide) {
   const ShapeCost measured[] = {{{2, 32}, 900}, {{8, 8}, 700}};
   const KernelChoice tuned{.measured = measured};
   EXPECT_EQ(shapeOf(64, kLavapipe, tuned), (StrandShape{8, 8}));
-  const auto costs = shapeCosts(kLavapipe, true, tuned.measured);
+  const auto costs = shapeCosts(kLavapipe, StrandWork::hairAlone, tuned.measured);
   EXPECT_EQ(std::ranges::find(costs, StrandShape{8, 8}, &ShapeCost::shape)->nanoseconds, 700);
   // What was not measured keeps its proportion to the rest: the mean of these two.
   const auto model = shapeCosts(kLavapipe);
@@ -156,9 +157,8 @@ TEST(ShapePlan, TheLongestRunsMustBeAskedForOrMeasured) {
   const ShapeCost measured[] = {{{2, 32}, 550}, {{1, 64}, 500}};
   EXPECT_EQ(shapeOf(64, kLavapipe, {.measured = measured}), (StrandShape{1, 64}));
   EXPECT_EQ(shapeOf(50, kLavapipe, {.measured = measured}), (StrandShape{2, 25})) << "1 x 50 was not";
-  const auto amongBodies = planRanges(std::vector{64u}, kLavapipe, {.measured = measured}, false);
-  ASSERT_TRUE(amongBodies);
-  EXPECT_EQ(amongBodies->at(0).shape, (StrandShape{4, 16})) << "measured without bodies";
+  EXPECT_EQ(shapeOf(64, kLavapipe, {.measured = measured}, StrandWork::plain), (StrandShape{4, 16}))
+      << "of hair alone";
 }
 
 TEST(ShapePlan, StatedLanesAndRunsAreKept) {

@@ -12,42 +12,40 @@ namespace ringlet {
 namespace {
 
 // The model: a lane costs its particles, real or not, and for each doubling of lanes a join; [ns] of a step.
+struct WorkModel {
+  double particle;  // in one of several lanes
+  double ofTwo;     // in one of two
+  double alone;     // in a strand's only lane, which has nothing to do twice
+  double join;      // of a lane, for each doubling of lanes
+  double longRun;   // how much dearer a particle is for each one a run has above four
+  double serial;    // a particle of the serial form
+};
 struct CostModel {
-  double particle;   // in one of several lanes
-  double fromEnds;   // in one of two, which solve from the strand's ends
-  double alone;      // in a strand's only lane, which has nothing to do twice,
-  double rootToTip;  // and which solves from the strand's ends
-  double join;       // of a lane, for each doubling of lanes
-  double longRun;    // how much dearer a particle is for each one a run has above four
-  double serial;     // a particle of the serial form
+  WorkModel hairAlone, plain, bodies;
   double perKernel;  // a kernel more, on every step: see below
 };
 
 // Of the CPU device fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
-// particles): within a fifth of each. It does everything for all lanes, and a long run is nothing to it. Of
-// GPUs not measured, but reasoned: a particle of a run is some 50 registers, so that long runs leave fewer
-// strands at a time to wait with; a join is a few shuffles; the serial form goes through memory.
+// particles), within a fifth of each; bodies to a head with a sphere in it. It does everything for all lanes,
+// and a long run is nothing to it; but among bodies, where every particle is picked from its run, runs of 8
+// are as fast as longer ones and half as long in the making. Of GPUs not measured, but reasoned: a particle
+// of a run is some 50 registers, so that long runs leave fewer strands at a time to wait with; a join is a
+// few shuffles; the serial form goes through memory.
 //
 // A kernel more costs 0.4 s at every start to prepare (lavapipe; a second more the first time), and a
 // dispatch and a barrier in every frame. Over 30,000 steps, two and a half minutes of animation, that is 15
 // microseconds a step: 1.5 % of the step of a thousand strands of 100 particles, and more than the whole step
 // of ten. GPUs' drivers are quicker, and their dispatches too.
-constexpr CostModel kCpu{.particle = 10.5,
-                         .fromEnds = 8.2,
-                         .alone = 8,
-                         .rootToTip = 7.3,
-                         .join = 4,
-                         .longRun = 0,
-                         .serial = 53,
-                         .perKernel = 15'000};
-constexpr CostModel kGpu{.particle = 0.5,
-                         .fromEnds = 0.35,
-                         .alone = 0.5,
-                         .rootToTip = 0.35,
-                         .join = 0.25,
-                         .longRun = 0.125,
-                         .serial = 5,
-                         .perKernel = 10'000};
+constexpr CostModel kCpu{
+    .hairAlone = {.particle = 10.5, .ofTwo = 8.2, .alone = 7.3, .join = 4, .longRun = 0, .serial = 53},
+    .plain = {.particle = 10.5, .ofTwo = 10.5, .alone = 8, .join = 4, .longRun = 0, .serial = 53},
+    .bodies = {.particle = 60, .ofTwo = 60, .alone = 60, .join = 20, .longRun = 0.02, .serial = 260},
+    .perKernel = 15'000};
+constexpr CostModel kGpu{
+    .hairAlone = {.particle = 0.5, .ofTwo = 0.35, .alone = 0.35, .join = 0.25, .longRun = 0.125, .serial = 5},
+    .plain = {.particle = 0.5, .ofTwo = 0.5, .alone = 0.5, .join = 0.25, .longRun = 0.125, .serial = 5},
+    .bodies = {.particle = 3, .ofTwo = 3, .alone = 3, .join = 0.5, .longRun = 0.125, .serial = 25},
+    .perKernel = 10'000};
 
 // Longer runs are faster still on a CPU device, but a kernel of 64 particles a lane takes lavapipe 5 s to
 // make for the first time: only where they are asked for, or were measured.
@@ -55,22 +53,22 @@ constexpr std::uint32_t kLongestUnaskedRun = 32;
 
 const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
 
-double particleCost(std::uint32_t lanes, const CostModel& model, bool fromEnds) {
-  if (lanes == 1) return fromEnds ? model.rootToTip : model.alone;
-  return lanes == 2 && fromEnds ? model.fromEnds : model.particle;
-}
-
-double modelCost(const StrandShape& shape, const CostModel& model, bool fromEnds) {
-  if (shape.serial()) return model.serial;
-  const double particle = particleCost(shape.lanes, model, fromEnds) *
-                          (1 + model.longRun * (shape.particlesPerLane - kShortestRun));
-  return shape.lanes * (shape.particlesPerLane * particle + std::countr_zero(shape.lanes) * model.join);
+double modelCost(const StrandShape& shape, const CostModel& model, StrandWork work) {
+  const WorkModel& of = work == StrandWork::hairAlone ? model.hairAlone
+                        : work == StrandWork::bodies  ? model.bodies
+                                                      : model.plain;
+  if (shape.serial()) return of.serial;
+  const double particle = (shape.lanes == 1   ? of.alone
+                           : shape.lanes == 2 ? of.ofTwo
+                                              : of.particle) *
+                          (1 + of.longRun * (shape.particlesPerLane - kShortestRun));
+  return shape.lanes * (shape.particlesPerLane * particle + std::countr_zero(shape.lanes) * of.join);
 }
 
 // What may be chosen from: as asked for, by rising capacity; the serial form, where allowed, last.
-std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, bool fromEnds) {
-  const auto measured = fromEnds ? choice.measured : std::span<const ShapeCost>{};
-  std::vector<ShapeCost> costs = shapeCosts(limits, fromEnds, measured);
+std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
+  const auto measured = work == StrandWork::hairAlone ? choice.measured : std::span<const ShapeCost>{};
+  std::vector<ShapeCost> costs = shapeCosts(limits, work, measured);
   const bool isStated = choice.lanes > 0 || choice.particlesPerLane > 0;
   std::erase_if(costs, [&](const ShapeCost& c) {
     if (c.shape.serial()) return choice.form == KernelChoice::Form::lanes;
@@ -134,9 +132,9 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
 }
 
 // What the device does not have at all, by name.
-Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool fromEnds) {
+Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
   const int run = choice.particlesPerLane;
-  const int longest = static_cast<int>(longestRun(limits, choice.lanes, fromEnds));
+  const int longest = static_cast<int>(longestRun(limits, choice.lanes, work));
   if (run != 0 && (run < static_cast<int>(kShortestRun) || run > longest))
     return Error{fmt::format("{} particles per lane was asked for; {} to {} are possible, 0 chooses", run,
                              kShortestRun, longest)};
@@ -152,11 +150,11 @@ Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, bool 
 }
 
 Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice,
-                 bool fromEnds) {
+                 StrandWork work) {
   const std::uint32_t lanes =
       choice.lanes > 0 ? static_cast<std::uint32_t>(choice.lanes) : limits.subgroupSize;
   const int run = choice.particlesPerLane > 0 ? choice.particlesPerLane
-                                              : static_cast<int>(longestRun(limits, lanes, fromEnds));
+                                              : static_cast<int>(longestRun(limits, lanes, work));
   return Error{fmt::format(
       "the lanes form was asked for, but a strand of {} particles does not fit: {}. Leave the choice to "
       "ringlet "
@@ -173,24 +171,26 @@ std::string StrandShape::describe() const {
   return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
 }
 
-bool solvesFromEnds(const Settings& settings, const Material& material, bool hasBodies) {
-  return settings.integrator == Integrator::jacobi && !settings.contacts.on && !settings.air.on &&
-         !hasBodies && material.bendStiffnessProfile.points.empty();
+StrandWork strandWork(const Settings& settings, const Material& material, bool hasBodies) {
+  if (hasBodies) return StrandWork::bodies;
+  const bool isAlone = settings.integrator == Integrator::jacobi && !settings.contacts.on &&
+                       !settings.air.on && material.bendStiffnessProfile.points.empty();
+  return isAlone ? StrandWork::hairAlone : StrandWork::plain;
 }
 
 // 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but what
 // one or two lanes save is worth it.
-std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool fromEnds) {
+std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work) {
   if (!limits.isCpu) return 16;
-  return fromEnds && lanes <= 2 ? kLongestRun : 24;
+  return work == StrandWork::hairAlone && lanes <= 2 ? kLongestRun : 24;
 }
 
-std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromEnds,
+std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, StrandWork work,
                                   std::span<const ShapeCost> measured) {
   const CostModel& model = modelOf(limits);
   std::vector<ShapeCost> costs;
   for (std::uint32_t lanes = 1; limits.hasSubgroupShuffle && lanes <= limits.subgroupSize; lanes *= 2) {
-    for (std::uint32_t run = kShortestRun; run <= longestRun(limits, lanes, fromEnds); ++run)
+    for (std::uint32_t run = kShortestRun; run <= longestRun(limits, lanes, work); ++run)
       costs.push_back({{lanes, run}, 0});
   }
   std::ranges::stable_sort(costs, {}, [](const ShapeCost& c) { return c.shape.capacity(); });
@@ -198,7 +198,7 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromEnds,
   double ratios = 0;
   int known = 0;
   for (ShapeCost& c : costs) {
-    c.nanoseconds = modelCost(c.shape, model, fromEnds);
+    c.nanoseconds = modelCost(c.shape, model, work);
     const auto found = std::ranges::find(measured, c.shape, &ShapeCost::shape);
     if (found != measured.end()) ratios += std::log(found->nanoseconds / c.nanoseconds), ++known;
   }
@@ -213,12 +213,12 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromEnds,
 
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice,
-                                            bool fromEnds) {
-  if (Status possible = checkChoice(limits, choice, fromEnds); !possible) return possible.error();
-  const std::vector<ShapeCost> costs = candidates(limits, choice, fromEnds);
+                                            StrandWork work) {
+  if (Status possible = checkChoice(limits, choice, work); !possible) return possible.error();
+  const std::vector<ShapeCost> costs = candidates(limits, choice, work);
   const bool isHeld = !costs.empty() &&
                       (costs.back().shape.serial() || particleCounts.back() <= costs.back().shape.capacity());
-  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, fromEnds);
+  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, work);
   return cheapestRanges(particleCounts, costs, choice.manyKernels ? 0 : modelOf(limits).perKernel);
 }
 

@@ -12,14 +12,18 @@
 
 namespace ringlet {
 
-/// Whether one or two lanes solve a strand from its ends (shaders/integrators/two_way.glsl): hair alone,
-/// stepped by `jacobi`, without contacts, bodies, air or bending that varies along it. What `ringlet tune`
-/// measures is such hair, and true of no other.
-bool solvesFromEnds(const Settings& settings, const Material& material, bool hasBodies);
+/// What a step asks of a strand, as far as shapes matter.
+enum class StrandWork {
+  hairAlone,  // `jacobi` without contacts, bodies, air or bending that varies along the strand: one or two
+              // lanes solve it from its ends (shaders/integrators/two_way.glsl). What `ringlet tune` measures
+  plain,      // all else but
+  bodies,     // which ask for particles one by one
+};
+StrandWork strandWork(const Settings& settings, const Material& material, bool hasBodies);
 
 /// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. One or two lanes
 /// that solve from the strand's ends take longer runs. lanes 0: the most of any number of lanes.
-std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, bool fromEnds);
+std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work);
 
 /// Strands [begin, end) in device order, all of one shape.
 struct StrandRange {
@@ -31,13 +35,13 @@ struct StrandRange {
 
 /// Every shape the device has, the serial one last, with the cost a model by kind of device gives it. Where
 /// `measured` has some, theirs in place of it, and the others' in proportion.
-std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, bool fromEnds = true,
+std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, StrandWork work = StrandWork::hairAlone,
                                   std::span<const ShapeCost> measured = {});
 
 /// Ranges of equal shape, the cheapest of all ways to cut. `particleCounts`: of the strands in device order,
 /// rising. Fails where the choice asks for lanes that the device or the strands do not allow.
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice,
-                                            bool fromEnds = true);
+                                            StrandWork work = StrandWork::hairAlone);
 
 }  // namespace ringlet

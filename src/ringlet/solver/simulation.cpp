@@ -68,7 +68,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const DeviceLimits limits = device.limits();
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
-  auto ranges = planRanges(counts, limits, choice, solvesFromEnds(settings, material, !bodies.empty()));
+  auto ranges = planRanges(counts, limits, choice, strandWork(settings, material, !bodies.empty()));
   if (!ranges) return ranges.error();
   const bool anySerial =
       std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
