@@ -22,6 +22,7 @@ nlohmann::ordered_json asJson(const std::vector<DeviceSummary>& devices) {
                                {"name", device.name},
                                {"type", device.type},
                                {"driver", device.driver},
+                               {"memory_bytes", device.memoryBytes},
                                {"usable", device.usable},
                                {"why", device.why}});
   }
@@ -34,8 +35,9 @@ std::string asText(const std::vector<DeviceSummary>& devices) {
   for (const DeviceSummary& device : devices) nameWidth = std::max(nameWidth, device.name.size());
   std::string text;
   for (const DeviceSummary& device : devices) {
-    text += fmt::format("{:>2}  {:<{}}  {:<10}  {}{}\n", device.index, device.name, nameWidth, device.type,
-                        device.driver, device.usable ? "" : "  (unusable: " + device.why + ")");
+    text += fmt::format("{:>2}  {:<{}}  {:<10}  {:>6.1f} GiB  {}{}\n", device.index, device.name, nameWidth,
+                        device.type, static_cast<double>(device.memoryBytes) / (1 << 30), device.driver,
+                        device.usable ? "" : "  (unusable: " + device.why + ")");
   }
   return text;
 }
@@ -60,7 +62,8 @@ int run(bool json) {
 
 void addDevicesCommand(CLI::App& app, int& exitCode) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("devices", "Lists the Vulkan devices");
+  CLI::App* command =
+      app.add_subcommand("devices", "Lists the Vulkan devices: number, name, kind, memory, driver");
   command->add_flag("--json", *json, "Print one JSON object");
   command->footer("Example:\n  ringlet devices\n  ringlet simulate groom.obj --device 0 -o out");
   command->callback([json, &exitCode] { exitCode = run(*json); });

@@ -94,6 +94,8 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["tuned"] = outcome.isTuned;
   json["device_bytes"] =
       outcome.deviceBytes ? nlohmann::ordered_json(*outcome.deviceBytes) : nlohmann::ordered_json();
+  json["cache_error_bound_m"] =
+      outcome.cacheErrorBound ? nlohmann::ordered_json(*outcome.cacheErrorBound) : nlohmann::ordered_json();
   json["compile_ms"] = outcome.compileMilliseconds;
   json["backend"] = names.backend;
   json["positions_hash"] = outcome.positionsHash;
@@ -136,8 +138,11 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
                 : "\n";
   }
   for (const auto& path : outcome.outputs) {
-    text += fmt::format("  {}  {}\n", path == outcome.outputs.front() ? "written     " : "            ",
+    text += fmt::format("  {}  {}", path == outcome.outputs.front() ? "written     " : "            ",
                         path.string());
+    if (path.extension() == ".rgc" && *outcome.cacheErrorBound > 0)
+      text += fmt::format(" (points off by at most {:.3g} mm)", 1000 * *outcome.cacheErrorBound);
+    text += '\n';
   }
   return text;
 }

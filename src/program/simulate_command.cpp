@@ -58,7 +58,9 @@ constexpr const char* kExample =
     "frame's end) inside_bodies (particles that began in one and are there still; both null without bodies) "
     "device driver kernel tuned (shapes as `ringlet tune` measured) device_bytes (of the simulation's "
     "buffers, at\n"
-    "the end; null for reference) compile_ms (making the kernels, once) backend positions_hash integrator\n"
+    "the end; null for reference) cache_error_bound_m (how far points of hair.rgc may be from their "
+    "particles;\n"
+    "null without) compile_ms (making the kernels, once) backend positions_hash integrator\n"
     "material steps_per_frame fps\n"
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =

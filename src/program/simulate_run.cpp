@@ -317,6 +317,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
     auto outputs = writers->finish(options.folder, groom);
     if (!outputs) return outputs.error();
     outcome.outputs = std::move(*outputs);
+    if (writers->cache) outcome.cacheErrorBound = writers->cache->errorBound();
   }
   outcome.wall = {secondsBetween(start, first), secondsBetween(first, last),
                   secondsBetween(last, Clock::now())};

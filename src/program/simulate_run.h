@@ -89,6 +89,7 @@ struct SimulateOutcome {
   bool interrupted = false;
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> outputs;
+  std::optional<double> cacheErrorBound;  // how far a point of the cache may be from its particle [m]
 };
 
 /// What moves.

@@ -1,6 +1,8 @@
 // What `ringlet` says: help, versions, and a sentence for every kind of wrong command line.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -96,7 +98,10 @@ TEST(Devices, ListsThemOrSaysThereAreNone) {
   const auto folder = scratchFolder("devices");
   const auto result = runProgram(folder, {"devices"});
   if (result.exitCode == 0) {
-    EXPECT_NE(result.out, "");
+    expectContains(result.out, " GiB ");
+    const auto json = nlohmann::json::parse(runProgram(folder, {"devices", "--json"}).out);
+    ASSERT_FALSE(json["devices"].empty());
+    for (const auto& device : json["devices"]) EXPECT_GT(device["memory_bytes"], 1 << 20) << device;
   } else {
     EXPECT_EQ(result.exitCode, 1);
     expectContains(result.err, "install a Vulkan driver");

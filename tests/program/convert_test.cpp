@@ -175,6 +175,13 @@ TEST_F(Convert, ACacheInPlaceOfUsd) {
   EXPECT_EQ(json::parse(result.out)["outputs"],
             (json{"small/hair.rgc", "small/last.obj", "small/sheet.png"}));
   EXPECT_FALSE(fs::exists(folder_ / "small/hair.usda"));
+  const double bound = json::parse(result.out)["cache_error_bound_m"];
+  EXPECT_GT(bound, 0);
+  EXPECT_EQ(json::parse(run({"convert", "small/hair.rgc", "--info", "--json"}).out)["error_bound_m"], bound);
+  EXPECT_TRUE(json::parse(run({"simulate", "groom.obj", "--backend", "reference", "--frames", "1", "--json",
+                               "-o", "none"})
+                              .out)["cache_error_bound_m"]
+                  .is_null());
 }
 
 TEST_F(Convert, MeasureReadsCachesToo) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -102,6 +103,18 @@ std::string findLack(const DeviceProperties& p) {
   return lack;
 }
 
+// Of the device's own heaps; a device without takes the host's.
+std::uint64_t memoryOf(VkPhysicalDevice handle) {
+  VkPhysicalDeviceMemoryProperties memory;
+  vkGetPhysicalDeviceMemoryProperties(handle, &memory);
+  std::uint64_t own = 0, all = 0;
+  for (const VkMemoryHeap& heap : std::span(memory.memoryHeaps, memory.memoryHeapCount)) {
+    all += heap.size;
+    if (heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) own += heap.size;
+  }
+  return own > 0 ? own : all;
+}
+
 Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
                   const DeviceOptions& options) {
   Candidate candidate;
@@ -114,6 +127,7 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.name = basic.deviceName;
   p.type = typeName(basic.deviceType);
   p.driver = "driver version " + versionText(basic.driverVersion);
+  p.memoryBytes = memoryOf(handle);
   p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
   p.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
   p.maxTexelRecords = basic.limits.maxTexelBufferElements;

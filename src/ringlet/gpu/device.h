@@ -39,6 +39,7 @@ struct DeviceProperties {
   std::uint64_t maxStorageBufferRange = 0;  // [bytes] largest buffer a kernel can see
   std::uint64_t maxUniformBufferRange = 0;  // [bytes]
   std::uint64_t maxTexelRecords = 0;        // 16-byte records a kernel can see as texels
+  std::uint64_t memoryBytes = 0;            // of its own heaps; of all where it has none
   std::uint64_t maxAllocationBytes = 0;     // [bytes] largest single piece of memory
   std::uint32_t maxStorageBuffers = 0;      // bound to one kernel
   std::uint32_t maxGroupCount = 0;          // workgroups of one dispatch, along x

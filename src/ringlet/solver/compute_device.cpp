@@ -18,7 +18,7 @@ std::vector<DeviceSummary> ComputeDevice::list() {
   std::vector<DeviceSummary> summaries;
   for (const gpu::DeviceListing& listing : gpu::Device::list()) {
     const gpu::DeviceProperties& p = listing.properties;
-    summaries.push_back({p.index, p.name, p.type, p.driver, listing.usable, listing.why});
+    summaries.push_back({p.index, p.name, p.type, p.driver, p.memoryBytes, listing.usable, listing.why});
   }
   return summaries;
 }

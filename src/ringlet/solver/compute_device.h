@@ -20,6 +20,7 @@ struct DeviceSummary {
   std::string name;     // as the driver states it
   std::string type;     // discrete, integrated, virtual, cpu, other
   std::string driver;   // name and version
+  std::uint64_t memoryBytes = 0;
   bool usable = false;  // has a compute queue and the limits the solver needs
   std::string why;      // if not usable: what is missing
 };
