@@ -10,6 +10,7 @@
 // * hand_ms, hand_alone_ms: the hand-vectorised loop, all cores and one thread. over_hand: device_ms over
 // hand_ms.
 // * over_reference_by_cpu, over_hand_by_cpu: by CPU time, for busy machines whose device is the CPU.
+// * lanes: 0 as chosen; 1 or 2 with runs as long as `ringlet tune` tries, which nobody gets unasked.
 // * over_uniform: mixed lengths only; time a particle over that of 64 particles a strand, as many particles
 // in all.
 #include <benchmark/benchmark.h>
@@ -56,7 +57,8 @@ void report(benchmark::State& state, const Contest& contest, double overUniform)
 void strandStep(benchmark::State& state) {
   const int particles = static_cast<int>(state.range(0)), strands = static_cast<int>(state.range(1));
   auto contest = Contest::create(*device, std::vector<int>(static_cast<std::size_t>(strands), particles),
-                                 static_cast<int>(state.range(2)));
+                                 static_cast<int>(state.range(2)), Baselines::all,
+                                 {.lanes = static_cast<int>(state.range(3))});
   if (!contest) return state.SkipWithError(contest.error().message.c_str());
   for (auto _ : state) {
     if (Status status = contest->round(); !status) return state.SkipWithError(status.error().message.c_str());
@@ -67,7 +69,8 @@ void strandStep(benchmark::State& state) {
 void mixedStep(benchmark::State& state) {
   const int steps = static_cast<int>(state.range(0));
   const std::vector<int> mixed = mixedCounts(2048);
-  auto contest = Contest::create(*device, mixed, steps),
+  auto contest = Contest::create(*device, mixed, steps, Baselines::all,
+                                 {.lanes = static_cast<int>(state.range(1))}),
        uniform = Contest::create(*device, uniformCounts(mixed, 64), steps, Baselines::none);
   if (!contest) return state.SkipWithError(contest.error().message.c_str());
   if (!uniform) return state.SkipWithError(uniform.error().message.c_str());
@@ -80,24 +83,30 @@ void mixedStep(benchmark::State& state) {
   report(state, *contest, particlesRatio * medianRatio(contest->samples().kernel, uniform->samples().kernel));
 }
 
+void registerStep(int particles, int strands, int lanes) {
+  for (const int steps : {4, 8}) {
+    benchmark::RegisterBenchmark("strand_step", strandStep)
+        ->ArgNames({"particles", "strands", "steps", "lanes"})
+        ->Args({particles, strands, steps, lanes})
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(roundsFor(particles * strands));
+  }
+}
+
 void registerAll() {
   for (const int particles : {16, 32, 64, 128, 256}) {
-    for (const int strands : {512, 2048, 8192, 32768}) {
-      for (const int steps : {4, 8}) {
-        benchmark::RegisterBenchmark("strand_step", strandStep)
-            ->ArgNames({"particles", "strands", "steps"})
-            ->Args({particles, strands, steps})
-            ->Unit(benchmark::kMillisecond)
-            ->Iterations(roundsFor(particles * strands));
-      }
-    }
+    for (const int strands : {512, 2048, 8192, 32768}) registerStep(particles, strands, 0);
   }
-  for (const int steps : {4, 8}) {
-    benchmark::RegisterBenchmark("mixed_16_to_128", mixedStep)
-        ->ArgNames({"steps"})
-        ->Args({steps})
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(21);
+  const bool hasLongRuns = device->limits().isCpu;
+  if (hasLongRuns) registerStep(64, 2048, 1), registerStep(128, 2048, 2);
+  for (const int lanes : hasLongRuns ? std::vector{0, 2} : std::vector{0}) {
+    for (const int steps : {4, 8}) {
+      benchmark::RegisterBenchmark("mixed_16_to_128", mixedStep)
+          ->ArgNames({"steps", "lanes"})
+          ->Args({steps, lanes})
+          ->Unit(benchmark::kMillisecond)
+          ->Iterations(21);
+    }
   }
 }
 

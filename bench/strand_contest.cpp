@@ -24,9 +24,10 @@ Settings settingsOf(int steps) {
   return settings;
 }
 
+// Of the first particles, of a strand's length.
 double distance(const std::vector<Vec3f>& found, const reference::Field<double>& expected) {
   double largest = 0;
-  for (std::size_t i = 0; i < found.size(); ++i)
+  for (std::size_t i = 0; i < expected.size(); ++i)
     largest = std::max(largest, (reference::toEigen<double>(found[i]) - expected[i]).norm());
   return largest / kCurlLength;
 }
@@ -39,40 +40,16 @@ Status checkDistance(const char* who, double distance) {
       who, distance, kAgreement)};
 }
 
-// The first strands of each kind, as the whole groom may be large.
-Status verify(const ComputeDevice& device, std::vector<int> particleCounts, const Settings& settings) {
-  particleCounts.resize(std::min(particleCounts.size(), kVerifiedStrands));
-  const Groom groom = curls(particleCounts);
-  const auto poses = shaken(settings);
-  reference::Simulation<double> expected(groom, {}, settings);
-  expected.stepFrame(poses);
-
-  auto simulation = Simulation::create(device, groom, {}, settings);
-  if (!simulation) return simulation.error();
-  if (Status status = simulation->stepFrame(poses); !status) return status;
-  const auto found = simulation->positions();
-  if (!found) return found.error();
-  if (Status status = checkDistance("the kernel", distance(*found, expected.positions())); !status)
-    return status;
-
-  if (!canSweep()) return {};
-  auto hand = HandVectorised::create(groom, {}, settings, 2);
-  if (!hand) return hand.error();
-  hand->stepFrame(poses);
-  return checkDistance("the hand-vectorised loop", distance(hand->positions(), expected.positions()));
-}
-
 }  // namespace
 
 Result<Contest> Contest::create(const ComputeDevice& device, const std::vector<int>& particleCounts,
-                                int steps, Baselines baselines) {
+                                int steps, Baselines baselines, const KernelChoice& choice) {
   Contest contest;
   contest.settings_ = settingsOf(steps);
-  if (Status status = verify(device, particleCounts, contest.settings_); !status) return status.error();
   contest.particles_ = std::accumulate(particleCounts.begin(), particleCounts.end(), 0.0);
   contest.team_ = std::make_unique<ThreadTeam>(coreCount());
   const Groom groom = curls(particleCounts);
-  auto simulation = Simulation::create(device, groom, {}, contest.settings_);
+  auto simulation = Simulation::create(device, groom, {}, contest.settings_, {}, {}, choice);
   if (!simulation) return simulation.error();
   contest.simulation_ = std::move(*simulation);
   if (baselines == Baselines::all) {
@@ -80,13 +57,28 @@ Result<Contest> Contest::create(const ComputeDevice& device, const std::vector<i
     contest.addReferences(particleCounts);
   }
 
-  // In motion; drivers compile at the first dispatch. Then the head stands, and all see the same poses.
+  // In motion, and held against the reference; then the head stands, and all see the same poses.
   contest.poses_ = shaken(contest.settings_);
-  if (Status status = contest.round(); !status) return status.error();
+  if (Status status = contest.verifyFrame(particleCounts); !status) return status.error();
   contest.poses_.assign(static_cast<std::size_t>(steps), contest.poses_.back());
   if (Status status = contest.round(); !status) return status.error();
   contest.samples_ = {};
   return contest;
+}
+
+// Strands do not feel each other, so that the first say what all do.
+Status Contest::verifyFrame(std::vector<int> particleCounts) {
+  particleCounts.resize(std::min(particleCounts.size(), kVerifiedStrands));
+  reference::Simulation<double> expected(curls(particleCounts), {}, settings_);
+  expected.stepFrame(poses_);
+  if (Status status = simulation_->stepFrame(poses_); !status) return status;
+  const auto found = simulation_->positions();
+  if (!found) return found.error();
+  if (Status status = checkDistance("the kernel", distance(*found, expected.positions())); !status)
+    return status;
+  if (!hand_) return {};
+  hand_->stepFrame(poses_);
+  return checkDistance("the hand-vectorised loop", distance(hand_->positions(), expected.positions()));
 }
 
 Status Contest::addHand(const Groom& groom) {

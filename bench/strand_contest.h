@@ -33,7 +33,8 @@ class Contest {
   /// 16,384 particles, and its time scaled. Fails where the kernel or the loop disagrees with the double
   /// reference by 1e-5 of a strand's length, the bound of tests/support/tolerances.h, after a shaken frame.
   static Result<Contest> create(const ComputeDevice& device, const std::vector<int>& particleCounts,
-                                int steps, Baselines baselines = Baselines::all);
+                                int steps, Baselines baselines = Baselines::all,
+                                const KernelChoice& choice = {});
 
   /// Everyone once.
   Status round();
@@ -48,6 +49,7 @@ class Contest {
  private:
   Contest() = default;
   Status addHand(const Groom& groom);
+  Status verifyFrame(std::vector<int> particleCounts);
   void addReferences(const std::vector<int>& particleCounts);
   Status stepKernel();
   void stepHand();
