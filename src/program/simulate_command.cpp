@@ -431,10 +431,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("L")
       ->group(machine);
   command
-      ->add_option(
-          "--run", typed->run,
-          "Particles a lane holds, 4 to 16, on a CPU device to 24, to 64 in one or two lanes (default: "
-          "chosen by device and length)")
+      ->add_option("--run", typed->run,
+                   "Particles a lane holds, 4 to 16, on a CPU device to 24, and to 64 in one, two or the "
+                   "most lanes (default: "
+                   "chosen by device and length)")
       ->check(wholeBetween(kShortestRun, kLongestRun))
       ->type_name("K")
       ->group(machine);

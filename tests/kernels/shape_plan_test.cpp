@@ -52,8 +52,7 @@ TEST(ShapePlan, ShapesHoldTheirStrand) {
     for (std::uint32_t n = 2; n < 1200; ++n) {
       const StrandShape shape = shapeOf(n, limits);
       EXPECT_EQ(shape.serial(),
-                !limits.hasSubgroupShuffle ||
-                    n > limits.subgroupSize * longestRun(limits, limits.subgroupSize, StrandWork::hairAlone));
+                !limits.hasSubgroupShuffle || n > limits.subgroupSize * (limits.isCpu ? 32 : 16));
       if (shape.serial()) continue;
       EXPECT_GE(shape.capacity(), n);
       EXPECT_LE(shape.lanes, limits.subgroupSize);
@@ -70,6 +69,8 @@ TEST(ShapePlan, RoundLengthsHaveRoundShapes) {
   EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::plain), (StrandShape{4, 16}));
   EXPECT_EQ(shapeOf(16, kLavapipe, {}, StrandWork::bodies), (StrandShape{2, 8}));
   EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::bodies), (StrandShape{8, 8}));
+  EXPECT_EQ(shapeOf(256, kLavapipe, {}, StrandWork::plain), (StrandShape{8, 32}));
+  EXPECT_TRUE(shapeOf(256, kLavapipe, {}, StrandWork::bodies).serial());
   EXPECT_EQ(shapeOf(128, kLavapipe), (StrandShape{8, 16}));
   EXPECT_EQ(shapeOf(32, kDiscrete), (StrandShape{8, 4}));
   EXPECT_EQ(shapeOf(64, kDiscrete), (StrandShape{16, 4}));
@@ -154,6 +155,7 @@ TEST(ShapePlan, MeasuredCostsDecide) {
 // They take long to make.
 TEST(ShapePlan, TheLongestRunsMustBeAskedForOrMeasured) {
   EXPECT_EQ(shapeOf(64, kLavapipe, {.lanes = 1}), (StrandShape{1, 64}));
+  EXPECT_EQ(shapeOf(300, kLavapipe, {KernelChoice::Form::lanes}), (StrandShape{8, 38}));
   const ShapeCost measured[] = {{{2, 32}, 550}, {{1, 64}, 500}};
   EXPECT_EQ(shapeOf(64, kLavapipe, {.measured = measured}), (StrandShape{1, 64}));
   EXPECT_EQ(shapeOf(50, kLavapipe, {.measured = measured}), (StrandShape{2, 25})) << "1 x 50 was not";
@@ -176,7 +178,7 @@ TEST(ShapePlan, RefusesWhatCannotBe) {
   const auto has = [](const std::string& text, const char* part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
   };
-  has(messageOf(300, {Form::lanes}), "300 particles does not fit: 8 lanes of 24 hold 192");
+  has(messageOf(600, {Form::lanes}), "600 particles does not fit: 8 lanes of 64 hold 512");
   has(messageOf(130, {.form = Form::lanes, .lanes = 2}), "2 lanes of 64 hold 128");
   has(messageOf(64, {Form::automatic, 3}), "3 particles per lane was asked for; 4 to 64");
   has(messageOf(64, {Form::automatic, 65}), "65 particles per lane");

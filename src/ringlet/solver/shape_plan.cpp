@@ -70,10 +70,11 @@ std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice
   const auto measured = work == StrandWork::hairAlone ? choice.measured : std::span<const ShapeCost>{};
   std::vector<ShapeCost> costs = shapeCosts(limits, work, measured);
   const bool isStated = choice.lanes > 0 || choice.particlesPerLane > 0;
+  const bool isAskedFor = isStated || choice.form == KernelChoice::Form::lanes;
   std::erase_if(costs, [&](const ShapeCost& c) {
     if (c.shape.serial()) return choice.form == KernelChoice::Form::lanes;
     const bool isMeasured = std::ranges::find(measured, c.shape, &ShapeCost::shape) != measured.end();
-    if (c.shape.particlesPerLane > kLongestUnaskedRun && !isStated && !isMeasured) return true;
+    if (c.shape.particlesPerLane > kLongestUnaskedRun && !isAskedFor && !isMeasured) return true;
     return choice.form == KernelChoice::Form::serial ||
            (choice.lanes > 0 && c.shape.lanes != static_cast<std::uint32_t>(choice.lanes)) ||
            (choice.particlesPerLane > 0 &&
@@ -179,10 +180,12 @@ StrandWork strandWork(const Settings& settings, const Material& material, bool h
 }
 
 // 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but what
-// one or two lanes save is worth it.
+// few lanes save is worth it, and beyond the most lanes there is only the serial form, 4 times slower.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work) {
   if (!limits.isCpu) return 16;
-  return work == StrandWork::hairAlone && lanes <= 2 ? kLongestRun : 24;
+  const bool isFew = work == StrandWork::hairAlone && lanes <= 2;
+  const bool isWidest = work != StrandWork::bodies && (lanes == 0 || lanes == limits.subgroupSize);
+  return isFew || isWidest ? kLongestRun : 24;
 }
 
 std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, StrandWork work,

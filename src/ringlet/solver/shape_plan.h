@@ -21,8 +21,9 @@ enum class StrandWork {
 };
 StrandWork strandWork(const Settings& settings, const Material& material, bool hasBodies);
 
-/// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. One or two lanes
-/// that solve from the strand's ends take longer runs. lanes 0: the most of any number of lanes.
+/// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. There the widest
+/// shape takes long runs, and one or two lanes that solve from the strand's ends. lanes 0: the most of any
+/// number of lanes.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work);
 
 /// Strands [begin, end) in device order, all of one shape.
