@@ -22,6 +22,8 @@ const Variant kVariants[] = {
     {"lanes of 4", {KernelChoice::Form::automatic, 4}},
     {"lanes of 8", {KernelChoice::Form::automatic, 8}},
     {"lanes of 16", {KernelChoice::Form::lanes, 16}},
+    {"1 lane of 17", {KernelChoice::Form::automatic, 17, 1}},
+    {"2 lanes of 17", {KernelChoice::Form::automatic, 17, 2}},
     {"serial", {KernelChoice::Form::serial}},
 };
 
@@ -194,9 +196,10 @@ TEST_F(StrandStep, AFrameAgreesWithDouble) {
   }
 }
 
-// Few long lanes pay only where they solve from the strand's ends; others would compile long kernels for nothing.
+// Few long lanes pay only where they solve from the strand's ends; others would compile long kernels for
+// nothing.
 TEST_F(StrandStep, OnlyWhatIsSolvedFromItsEndsHasLongRuns) {
-  const Groom groom = randomGroom({64}, 3);
+  const Groom groom = randomGroom(std::vector<int>(1000, 64), 3);
   const auto shapeOf = [&](Integrator integrator, const Material& material) {
     auto simulation = Simulation::create(device(), groom, material, settingsFor(integrator));
     EXPECT_TRUE(simulation) << simulation.error().message;

@@ -22,7 +22,7 @@ struct WorkModel {
 };
 struct CostModel {
   WorkModel hairAlone, plain, bodies;
-  double perKernel;  // a kernel more, on every step: see below
+  double perKernel, perRun;  // a kernel more, and each particle of its run, on every step: see below
 };
 
 // Of the CPU device fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
@@ -32,24 +32,28 @@ struct CostModel {
 // of a run is some 50 registers, so that long runs leave fewer strands at a time to wait with; a join is a
 // few shuffles; the serial form goes through memory.
 //
-// A kernel more costs 0.4 s at every start to prepare (lavapipe; a second more the first time), and a
-// dispatch and a barrier in every frame. Over 30,000 steps, two and a half minutes of animation, that is 15
-// microseconds a step: 1.5 % of the step of a thousand strands of 100 particles, and more than the whole step
-// of ten. GPUs' drivers are quicker, and their dispatches too.
+// A kernel is prepared at every start: on lavapipe 30 ms for each particle of its run and 50 ms besides,
+// three times that the first time. Over 10,000 steps, 50 s of animation, that is 3 and 5 microseconds a step:
+// a few hundred strands get a kernel that is there soon, more one that is fast; and of kernels for one length
+// each only as many as pay. GPUs' drivers are no quicker, but their steps are.
 constexpr CostModel kCpu{
     .hairAlone = {.particle = 10.5, .ofTwo = 8.2, .alone = 7.3, .join = 4, .longRun = 0, .serial = 53},
     .plain = {.particle = 10.5, .ofTwo = 10.5, .alone = 8, .join = 4, .longRun = 0, .serial = 53},
     .bodies = {.particle = 60, .ofTwo = 60, .alone = 60, .join = 20, .longRun = 0.02, .serial = 260},
-    .perKernel = 15'000};
+    .perKernel = 5'000,
+    .perRun = 3'000};
 constexpr CostModel kGpu{
     .hairAlone = {.particle = 0.5, .ofTwo = 0.35, .alone = 0.35, .join = 0.25, .longRun = 0.125, .serial = 5},
     .plain = {.particle = 0.5, .ofTwo = 0.5, .alone = 0.5, .join = 0.25, .longRun = 0.125, .serial = 5},
     .bodies = {.particle = 3, .ofTwo = 3, .alone = 3, .join = 0.5, .longRun = 0.125, .serial = 25},
-    .perKernel = 10'000};
+    .perKernel = 5'000,
+    .perRun = 3'000};
 
 // Longer runs are faster still on a CPU device, but a kernel of 64 particles a lane takes lavapipe 5 s to
 // make for the first time: only where they are asked for, or were measured.
 constexpr std::uint32_t kLongestUnaskedRun = 32;
+
+constexpr double kLastResort = 1e9;  // [ns] of a particle, in place of a cost
 
 const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
 
@@ -63,6 +67,11 @@ double modelCost(const StrandShape& shape, const CostModel& model, StrandWork wo
                                               : of.particle) *
                           (1 + of.longRun * (shape.particlesPerLane - kShortestRun));
   return shape.lanes * (shape.particlesPerLane * particle + std::countr_zero(shape.lanes) * of.join);
+}
+
+// Of a kernel, on every step. The serial form's is as long in the making as a run of 8.
+double preparingCost(const StrandShape& shape, const CostModel& model) {
+  return model.perKernel + model.perRun * (shape.serial() ? 8 : shape.particlesPerLane);
 }
 
 // What may be chosen from: as asked for, by rising capacity; the serial form, where allowed, last.
@@ -81,7 +90,7 @@ std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice
             c.shape.particlesPerLane != static_cast<std::uint32_t>(choice.particlesPerLane));
   });
   // Where lanes or runs are stated, serial is only what does not fit them.
-  if (isStated && !costs.empty() && costs.back().shape.serial()) costs.back().nanoseconds = 1e9;
+  if (isStated && !costs.empty() && costs.back().shape.serial()) costs.back().nanoseconds = kLastResort;
   return costs;
 }
 
@@ -93,8 +102,19 @@ struct Cut {
   std::ptrdiff_t before = -1;  // the candidate in use for shorter strands
 };
 
+// Of so many strands of so many particles in one shape, on every step. A subgroup is as slow with idle lanes.
+double rangeCost(const ShapeCost& cost, std::size_t strands, std::uint64_t particles,
+                 const DeviceLimits& limits) {
+  const std::size_t each = limits.subgroupSize / std::max(1u, cost.shape.lanes);
+  const auto filled = static_cast<double>((strands + each - 1) / each * each);
+  if (!cost.shape.serial()) return filled * cost.nanoseconds;
+  const double share = cost.nanoseconds == kLastResort ? 1 : filled / static_cast<double>(strands);
+  return share * static_cast<double>(particles) * cost.nanoseconds;
+}
+
 std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
-                                        std::span<const ShapeCost> costs, double perKernel) {
+                                        std::span<const ShapeCost> costs, const DeviceLimits& limits,
+                                        bool manyKernels) {
   std::vector<std::uint64_t> particlesBefore{0};
   for (std::uint32_t count : counts) particlesBefore.push_back(particlesBefore.back() + count);
   std::vector<Cut> best(costs.size());
@@ -107,10 +127,10 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
     for (std::ptrdiff_t i = -1; i < static_cast<std::ptrdiff_t>(j); ++i) {
       const Cut from = i < 0 ? Cut{.cost = 0} : best[static_cast<std::size_t>(i)];
       if (from.end >= best[j].end) continue;
-      const double units = shape.serial()
-                               ? static_cast<double>(particlesBefore.back() - particlesBefore[from.end])
-                               : static_cast<double>(best[j].end - from.end);
-      const double cost = from.cost + perKernel + units * costs[j].nanoseconds;
+      const double kernel = manyKernels ? 0 : preparingCost(shape, modelOf(limits));
+      const double cost = from.cost + kernel +
+                          rangeCost(costs[j], best[j].end - from.end,
+                                    particlesBefore[best[j].end] - particlesBefore[from.end], limits);
       if (cost < best[j].cost) best[j].cost = cost, best[j].before = i;
     }
   }
@@ -222,7 +242,7 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
   const bool isHeld = !costs.empty() &&
                       (costs.back().shape.serial() || particleCounts.back() <= costs.back().shape.capacity());
   if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, work);
-  return cheapestRanges(particleCounts, costs, choice.manyKernels ? 0 : modelOf(limits).perKernel);
+  return cheapestRanges(particleCounts, costs, limits, choice.manyKernels);
 }
 
 }  // namespace ringlet
