@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds release and runs every benchmark; each verifies before it times. Figures go to bench/results/<device>/*.csv, with how
 # they came about in their first lines. For figures worth keeping: on a quiet machine.
-#   scripts/bench.sh                      all of it, some 20 minutes on two cores
+#   scripts/bench.sh                      all of it, some 6 minutes on two cores
 #   scripts/bench.sh --quick --json FILE  what matters about the strand kernel, in less than a minute, as JSON
 set -euo pipefail
 cd "$(dirname "$0")/.."
