@@ -103,7 +103,7 @@ void main() {
       uint looked = 0;
       if (countBefore > 0) do {
         uint j = sought + looked < countBefore ? sought + looked : sought + looked - countBefore;
-        isKnown = lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j))).particle == particle;
+        isKnown = isKnown || lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j))).particle == particle;
         if (isKnown) sought = j + 1;
       } while (++looked < countBefore && !isKnown);
       if (isKnown) fresh &= ~(1u << k);
