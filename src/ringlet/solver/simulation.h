@@ -90,8 +90,8 @@ class CompileObserver {
 /// How the strand kernel is laid over the device; the defaults choose by device and strand length.
 struct KernelChoice {
   enum class Form { automatic, lanes, serial };
-  Form form = Form::automatic;            // lanes x run with the star join, or one thread per strand
-  int particlesPerLane = 0;               // 4 to 16, on a CPU device 24; 0: choose
+  Form form = Form::automatic;            // lanes x run, or one thread per strand
+  int particlesPerLane = 0;               // see longestRun in shape_plan.h; 0: choose
   int lanes = 0;                          // of a strand, a power of two; 0: choose
   std::span<const ShapeCost> measured{};  // on this device, needed until create returns; none: a model's
   bool manyKernels = false;               // the best shape for every strand, whatever kernels cost to make
