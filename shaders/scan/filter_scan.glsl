@@ -5,12 +5,11 @@
 #include "equations/smoothing.glsl"
 #include "scan/lanes.glsl"
 
-/// γ^RUN by squaring, from RUN's highest bit down (pow() would cost digits and time).
+/// γ^RUN by squaring, from RUN's highest bit down, which g begins as (pow() would cost digits and time).
 float gammaToRun(float beta) {
   float gamma = keptShare(beta);
   float g = gamma;
-  [[unroll]] for (int bit = 4; bit >= 0; --bit) {
-    if ((RUN >> (bit + 1)) == 0) continue;
+  [[unroll]] for (int bit = findMSB(RUN) - 1; bit >= 0; --bit) {
     g *= g;
     if (((RUN >> bit) & 1) != 0) g *= gamma;
   }
