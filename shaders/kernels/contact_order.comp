@@ -14,7 +14,7 @@ void main() {
   uint before = 0;
   uint other = start;
   do {  // itself is there
-    before += grid[gridEntry(other)] < c ? 1 : 0;
+    if (grid[gridEntry(other)] < c) ++before;
   } while (++other < end);
   if (other < end) control.isHalted = kHaltedByTurns;
   ContactRest rest = contactOf(c);

@@ -70,7 +70,7 @@ void main() {
       do {
         precise vec3 apart = x - placedPosition(entry + k).xyz;
         precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
-        near |= squared < farthest * farthest ? 1u << k : 0;
+        if (squared < farthest * farthest) near |= 1u << k;
         ++made;
       } while (++k < looked);
       wanted += looked + bitCount(near);
@@ -84,7 +84,7 @@ void main() {
         float ahead = parameters.seconds * length(v - other.xyz);
         float reach = 1.0001 * (min(mostR + ahead, parameters.seenAhead * mostR) + parameters.skin);
         bool mayMeet = dot(apart, apart) < reach * reach && floatBitsToUint(other.w) != rest.strand;
-        meeting |= mayMeet ? 1u << k : 0;
+        if (mayMeet) meeting |= 1u << k;
       } while (near != 0);
       wanted += bitCount(meeting);
       if (meeting != 0) do {

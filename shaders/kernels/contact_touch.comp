@@ -33,8 +33,8 @@ void main() {
     uint k = 0;
     do {
       uvec4 two = twoPairsAt(first + k);
-      bits |= touches(two.x, uintBitsToFloat(two.y)) ? 1u << k : 0;
-      bits |= touches(two.z, uintBitsToFloat(two.w)) ? 2u << k : 0;
+      if (touches(two.x, uintBitsToFloat(two.y))) bits |= 1u << k;
+      if (touches(two.z, uintBitsToFloat(two.w))) bits |= 2u << k;
       k += 2;
     } while (k < inBlock);
     if (inBlock < 32) bits &= (1u << inBlock) - 1;
