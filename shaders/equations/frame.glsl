@@ -36,14 +36,24 @@ vec3 someNormal(vec3 a) {
   return vec3(1.0 + s * a.x * a.x * t, s * a.x * a.y * t, -s * a.x);
 }
 
+/// Cosine and sine of half the angle of the vector x, which is in (-pi, pi]. Without atan(), which Vulkan owes 4096 ulp,
+/// and which some drivers get wrong at -0. The larger of the two comes from a sum, the smaller from a quotient.
+vec2 halfAngle(vec2 x) {
+  float size = length(x);
+  float larger = sqrt(0.5 + 0.5 * abs(x.x) / size);
+  float smaller = 0.5 * abs(x.y) / (size * larger);
+  vec2 result = x.x >= 0.0 ? vec2(larger, smaller) : vec2(smaller, larger);
+  return vec2(result.x, x.y < 0.0 ? -result.y : result.y);
+}
+
 /// The frame that takes unit vector a to b and the normal u of a to the normal v of b.
 vec4 frameBetween(vec3 a, vec3 u, vec3 b, vec3 v) {
   vec3 h = a + b;
   float size = length(h);
   vec4 turn = size > 1e-6 ? vec4(cross(a, h) / size, 0.5 * size) : vec4(u, 0);
   vec3 carried = rotate(turn, u);
-  float halfAngle = 0.5 * atan(dot(cross(carried, v), b), dot(carried, v));
-  return multiply(vec4(sin(halfAngle) * b, cos(halfAngle)), turn);
+  vec2 halfTwist = halfAngle(vec2(dot(carried, v), dot(cross(carried, v), b)));
+  return multiply(vec4(halfTwist.y * b, halfTwist.x), turn);
 }
 
 #endif

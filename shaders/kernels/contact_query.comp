@@ -38,12 +38,12 @@ bool mayTouch(uvec4 own, uint strand) {
 void main() {
   uint place = gl_GlobalInvocationID.x;
   if (place >= parameters.contactCount) return;
-  vec4 self = placedPosition(place);
-  uint c = floatBitsToUint(self.w);
+  uvec4 self = placedPosition(place);
+  uint c = self.w;
   ContactRest rest = contactOf(c);
   uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
-  precise vec3 x = self.xyz;
-  vec3 v = placedVelocity(place).xyz;
+  precise vec3 x = uintBitsToFloat(self.xyz);
+  vec3 v = uintBitsToFloat(placedVelocity(place).xyz);
   // No pair's reach is larger: by the radii, and by the fastest there is.
   float mostR = rest.point.w + parameters.largestRadius;
   precise float farthest = min(parameters.seenAhead * mostR + parameters.skin, control.cellSize);
@@ -68,7 +68,7 @@ void main() {
       uint near = 0;
       uint k = 0;
       do {
-        precise vec3 apart = x - placedPosition(entry + k).xyz;
+        precise vec3 apart = x - placedAt(entry + k);
         precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
         if (squared < farthest * farthest) near |= 1u << k;
         ++made;
@@ -79,11 +79,11 @@ void main() {
         uint k = findLSB(near);
         near &= near - 1;
         ++made;
-        vec3 apart = x - placedPosition(entry + k).xyz;
-        vec4 other = placedVelocity(entry + k);
-        float ahead = parameters.seconds * length(v - other.xyz);
+        vec3 apart = x - placedAt(entry + k);
+        uvec4 other = placedVelocity(entry + k);
+        float ahead = parameters.seconds * length(v - uintBitsToFloat(other.xyz));
         float reach = 1.0001 * (min(mostR + ahead, parameters.seenAhead * mostR) + parameters.skin);
-        bool mayMeet = dot(apart, apart) < reach * reach && floatBitsToUint(other.w) != rest.strand;
+        bool mayMeet = dot(apart, apart) < reach * reach && other.w != rest.strand;
         if (mayMeet) meeting |= 1u << k;
       } while (near != 0);
       wanted += bitCount(meeting);
@@ -91,14 +91,15 @@ void main() {
         uint k = findLSB(meeting);
         meeting &= meeting - 1;
         ++made;
-        vec4 found = placedPosition(entry + k);
-        vec3 otherVelocity = placedVelocity(entry + k).xyz;
-        ContactRest other = contactOf(floatBitsToUint(found.w));
+        uvec4 found = placedPosition(entry + k);
+        vec3 foundAt = uintBitsToFloat(found.xyz);
+        vec3 otherVelocity = uintBitsToFloat(placedVelocity(entry + k).xyz);
+        ContactRest other = contactOf(found.w);
         // Other cells may share a bucket, and a bucket may come by twice.
-        ivec3 away = cellOf(found.xyz) - middle;
+        ivec3 away = cellOf(foundAt) - middle;
         bool isCandidate = away.y == 0 && away.z == 0 && abs(away.x) <= 1 &&
                            !(rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0);
-        precise vec3 apart = x - found.xyz;
+        precise vec3 apart = x - foundAt;
         precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
         float r0 = contactRestLength(rest.point.w + other.point.w, distance(rest.point.xyz, other.point.xyz));
         float ahead = parameters.seconds * length(v - otherVelocity);

@@ -10,6 +10,9 @@ using uint = std::uint32_t;
 struct alignas(16) vec4 {
   float x = 0, y = 0, z = 0, w = 0;
 };
+struct alignas(16) uvec4 {
+  uint x = 0, y = 0, z = 0, w = 0;
+};
 #define RINGLET_CONSTANT inline constexpr
 #else
 #define RINGLET_CONSTANT const
@@ -282,10 +285,11 @@ struct ContactSystem {
   vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]; w: push z. The push is the sum of push n
 };
 
-// A place of the grid: a contact particle as it was when lists were made.
+// A place of the grid: a contact particle as it was when lists were made. Numbers of both kinds are integers here: a driver
+// may flush an integer to 0 that it moves as a float, and none a float that it moves as an integer.
 struct ContactPlace {
-  vec4 position;  // [m]; w: which contact particle, as bits
-  vec4 velocity;  // v^0 [m/s]; w: its strand, as bits
+  uvec4 position;  // xyz: [m], bits of floats; w: which contact particle
+  uvec4 velocity;  // xyz: v^0 [m/s], bits of floats; w: its strand
 };
 
 // What a contact particle was: when its list was made, and in the step before.
