@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/kernel_cache.h"
 #include "ringlet/gpu/pipeline_cache_file.h"
 
 namespace ringlet::gpu {
@@ -405,9 +406,12 @@ void Device::keepPipelineCache() const {
   (void)writePipelineCache(pipelineCacheFile_, bytes);
 }
 
+Device::Device() : kernels_(std::make_unique<KernelCache>()) {}
+
 Device::~Device() {
   if (!device_) return;
   keepPipelineCache();
+  kernels_.reset();
   table_.vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
   table_.vkDestroyDevice(device_, nullptr);
 }

@@ -10,6 +10,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/kernel_cache.h"
 
 namespace ringlet::gpu {
 namespace {
@@ -44,8 +45,19 @@ std::pair<VkResult, OwnedBufferView> viewOf(Device& device, const Buffer& buffer
 
 }  // namespace
 
-Result<Kernel> Kernel::create(Device& device, const KernelDescription& description) {
+Result<std::shared_ptr<const Kernel>> Kernel::create(Device& device, const KernelDescription& description) {
   RINGLET_ASSERT(!description.spirv.empty(), "a kernel without code");
+  const auto kernel =
+      device.kernels().findOrCompile(description, [&] { return compile(device, description); });
+  if (!kernel) return kernel;
+  return std::shared_ptr<const Kernel>(device.shared_from_this(), kernel->get());
+}
+
+bool Kernel::isCompiled(const Device& device, const KernelDescription& description) {
+  return device.kernels().has(description);
+}
+
+Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const KernelDescription& description) {
   RINGLET_ASSERT(description.pushConstantBytes % 4 == 0, "push constants come in units of 4 bytes");
   const DeviceProperties& limits = device.properties();
   const auto attempt = [&] {
@@ -71,7 +83,9 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
                    limits.maxPushConstantBytes);
   }
 
-  Kernel self;
+  const std::shared_ptr<Kernel> kernel(new Kernel);
+  Kernel& self = *kernel;
+  const std::shared_ptr<Device> keeper = keptByDevice(device);
   self.device_ = &device;
   self.name_ = description.name;
   self.bindings_ = description.bindings;
@@ -96,7 +110,7 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout),
                    attempt());
-  self.setLayout_ = OwnedSetLayout(device.shared_from_this(), setLayout);
+  self.setLayout_ = OwnedSetLayout(keeper, setLayout);
 
   VkPushConstantRange range{};
   range.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -109,7 +123,7 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   VkPipelineLayout layout = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout),
                    attempt());
-  self.layout_ = OwnedPipelineLayout(device.shared_from_this(), layout);
+  self.layout_ = OwnedPipelineLayout(keeper, layout);
 
   auto moduleInfo = zeroed<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
   moduleInfo.codeSize = description.spirv.size_bytes();
@@ -117,7 +131,7 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   VkShaderModule module = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
                    attempt());
-  const OwnedShaderModule ownedModule(device.shared_from_this(), module);
+  const OwnedShaderModule ownedModule(keeper, module);
 
   std::vector<VkSpecializationMapEntry> entries;
   for (std::size_t i = 0; i < description.constants.size(); ++i) {
@@ -153,9 +167,9 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   RINGLET_VK_CHECK(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
                                                         nullptr, &pipeline),
                    attempt());
-  self.pipeline_ = OwnedPipeline(device.shared_from_this(), pipeline);
+  self.pipeline_ = OwnedPipeline(keeper, pipeline);
   device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.name);
-  return self;
+  return std::shared_ptr<const Kernel>(kernel);
 }
 
 Result<Bindings> Bindings::create(const Kernel& kernel,

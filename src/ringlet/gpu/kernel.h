@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,9 +39,12 @@ struct KernelDescription {
 
 class Kernel {
  public:
-  static Result<Kernel> create(Device& device, const KernelDescription& description);
-  Kernel(Kernel&&) = default;
-  Kernel& operator=(Kernel&&) = default;
+  /// Compiles the kernel, once a device: whoever describes the same kernel again shares it, whatever its name
+  /// (kernel_cache.h). Holds the device open, as long as it is kept.
+  static Result<std::shared_ptr<const Kernel>> create(Device& device, const KernelDescription& description);
+  /// Whether create would have nothing to compile.
+  static bool isCompiled(const Device& device, const KernelDescription& description);
+  Kernel(const Kernel&) = delete;
 
   const std::string& name() const { return name_; }
   const std::vector<BindingKind>& bindings() const { return bindings_; }
@@ -57,8 +61,9 @@ class Kernel {
 
  private:
   Kernel() = default;
+  static Result<std::shared_ptr<const Kernel>> compile(Device& device, const KernelDescription& description);
 
-  Device* device_ = nullptr;  // held open by what follows
+  Device* device_ = nullptr;  // which keeps this
   OwnedSetLayout setLayout_;
   OwnedPipelineLayout layout_;
   OwnedPipeline pipeline_;

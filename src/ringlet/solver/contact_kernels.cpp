@@ -37,8 +37,7 @@ const Compiled kCompiled[kContactKernelCount] = {
 
 }  // namespace
 
-Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize,
-                                        bool texels) {
+gpu::KernelDescription describeContactKernel(ContactKernel which, std::uint32_t groupSize, bool texels) {
   const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
   gpu::KernelDescription description;
   description.name = compiled.name;
@@ -49,7 +48,7 @@ Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which
                               gpu::BindingKind::texels);
   description.constants = {{0, groupSize}, {7, texels ? 1u : 0u}};
   description.groupSize = groupSize;
-  return gpu::Kernel::create(device, description);
+  return description;
 }
 
 }  // namespace ringlet

@@ -88,7 +88,9 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
     self.largestList_ = std::min(self.largestList_, seen);
   }
   for (std::size_t k = 0; k < kContactKernelCount; ++k) {
-    auto kernel = createContactKernel(device, static_cast<ContactKernel>(k), kGroupSize, texels);
+    const auto description = describeContactKernel(static_cast<ContactKernel>(k), kGroupSize, texels);
+    if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
+    auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
   }
@@ -185,7 +187,7 @@ Status ContactStage::createLists() {
   const auto& [positions, velocities, solved] = std::tie(hair().positions, hair().velocities, hair().solved);
   const Lists& lists = *lists_;
   // clang-format off
-  auto bindings = gpu::Bindings::create(kernels_[0], {
+  auto bindings = gpu::Bindings::create(*kernels_[0], {
       positions, velocities, solved, contacts, neighbours, indices, grid, places, histories, guesses,
       lists.heads, lists.pairs, lists.liveHeads, lists.lives, lists.forces,
       hair().contactSystems, groom_->contactControl,
@@ -222,16 +224,16 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                             std::uint32_t groupCount) const {
-  recorder.dispatch(kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step), groupCount);
+  recorder.dispatch(*kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step), groupCount);
 }
 void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                                     std::uint64_t offset) const {
-  recorder.dispatchIndirect(kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step),
+  recorder.dispatchIndirect(*kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step),
                             groom_->contactControl, offset);
 }
 
 void ContactStage::recordNothing(gpu::Recorder& recorder) const {
-  for (const gpu::Kernel& kernel : kernels_) recorder.dispatchNothing(kernel, *bindings_);
+  for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], *bindings_);
 }
 
 void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) const {

@@ -7,7 +7,9 @@
 //                      ->  gather: pair means of v^1                          -> solve -> v^2 ... -> move
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,7 +33,9 @@ class ContactStage {
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const RestContacts& contacts, DeviceGroom& groom);
 
-  /// Every kernel, without work: so that it is compiled before it is needed.
+  /// Kernels that this stage was the first on its device to ask for.
+  std::size_t newKernelCount() const { return newKernels_.size(); }
+  /// Those, without work: so that they are compiled before they are needed.
   void recordNothing(gpu::Recorder& recorder) const;
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
@@ -89,7 +93,8 @@ class ContactStage {
   const DeviceChunk& hair() const { return groom_->chunks[0]; }
 
   gpu::Device* device_ = nullptr;
-  std::vector<gpu::Kernel> kernels_;       // by ContactKernel
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by ContactKernel
+  std::vector<std::size_t> newKernels_;
   std::optional<gpu::Bindings> bindings_;  // all kernels have the same list
   DeviceGroom* groom_ = nullptr;
   std::optional<Buffers> buffers_;

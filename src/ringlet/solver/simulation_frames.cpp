@@ -46,7 +46,7 @@ void Simulation::Implementation::dispatchAll(gpu::Recorder& recorder,
     // Only dispatches on the same strands depend on each other; but the validation layer sees whole buffers,
     // and takes those on other strands for hazards.
     if (d > 0) recorder.barrier();
-    recorder.dispatch(kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now), now.groupCount);
+    recorder.dispatch(*kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now), now.groupCount);
   }
   recorder.endStage();
 }

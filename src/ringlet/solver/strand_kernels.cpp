@@ -55,8 +55,7 @@ std::string strandKernelHash() {
   return fmt::format("{:016x}", hash);
 }
 
-Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
-                                       const StrandKernelOptions& options) {
+gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const StrandKernelOptions& options) {
   using enum gpu::BindingKind;
   gpu::KernelDescription description;
   description.name = "strand_step " + shape.describe();
@@ -82,21 +81,24 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
     description.constants.push_back({12, shape.particlesPerLane});
     description.wantsFullSubgroups = true;
   }
-  return gpu::Kernel::create(device, description);
+  return description;
 }
 
-Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandShape> shapes,
-                                                     const StrandKernelOptions& options) {
-  std::vector<std::future<Result<gpu::Kernel>>> others;
+Result<std::vector<std::shared_ptr<const gpu::Kernel>>> createStrandKernels(
+    gpu::Device& device, std::span<const StrandShape> shapes, const StrandKernelOptions& options) {
+  const auto create = [&](const StrandShape& shape) {
+    return gpu::Kernel::create(device, describeStrandKernel(shape, options));
+  };
+  std::vector<std::future<Result<std::shared_ptr<const gpu::Kernel>>>> others;
   for (const StrandShape& shape : shapes.subspan(1)) {
-    others.push_back(std::async(std::launch::async, [&device, &shape, &options] {
-      return createStrandKernel(device, shape, options);
-    }));
+    const bool isCompiled = gpu::Kernel::isCompiled(device, describeStrandKernel(shape, options));
+    const auto policy = isCompiled ? std::launch::deferred : std::launch::async;
+    others.push_back(std::async(policy, [&create, &shape] { return create(shape); }));
   }
-  std::vector<Result<gpu::Kernel>> made;
-  made.push_back(createStrandKernel(device, shapes.front(), options));
+  std::vector<Result<std::shared_ptr<const gpu::Kernel>>> made;
+  made.push_back(create(shapes.front()));
   for (auto& other : others) made.push_back(other.get());
-  std::vector<gpu::Kernel> kernels;
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels;
   for (auto& kernel : made) {
     if (!kernel) return kernel.error();
     kernels.push_back(std::move(*kernel));
