@@ -14,10 +14,8 @@ namespace {
 using gpu::Kernel;
 
 gpu::KernelDescription describeKernel(std::uint32_t offset) {
-  using enum gpu::BindingKind;
   return {.name = "scale_values",
           .spirv = k_scale_values_test,
-          .bindings = {storage, storage, uniform},
           .pushConstantBytes = 8,
           .constants = {{0, 64}, {1, offset}},
           .groupSize = 64};

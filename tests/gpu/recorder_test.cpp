@@ -18,7 +18,6 @@
 namespace ringlet::test {
 namespace {
 
-using gpu::BindingKind;
 using gpu::Bindings;
 using gpu::Buffer;
 using gpu::BufferKind;
@@ -35,7 +34,6 @@ constexpr std::uint32_t kGroupSize = 64;
 gpu::KernelDescription describeKernel(std::uint32_t offset, bool wantsFullSubgroups = false) {
   return {.name = "scale_values",
           .spirv = k_scale_values_test,
-          .bindings = {BindingKind::storage, BindingKind::storage, BindingKind::uniform},
           .pushConstantBytes = sizeof(Push),
           .constants = {{0, kGroupSize}, {1, offset}},
           .groupSize = kGroupSize,
@@ -63,9 +61,9 @@ struct Bench {
     if (!odd) return odd.error();
     auto shift = Buffer::create(device, 16, BufferKind::stream, "shift");
     if (!shift) return shift.error();
-    auto there = Bindings::create(**kernel, {*even, *odd, *shift});
+    auto there = Bindings::create(**kernel, {{0, *even}, {1, *odd}, {2, *shift}});
     if (!there) return there.error();
-    auto back = Bindings::create(**kernel, {*odd, *even, *shift});
+    auto back = Bindings::create(**kernel, {{0, *odd}, {1, *even}, {2, *shift}});
     if (!back) return back.error();
     auto recorder = Recorder::create(device, "bench");
     if (!recorder) return recorder.error();
@@ -305,7 +303,7 @@ TEST_F(Recorders, KernelsBeyondTheDeviceAreRefusedWithNumbers) {
   auto shift = Buffer::create(gpu(), p.maxUniformBufferRange + 1, BufferKind::stream, "wide");
   ASSERT_TRUE(values);
   if (!shift) return;  // a device whose uniforms may be as large as its buffers
-  auto bindings = Bindings::create(**kernel, {*values, *values, *shift});
+  auto bindings = Bindings::create(**kernel, {{0, *values}, {1, *values}, {2, *shift}});
   ASSERT_FALSE(bindings);
   expectParts(bindings.error().message, {"'wide'", std::to_string(p.maxUniformBufferRange)});
 }
@@ -326,7 +324,8 @@ TEST_F(Recorders, MisuseIsTheCallersFault) {
                  "more workgroups");
   }
   EXPECT_DEATH(recorder.endStage(), "endStage without beginStage");
-  EXPECT_DEATH((void)Bindings::create(*bench->kernel, {bench->shift}), "one buffer a binding");
+  EXPECT_DEATH((void)Bindings::create(*bench->kernel, {{2, bench->shift}}),
+               "a buffer for each of its bindings");
 }
 
 std::string joined(const std::vector<std::string>& messages) {
@@ -345,7 +344,8 @@ TEST_F(Recorders, ValidationSeesAMissingBarrier) {
       auto bench = Bench::create(**device, 100, describeKernel(0));
       auto other = Buffer::create(**device, 400, BufferKind::storage, "other");
       ASSERT_TRUE(bench && other);
-      auto intoSource = Bindings::create(*bench->kernel, {*other, bench->values[0], bench->shift});
+      auto intoSource =
+          Bindings::create(*bench->kernel, {{0, *other}, {1, bench->values[0]}, {2, bench->shift}});
       ASSERT_TRUE(intoSource) << intoSource.error().message;
       RINGLET_EXPECT_OK(other->fillZero());
       RINGLET_EXPECT_OK(bench->recorder.begin());

@@ -134,6 +134,8 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.maxTexelRecords = basic.limits.maxTexelBufferElements;
   p.maxUniformBufferRange = basic.limits.maxUniformBufferRange;
   p.maxStorageBuffers = basic.limits.maxPerStageDescriptorStorageBuffers;
+  if (options.mostStorageBuffers > 0)
+    p.maxStorageBuffers = std::min(p.maxStorageBuffers, options.mostStorageBuffers);
   p.maxGroupCount = basic.limits.maxComputeWorkGroupCount[0];
   p.maxGroupInvocations =
       std::min(basic.limits.maxComputeWorkGroupInvocations, basic.limits.maxComputeWorkGroupSize[0]);

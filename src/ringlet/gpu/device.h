@@ -24,7 +24,7 @@ class KernelCache;
 // What the solver needs, checked when a device is opened. Vulkan promises 4 storage buffers a stage; nearly
 // every driver has 8 and more.
 inline constexpr std::uint32_t kNeededApiVersion = VK_API_VERSION_1_1;
-inline constexpr std::uint32_t kNeededStorageBuffers = 17;    // bound to one kernel
+inline constexpr std::uint32_t kNeededStorageBuffers = 7;     // bound to one kernel, by hair alone
 inline constexpr std::uint32_t kNeededGroupInvocations = 64;  // invocations of a workgroup
 inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
 
@@ -62,9 +62,10 @@ struct DeviceListing {
 
 /// Turns off what a device has, so that tests reach the paths for devices without it.
 struct DeviceOptions {
-  bool alwaysStage = false;           // never map storage buffers, copy through a staging buffer
-  bool withoutTimestamps = false;     // time by the host's clock
-  bool withoutFullSubgroups = false;  // leave subgroup sizes to the driver
+  bool alwaysStage = false;              // never map storage buffers, copy through a staging buffer
+  bool withoutTimestamps = false;        // time by the host's clock
+  bool withoutFullSubgroups = false;     // leave subgroup sizes to the driver
+  std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has
 };
 
 class Device : public std::enable_shared_from_this<Device> {

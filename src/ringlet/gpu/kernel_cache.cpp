@@ -16,14 +16,12 @@ std::uint64_t hashOf(std::span<const std::uint32_t> words) {
   return hash;
 }
 
-// Everything of a description that decides what is compiled: all but the name.
+// Everything of a description that decides what is compiled.
 std::vector<std::uint64_t> keyOf(const KernelDescription& d) {
   std::vector<std::uint64_t> key{hashOf(d.spirv), d.spirv.size(), d.pushConstantBytes, d.groupSize,
                                  d.wantsFullSubgroups};
   for (const SpecializationConstant& constant : d.constants)
     key.push_back(std::uint64_t{constant.id} << 32 | constant.value);
-  key.push_back(~std::uint64_t{0});  // ends the constants
-  for (const BindingKind kind : d.bindings) key.push_back(static_cast<std::uint64_t>(kind));
   return key;
 }
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <utility>
 
 #include "ringlet/rest/material.h"
 #include "ringlet/solver/contact_kernels.h"
@@ -182,21 +182,49 @@ Status ContactStage::createLists() {
   lists_.emplace(Lists{std::move(made[0]), std::move(made[1]), std::move(made[2]), std::move(made[3]),
                        std::move(made[4])});
 
-  // In the order of layout.h: storage, then texels.
-  const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
-  const auto& [positions, velocities, solved] = std::tie(hair().positions, hair().velocities, hair().solved);
-  const Lists& lists = *lists_;
-  // clang-format off
-  auto bindings = gpu::Bindings::create(*kernels_[0], {
-      positions, velocities, solved, contacts, neighbours, indices, grid, places, histories, guesses,
-      lists.heads, lists.pairs, lists.liveHeads, lists.lives, lists.forces,
-      hair().contactSystems, groom_->contactControl,
-      positions, velocities, solved, contacts, neighbours, indices, places, histories, guesses,
-      lists.pairs, lists.lives, lists.forces});
-  // clang-format on
-  if (!bindings) return bindings.error();
-  bindings_ = std::move(*bindings);
+  bindings_.clear();
+  for (const auto& kernel : kernels_) {
+    auto bindings = gpu::Bindings::create(*kernel, bufferTable());
+    if (!bindings) return bindings.error();
+    bindings_.push_back(std::move(*bindings));
+  }
   return {};
+}
+
+// What contact kernels see: as storage, and as texels.
+gpu::BufferTable ContactStage::bufferTable() const {
+  using namespace layout;
+  const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
+  const Lists& lists = *lists_;
+  return {{kBindContactPositions, hair().positions},
+          {kBindContactVelocities, hair().velocities},
+          {kBindContactSolved, hair().solved},
+          {kBindContacts, contacts},
+          {kBindNeighbours, neighbours},
+          {kBindIndices, indices},
+          {kBindGrid, grid},
+          {kBindPlaces, places},
+          {kBindHistories, histories},
+          {kBindGuesses, guesses},
+          {kBindLists, lists.heads},
+          {kBindPairs, lists.pairs},
+          {kBindLiveLists, lists.liveHeads},
+          {kBindLives, lists.lives},
+          {kBindForces, lists.forces},
+          {kBindSystems, hair().contactSystems},
+          {kBindControl, groom_->contactControl},
+          {kBindContactPositionTexels, hair().positions},
+          {kBindContactVelocityTexels, hair().velocities},
+          {kBindContactSolvedTexels, hair().solved},
+          {kBindContactTexels, contacts},
+          {kBindNeighbourTexels, neighbours},
+          {kBindIndexTexels, indices},
+          {kBindPlaceTexels, places},
+          {kBindHistoryTexels, histories},
+          {kBindGuessTexels, guesses},
+          {kBindPairTexels, lists.pairs},
+          {kBindLifeTexels, lists.lives},
+          {kBindForceTexels, lists.forces}};
 }
 
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
@@ -224,16 +252,17 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                             std::uint32_t groupCount) const {
-  recorder.dispatch(*kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step), groupCount);
+  const auto at = static_cast<std::size_t>(kernel);
+  recorder.dispatch(*kernels_[at], bindings_[at], parameters(step), groupCount);
 }
 void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                                     std::uint64_t offset) const {
-  recorder.dispatchIndirect(*kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step),
-                            groom_->contactControl, offset);
+  const auto at = static_cast<std::size_t>(kernel);
+  recorder.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), groom_->contactControl, offset);
 }
 
 void ContactStage::recordNothing(gpu::Recorder& recorder) const {
-  for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], *bindings_);
+  for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
 void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) const {

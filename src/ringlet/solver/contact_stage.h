@@ -83,6 +83,7 @@ class ContactStage {
 
   ContactStage() = default;
   Status createLists();
+  gpu::BufferTable bufferTable() const;
   layout::ContactParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                 std::uint32_t groupCount) const;
@@ -95,7 +96,7 @@ class ContactStage {
   gpu::Device* device_ = nullptr;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by ContactKernel
   std::vector<std::size_t> newKernels_;
-  std::optional<gpu::Bindings> bindings_;  // all kernels have the same list
+  std::vector<gpu::Bindings> bindings_;  // likewise
   DeviceGroom* groom_ = nullptr;
   std::optional<Buffers> buffers_;
   std::optional<Lists> lists_;

@@ -141,10 +141,10 @@ Status Simulation::Implementation::makeKernels(bool hasBodies) {
   kernels = std::move(*made);
   for (const StrandRange& range : ranges) {
     kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
-    auto buffersInOrder = buffers.inBindingOrder(range.chunk);
-    std::ranges::copy(world.inBindingOrder(), std::back_inserter(buffersInOrder));
-    std::ranges::copy(roots.inBindingOrder(range.chunk), std::back_inserter(buffersInOrder));
-    auto bound = gpu::Bindings::create(*kernels[kernelOf.back()], buffersInOrder);
+    gpu::BufferTable table = buffers.bufferTable(range.chunk);
+    table.merge(world.bufferTable());
+    table.merge(roots.bufferTable(range.chunk));
+    auto bound = gpu::Bindings::create(*kernels[kernelOf.back()], table);
     if (!bound) return bound.error();
     bindings.push_back(std::move(*bound));
   }
