@@ -9,8 +9,12 @@ Result<ComputeDevice> ComputeDevice::open(const std::string& choice,
                                           const std::filesystem::path& cacheFolder) {
   auto opened = gpu::Device::open(choice, {}, cacheFolder);
   if (!opened) return opened.error();
+  return over(std::move(*opened));
+}
+
+ComputeDevice ComputeDevice::over(std::shared_ptr<gpu::Device> device) {
   ComputeDevice self;
-  self.device_ = std::move(*opened);
+  self.device_ = std::move(device);
   return self;
 }
 
