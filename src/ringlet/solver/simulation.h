@@ -186,6 +186,9 @@ class Simulation {
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
   /// What it took to make the kernels, most of it the driver's compiler [ms]. Part of create.
   double compileMilliseconds() const;
+  /// What the last frame submitted (or, before it, the first) was recorded as, for tests
+  /// (Recorder::recorded).
+  std::vector<std::string> recordedFrame() const;
   /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".
   std::string kernelDescription() const;
 
