@@ -89,5 +89,40 @@ TEST_F(Repeat, StateCanBePutBack) {
   expectSameBits(first, *simulation->state(), "the same state stepped again");
 }
 
+// The first step outgrows the lists, which begin short, and is done again in longer ones; once the state is
+// put back there is room at once. Both are a first step, which has nothing to remember.
+TEST_F(Repeat, StateWithContactsCanBePutBackAndRoomMadeInBetween) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < 100; ++s) {
+    const Vec3f root(Vec3d{0.01 * (s % 10), 0, 0.01 * (s / 10)});
+    groom.addStrand(std::vector<Vec3f>{root, root + Vec3f{0, -0.005f, 0}, root + Vec3f{0, -0.01f, 0}});
+  }
+  Settings settings;
+  settings.stepsPerFrame = 1;
+  settings.contacts.on = true;
+  settings.contacts.radius = 0.002;
+  settings.contacts.prunePairs = false;
+  auto simulation = Simulation::create(device(), groom, {}, settings);
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  HairState start = randomState(groom, settings, 3);
+  for (std::size_t i = 0; i < start.positions.size(); ++i) {
+    if (i % 3 != 0) start.positions[i] = start.positions[i] * 0.1f;  // all but roots, near one place
+  }
+  const auto bytes = simulation->memory().contactLists;
+  ASSERT_TRUE(simulation->setState(start));
+  ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  const HairState first = *simulation->state();
+  EXPECT_GT(simulation->memory().contactLists, bytes) << "lists had room from the start";
+  EXPECT_GT(simulation->contactReport()->contacts, 100u);
+  EXPECT_EQ(simulation->contactReport()->rebuilds, 1u);
+  ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  const std::uint64_t rebuilds = simulation->contactReport()->rebuilds;
+  ASSERT_TRUE(simulation->setState(start));
+  ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  expectSameBits(first, *simulation->state(), "the same state stepped again");
+  EXPECT_EQ(simulation->contactReport()->rebuilds, rebuilds + 1);
+}
+
 }  // namespace
 }  // namespace ringlet::test
