@@ -11,6 +11,7 @@
 #include "program/convert_command.h"
 #include "program/devices_command.h"
 #include "program/exit_codes.h"
+#include "program/kernels_command.h"
 #include "program/make_command.h"
 #include "program/material_command.h"
 #include "program/measure_command.h"
@@ -36,6 +37,7 @@ int main(int argumentCount, char** arguments) {
   addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);
   addTuneCommand(app, exitCode);
+  addKernelsCommand(app, exitCode);
   addMaterialCommand(app, exitCode);
 
   try {
