@@ -8,6 +8,7 @@
 #include <new>
 
 #include "program/command_line.h"
+#include "program/conform_command.h"
 #include "program/convert_command.h"
 #include "program/devices_command.h"
 #include "program/exit_codes.h"
@@ -37,6 +38,7 @@ int main(int argumentCount, char** arguments) {
   addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);
   addTuneCommand(app, exitCode);
+  addConformCommand(app, exitCode);
   addKernelsCommand(app, exitCode);
   addMaterialCommand(app, exitCode);
 
