@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/kernel_cache.h"
 #include "ringlet/gpu/pipeline_cache_file.h"
 #include "ringlet/gpu/subgroup_width.h"
 
@@ -138,6 +139,8 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.maxTexelRecords = basic.limits.maxTexelBufferElements;
   p.maxUniformBufferRange = basic.limits.maxUniformBufferRange;
   p.maxStorageBuffers = basic.limits.maxPerStageDescriptorStorageBuffers;
+  if (options.mostStorageBuffers > 0)
+    p.maxStorageBuffers = std::min(p.maxStorageBuffers, options.mostStorageBuffers);
   p.maxGroupCount = basic.limits.maxComputeWorkGroupCount[0];
   p.maxGroupInvocations =
       std::min(basic.limits.maxComputeWorkGroupInvocations, basic.limits.maxComputeWorkGroupSize[0]);
@@ -419,9 +422,12 @@ void Device::keepPipelineCache() const {
   (void)writePipelineCache(pipelineCacheFile_, bytes);
 }
 
+Device::Device() : kernels_(std::make_unique<KernelCache>()) {}
+
 Device::~Device() {
   if (!device_) return;
   keepPipelineCache();
+  kernels_.reset();
   table_.vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
   table_.vkDestroyDevice(device_, nullptr);
 }

@@ -19,10 +19,12 @@
 
 namespace ringlet::gpu {
 
+class KernelCache;
+
 // What the solver needs, checked when a device is opened. Vulkan promises 4 storage buffers a stage; nearly
 // every driver has 8 and more.
 inline constexpr std::uint32_t kNeededApiVersion = VK_API_VERSION_1_1;
-inline constexpr std::uint32_t kNeededStorageBuffers = 17;    // bound to one kernel
+inline constexpr std::uint32_t kNeededStorageBuffers = 7;     // bound to one kernel, by hair alone
 inline constexpr std::uint32_t kNeededGroupInvocations = 64;  // invocations of a workgroup
 inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
 
@@ -68,10 +70,11 @@ struct DeviceListing {
 /// Turns off what a device has, so that tests reach the paths for devices without it; and opens a device that
 /// can only compile.
 struct DeviceOptions {
-  bool alwaysStage = false;           // never map storage buffers, copy through a staging buffer
-  bool withoutTimestamps = false;     // time by the host's clock
-  bool withoutFullSubgroups = false;  // leave subgroup sizes to the driver
-  bool allowNull = false;             // open null hardware too: it has no memory and only compiles kernels
+  bool alwaysStage = false;              // never map storage buffers, copy through a staging buffer
+  bool withoutTimestamps = false;        // time by the host's clock
+  bool withoutFullSubgroups = false;     // leave subgroup sizes to the driver
+  bool allowNull = false;                // open null hardware too: it has no memory and only compiles kernels
+  std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has
 };
 
 class Device : public std::enable_shared_from_this<Device> {
@@ -103,6 +106,8 @@ class Device : public std::enable_shared_from_this<Device> {
   const VolkDeviceTable& vk() const { return table_; }
   VkDevice handle() const { return device_; }
   std::uint32_t queueFamily() const { return queueFamily_; }
+  /// The kernels compiled so far.
+  KernelCache& kernels() const { return *kernels_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
   /// Where it is kept; empty: nowhere.
   const std::filesystem::path& pipelineCacheFile() const { return pipelineCacheFile_; }
@@ -120,7 +125,7 @@ class Device : public std::enable_shared_from_this<Device> {
   void nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
  private:
-  Device() = default;
+  Device();
   Status openPipelineCache(VkPhysicalDevice physical, const std::filesystem::path& folder);
   void keepPipelineCache() const;
 
@@ -134,6 +139,7 @@ class Device : public std::enable_shared_from_this<Device> {
   std::mutex queueMutex_;
   std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;
+  std::unique_ptr<KernelCache> kernels_;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
   std::filesystem::path pipelineCacheFile_;
   std::size_t pipelineCacheBytes_ = 0;  // when it was new
