@@ -53,10 +53,18 @@ Json factsOf(const ComputeDevice& device) {
   facts["os"] = operatingSystem();
   facts["device"] = p.name;
   facts["driver"] = p.driver;
+  facts["ids"] = {{"driver", p.driverId},
+                  {"driver_version", p.driverVersion},
+                  {"vendor", p.vendorId},
+                  {"device", p.deviceId}};
   facts["type"] = p.type;
   facts["vulkan"] = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(p.apiVersion),
                                 VK_API_VERSION_MINOR(p.apiVersion), VK_API_VERSION_PATCH(p.apiVersion));
-  facts["subgroup"] = {{"asked", p.subgroupSize},
+  facts["subgroup"] = {{"reported", p.reportedSubgroupSize},
+                       {"least", p.minSubgroupSize},
+                       {"most", p.maxSubgroupSize},
+                       {"can_choose", p.canChooseSubgroupSize},
+                       {"asked", p.subgroupSize},
                        {"can_insist_on_full", p.hasFullSubgroups},
                        {"has_shuffle", p.hasSubgroupShuffle}};
   facts["storage_buffers"] = limit(p.maxStorageBuffers, gpu::kNeededStorageBuffers);

@@ -222,7 +222,7 @@ void probeTurns(const ComputeDevice& device, const Tell& tell) {
       for (std::uint32_t turn = 0; turn < turns; ++turn) x = 1664525u * x + 1013904223u;
       difference.add(i, x, ran->buffers[1][i]);
     }
-    const bool isKnown = turns > 65'535 && device.limits().isCpu;
+    const bool isKnown = turns > 65'535 && device.limits().endsLoopsEarly;
     tell(difference.check(isKnown ? name + " (the plan cuts them on this device)" : name, ran->compileSeconds,
                           isKnown ? Outcome::quirk : Outcome::wrong));
   }

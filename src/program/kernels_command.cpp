@@ -56,6 +56,7 @@ struct Typed {
 
 Result<ComputeDevice> openDevice(const Typed& typed) {
   gpu::DeviceOptions options;
+  options.allowNull = true;
   options.inspection = typed.statistics ? gpu::Inspection::statistics : gpu::Inspection::sizes;
   auto opened = gpu::Device::open(typed.device, options);
   if (!opened) return opened.error();

@@ -16,6 +16,7 @@
 #include "ringlet/gpu/check.h"
 #include "ringlet/gpu/kernel_cache.h"
 #include "ringlet/gpu/pipeline_cache_file.h"
+#include "ringlet/gpu/subgroup_width.h"
 
 namespace ringlet::gpu {
 namespace {
@@ -92,8 +93,9 @@ std::optional<std::uint32_t> findComputeFamily(VkPhysicalDevice device, std::uin
 }
 
 // What the device lacks of what the solver needs, or nothing.
-std::string findLack(const DeviceProperties& p) {
+std::string findLack(const DeviceProperties& p, const DeviceOptions& options) {
   std::string lack;
+  if (p.memoryBytes == 0 && !options.allowNull) lack = "it has no memory";
   const auto need = [&](const char* limit, std::uint32_t needed, std::uint32_t found) {
     if (found < needed)
       lack += fmt::format("{}{} is {}, needed are {}", lack.empty() ? "" : "; ", limit, found, needed);
@@ -128,6 +130,9 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.name = basic.deviceName;
   p.type = typeName(basic.deviceType);
   p.driver = "driver version " + versionText(basic.driverVersion);
+  p.driverVersion = basic.driverVersion;
+  p.vendorId = basic.vendorID;
+  p.deviceId = basic.deviceID;
   p.memoryBytes = memoryOf(handle);
   p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
   p.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
@@ -200,25 +205,33 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
     candidate.extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
   }
 
-  if (hasDriverProperties) p.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+  if (hasDriverProperties) {
+    p.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    p.driverId = static_cast<std::uint32_t>(driver.driverID);
+  }
   p.maxAllocationBytes = memory.maxMemoryAllocationSize;
-  p.subgroupSize = subgroup.subgroupSize;
+  p.reportedSubgroupSize = p.minSubgroupSize = p.maxSubgroupSize = subgroup.subgroupSize;
+  if (hasSizeControl) {
+    p.minSubgroupSize = size.minSubgroupSize;
+    p.maxSubgroupSize = size.maxSubgroupSize;
+  }
   constexpr VkSubgroupFeatureFlags kShuffle = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   p.hasSubgroupShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
                          (subgroup.supportedOperations & kShuffle) == kShuffle;
-  p.hasFullSubgroups = !options.withoutFullSubgroups && hasSizeControl && sizeFeatures.subgroupSizeControl &&
-                       sizeFeatures.computeFullSubgroups &&
-                       (size.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
-                       size.minSubgroupSize <= p.subgroupSize && p.subgroupSize <= size.maxSubgroupSize;
-  p.maxFullSubgroups = p.hasFullSubgroups ? size.maxComputeWorkgroupSubgroups : 0;
-  if (p.hasFullSubgroups && !hasSizeControlInCore) {
+  const bool usesSizeControl = hasSizeControl && !options.withoutFullSubgroups;
+  p.canChooseSubgroupSize = usesSizeControl && sizeFeatures.subgroupSizeControl &&
+                            (size.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  p.hasFullSubgroups = usesSizeControl && sizeFeatures.computeFullSubgroups;
+  p.subgroupSize = defaultSubgroupSize(p);
+  p.maxGroupSubgroups = usesSizeControl ? size.maxComputeWorkgroupSubgroups : 0;
+  if ((p.canChooseSubgroupSize || p.hasFullSubgroups) && !hasSizeControlInCore) {
     candidate.extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
   }
 
   const auto family = findComputeFamily(handle, p.timestampBits);
   p.hasTimestamps = !options.withoutTimestamps && p.timestampBits > 0 && p.timestampPeriod > 0;
   candidate.queueFamily = family.value_or(0);
-  candidate.listing.why = family ? findLack(p) : "it has no compute queue";
+  candidate.listing.why = family ? findLack(p, options) : "it has no compute queue";
   candidate.listing.usable = candidate.listing.why.empty();
   return candidate;
 }
@@ -354,16 +367,17 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
 
   auto sizeControl = zeroed<VkPhysicalDeviceSubgroupSizeControlFeatures>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES);
-  sizeControl.subgroupSizeControl = VK_TRUE;
-  sizeControl.computeFullSubgroups = VK_TRUE;
+  const DeviceProperties& has = self->properties_;
+  sizeControl.subgroupSizeControl = has.canChooseSubgroupSize;
+  sizeControl.computeFullSubgroups = has.hasFullSubgroups;
 
   auto inspection = zeroed<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR);
   inspection.pipelineExecutableInfo = VK_TRUE;
 
   auto info = zeroed<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
-  info.pNext = self->properties_.hasFullSubgroups ? &sizeControl : nullptr;
-  if (self->properties_.inspection != Inspection::none)
+  info.pNext = has.canChooseSubgroupSize || has.hasFullSubgroups ? &sizeControl : nullptr;
+  if (has.inspection != Inspection::none)
     inspection.pNext = const_cast<void*>(std::exchange(info.pNext, &inspection));
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;

@@ -34,15 +34,22 @@ inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
 enum class Inspection { none, sizes, statistics };
 
 struct DeviceProperties {
-  int index = 0;                       // in the order of the Vulkan loader
-  std::string name;                    // as the driver states it
-  std::string driver;                  // name and version, in words where the driver gives them
-  std::string type;                    // discrete, integrated, virtual, cpu, other
-  std::uint32_t apiVersion = 0;        // the highest usable here, as VK_MAKE_API_VERSION packs it
-  std::uint32_t subgroupSize = 1;      // invocations
-  bool hasSubgroupShuffle = false;     // basic and shuffle operations in compute kernels
-  bool hasFullSubgroups = false;       // a kernel can insist on full subgroups of subgroupSize invocations
-  std::uint32_t maxFullSubgroups = 0;  // of a workgroup that insists on them
+  int index = 0;                    // in the order of the Vulkan loader
+  std::string name;                 // as the driver states it
+  std::string driver;               // name and version, in words where the driver gives them
+  std::string type;                 // discrete, integrated, virtual, cpu, other
+  std::uint32_t apiVersion = 0;     // the highest usable here, as VK_MAKE_API_VERSION packs it
+  std::uint32_t driverId = 0;       // VkDriverId; 0: the driver does not say
+  std::uint32_t driverVersion = 0;  // packed as the driver likes
+  std::uint32_t vendorId = 0, deviceId = 0;
+  std::uint32_t subgroupSize = 1;          // invocations; what kernels get that ask for no other width
+  std::uint32_t reportedSubgroupSize = 1;  // what the driver gives where nobody asks
+  std::uint32_t minSubgroupSize = 1;       // the driver's range; both as reported where it states none
+  std::uint32_t maxSubgroupSize = 1;
+  bool canChooseSubgroupSize = false;       // a kernel can ask for any power of two of the range
+  bool hasSubgroupShuffle = false;          // basic and shuffle operations in compute kernels
+  bool hasFullSubgroups = false;            // a kernel can insist that no subgroup of it has gaps
+  std::uint32_t maxGroupSubgroups = 0;      // of a workgroup that asks for a width or for full subgroups
   std::uint64_t maxStorageBufferRange = 0;  // [bytes] largest buffer a kernel can see
   std::uint64_t maxUniformBufferRange = 0;  // [bytes]
   std::uint64_t maxTexelRecords = 0;        // 16-byte records a kernel can see as texels
@@ -74,6 +81,7 @@ struct DeviceOptions {
   bool withoutFullSubgroups = false;         // leave subgroup sizes to the driver
   std::uint64_t mostTexelRecords = 0;        // a kernel sees as texels; 0: as many as the device has
   Inspection inspection = Inspection::none;  // for `ringlet kernels`; drivers crash in their own statistics
+  bool allowNull = false;  // open null hardware too: it has no memory and only compiles kernels
   /// Changes a kernel's SPIR-V before it is compiled: shows that a wrong kernel is noticed.
   std::function<void(const std::string& kernel, std::vector<std::uint32_t>& spirv)> changeCode{};
   std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has

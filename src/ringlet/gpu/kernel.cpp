@@ -11,6 +11,7 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/check.h"
 #include "ringlet/gpu/kernel_cache.h"
+#include "ringlet/gpu/subgroup_width.h"
 
 namespace ringlet::gpu {
 namespace {
@@ -101,9 +102,13 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   self.bindings_ = std::move(kernelBindings);
   self.pushConstantBytes_ = description.pushConstantBytes;
   self.groupSize_ = description.groupSize;
-  self.hasFullSubgroups_ = description.wantsFullSubgroups && limits.hasFullSubgroups &&
-                           description.groupSize % limits.subgroupSize == 0 &&
-                           description.groupSize / limits.subgroupSize <= limits.maxFullSubgroups;
+  const std::uint32_t width = description.subgroupSize ? description.subgroupSize : limits.subgroupSize;
+  RINGLET_ASSERT(hasSubgroupSize(limits, width), "a subgroup width the device does not have");
+  const bool fitsGroup = description.groupSize <= std::uint64_t{width} * limits.maxGroupSubgroups;
+  const bool asksForWidth = description.wantsFullSubgroups && limits.canChooseSubgroupSize && fitsGroup;
+  self.subgroupSize_ = width;
+  self.hasFullSubgroups_ = description.wantsFullSubgroups && limits.hasFullSubgroups && fitsGroup &&
+                           description.groupSize % width == 0;
 
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   for (const auto& [number, kind] : self.bindings_) {
@@ -160,7 +165,7 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
 
   auto subgroupSize = zeroed<VkPipelineShaderStageRequiredSubgroupSizeCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO);
-  subgroupSize.requiredSubgroupSize = limits.subgroupSize;
+  subgroupSize.requiredSubgroupSize = width;
 
   auto info = zeroed<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -168,10 +173,8 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   info.stage.module = module;
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;
-  if (self.hasFullSubgroups_) {
-    info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
-    info.stage.pNext = &subgroupSize;
-  }
+  if (self.hasFullSubgroups_) info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  if (asksForWidth) info.stage.pNext = &subgroupSize;
   info.layout = layout;
   if (limits.inspection == Inspection::statistics)
     info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;

@@ -30,8 +30,9 @@ struct KernelDescription {
   std::vector<SpecializationConstant> constants;
   std::uint32_t groupSize = 64;     // invocations of a workgroup, along x, as the shader will have it
   std::string remedy{};             // what to do where the device lacks storage buffers, a clause
-  bool wantsFullSubgroups = false;  // subgroups of subgroupSize without gaps, where the device can promise it
-                                    // and groupSize is a multiple of them
+  bool wantsFullSubgroups = false;  // subgroups without gaps and of one width, where the device can promise
+                                    // it and groupSize is a multiple of them
+  std::uint32_t subgroupSize = 0;   // that width, one of those the device has; 0: its default
 };
 
 class Kernel {
@@ -48,8 +49,10 @@ class Kernel {
   const std::vector<KernelBinding>& bindings() const { return bindings_; }
   std::uint32_t pushConstantBytes() const { return pushConstantBytes_; }
   std::uint32_t groupSize() const { return groupSize_; }
-  /// Wanted and promised by the device.
+  /// Wanted and promised by the device: no gaps, and subgroupSize() invocations in each.
   bool hasFullSubgroups() const { return hasFullSubgroups_; }
+  /// The width asked for; where the device cannot be asked, the one it reports.
+  std::uint32_t subgroupSize() const { return subgroupSize_; }
 
   // For the other files of gpu/.
   Device& device() const { return *device_; }
@@ -69,6 +72,7 @@ class Kernel {
   std::vector<KernelBinding> bindings_;
   std::uint32_t pushConstantBytes_ = 0;
   std::uint32_t groupSize_ = 0;
+  std::uint32_t subgroupSize_ = 1;
   bool hasFullSubgroups_ = false;
 };
 

@@ -76,8 +76,8 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
                                         std::size_t slots) {
   auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
   if (!poses) return poses.error();
-  auto control = Buffer::create(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0,
-                                BufferKind::stream, "contact control");
+  auto control =
+      createZero(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0, "contact control");
   if (!control) return control.error();
   DeviceGroom groom{{}, std::move(*poses), std::move(*control)};
   for (const GroomChunk& part : parts) {

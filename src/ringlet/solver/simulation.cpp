@@ -336,6 +336,7 @@ Result<ContactReport> Simulation::contactReport() const {
   if (!contacts) return contacts.error();
   report.contacts = *contacts;
   report.rebuilds = self_->contacts->rebuilds();
+  report.pairTests = self_->contacts->pairTests();
   auto error = self_->contacts->momentumError(self_->rest);
   if (!error) return error.error();
   report.momentumError = *error;

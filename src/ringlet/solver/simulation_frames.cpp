@@ -105,6 +105,7 @@ Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uin
     }
   }
   slots[slot].recordPositions(buffers);
+  contacts->recordControl(recorder);
   slots[slot].isRecorded = firstStep == 0 && predictFirst;
   return {};
 }
@@ -161,7 +162,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
     for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
       stageMilliseconds[stage] += milliseconds;
     if (!contacts) return {};
-    contactReport.pairTests += contacts->takePairTests();
+    contacts->readControl();
     if (!contacts->isHalted()) return {};
     if (Status status = contacts->makeRoom(); !status) return status;
     for (FrameSlot& other : slots) other.isRecorded = false;

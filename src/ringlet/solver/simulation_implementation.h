@@ -58,7 +58,7 @@ struct Simulation::Implementation {
   std::vector<gpu::Bindings> bindings{};                      // one a range
 
   std::optional<ContactStage> contacts{};
-  ContactReport contactReport{};  // what is known of the rest pose, and sums
+  ContactReport contactReport{};  // what is known of the rest pose
 
   std::uint64_t stepsDone = 0;
   std::map<std::string, double> stageMilliseconds{};
