@@ -4,7 +4,7 @@
 //   0  a sum over loads, added by ?:                     (SwiftShader: lanes that are done add 1)
 //   1  the same, added in an if
 //   2  the last value of a loop within a loop, made anew in every turn
-//   3  the same, carried from turn to turn
+//   3  the same, carried from turn to turn, and taken in an if
 #version 450
 
 layout(local_size_x_id = 0) in;
@@ -49,7 +49,7 @@ void main() {
     uint largest = 0;
     uint k = 0;
     do {
-      largest = max(largest, values[n + (turn + k) % 64]);
+      if (values[n + (turn + k) % 64] > largest) largest = values[n + (turn + k) % 64];
     } while (++k <= (i + turn) % 3);
     kept = isDone ? kept : largest;
     isDone = isDone || largest >= 50 || turn + 1 >= turns;

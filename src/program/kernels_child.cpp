@@ -73,7 +73,7 @@ CompiledKernel compileKernel(const ComputeDevice& device, const ListedKernel& ke
     compiled.trouble = made.error().message;
     return compiled;
   }
-  if ((*made)->hasFullSubgroups()) compiled.subgroup = device.gpu().properties().subgroupSize;
+  if ((*made)->hasFullSubgroups()) compiled.subgroup = (*made)->subgroupSize();
   const auto executables = gpu::executablesOf(**made);
   if (!executables) {
     compiled.trouble = executables.error().message;
