@@ -8,9 +8,11 @@
 #include <new>
 
 #include "program/command_line.h"
+#include "program/conform_command.h"
 #include "program/convert_command.h"
 #include "program/devices_command.h"
 #include "program/exit_codes.h"
+#include "program/kernels_command.h"
 #include "program/make_command.h"
 #include "program/material_command.h"
 #include "program/measure_command.h"
@@ -36,6 +38,8 @@ int main(int argumentCount, char** arguments) {
   addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);
   addTuneCommand(app, exitCode);
+  addConformCommand(app, exitCode);
+  addKernelsCommand(app, exitCode);
   addMaterialCommand(app, exitCode);
 
   try {

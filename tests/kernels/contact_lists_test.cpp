@@ -8,52 +8,21 @@
 #include <random>
 #include <set>
 
+#include "parity/contacts.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {
 namespace {
 
-constexpr double kRadius = 0.005, kR = 2 * kRadius;
-constexpr double kSkin = 0.15 * kR;  // solver/contact_stage.cpp: lists hold what is within R and the skin
+using namespace parity;
+constexpr double kR = kListedR, kSkin = kListedSkin;
 
 using Points = std::vector<Vec3f>;
 using Pairs = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 
 class ContactLists : public GpuTest {
  protected:
-  // Strands of two particles, far from each other at rest.
-  static Groom farApart(std::size_t strandCount) {
-    Groom groom;
-    groom.metresPerUnit = 1;
-    const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(double(strandCount))));
-    for (std::size_t s = 0; s < strandCount; ++s) {
-      const Vec3f root(
-          Vec3d{0.1 * double(s % side), 0.1 * double(s / side % side), 0.1 * double(s / side / side)});
-      groom.addStrand(std::vector<Vec3f>{root, root + Vec3f{0, -0.02f, 0}});
-    }
-    return groom;
-  }
-  // A step so short that what is near is so by place alone.
-  static Settings shortSteps() {
-    Settings settings;
-    settings.framesPerSecond = 1e6;
-    settings.stepsPerFrame = 1;
-    settings.contacts.on = true;
-    settings.contacts.radius = kRadius;
-    settings.contacts.prunePairs = false;
-    return settings;
-  }
-
-  // Strands far from each other at rest, then put at `points`, at rest, two by two; after one step.
-  Result<Simulation> stepped(const Points& points, const Settings& settings = shortSteps()) {
-    auto simulation = Simulation::create(device(), farApart(points.size() / 2), {}, settings);
-    if (!simulation) return simulation;
-    if (Status status = simulation->setState({points, Points(points.size())}); !status) return status.error();
-    if (Status status = simulation->stepFrame(HeadPose{}); !status) return status.error();
-    return simulation;
-  }
-
   static Pairs listed(const Simulation& simulation) {
     Pairs pairs;
     const auto contacts = simulation.listedContacts();
@@ -62,46 +31,14 @@ class ContactLists : public GpuTest {
     return pairs;
   }
 
-  // Every pair of different strands that is nearer than R and the skin, and no other; roots follow the head,
-  // and two of them do not meet. Squared distances in float, as the kernel has them; a pair on the edge to
-  // the rounding of the bound may be either.
   void expectExact(const Points& points, const std::string& name, const Settings& settings = shortSteps()) {
-    const auto simulation = stepped(points, settings);
-    ASSERT_TRUE(simulation) << simulation.error().message;
-    const Pairs found = listed(*simulation);
-    EXPECT_EQ(simulation->contactReport()->listed, found.size()) << name << ": not once on each side";
-    const Groom rest = farApart(points.size() / 2);
-    std::size_t missed = 0, extra = found.size(), near = 0, onEdge = 0;
-    const float bound = static_cast<float>(kR + kSkin) * static_cast<float>(kR + kSkin);
-    for (std::uint32_t a = 0; a < points.size(); ++a) {
-      for (std::uint32_t b = a + 1; b < points.size(); ++b) {
-        if (a / 2 == b / 2 || (a % 2 == 0 && b % 2 == 0)) continue;
-        if (settings.contacts.prunePairs && !mayMeet(rest, settings.contacts, a / 2, b / 2)) continue;
-        const Vec3f d = points[a] - points[b];
-        const float squared = d.x * d.x + d.y * d.y + d.z * d.z;
-        if (!(squared < bound * 1.00001f)) continue;
-        const bool isListed = found.contains({a, b});
-        if (squared > bound * 0.99999f) {
-          ++onEdge;
-          extra -= isListed;
-          continue;
-        }
-        ++near;
-        extra -= isListed;
-        missed += !isListed;
-      }
-    }
-    fmt::print("{:<34} {:>6} particles, {:>8} pairs, {} on the edge\n", name, points.size(), near, onEdge);
-    EXPECT_EQ(missed, 0u) << name;
-    EXPECT_EQ(extra, 0u) << name;
-  }
-
-  // Whether two strands overlap at rest, when enlarged.
-  static bool mayMeet(const Groom& rest, const ContactSettings& settings, std::uint32_t a, std::uint32_t b) {
-    for (const Vec3f p : rest.strand(a))
-      for (const Vec3f q : rest.strand(b))
-        if (length(static_cast<Vec3d>(p - q)) < settings.enlargement * kR) return true;
-    return false;
+    const auto lists = compareLists(device(), points, settings);
+    ASSERT_TRUE(lists) << lists.error().message;
+    fmt::print("{:<34} {:>6} particles, {:>8} pairs, {} on the edge\n", name, points.size(), lists->near,
+               lists->onEdge);
+    EXPECT_EQ(lists->missed, 0u) << name;
+    EXPECT_EQ(lists->extra, 0u) << name;
+    EXPECT_EQ(lists->repeated, 0u) << name << ": not once on each side";
   }
 
   Points random(int count, Vec3d size, Vec3d centre = {}) {
@@ -217,7 +154,7 @@ TEST_F(ContactLists, KeptListsHoldAllThatMayTouch) {
 TEST_F(ContactLists, MoreThanABufferHoldsIsAnError) {
   if (gpu().properties().maxStorageBufferRange > 128u << 20)
     GTEST_SKIP() << "this device's buffers are larger";
-  const auto simulation = stepped(random(4000, {0.004, 0.004, 0.004}));
+  const auto simulation = stepAt(device(), random(4000, {0.004, 0.004, 0.004}));
   ASSERT_FALSE(simulation);
   EXPECT_NE(simulation.error().message.find("128 MiB at most; use a smaller contact radius"),
             std::string::npos)
@@ -227,7 +164,7 @@ TEST_F(ContactLists, MoreThanABufferHoldsIsAnError) {
 // lavapipe ends loops that are too long without a word; pairs would be lost. The user is told instead.
 TEST_F(ContactLists, MoreThanADeviceCanLookThroughIsAnError) {
   if (!device().limits().endsLoopsEarly) GTEST_SKIP() << "this device does not end loops early";
-  const auto simulation = stepped(random(26000, {0.001, 0.001, 0.001}));
+  const auto simulation = stepAt(device(), random(26000, {0.001, 0.001, 0.001}));
   ASSERT_FALSE(simulation);
   EXPECT_NE(simulation.error().message.find("more contact particles are near one another"), std::string::npos)
       << simulation.error().message;
@@ -238,7 +175,7 @@ TEST_F(ContactLists, LostNumbers) {
   Points points = random(500, {0.1, 0.1, 0.1});
   points[11].x = std::nanf("");
   points[44].y = INFINITY;
-  const auto simulation = stepped(points);
+  const auto simulation = stepAt(device(), points);
   ASSERT_TRUE(simulation) << simulation.error().message;
   const Pairs pairs = listed(*simulation);
   EXPECT_GT(pairs.size(), 100u);

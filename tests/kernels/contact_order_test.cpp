@@ -60,25 +60,29 @@ class ContactOrder : public GpuTest {
       layout::ContactRest& rest = rests.emplace_back();
       rest.particle = c, rest.strand = c / 2;
     }
-    auto kernel = createContactKernel(gpu(), ContactKernel::order, 64, texels);
+    auto kernel = gpu::Kernel::create(gpu(), describeContactKernel(ContactKernel::order, 64, texels));
     auto unused = createZero(gpu(), kContacts * sizeof(layout::ContactPlace), "unused");
     auto position = createFilled(gpu(), positions, "positions");
     auto rest = createFilled(gpu(), rests, "contacts");
     auto words = createFilled(gpu(), grid.words, "grid");
     auto places = createZero(gpu(), kContacts * sizeof(layout::ContactPlace), "places");
     EXPECT_TRUE(kernel && unused && position && rest && words && places);
-    std::vector<std::reference_wrapper<const gpu::Buffer>> buffers(kernel->bindings().size(), *unused);
-    buffers[layout::kBindContactPositions] = buffers[layout::kBindContactPositionTexels] = *position;
-    buffers[layout::kBindContactSolved] = buffers[layout::kBindContactSolvedTexels] = *position;
-    buffers[layout::kBindContacts] = buffers[layout::kBindContactTexels] = *rest;
-    buffers[layout::kBindGrid] = *words;
-    buffers[layout::kBindPlaces] = *places;
-    auto bindings = gpu::Bindings::create(*kernel, buffers);
+    gpu::BufferTable buffers;
+    for (const auto& [number, kind] : (*kernel)->bindings()) buffers.emplace(number, *unused);
+    const auto bind = [&](std::uint32_t number, const gpu::Buffer& buffer) {
+      buffers.insert_or_assign(number, std::cref(buffer));
+    };
+    bind(layout::kBindContactPositions, *position), bind(layout::kBindContactPositionTexels, *position);
+    bind(layout::kBindContactSolved, *position), bind(layout::kBindContactSolvedTexels, *position);
+    bind(layout::kBindContacts, *rest), bind(layout::kBindContactTexels, *rest);
+    bind(layout::kBindGrid, *words);
+    bind(layout::kBindPlaces, *places);
+    auto bindings = gpu::Bindings::create(**kernel, buffers);
     auto recorder = gpu::Recorder::create(gpu(), "order");
     EXPECT_TRUE(bindings && recorder && recorder->begin());
     layout::ContactParameters parameters{};
     parameters.contactCount = kContacts, parameters.bucketCount = kBuckets;
-    recorder->dispatch(*kernel, *bindings, parameters, (kContacts + 63) / 64);
+    recorder->dispatch(**kernel, *bindings, parameters, (kContacts + 63) / 64);
     EXPECT_TRUE(recorder->submitAndWait());
     return *downloadAll<layout::ContactPlace>(*places, kContacts);
   }

@@ -65,6 +65,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
         const std::string other = moduleOf(include);
         EXPECT_TRUE(other.empty() || mayKnow.at(module).count(other)) << file << " includes " << include;
         EXPECT_NE(include.rfind("reference/", 0), 0u) << file << " includes the reference: " << include;
+        EXPECT_NE(include.rfind("parity/", 0), 0u) << file << " includes " << include;
         EXPECT_NE(include.rfind("Eigen", 0), 0u) << file << " includes " << include;
         if (include.rfind("shared/", 0) == 0) {
           EXPECT_TRUE(module == "rest" || module == "solver") << file << " includes " << include;

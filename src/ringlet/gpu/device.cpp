@@ -137,6 +137,7 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
   p.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
   p.maxTexelRecords = basic.limits.maxTexelBufferElements;
+  if (options.mostTexelRecords > 0) p.maxTexelRecords = std::min(p.maxTexelRecords, options.mostTexelRecords);
   p.maxUniformBufferRange = basic.limits.maxUniformBufferRange;
   p.maxStorageBuffers = basic.limits.maxPerStageDescriptorStorageBuffers;
   if (options.mostStorageBuffers > 0)
@@ -192,8 +193,17 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
     size.pNext = std::exchange(memory.pNext, &size);
     features.pNext = &sizeFeatures;
   }
+  auto inspectionFeatures = zeroed<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR);
+  const bool mayInspect =
+      options.inspection != Inspection::none && has(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  if (mayInspect) inspectionFeatures.pNext = std::exchange(features.pNext, &inspectionFeatures);
   vkGetPhysicalDeviceProperties2(handle, &properties);
   vkGetPhysicalDeviceFeatures2(handle, &features);
+  if (mayInspect && inspectionFeatures.pipelineExecutableInfo) {
+    p.inspection = options.inspection;
+    candidate.extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+  }
 
   if (hasDriverProperties) {
     p.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
@@ -361,8 +371,14 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
   sizeControl.subgroupSizeControl = has.canChooseSubgroupSize;
   sizeControl.computeFullSubgroups = has.hasFullSubgroups;
 
+  auto inspection = zeroed<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR);
+  inspection.pipelineExecutableInfo = VK_TRUE;
+
   auto info = zeroed<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
   info.pNext = has.canChooseSubgroupSize || has.hasFullSubgroups ? &sizeControl : nullptr;
+  if (has.inspection != Inspection::none)
+    inspection.pNext = const_cast<void*>(std::exchange(info.pNext, &inspection));
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = static_cast<std::uint32_t>(candidate.extensions.size());

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -27,6 +28,10 @@ inline constexpr std::uint32_t kNeededApiVersion = VK_API_VERSION_1_1;
 inline constexpr std::uint32_t kNeededStorageBuffers = 7;     // bound to one kernel, by hair alone
 inline constexpr std::uint32_t kNeededGroupInvocations = 64;  // invocations of a workgroup
 inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
+
+/// What kernels tell of the machine code the driver made of them (kernel_executables.h): nothing, the
+/// subgroup size, or registers and the like too, for which the driver must keep them as it compiles.
+enum class Inspection { none, sizes, statistics };
 
 struct DeviceProperties {
   int index = 0;                    // in the order of the Vulkan loader
@@ -54,7 +59,8 @@ struct DeviceProperties {
   std::uint32_t maxGroupCount = 0;          // workgroups of one dispatch, along x
   std::uint32_t maxGroupInvocations = 0;    // invocations of a workgroup
   std::uint32_t maxPushConstantBytes = 0;
-  std::uint32_t maxSharedMemoryBytes = 0;  // of a workgroup
+  std::uint32_t maxSharedMemoryBytes = 0;    // of a workgroup
+  Inspection inspection = Inspection::none;  // that was asked for, where the device has it
   bool hasTimestamps = false;
   double timestampPeriod = 0;       // [ns] of one tick
   std::uint32_t timestampBits = 0;  // valid bits of a timestamp
@@ -67,14 +73,18 @@ struct DeviceListing {
   std::string why;  // if not usable: what is missing, with numbers
 };
 
-/// Turns off what a device has, so that tests reach the paths for devices without it; and opens a device that
-/// can only compile.
+/// How a device is opened. Most of it turns off what a device has, so that tests and `ringlet conform` reach
+/// the paths for devices without it.
 struct DeviceOptions {
-  bool alwaysStage = false;              // never map storage buffers, copy through a staging buffer
-  bool withoutTimestamps = false;        // time by the host's clock
-  bool withoutFullSubgroups = false;     // leave subgroup sizes to the driver
+  bool alwaysStage = false;                  // never map storage buffers, copy through a staging buffer
+  bool withoutTimestamps = false;            // time by the host's clock
+  bool withoutFullSubgroups = false;         // leave subgroup sizes to the driver
+  std::uint64_t mostTexelRecords = 0;        // a kernel sees as texels; 0: as many as the device has
+  Inspection inspection = Inspection::none;  // for `ringlet kernels`; drivers crash in their own statistics
+  bool allowNull = false;  // open null hardware too: it has no memory and only compiles kernels
+  /// Changes a kernel's SPIR-V before it is compiled: shows that a wrong kernel is noticed.
+  std::function<void(const std::string& kernel, std::vector<std::uint32_t>& spirv)> changeCode{};
   std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has
-  bool allowNull = false;                // open null hardware too: it has no memory and only compiles kernels
 };
 
 class Device : public std::enable_shared_from_this<Device> {

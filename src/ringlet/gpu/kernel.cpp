@@ -46,8 +46,15 @@ std::pair<VkResult, OwnedBufferView> viewOf(Device& device, const Buffer& buffer
 
 }  // namespace
 
-Result<std::shared_ptr<const Kernel>> Kernel::create(Device& device, const KernelDescription& description) {
-  RINGLET_ASSERT(!description.spirv.empty(), "a kernel without code");
+Result<std::shared_ptr<const Kernel>> Kernel::create(Device& device, const KernelDescription& asked) {
+  RINGLET_ASSERT(!asked.spirv.empty(), "a kernel without code");
+  KernelDescription description = asked;
+  std::vector<std::uint32_t> changed;
+  if (device.options().changeCode) {
+    changed.assign(asked.spirv.begin(), asked.spirv.end());
+    device.options().changeCode(asked.name, changed);
+    description.spirv = changed;
+  }
   const auto kernel =
       device.kernels().findOrCompile(description, [&] { return compile(device, description); });
   if (!kernel) return kernel;
@@ -169,6 +176,8 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   if (self.hasFullSubgroups_) info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
   if (asksForWidth) info.stage.pNext = &subgroupSize;
   info.layout = layout;
+  if (limits.inspection == Inspection::statistics)
+    info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
   VkPipeline pipeline = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
                                                         nullptr, &pipeline),

@@ -25,6 +25,9 @@ enum class ContactKernel {
 };
 inline constexpr std::size_t kContactKernelCount = 12;
 
+/// Invocations of a workgroup.
+inline constexpr std::uint32_t kContactGroupSize = 64;
+
 /// texels: records are read as texels (gpu::BindingKind).
 gpu::KernelDescription describeContactKernel(ContactKernel which, std::uint32_t groupSize, bool texels);
 

@@ -18,7 +18,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::uint32_t kGroupSize = 64;
+constexpr std::uint32_t kGroupSize = kContactGroupSize;
 // Blocks of a contact particle's lists at most, to begin with.
 constexpr std::uint32_t kFirstMostBlocks = 4;
 constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists are made anew

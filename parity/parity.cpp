@@ -1,8 +1,7 @@
-// Implements support/parity.h.
-#include "tests/support/parity.h"
+// Implements parity/parity.h.
+#include "parity/parity.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +12,7 @@
 #include "reference/step.h"
 #include "shared/layout.h"
 
-namespace ringlet::test {
+namespace ringlet::parity {
 namespace {
 
 using ReferenceF = reference::Simulation<float>;
@@ -69,6 +68,8 @@ class Comparison {
  private:
   FieldError error_;
 };
+
+FieldError failed(const char* call, const Error& error) { return {call, INFINITY, error.message}; }
 
 Eigen::VectorXd three(const std::array<float, 4>& v, double factor = 1) {
   return Eigen::Vector3d(v[0], v[1], v[2]) * factor;
@@ -217,18 +218,20 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
 
   auto simulation =
       Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel, c.bodies);
-  if (!simulation) return {{"create", INFINITY, simulation.error().message}};
+  if (!simulation) return {failed("create", simulation.error())};
   const double T = c.settings.stepSeconds();
   const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-T), rootsNext = roots.at(T);
   if (!roots.empty()) {
-    EXPECT_TRUE(simulation->placeRoots(rootsNow, rootsBefore));
+    if (Status placed = simulation->placeRoots(rootsNow, rootsBefore); !placed)
+      return {failed("placeRoots", placed.error())};
   }
-  EXPECT_TRUE(simulation->setState(start));
+  if (Status set = simulation->setState(start); !set) return {failed("setState", set.error())};
   const std::vector<double> end{T};
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
-  EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext));
+  if (Status stepped = simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext); !stepped)
+    return {failed("stepFrame", stepped.error())};
   const auto found = simulation->state();
-  if (!found) return {{"state", INFINITY, found.error().message}};
+  if (!found) return {failed("state", found.error())};
   if (report) *report = *simulation->report();
 
   ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
@@ -289,13 +292,14 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
 
   auto simulation =
       Simulation::create(device, c.groom, c.material, c.settings, pose(0), pose(-1), c.kernel, c.bodies);
-  if (!simulation) return {"create", INFINITY, simulation.error().message};
+  if (!simulation) return failed("create", simulation.error());
   ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1), {}, c.bodies);
   if (!roots.empty()) {
-    EXPECT_TRUE(simulation->placeRoots(rootsNow, rootsBefore));
+    if (Status placed = simulation->placeRoots(rootsNow, rootsBefore); !placed)
+      return failed("placeRoots", placed.error());
     expected.placeRoots(rootsNow, rootsBefore);
   }
-  EXPECT_TRUE(simulation->setState(start));
+  if (Status set = simulation->setState(start); !set) return failed("setState", set.error());
   expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
   for (int frame = 0; frame < frameCount; ++frame) {
     std::vector<BodyPose> rootPoses;
@@ -308,11 +312,12 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
       std::ranges::copy(roots.at(times.back()), std::back_inserter(rootPoses));
     }
     const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, poses, times);
-    EXPECT_TRUE(simulation->stepFrame(poses, bodyPoses, rootPoses));
+    if (Status stepped = simulation->stepFrame(poses, bodyPoses, rootPoses); !stepped)
+      return failed("stepFrame", stepped.error());
     expected.stepFrame(poses, bodyPoses, rootPoses);
   }
   const auto found = simulation->positions();
-  if (!found) return {"positions", INFINITY, found.error().message};
+  if (!found) return failed("positions", found.error());
 
   Comparison comparison("positions");
   for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
@@ -332,4 +337,4 @@ std::string toText(const std::vector<FieldError>& errors) {
   return text;
 }
 
-}  // namespace ringlet::test
+}  // namespace ringlet::parity

@@ -1,0 +1,26 @@
+// One line of `ringlet conform`.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace ringlet::program {
+
+struct Check {
+  enum class Outcome {
+    right,
+    wrong,    // the device does not conform
+    quirk,    // the driver is wrong where Ringlet does not rely on it
+    skipped,  // the device lacks what would be checked, and Ringlet knows it
+  };
+  std::string name;
+  Outcome outcome = Outcome::right;
+  std::optional<double> figure{}, tolerance{};
+  std::string detail{};       // of what is not right: where, expected, found; or a word on what was measured
+  double compileSeconds = 0;  // the driver's part in it
+};
+
+/// "right", "WRONG", "quirk" or "skipped".
+const char* wordOf(Check::Outcome outcome);
+
+}  // namespace ringlet::program

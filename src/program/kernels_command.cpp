@@ -1,0 +1,192 @@
+// Implements kernels_command.h: options, the table and its JSON. A kernel is compiled by kernels_child.cpp.
+#include "program/kernels_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "program/command_line.h"
+#include "program/exit_codes.h"
+#include "program/kernels_child.h"
+#include "program/kernels_list.h"
+#include "ringlet/gpu/device.h"
+
+namespace ringlet::program {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kHelp =
+    "Examples:\n"
+    "  ringlet kernels\n"
+    "  ringlet kernels --statistics --json kernels.json\n"
+    "  RADV_FORCE_FAMILY=navi21 ringlet kernels --statistics\n"
+    "\n"
+    "Compiles every kernel that a run could use on this device: the strand kernels of each kind of work in\n"
+    "the shapes that are planned for 16 to 256 particles and in the serial form, and the contact kernels.\n"
+    "A line a kernel: the subgroup size it got (`-`: the driver does not tell), the seconds the driver's\n"
+    "compiler took, and with --statistics what the driver tells of the machine code: registers, spilled\n"
+    "registers, scratch memory, code size, waves. It needs VK_KHR_pipeline_executable_properties for that.\n"
+    "Flags: `spills` (registers did not suffice, and values go through memory), `1 wave` (a processor holds\n"
+    "one subgroup at a time and cannot hide waiting times).\n"
+    "\n"
+    "Each kernel is compiled in a process of its own, since drivers crash in their own statistics: such a\n"
+    "kernel is compiled again without them, and its line says so. No hair is simulated, so that a driver\n"
+    "without hardware will do: RADV takes RADV_FORCE_FAMILY=navi21 and the like.\n"
+    "\n"
+    "--json keys: device driver kernels (of each name compiled trouble subgroup (null: not told) seconds\n"
+    "flags statistics (of each name value)).\n"
+    "\n"
+    "Exit status: 0 all compiled, 1 one did not or something failed, 2 wrong usage.";
+
+// The command line as typed.
+struct Typed {
+  std::string device;
+  std::filesystem::path json;
+  bool statistics = false;
+  int one = -1;  // in a child: which kernel; statistics then say how
+};
+
+Result<ComputeDevice> openDevice(const Typed& typed) {
+  gpu::DeviceOptions options;
+  options.allowNull = true;
+  options.inspection = typed.statistics ? gpu::Inspection::statistics : gpu::Inspection::sizes;
+  auto opened = gpu::Device::open(typed.device, options);
+  if (!opened) return opened.error();
+  return ComputeDevice::over(std::move(*opened));
+}
+
+bool hasPart(const std::string& whole, const char* part) { return whole.find(part) != std::string::npos; }
+
+// By the names RADV and ANV give. Spilled scalar registers go to vector registers and cost little.
+std::vector<std::string> flagsOf(const CompiledKernel& compiled) {
+  const auto any = [&](const auto& holds) { return std::ranges::any_of(compiled.statistics, holds); };
+  std::vector<std::string> flags;
+  if (any([](const gpu::KernelStatistic& s) {
+        return hasPart(s.name, "pill") && !hasPart(s.name, "SGPR") && s.value > 0;
+      }))
+    flags.push_back("spills");
+  if (any([](const gpu::KernelStatistic& s) { return s.name == "Subgroups per SIMD" && s.value == 1; }))
+    flags.push_back("1 wave");
+  return flags;
+}
+
+// Of the statistics, what is worth a line of text; JSON has all.
+std::string statisticsText(const CompiledKernel& compiled) {
+  constexpr const char* kWorth[] = {"VGPRs",  "egister",  "pill",       "Fill",
+                                    "cratch", "ode size", "nstruction", "Subgroups"};
+  std::string text;
+  for (const gpu::KernelStatistic& one : compiled.statistics) {
+    if (std::ranges::none_of(kWorth, [&](const char* part) { return hasPart(one.name, part); })) continue;
+    text += fmt::format("{}{} {:.0f}", text.empty() ? "" : ", ", one.name, one.value);
+  }
+  return text;
+}
+
+std::string lineOf(const ListedKernel& kernel, const CompiledKernel& compiled) {
+  std::string line = fmt::format("  {:<56} {:>8} {:>8}", kernel.name,
+                                 compiled.subgroup ? fmt::to_string(*compiled.subgroup) : "-",
+                                 compiled.isCompiled ? fmt::format("{:.2f} s", compiled.seconds) : "FAILED");
+  const auto add = [&](const std::string& text) {
+    if (!text.empty()) line += "  " + text;
+  };
+  add(statisticsText(compiled));
+  for (const std::string& flag : flagsOf(compiled)) add("[" + flag + "]");
+  add(compiled.trouble);
+  return line;
+}
+
+Json asJson(const ListedKernel& kernel, const CompiledKernel& compiled) {
+  Json json{
+      {"name", kernel.name},         {"compiled", compiled.isCompiled},
+      {"trouble", compiled.trouble}, {"subgroup", compiled.subgroup ? Json(*compiled.subgroup) : Json()},
+      {"seconds", compiled.seconds}, {"flags", flagsOf(compiled)},
+      {"statistics", Json::array()}};
+  for (const gpu::KernelStatistic& one : compiled.statistics)
+    json["statistics"].push_back({{"name", one.name}, {"value", one.value}});
+  return json;
+}
+
+int fail(const std::string& message) {
+  fmt::print(stderr, "ringlet kernels: {}\n", message);
+  return kExitFailed;
+}
+
+// With statistics first; where the driver dies of them, without.
+CompiledKernel compileSafely(const Typed& typed, int device, std::size_t index) {
+  const std::vector<std::string> arguments{"kernels", "--device", std::to_string(device), "--one",
+                                           std::to_string(index)};
+  if (!typed.statistics) return compileInChild(arguments);
+  std::vector<std::string> withStatistics = arguments;
+  withStatistics.push_back("--statistics");
+  CompiledKernel compiled = compileInChild(withStatistics);
+  if (compiled.isCompiled || !compiled.trouble.starts_with("the driver crashed")) return compiled;
+  CompiledKernel again = compileInChild(arguments);
+  if (again.isCompiled) again.trouble = compiled.trouble + " in its statistics";
+  return again;
+}
+
+int run(const Typed& typed) {
+  const auto device = openDevice(typed);
+  if (!device) return fail(device.error().message);
+  const std::vector<ListedKernel> kernels = listKernels(*device);
+  if (typed.one >= 0) {
+    if (typed.one >= static_cast<int>(kernels.size())) return fail("there are fewer kernels than that");
+    printCompiled(compileKernel(*device, kernels[static_cast<std::size_t>(typed.one)]));
+    return kExitFine;
+  }
+
+  const gpu::DeviceProperties& p = device->gpu().properties();
+  fmt::print("{} ({}), {} kernels\n", p.name, p.driver, kernels.size());
+  if (typed.statistics && p.inspection == gpu::Inspection::none)
+    fmt::print("  this driver has no statistics (VK_KHR_pipeline_executable_properties)\n");
+  fmt::print("  {:<56} {:>8} {:>8}\n", "kernel", "subgroup", "compiled");
+  Json json{{"device", p.name}, {"driver", p.driver}, {"kernels", Json::array()}};
+  int failures = 0;
+  for (std::size_t k = 0; k < kernels.size(); ++k) {
+    const CompiledKernel compiled = compileSafely(typed, p.index, k);
+    fmt::print("{}\n", lineOf(kernels[k], compiled));
+    std::fflush(stdout);
+    json["kernels"].push_back(asJson(kernels[k], compiled));
+    failures += !compiled.isCompiled;
+  }
+  if (!typed.json.empty()) {
+    std::ofstream file(typed.json);
+    file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    file.close();
+    if (!file) return fail(fmt::format("cannot write {}", typed.json.string()));
+  }
+  if (failures > 0) return fail(fmt::format("{} of {} kernels did not compile", failures, kernels.size()));
+  return kExitFine;
+}
+
+}  // namespace
+
+void addKernelsCommand(CLI::App& app, int& exitCode) {
+  auto typed = std::make_shared<Typed>();
+  CLI::App* command =
+      app.add_subcommand("kernels", "Compiles every kernel on a device, and says what the driver made of it");
+  command->footer(kHelp);
+  command
+      ->add_option(
+          "--device", typed->device,
+          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
+          "else the best)")
+      ->type_name("D");
+  command->add_flag("--statistics", typed->statistics,
+                    "Tell of registers, spills, scratch, code size, waves");
+  command->add_option("--json", typed->json, "Writes it to this file as one JSON object, too")
+      ->type_name("FILE");
+  // In a child process: compiles the kernel of this number and prints one line.
+  command->add_option("--one", typed->one)->group("");
+  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,58 @@
+// Implements kernels_list.h.
+#include "program/kernels_list.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "program/planned_shapes.h"
+#include "ringlet/solver/contact_kernels.h"
+#include "ringlet/solver/device_buffers.h"
+#include "ringlet/solver/strand_kernels.h"
+
+namespace ringlet::program {
+namespace {
+
+// What strands are asked to do, in the variants of the strand kernels (strand_kernels.cpp).
+struct Work {
+  const char* name;
+  StrandWork shapes;
+  StrandKernelOptions options;
+};
+std::vector<Work> strandWorks() {
+  return {{"hair alone", StrandWork::hairAlone, {.oneSmoothing = true}},
+          {"stiffness that varies", StrandWork::plain, {.oneSmoothing = true, .bendVaries = true}},
+          {"contacts", StrandWork::plain, {.oneSmoothing = true, .contacts = true}},
+          {"air", StrandWork::plain, {.oneSmoothing = true, .air = true, .turbulence = true}},
+          {"bodies", StrandWork::bodies, {.oneSmoothing = true, .bodies = true}},
+          {"bodies in air",
+           StrandWork::bodies,
+           {.oneSmoothing = true, .bodies = true, .air = true, .turbulence = true}},
+          {"point_jacobi", StrandWork::plain, {.integrator = Integrator::pointJacobi, .oneSmoothing = true}},
+          {"paper", StrandWork::plain, {.integrator = Integrator::paper, .oneSmoothing = true}}};
+}
+
+const char* const kContactNames[kContactKernelCount] = {"motion", "decide",  "count", "scan",
+                                                        "sum",    "scatter", "order", "query",
+                                                        "touch",  "life",    "check", "gather"};
+
+}  // namespace
+
+std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
+  const bool texels = isSeenAsTexels(device.gpu(), kLeastTexelBytes);
+  std::vector<ListedKernel> kernels;
+  for (Work& work : strandWorks()) {
+    work.options.texels = texels && !work.options.contacts;
+    std::vector<StrandShape> shapes = plannedShapes(device.limits(), work.shapes, kUsualLengths, true);
+    if (std::ranges::find(shapes, StrandShape{}) == shapes.end()) shapes.push_back(StrandShape{});
+    for (const StrandShape& shape : shapes)
+      kernels.push_back({fmt::format("strand_step, {}, {}", work.name, shape.describe()),
+                         describeStrandKernel(shape, work.options)});
+  }
+  for (std::size_t k = 0; k < kContactKernelCount; ++k)
+    kernels.push_back({fmt::format("contact_{}", kContactNames[k]),
+                       describeContactKernel(static_cast<ContactKernel>(k), kContactGroupSize, texels)});
+  return kernels;
+}
+
+}  // namespace ringlet::program
