@@ -55,6 +55,32 @@ TEST_F(Repeat, LongFramesGiveTheBitsOfSingleSteps) {
   }
 }
 
+// Hair that wind presses onto a body, and that may not stretch: then a step has the most turns of loops.
+TEST_F(Repeat, LongFramesAmongBodiesGiveTheBitsOfSingleSteps) {
+  constexpr int kSteps = 16;
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < 3; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 250; ++i) strand.push_back(Vec3f(Vec3d{0.001 * i, 0, 0.01 * s}));
+    groom.addStrand(strand);
+  }
+  Settings settings;
+  settings.maxStretch = 1;
+  settings.air = {.on = true, .fallSpeed = 2, .wind = {0, -20, 1}, .turbulence = 2};
+  const std::vector<Body> bodies{{.name = "ball", .radius = 0.05, .place = {{0.12, -0.051, 0}, {}}}};
+  const auto run = [&](int stepsPerFrame) {
+    settings.stepsPerFrame = stepsPerFrame;
+    settings.framesPerSecond = 192.0 / stepsPerFrame;
+    auto simulation =
+        Simulation::create(device(), groom, {}, settings, {}, {}, {KernelChoice::Form::serial}, bodies);
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    for (int step = 0; step < kSteps; step += stepsPerFrame) EXPECT_TRUE(simulation->stepFrame(HeadPose{}));
+    return *simulation->state();
+  };
+  expectSameBits(run(kSteps), run(1), "serial, a body and air");
+}
+
 TEST_F(Repeat, TapsChangeNoBit) {
   for (KernelChoice kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::automatic, 8},
                               KernelChoice{KernelChoice::Form::serial}}) {
