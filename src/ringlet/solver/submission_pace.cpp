@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ringlet/gpu/recorder.h"
+
 namespace ringlet {
 namespace {
 

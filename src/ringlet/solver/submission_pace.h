@@ -9,9 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "ringlet/gpu/recorder.h"
-
 namespace ringlet {
+namespace gpu {
+class Recorder;
+}
 
 class SubmissionPace {
  public:
