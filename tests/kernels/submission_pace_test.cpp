@@ -171,12 +171,13 @@ TEST_F(ShortSubmissions, HaveTheSameBits) {
   }
 }
 
-// Nobody watches a CPU's driver.
+// Nobody watches a CPU's driver. Elsewhere dispatches are submitted alone while nothing is known of them.
 TEST_F(ShortSubmissions, AreNotNeededOnACpu) {
+  const std::uint64_t submissions = run(device(), false, {.mostBufferBytes = 16384}).submissions;
   if (device().limits().isCpu) {
-    EXPECT_EQ(run(device(), false, {}).submissions, static_cast<std::uint64_t>(kFrames));
+    EXPECT_EQ(submissions, static_cast<std::uint64_t>(kFrames));
   } else {
-    EXPECT_GT(run(device(), false, {}).submissions, static_cast<std::uint64_t>(kFrames));
+    EXPECT_GT(submissions, static_cast<std::uint64_t>(kFrames));
   }
 }
 
