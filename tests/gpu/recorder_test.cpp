@@ -151,6 +151,35 @@ TEST_F(Recorders, AreReusable) {
   for (std::uint32_t i = 0; i < 100; ++i) ASSERT_EQ(found[i], 2 * (i + 222)) << i;
 }
 
+// A recording in parts is as many submissions, in order; each sees what the ones before wrote. It may be
+// submitted again, and be replaced by one of fewer or more parts.
+TEST_F(Recorders, PartsAreSubmittedOneByOne) {
+  auto bench = Bench::create(gpu(), 1000, describeKernel(1));
+  ASSERT_TRUE(bench) << bench.error().message;
+  Recorder& recorder = bench->recorder;
+  std::uint32_t expected = 0;  // of the value that began as 0: v -> 2 v + 1 a dispatch
+  for (const std::size_t parts : {5u, 1u, 2u, 6u}) {
+    SCOPED_TRACE(parts);
+    RINGLET_EXPECT_OK(recorder.begin());
+    for (std::size_t part = 0; part < parts; ++part) {
+      if (part > 0) recorder.cut();
+      recorder.beginStage("part");
+      bench->dispatch(2);
+      recorder.barrier();
+      bench->dispatch(2);
+      recorder.endStage();
+    }
+    for (int again = 0; again < 2; ++again) {  // an even number of dispatches ends where it began
+      const std::uint64_t before = gpu().submissionCount();
+      RINGLET_EXPECT_OK(recorder.submitAndWait());
+      EXPECT_EQ(gpu().submissionCount(), before + parts);
+      EXPECT_EQ(recorder.stageMilliseconds().size(), parts);
+      for (std::size_t d = 0; d < 2 * parts; ++d) expected = 2 * expected + 1;
+      EXPECT_EQ(bench->found()[0], expected);
+    }
+  }
+}
+
 TEST_F(Recorders, CopiesAndFillsAmongDispatches) {
   auto bench = Bench::create(gpu(), 100, describeKernel(7));
   auto copy = Buffer::create(gpu(), 400, BufferKind::stream, "copy");
@@ -324,6 +353,9 @@ TEST_F(Recorders, MisuseIsTheCallersFault) {
                  "more workgroups");
   }
   EXPECT_DEATH(recorder.endStage(), "endStage without beginStage");
+  recorder.beginStage("open");
+  EXPECT_DEATH(recorder.cut(), "cut before endStage");
+  recorder.endStage();
   EXPECT_DEATH((void)Bindings::create(*bench->kernel, {{2, bench->shift}}),
                "a buffer for each of its bindings");
 }

@@ -90,6 +90,25 @@ TEST_F(StagedContacts, HaveTheSameBits) {
   expectNoMessages(*(*opened)->validationLog());
 }
 
+// Hair that stands still keeps its lists; put somewhere, even where it is, it gets new ones.
+TEST_F(StagedContacts, SettingTheStateForgetsLists) {
+  const auto opened = gpu::Device::open("", {.alwaysStage = true});
+  ASSERT_TRUE(opened) << opened.error().message;
+  for (const ComputeDevice& on : {ComputeDevice::over(*opened), device()}) {
+    Settings settings;
+    settings.contacts.on = true;
+    auto simulation = Simulation::create(on, denseGroom(), {}, settings);
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+    const std::uint64_t before = simulation->contactReport()->rebuilds;
+    ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+    ASSERT_EQ(simulation->contactReport()->rebuilds, before) << "hair was to stand still";
+    ASSERT_TRUE(simulation->setState(*simulation->state()));
+    ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+    EXPECT_EQ(simulation->contactReport()->rebuilds, before + 1);
+  }
+}
+
 // Both sides of every listed pair are looked at once a step: counts go on over frames.
 TEST_F(StagedContacts, PairTestsAddUpOverFrames) {
   const std::vector<Seen> seen = run(device());

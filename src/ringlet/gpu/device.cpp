@@ -472,12 +472,22 @@ std::shared_ptr<void> Device::countBytes(std::uint32_t heap, std::uint64_t bytes
   return {this, [self = shared_from_this(), heap, bytes](void*) { self->takenBytes_[heap] -= bytes; }};
 }
 
-VkResult Device::submit(VkCommandBuffer commands, VkFence fence) {
-  auto info = zeroed<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-  info.commandBufferCount = 1;
-  info.pCommandBuffers = &commands;
+// One call a part: drivers may take what comes in one call for one job, and a watchdog counts jobs.
+VkResult Device::submit(std::span<const VkCommandBuffer> parts, VkFence fence) {
   const std::lock_guard lock(queueMutex_);
-  return table_.vkQueueSubmit(queue_, 1, &info, fence);
+  for (const VkCommandBuffer& part : parts) {
+    auto info = zeroed<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &part;
+    const bool isLast = &part == &parts.back();
+    const VkResult result = table_.vkQueueSubmit(queue_, 1, &info, isLast ? fence : VK_NULL_HANDLE);
+    if (result != VK_SUCCESS) {
+      (void)table_.vkQueueWaitIdle(queue_);  // no fence tells when the parts before are done
+      return result;
+    }
+    ++submissionCount_;
+  }
+  return VK_SUCCESS;
 }
 
 std::chrono::steady_clock::time_point Device::noteWait(std::chrono::steady_clock::time_point now) {

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -127,8 +128,10 @@ class Device : public std::enable_shared_from_this<Device> {
   std::uint64_t availableBytes(std::uint32_t heap) const;
   /// Counts bytes of a heap as taken for as long as what it returns is kept.
   std::shared_ptr<void> countBytes(std::uint32_t heap, std::uint64_t bytes);
-  /// Hands the commands to the queue; any thread may.
-  VkResult submit(VkCommandBuffer commands, VkFence fence);
+  /// Hands command buffers to the queue, each a submission of its own; the fence is for all. Any thread may.
+  VkResult submit(std::span<const VkCommandBuffer> parts, VkFence fence);
+  /// Submissions so far.
+  std::uint64_t submissionCount() const { return submissionCount_; }
   /// Of waits for submissions: notes when one ended, and tells when the one before it did. Any thread may.
   std::chrono::steady_clock::time_point noteWait(std::chrono::steady_clock::time_point now);
   /// Names an object in validation messages; does nothing where the layer is off.
@@ -147,6 +150,7 @@ class Device : public std::enable_shared_from_this<Device> {
   VolkDeviceTable table_{};
   VkQueue queue_ = VK_NULL_HANDLE;
   std::mutex queueMutex_;
+  std::atomic<std::uint64_t> submissionCount_ = 0;
   std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;
   std::unique_ptr<KernelCache> kernels_;

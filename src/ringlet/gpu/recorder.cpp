@@ -32,7 +32,9 @@ struct Recorder::State {
   std::shared_ptr<Device> device;
   std::string name;
   OwnedCommandPool pool;
-  VkCommandBuffer commands = VK_NULL_HANDLE;  // goes with the pool
+  std::vector<VkCommandBuffer> parts;         // go with the pool; those of the recording come first
+  std::size_t partCount = 0;                  // of the recording
+  VkCommandBuffer commands = VK_NULL_HANDLE;  // its last
   OwnedFence fence;
   std::vector<OwnedQueryPool> timestamps;
   Phase phase = Phase::empty;
@@ -145,20 +147,40 @@ Result<Recorder> Recorder::create(Device& device, const std::string& name) {
                    self->attempt("record"));
   self->pool = OwnedCommandPool(self->device, pool);
 
-  auto info = zeroed<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-  info.commandPool = pool;
-  info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-  info.commandBufferCount = 1;
-  RINGLET_VK_CHECK(device.vk().vkAllocateCommandBuffers(device.handle(), &info, &self->commands),
-                   self->attempt("record"));
-  device.nameObject(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(self->commands), name);
-
   auto fenceInfo = zeroed<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
   VkFence fence = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence),
                    self->attempt("record"));
   self->fence = OwnedFence(self->device, fence);
   return Recorder(std::move(self));
+}
+
+// Command buffers are made as parts are recorded, and kept.
+Status Recorder::beginPart() {
+  if (self_->partCount == self_->parts.size()) {
+    auto info = zeroed<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
+    info.commandPool = self_->pool.get();
+    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    info.commandBufferCount = 1;
+    VkCommandBuffer part = VK_NULL_HANDLE;
+    RINGLET_VK_CHECK(self_->vk().vkAllocateCommandBuffers(self_->device->handle(), &info, &part),
+                     self_->attempt("record"));
+    self_->device->nameObject(VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<std::uint64_t>(part),
+                              self_->name);
+    self_->parts.push_back(part);
+  }
+  self_->commands = self_->parts[self_->partCount];
+  auto info = zeroed<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+  RINGLET_VK_CHECK(self_->vk().vkBeginCommandBuffer(self_->commands, &info), self_->attempt("record"));
+  ++self_->partCount;
+  self_->phase = State::Phase::recording;
+  barrier();  // against earlier submissions
+  return {};
+}
+
+Status Recorder::endPart() {
+  RINGLET_VK_CHECK(self_->vk().vkEndCommandBuffer(self_->commands), self_->attempt("record"));
+  return {};
 }
 
 Status Recorder::begin() {
@@ -168,13 +190,18 @@ Status Recorder::begin() {
   self_->recorded.clear();
   self_->stages.clear();
   self_->isStageOpen = false;
+  self_->partCount = 0;
   RINGLET_VK_CHECK(self_->vk().vkResetCommandPool(self_->device->handle(), self_->pool.get(), 0),
                    self_->attempt("record"));
-  auto info = zeroed<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-  RINGLET_VK_CHECK(self_->vk().vkBeginCommandBuffer(self_->commands, &info), self_->attempt("record"));
-  self_->phase = State::Phase::recording;
-  barrier();  // against earlier submissions
-  return {};
+  return beginPart();
+}
+
+void Recorder::cut() {
+  RINGLET_ASSERT(self_->phase == State::Phase::recording, "cut outside begin and submit");
+  RINGLET_ASSERT(!self_->isStageOpen, "cut before endStage");
+  Status status = endPart();
+  if (status) status = beginPart();
+  if (!status && !self_->failure) self_->failure = status.error();
 }
 
 // What a dispatch of either kind needs before it.
@@ -275,13 +302,13 @@ Status Recorder::submit() {
   if (self_->phase == State::Phase::recording) {
     RINGLET_ASSERT(!self_->isStageOpen, "submit before endStage");
     self_->memoryBarrier(VK_ACCESS_HOST_READ_BIT, VK_PIPELINE_STAGE_HOST_BIT);  // for what is mapped
-    RINGLET_VK_CHECK(self_->vk().vkEndCommandBuffer(self_->commands), self_->attempt("record"));
+    if (Status status = endPart(); !status) return status;
     self_->phase = State::Phase::recorded;
   }
   const VkFence fence = self_->fence.get();
   RINGLET_VK_CHECK(self_->vk().vkResetFences(self_->device->handle(), 1, &fence), self_->attempt("submit"));
   self_->submitted = Clock::now();
-  const VkResult submitted = self_->device->submit(self_->commands, fence);
+  const VkResult submitted = self_->device->submit(std::span(self_->parts).first(self_->partCount), fence);
   if (submitted != VK_SUCCESS) return vulkanError("vkQueueSubmit", submitted, self_->attempt("submit"));
   self_->phase = State::Phase::submitted;
   return {};

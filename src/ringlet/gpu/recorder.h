@@ -1,5 +1,5 @@
 // Recorder: a list of commands for the device, recorded once and submitted as often as wanted, with timed
-// stages.
+// stages; in one submission or in several (cut).
 //
 //   begin -> { beginStage, dispatch, barrier, copyBuffer, ..., endStage }* -> submit -> wait
 //     ^                                                                         ^          |
@@ -74,11 +74,15 @@ class Recorder {
                   std::uint64_t toOffset = 0);
   void fillZero(const Buffer& buffer);
 
+  /// What follows is a submission of its own, which sees the finished work of what was recorded before. Not
+  /// within a stage.
+  void cut();
+
   /// Times what is recorded up to endStage; stages do not nest.
   void beginStage(const std::string& name);
   void endStage();
 
-  /// Hands the recording to the device. What it writes can be read by the host after wait.
+  /// Hands the recording to the device, part by part. What it writes can be read by the host after wait.
   Status submit();
   Status wait();
   Status submitAndWait();
@@ -96,6 +100,8 @@ class Recorder {
 
  private:
   struct State;
+  Status beginPart();
+  Status endPart();
   void bind(const Kernel& kernel, const Bindings& bindings, std::span<const std::byte> pushConstants);
   explicit Recorder(std::unique_ptr<State>);
   std::unique_ptr<State> self_;

@@ -278,15 +278,15 @@ void ContactStage::recordNothing(gpu::Recorder& recorder) const {
   for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) const {
-  recorder.beginStage("contact_motion");
+void ContactStage::recordLists(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const {
+  pace.beginStage(recorder, "contact_motion");
   dispatch(recorder, ContactKernel::motion, step, contactGroups());
   recorder.barrier();
   dispatch(recorder, ContactKernel::decide, step, 1);
   recorder.barrier();
   recorder.endStage();
 
-  recorder.beginStage("contact_grid");
+  pace.beginStage(recorder, "contact_grid");
   using enum ContactKernel;
   const std::pair<ContactKernel, std::uint64_t> grid[] = {
       {count, kPerContact}, {scan, kPerBlock}, {sum, kOne}, {scatter, kPerContact}, {order, kPerContact}};
@@ -296,26 +296,26 @@ void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) cons
   }
   recorder.endStage();
 
-  recorder.beginStage("contact_query");
+  pace.beginStage(recorder, "contact_query");
   dispatchIndirect(recorder, ContactKernel::query, step, kPerContact);
   recorder.endStage();
 }
 
-void ContactStage::recordLife(gpu::Recorder& recorder) const {
-  recorder.beginStage("contact_touch");
+void ContactStage::recordLife(gpu::Recorder& recorder, SubmissionPace& pace) const {
+  pace.beginStage(recorder, "contact_touch");
   dispatch(recorder, ContactKernel::touch, 0, contactGroups());
   recorder.barrier();
   recorder.endStage();
 
-  recorder.beginStage("contact_life");
+  pace.beginStage(recorder, "contact_life");
   dispatchIndirect(recorder, ContactKernel::life, 0, kMeeting);
   recorder.barrier();
   dispatch(recorder, ContactKernel::check, 0, 1);
   recorder.endStage();
 }
 
-void ContactStage::recordGather(gpu::Recorder& recorder) const {
-  recorder.beginStage("contact_gather");
+void ContactStage::recordGather(gpu::Recorder& recorder, SubmissionPace& pace) const {
+  pace.beginStage(recorder, "contact_gather");
   dispatchIndirect(recorder, ContactKernel::gather, 0, kMeeting);
   recorder.endStage();
 }

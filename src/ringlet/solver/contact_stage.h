@@ -23,6 +23,7 @@
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/simulation.h"
+#include "ringlet/solver/submission_pace.h"
 
 namespace ringlet {
 
@@ -40,9 +41,9 @@ class ContactStage {
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say.
-  void recordLists(gpu::Recorder& recorder, std::uint32_t step) const;
-  void recordLife(gpu::Recorder& recorder) const;
-  void recordGather(gpu::Recorder& recorder) const;
+  void recordLists(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const;
+  void recordLife(gpu::Recorder& recorder, SubmissionPace& pace) const;
+  void recordGather(gpu::Recorder& recorder, SubmissionPace& pace) const;
   /// A frame ends with it, after a barrier: what its control block says comes to the host.
   void recordControl(gpu::Recorder& recorder) const;
 

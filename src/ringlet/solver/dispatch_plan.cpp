@@ -58,7 +58,8 @@ Error tooLong(const StrandRange& range, const Settings& settings, std::uint64_t 
 // Cuts a frame's steps for one range into pieces within the budget: several steps a dispatch where they fit,
 // else one, else (serial form only) one step in several.
 Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits,
-                                               const Settings& settings, std::size_t bodyCount) {
+                                               const Settings& settings, std::size_t bodyCount,
+                                               std::uint64_t mostParticleSteps) {
   const std::uint64_t budget = loopBudget(limits);
   const LoopCost cost = loopCost(range, settings, bodyCount);
   const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
@@ -68,7 +69,10 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
   if (whole <= budget) {
     // A strand that a step alone may be too long for goes step by step.
     const std::uint64_t stepsThatFit = std::max<std::uint64_t>(1, budget / (whole + cost.pressed));
-    const std::uint32_t stepsAtOnce = static_cast<std::uint32_t>(stepsThatFit);
+    const std::uint64_t particles = std::uint64_t{range.end - range.begin} * range.longest;
+    const std::uint64_t bound =
+        std::min(stepsThatFit, std::max<std::uint64_t>(1, mostParticleSteps / particles));
+    const auto stepsAtOnce = static_cast<std::uint32_t>(std::min<std::uint64_t>(bound, steps));
     for (std::uint32_t s = 0; s < steps; s += stepsAtOnce) {
       pieces.push_back({.stepBegin = s,
                         .stepEnd = std::min(steps, s + stepsAtOnce),
@@ -112,12 +116,14 @@ std::vector<PlannedDispatch> piecesOf(const StrandShape& shape, const SolvePass&
   return pieces;
 }
 
-// A range's pieces for as many strands at once as the device takes groups.
+// A range's pieces for as many strands at once as the device takes groups, and a bound takes particles.
 void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& range, std::uint32_t index,
                       const DeviceLimits& limits, std::uint32_t groupSize,
-                      std::span<const PlannedDispatch> pieces) {
+                      std::span<const PlannedDispatch> pieces, std::uint64_t mostParticleSteps) {
   const std::uint32_t strandsPerGroup = groupSize / std::max(1u, range.shape.lanes);
-  const std::uint64_t strandsAtOnce = std::uint64_t{strandsPerGroup} * limits.maxGroupCount;
+  const std::uint64_t groups = mostParticleSteps / (std::uint64_t{strandsPerGroup} * range.longest);
+  const std::uint64_t strandsAtOnce =
+      strandsPerGroup * std::clamp<std::uint64_t>(groups, 1, limits.maxGroupCount);
   for (std::uint64_t begin = range.begin; begin < range.end; begin += strandsAtOnce) {
     for (PlannedDispatch piece : pieces) {
       piece.range = index;
@@ -131,28 +137,40 @@ void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& ran
 
 }  // namespace
 
+std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const StrandRange> ranges) {
+  return std::uint64_t{dispatch.strandEnd - dispatch.strandBegin} * ranges[dispatch.range].longest *
+         (dispatch.stepEnd - dispatch.stepBegin);
+}
+
+bool sharesStrands(const PlannedDispatch& a, const PlannedDispatch& b) {
+  return a.range == b.range && a.strandBegin < b.strandEnd && b.strandBegin < a.strandEnd;
+}
+
 Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
                                               const Settings& settings, std::size_t bodyCount,
-                                              std::uint32_t groupSize, const SolvePass& pass) {
+                                              std::uint32_t groupSize, const SolvePass& pass,
+                                              std::uint64_t mostParticleSteps) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
     // In lanes a pass may go on to a second step; the serial form does that in a dispatch of its own.
     const std::uint64_t turns =
         (ranges[r].shape.serial() ? 1 : 2) * loopCost(ranges[r], settings, bodyCount).step;
     if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
-    spreadOverGroups(plan, ranges[r], r, limits, groupSize, piecesOf(ranges[r].shape, pass));
+    spreadOverGroups(plan, ranges[r], r, limits, groupSize, piecesOf(ranges[r].shape, pass),
+                     mostParticleSteps);
   }
   return plan;
 }
 
 Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
                                                const DeviceLimits& limits, const Settings& settings,
-                                               std::size_t bodyCount, std::uint32_t groupSize) {
+                                               std::size_t bodyCount, std::uint32_t groupSize,
+                                               std::uint64_t mostParticleSteps) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
-    auto steps = planSteps(ranges[r], limits, settings, bodyCount);
+    auto steps = planSteps(ranges[r], limits, settings, bodyCount, mostParticleSteps);
     if (!steps) return steps.error();
-    spreadOverGroups(plan, ranges[r], r, limits, groupSize, *steps);
+    spreadOverGroups(plan, ranges[r], r, limits, groupSize, *steps, mostParticleSteps);
   }
   return plan;
 }

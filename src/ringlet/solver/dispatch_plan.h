@@ -30,15 +30,28 @@ struct SolvePass {
   bool goesOn = false;        // and the first of the step after follows
 };
 
+/// No bound on a dispatch but the device's.
+inline constexpr std::uint64_t kAnyParticleSteps = ~std::uint64_t{0};
+
+/// Particles of a dispatch, as long as its range's longest strand, times its steps.
+std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const StrandRange> ranges);
+
+/// Whether the later of two dispatches that follow each other needs what the earlier one wrote. Others may
+/// run at the same time.
+bool sharesStrands(const PlannedDispatch& a, const PlannedDispatch& b);
+
 /// The dispatches of one pass, in order, as for planFrame. Fails where a step is too long for the device.
 Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
                                               const Settings& settings, std::size_t bodyCount,
-                                              std::uint32_t groupSize, const SolvePass& pass);
+                                              std::uint32_t groupSize, const SolvePass& pass,
+                                              std::uint64_t mostParticleSteps = kAnyParticleSteps);
 
 /// The dispatches of one frame, in order; those of one range depend on each other, those of different ranges
-/// do not. Fails where a step cannot be cut small enough for the device.
+/// do not. None has more than `mostParticleSteps`, but for one step of a workgroup. Fails where a step cannot
+/// be cut small enough for the device.
 Result<std::vector<PlannedDispatch>> planFrame(std::span<const StrandRange> ranges,
                                                const DeviceLimits& limits, const Settings& settings,
-                                               std::size_t bodyCount, std::uint32_t groupSize);
+                                               std::size_t bodyCount, std::uint32_t groupSize,
+                                               std::uint64_t mostParticleSteps = kAnyParticleSteps);
 
 }  // namespace ringlet

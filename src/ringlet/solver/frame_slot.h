@@ -18,6 +18,7 @@ struct FrameSlot {
   std::vector<gpu::Buffer> positions;  // of each chunk, as the frame left them, in the host's memory
   gpu::Recorder recorder;              // goes first, waiting for what it writes
   bool isRecorded = false;             // as a whole frame
+  double particleSteps = 0;            // of strands, in what is recorded
 
   /// Fails when the device lacks memory.
   static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom);

@@ -31,6 +31,13 @@ std::vector<StrandShape> shapesOf(std::span<const StrandRange> ranges) {
   return shapes;
 }
 
+// A CPU's driver has nobody who watches it. [s]
+double longestSubmission(const KernelChoice& choice, const DeviceLimits& limits) {
+  constexpr double kOnGpus = 0.3;
+  if (choice.longestSubmissionSeconds > 0) return choice.longestSubmissionSeconds;
+  return limits.isCpu ? 0 : kOnGpus;
+}
+
 std::string describe(std::span<const StrandShape> shapes, std::uint32_t subgroupSize) {
   std::string text;
   for (const StrandShape& shape : shapes) text += (text.empty() ? "" : ", ") + shape.describe();
@@ -78,8 +85,8 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const auto chunks = cutForDevice(device.gpu(), counts, records, settings, choice);
   if (!chunks) return chunks.error();
   *ranges = cutRanges(*ranges, *chunks);
-  auto plan = planFrame(*ranges, limits, settings, bodies.size(), kStrandGroupSize);
-  if (!plan) return plan.error();
+  const auto plan = planFrame(*ranges, limits, settings, bodies.size(), kStrandGroupSize);
+  if (!plan) return plan.error();  // before anything is made for it
 
   auto buffers = DeviceGroom::create(device.gpu(), *rest, *chunks, records, kFramesInFlight);
   if (!buffers) return buffers.error();
@@ -99,7 +106,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           std::move(*world),
                                                           std::move(*roots),
                                                           std::move(*ranges),
-                                                          std::move(*plan)});
+                                                          SubmissionPace(longestSubmission(choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
   if (settings.contacts.on) {
     if (Status status = self->addContacts(); !status) return status.error();

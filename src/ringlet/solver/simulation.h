@@ -99,6 +99,9 @@ struct KernelChoice {
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
+  // [s] of one submission, about: a desktop whose device works longer at one piece takes it for hung. 0: 0.3,
+  // and on a CPU device without bound.
+  double longestSubmissionSeconds = 0;
   // Less than the device has, for tests; 0: what it has [bytes].
   std::uint64_t mostBufferBytes = 0;  // of one buffer: more is cut into chunks
   std::uint64_t mostDeviceBytes = 0;  // of all

@@ -38,14 +38,21 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   return p;
 }
 
-void Simulation::Implementation::dispatchAll(gpu::Recorder& recorder,
-                                             std::span<const PlannedDispatch> dispatches) {
-  recorder.beginStage("strand_step");
+// One stage, or in several submissions one in each.
+void Simulation::Implementation::dispatchAll(FrameSlot& slot, std::span<const PlannedDispatch> dispatches) {
+  gpu::Recorder& recorder = slot.recorder;
   for (std::size_t d = 0; d < dispatches.size(); ++d) {
     const PlannedDispatch& now = dispatches[d];
-    // Only dispatches on the same strands depend on each other; but the validation layer sees whole buffers,
-    // and takes those on other strands for hazards.
-    if (d > 0) recorder.barrier();
+    const auto particleSteps = static_cast<double>(particleStepsOf(now, ranges));
+    slot.particleSteps += particleSteps;
+    const bool cuts = pace.cutsBeforeStrands(particleSteps);
+    if (cuts && d > 0) recorder.endStage();
+    if (cuts) recorder.cut();
+    if (cuts || d == 0) recorder.beginStage(SubmissionPace::kStrandStage);
+    // Dispatches on other strands may overlap. The validation layer sees whole buffers, and would take them
+    // for hazards.
+    const bool isValidated = device.gpu().validationLog() != nullptr;
+    if (d > 0 && !cuts && (isValidated || sharesStrands(dispatches[d - 1], now))) recorder.barrier();
     recorder.dispatch(*kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now), now.groupCount);
   }
   recorder.endStage();
@@ -54,6 +61,8 @@ void Simulation::Implementation::dispatchAll(gpu::Recorder& recorder,
 // A recording takes over what the host wrote for the frame, and at its end brings positions back.
 Status Simulation::Implementation::beginFrame(std::size_t slot) {
   gpu::Recorder& recorder = slots[slot].recorder;
+  slots[slot].particleSteps = 0;
+  pace.beginRecording();
   if (Status status = recorder.begin(); !status) return status;
   buffers.poses.record(recorder, slot);
   world.record(recorder, slot);
@@ -65,19 +74,22 @@ Status Simulation::Implementation::beginFrame(std::size_t slot) {
 // The whole frame, once: what changes from frame to frame is in its inputs.
 Status Simulation::Implementation::recordFrame(std::size_t slot) {
   if (contacts) return recordContactFrame(slot, 0, true);
+  const auto plan = planFrame(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize,
+                              pace.mostParticleSteps());
+  if (!plan) return plan.error();
   if (Status status = beginFrame(slot); !status) return status;
-  dispatchAll(slots[slot].recorder, plan);
+  dispatchAll(slots[slot], *plan);
   slots[slot].recordPositions(buffers);
   slots[slot].isRecorded = true;
   return {};
 }
 
-Status Simulation::Implementation::recordPass(gpu::Recorder& recorder, const SolvePass& pass) {
-  const auto dispatches =
-      planPass(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize, pass);
+Status Simulation::Implementation::recordPass(FrameSlot& slot, const SolvePass& pass) {
+  const auto dispatches = planPass(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize,
+                                   pass, pace.mostParticleSteps());
   if (!dispatches) return dispatches.error();
-  dispatchAll(recorder, *dispatches);
-  recorder.barrier();
+  dispatchAll(slot, *dispatches);
+  slot.recorder.barrier();
   return {};
 }
 
@@ -87,20 +99,20 @@ Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uin
   if (Status status = beginFrame(slot); !status) return status;
   gpu::Recorder& recorder = slots[slot].recorder;
   if (predictFirst) {
-    if (Status status = recordPass(recorder, {.step = firstStep}); !status) return status;
+    if (Status status = recordPass(slots[slot], {.step = firstStep}); !status) return status;
   }
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   for (std::uint32_t step = firstStep; step < steps; ++step) {
-    contacts->recordLists(recorder, step);
+    contacts->recordLists(recorder, pace, step);
     recorder.barrier();
-    contacts->recordLife(recorder);
+    contacts->recordLife(recorder, pace);
     recorder.barrier();
     for (int iteration = 1; iteration <= settings.contacts.iterations; ++iteration) {
       const bool isLast = iteration == settings.contacts.iterations;
       const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
-      if (Status status = recordPass(recorder, pass); !status) return status;
+      if (Status status = recordPass(slots[slot], pass); !status) return status;
       if (isLast) continue;
-      contacts->recordGather(recorder);
+      contacts->recordGather(recorder, pace);
       recorder.barrier();
     }
   }
@@ -161,11 +173,14 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
     if (Status status = recorder.wait(); !status) return status;
     for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
       stageMilliseconds[stage] += milliseconds;
-    if (!contacts) return {};
-    contacts->readControl();
-    if (!contacts->isHalted()) return {};
+    if (contacts) contacts->readControl();
+    const bool isHalted = contacts && contacts->isHalted();
+    // A frame that stopped says nothing of how long its work takes.
+    if (isHalted || pace.learn(recorder.stageMilliseconds(), slots[slot].particleSteps)) {
+      for (FrameSlot& other : slots) other.isRecorded = false;
+    }
+    if (!isHalted) return {};
     if (Status status = contacts->makeRoom(); !status) return status;
-    for (FrameSlot& other : slots) other.isRecorded = false;
     if (Status status = recordContactFrame(slot, contacts->haltedStep(), false); !status) return status;
     if (Status status = recorder.submit(); !status) return status;
   }

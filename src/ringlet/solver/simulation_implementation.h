@@ -20,6 +20,7 @@
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/frame_slot.h"
 #include "ringlet/solver/simulation.h"
+#include "ringlet/solver/submission_pace.h"
 #include "shared/layout.h"
 
 namespace ringlet {
@@ -52,7 +53,7 @@ struct Simulation::Implementation {
   DeviceWorld world;
   DeviceRoots roots;
   std::vector<StrandRange> ranges;
-  std::vector<PlannedDispatch> plan;
+  SubmissionPace pace;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
   std::vector<std::size_t> kernelOf{};                        // each range's
   std::vector<gpu::Bindings> bindings{};                      // one a range
@@ -86,8 +87,8 @@ struct Simulation::Implementation {
   Status beginFrame(std::size_t slot);
   Status recordFrame(std::size_t slot);
   Status recordContactFrame(std::size_t slot, std::uint32_t firstStep, bool predictFirst);
-  Status recordPass(gpu::Recorder& recorder, const SolvePass& pass);
-  void dispatchAll(gpu::Recorder& recorder, std::span<const PlannedDispatch> dispatches);
+  Status recordPass(FrameSlot& slot, const SolvePass& pass);
+  void dispatchAll(FrameSlot& slot, std::span<const PlannedDispatch> dispatches);
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                      std::span<const BodyPose> rootPoses);
   Status finishFrames(std::uint64_t end);
