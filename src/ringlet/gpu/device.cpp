@@ -16,6 +16,7 @@
 #include "ringlet/gpu/check.h"
 #include "ringlet/gpu/kernel_cache.h"
 #include "ringlet/gpu/pipeline_cache_file.h"
+#include "ringlet/gpu/queue_family.h"
 #include "ringlet/gpu/subgroup_width.h"
 
 namespace ringlet::gpu {
@@ -74,22 +75,12 @@ Result<std::vector<VkExtensionProperties>> deviceExtensions(VkPhysicalDevice dev
   return extensions;
 }
 
-// The first family that computes and has timestamps, else the first that computes.
-std::optional<std::uint32_t> findComputeFamily(VkPhysicalDevice device, std::uint32_t& timestampBits) {
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-
-  std::optional<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const bool canCompute = (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
-    if (canCompute && (!found || (timestampBits == 0 && families[i].timestampValidBits != 0))) {
-      found = i;
-      timestampBits = families[i].timestampValidBits;
-    }
-  }
-  return found;
+  return families;
 }
 
 // What the device lacks of what the solver needs, or nothing.
@@ -228,7 +219,9 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
     candidate.extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
   }
 
-  const auto family = findComputeFamily(handle, p.timestampBits);
+  const std::vector<VkQueueFamilyProperties> families = queueFamilies(handle);
+  const auto family = chooseComputeFamily(families);
+  if (family) p.timestampBits = families[*family].timestampValidBits;
   p.hasTimestamps = !options.withoutTimestamps && p.timestampBits > 0 && p.timestampPeriod > 0;
   candidate.queueFamily = family.value_or(0);
   candidate.listing.why = family ? findLack(p, options) : "it has no compute queue";
@@ -404,12 +397,12 @@ Status Device::openPipelineCache(VkPhysicalDevice physical, const std::filesyste
   if (!folder.empty()) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical, &properties);
-    const PipelineCacheOwner owner{properties.vendorID, properties.deviceID,
-                                   std::to_array(properties.pipelineCacheUUID)};
+    pipelineCacheOwner_ = {properties.vendorID, properties.deviceID, properties.driverVersion,
+                           std::to_array(properties.pipelineCacheUUID)};
     std::string uuid;
-    for (std::uint8_t byte : owner.uuid) uuid += fmt::format("{:02x}", byte);
+    for (std::uint8_t byte : pipelineCacheOwner_.uuid) uuid += fmt::format("{:02x}", byte);
     pipelineCacheFile_ = folder / fmt::format("pipelines-{}.bin", uuid);
-    kept = readPipelineCache(pipelineCacheFile_, owner);
+    kept = readPipelineCache(pipelineCacheFile_, pipelineCacheOwner_);
   }
   auto info = zeroed<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
   info.initialDataSize = kept.size();
@@ -435,7 +428,7 @@ void Device::keepPipelineCache() const {
   std::vector<std::byte> bytes(size);
   if (vk().vkGetPipelineCacheData(device_, pipelineCache_, &size, bytes.data()) != VK_SUCCESS) return;
   bytes.resize(size);
-  (void)writePipelineCache(pipelineCacheFile_, bytes);
+  (void)writePipelineCache(pipelineCacheFile_, pipelineCacheOwner_, bytes);
 }
 
 Device::Device() : kernels_(std::make_unique<KernelCache>()) {}

@@ -17,6 +17,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/instance.h"
+#include "ringlet/gpu/pipeline_cache_file.h"
 #include "ringlet/gpu/vulkan.h"
 
 namespace ringlet::gpu {
@@ -156,6 +157,7 @@ class Device : public std::enable_shared_from_this<Device> {
   std::unique_ptr<KernelCache> kernels_;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
   std::filesystem::path pipelineCacheFile_;
+  PipelineCacheOwner pipelineCacheOwner_;
   std::size_t pipelineCacheBytes_ = 0;  // when it was new
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
