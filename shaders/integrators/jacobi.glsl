@@ -72,10 +72,9 @@ void solveStrandBlock(vec3 pinned[3]) {
   mat3 pull[RUN];
 
   LaneSystem system;
-  system.joined = isEdge(RUN - 1);
   system.P = massOf(RUN - 1);
   system.y = rightHandSideOfRun(RUN - 1);
-  system.transfer = mat3(1);
+  system.transfer = mat3(isEdge(RUN - 1) ? 1.0 : 0.0);  // 0: the strand ends here, nothing pulls
   if (kLanes > 1) {
     system.compliance = edgeCompliance(implicitEdgeOf(RUN - 1));
     system.offset = multiply(system.compliance, -stepSeconds() * force[RUN - 1]);
@@ -101,10 +100,13 @@ void solveStrandBlock(vec3 pinned[3]) {
     }
   }
 
-  Boundary boundary = joinLanes(system);
-  vec3 start = lane == 0 ? pinned[0] : vec3(0);
-  vec3 f = solveBoundaries(system, boundary, start);
-  v[0] = start;
+  vec3 f = vec3(0);
+  v[0] = pinned[0];
+  if (kLanes > 1) {
+    Boundary boundary = joinLanes(system);
+    v[0] = velocityFromRoot(system, boundary, pinned[0]);
+    f = boundaryForce(system, boundary, v[0]);
+  }
   [[unroll]] for (int k = 0; k < RUN - 1; ++k) {
     v[k + 1] = transfer[k] * v[k] + offset[k];
     if (kLanes > 1) v[k + 1] += pull[k] * f;

@@ -37,6 +37,18 @@ Symmetric multiplyCommuting(Symmetric a, Symmetric b) {
                         a.d.x * b.o.z + a.o.z * b.d.y + a.o.y * b.o.x));
 }
 
+/// x s for a product known to be symmetric.
+Symmetric symmetricProduct(mat3 x, Symmetric s) {
+  vec3 rowX = vec3(x[0].x, x[1].x, x[2].x);
+  vec3 rowY = vec3(x[0].y, x[1].y, x[2].y);
+  vec3 rowZ = vec3(x[0].z, x[1].z, x[2].z);
+  vec3 s0 = vec3(s.d.x, s.o.z, s.o.y);
+  vec3 s1 = vec3(s.o.z, s.d.y, s.o.x);
+  vec3 s2 = vec3(s.o.y, s.o.x, s.d.z);
+  return Symmetric(vec3(dot(rowX, s0), dot(rowY, s1), dot(rowZ, s2)),
+                   vec3(dot(rowY, s2), dot(rowX, s2), dot(rowX, s1)));
+}
+
 /// xᵀ y for a product known to be symmetric (y = S x with S symmetric).
 Symmetric transposeMultiply(mat3 x, mat3 y) {
   return Symmetric(vec3(dot(x[0], y[0]), dot(x[1], y[1]), dot(x[2], y[2])),

@@ -11,43 +11,55 @@
 namespace ringlet {
 namespace {
 
-// The model: a lane costs its particles, real or not, and for each doubling of lanes a join; [ns] of a step.
+// The model of what a strand of a shape takes for a step [ns]: of each lane, its particles, whether real or
+// not, and the join of the lanes (shaders/scan/star_join.glsl). Up to four lanes, or four stretches of lanes,
+// are joined in rounds, one fewer than they are; a stretch is made of lanes by doublings.
 struct WorkModel {
-  double particle;  // in one of several lanes
-  double ofTwo;     // in one of two
-  double alone;     // in a strand's only lane, which has nothing to do twice
-  double join;      // of a lane, for each doubling of lanes
-  double longRun;   // how much dearer a particle is for each one a run has above four
-  double serial;    // a particle of the serial form
+  double particle;   // in one of several lanes
+  double ofTwo;      // in one of two
+  double alone;      // in a strand's only lane, which has nothing to do twice
+  double round;      // of the join
+  double doubling;   // of the join
+  double longRun;    // how much dearer a particle is for each one a run has above four
+  double longerRun;  // and how much more for each doubling: its registers are taken from the run
+  double serial;     // a particle of the serial form
 };
 struct CostModel {
   WorkModel hairAlone, plain, bodies;
   double perKernel, perRun;  // a kernel more, and each particle of its run, on every step: see below
 };
 
-// Of the CPU device fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
-// particles), within a fifth of each; bodies to a head with a sphere in it. It does everything for all lanes,
-// and a long run is nothing to it; but among bodies, where every particle is picked from its run, runs of 8
-// are as fast as longer ones and half as long in the making. Of GPUs not measured, but reasoned: a particle
-// of a run is some 50 registers, so that long runs leave fewer strands at a time to wait with; a join is a
-// few shuffles; the serial form goes through memory.
+// CPU devices: fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
+// particles), within a fifth of each; bodies to a head with a sphere in it. A long run costs it nothing. Only
+// among bodies, where every particle is picked from its run, runs of 8 are as fast as longer ones and compile
+// twice as fast.
+//
+// GPUs: not measured. Fitted to what RADV 25 compiles for navi21 in subgroups of 32
+// (scripts/count_instructions.sh), within a fifth for hair alone up to runs of 8. One vector instruction of
+// one lane counts as 1.25e-3 ns, as on an integrated GPU; only ratios matter, and what a kernel takes to
+// prepare. A spilled dword counts as 15 instructions: at 1.5 TB/s, assumed for the last cache of a large GPU,
+// it takes the time of 30, and half of that is assumed to hide behind other subgroups' work. Where it costs
+// more than 9, runs of 4 are best for 32 particles and more: runs of 8 take a quarter to a third fewer
+// instructions, but spill 160 to 450 dwords a lane and step. Runs of 16 spill 600 to 2,600; the model puts
+// them too low, but only strands that nothing shorter holds get them.
 //
 // A kernel is prepared at every start: on lavapipe 30 ms for each particle of its run and 50 ms besides,
 // three times that the first time. Over 10,000 steps, 50 s of animation, that is 3 and 5 microseconds a step:
-// a few hundred strands get a kernel that is there soon, more one that is fast; and of kernels for one length
-// each only as many as pay. GPUs' drivers are no quicker, but their steps are.
-constexpr CostModel kCpu{
-    .hairAlone = {.particle = 10.5, .ofTwo = 8.2, .alone = 7.3, .join = 4, .longRun = 0, .serial = 53},
-    .plain = {.particle = 10.5, .ofTwo = 10.5, .alone = 8, .join = 4, .longRun = 0, .serial = 53},
-    .bodies = {.particle = 60, .ofTwo = 60, .alone = 60, .join = 20, .longRun = 0.02, .serial = 260},
-    .perKernel = 5'000,
-    .perRun = 3'000};
-constexpr CostModel kGpu{
-    .hairAlone = {.particle = 0.5, .ofTwo = 0.35, .alone = 0.35, .join = 0.25, .longRun = 0.125, .serial = 5},
-    .plain = {.particle = 0.5, .ofTwo = 0.5, .alone = 0.5, .join = 0.25, .longRun = 0.125, .serial = 5},
-    .bodies = {.particle = 3, .ofTwo = 3, .alone = 3, .join = 0.5, .longRun = 0.125, .serial = 25},
-    .perKernel = 5'000,
-    .perRun = 3'000};
+// a few hundred strands get a kernel that is soon ready, more strands one that is fast. RADV takes some 0.1 s
+// for each particle of a run the first time, and then reads its cache; a third of the first time is counted,
+// which gives the same numbers. Intel's driver takes up to ten times as long the first time.
+//
+// In the order of WorkModel: particle, ofTwo, alone, round, doubling, longRun, longerRun, serial.
+constexpr CostModel kCpu{.hairAlone = {10.5, 8.2, 7.3, 2.7, 4, 0, 0, 53},
+                         .plain = {10.5, 10.5, 8, 2.7, 4, 0, 0, 53},
+                         .bodies = {60, 60, 60, 13.3, 20, 0.02, 0, 260},
+                         .perKernel = 5'000,
+                         .perRun = 3'000};
+constexpr CostModel kGpu{.hairAlone = {0.5, 0.38, 0.36, 0.26, 0.62, 0.15, 0.12, 6.5},
+                         .plain = {0.57, 0.57, 0.43, 0.3, 0.7, 0.2, 0.12, 6.5},
+                         .bodies = {3.6, 3.6, 2.5, 0.3, 0.7, 0.08, 0.12, 25},
+                         .perKernel = 5'000,
+                         .perRun = 3'000};
 
 // Longer runs are faster still on a CPU device, but a kernel of 64 particles a lane takes lavapipe 5 s to
 // make for the first time: only where they are asked for, or were measured.
@@ -62,11 +74,14 @@ double modelCost(const StrandShape& shape, const CostModel& model, StrandWork wo
                         : work == StrandWork::bodies  ? model.bodies
                                                       : model.plain;
   if (shape.serial()) return of.serial;
+  const int doublings = std::max(0, std::countr_zero(shape.lanes) - 2);  // until four stretches are left
+  const std::uint32_t rounds = std::min(shape.lanes, 4u) - 1;
+  const double longRun = of.longRun + doublings * of.longerRun;
   const double particle = (shape.lanes == 1   ? of.alone
                            : shape.lanes == 2 ? of.ofTwo
                                               : of.particle) *
-                          (1 + of.longRun * (shape.particlesPerLane - kShortestRun));
-  return shape.lanes * (shape.particlesPerLane * particle + std::countr_zero(shape.lanes) * of.join);
+                          (1 + longRun * (shape.particlesPerLane - kShortestRun));
+  return shape.lanes * (shape.particlesPerLane * particle + rounds * of.round + doublings * of.doubling);
 }
 
 // Of a kernel, on every step. The serial form's is as long in the making as a run of 8.
