@@ -11,10 +11,14 @@
 #include "ringlet/groom/tfx_file.h"
 #include "tests/groom/groom_samples.h"
 #include "tests/groom/tfx_bytes.h"
+#include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
 namespace {
+
+// Files here have some hundred bytes. A reader that believes a false count asks for gigabytes.
+constexpr std::size_t kMostMemory = 256u << 20;
 
 using Reader = std::function<Result<LoadedGroom>(const std::string&)>;
 
@@ -50,6 +54,7 @@ std::string spoilt(std::string bytes, std::mt19937& random, const std::string& a
 void spoilAndRead(const std::string& valid, const std::string& alphabet, int count, const Reader& read) {
   const Result<LoadedGroom> whole = read(valid);
   ASSERT_TRUE(whole) << whole.error().message;
+  const test::MemoryLimit limit(kMostMemory);
   std::mt19937 random(20240601);
   int accepted = 0;
   for (int i = 0; i < count; ++i) {
@@ -79,6 +84,7 @@ TEST(BrokenFiles, HairHeader) {
   const auto folder = test::scratchFolder("broken_hair_header");
   ASSERT_TRUE(writeHair(folder / "a.hair", test::awkwardGroom()));
   const std::string valid = test::readText(folder / "a.hair");
+  const test::MemoryLimit limit(kMostMemory);
   std::mt19937 random(7);
   for (int i = 0; i < 20000; ++i) {
     std::string bytes = valid;
@@ -99,6 +105,7 @@ TEST(BrokenFiles, Tfx) {
 
 TEST(BrokenFiles, TfxHeader) {
   const std::string valid = test::TfxBytes{}.bytes();
+  const test::MemoryLimit limit(kMostMemory);
   std::mt19937 random(7);
   for (int i = 0; i < 20000; ++i) {
     std::string bytes = valid;

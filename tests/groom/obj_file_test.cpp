@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <clocale>
 #include <locale>
 #include <string>
@@ -222,20 +221,17 @@ TEST(ObjFile, DoesNotCareAboutTheLocale) {
   EXPECT_TRUE(test::hasSameBits(loaded->groom, test::awkwardGroom()));
 }
 
-TEST(ObjFile, ReadsTenThousandStrandsInLessThanASecond) {
+TEST(ObjFile, ReadsTenThousandStrandsBitForBit) {
   const auto folder = test::scratchFolder("obj_large");
   SwatchParameters parameters{.columnCount = 100, .rowCount = 100};
   parameters.curl.particleCount = 16;
   const Result<Groom> groom = makeSwatch(parameters);
   ASSERT_TRUE(groom);
   ASSERT_TRUE(writeGroom(folder / "a.obj", *groom));
-  const auto start = std::chrono::steady_clock::now();
   const Result<LoadedGroom> loaded = readGroom(folder / "a.obj");
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  ASSERT_TRUE(loaded);
+  ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->groom.points.size(), 160000u);
-  RecordProperty("seconds", std::to_string(seconds.count()));
-  EXPECT_LT(seconds.count(), 1.0);  // 0.02 s alone; with sanitizers and other work beside it, more
+  EXPECT_TRUE(test::hasSameBits(loaded->groom, *groom));
 }
 
 TEST(ObjFile, ReadsRealHair) {

@@ -188,6 +188,44 @@ TEST(Crossings, AStepThatEndsInContactLosesNone) {
   }
 }
 
+// A strand that passes exactly where two edges of another meet passes one of them, whichever side it is on.
+TEST(Crossings, AtAJointOfEdgesIsOne) {
+  for (bool jointedFirst : {true, false}) {
+    for (float from : {0.5f, -0.5f}) {
+      const auto at = [&](float height) {
+        const std::vector<Vec3f> jointed{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}},
+            passing{{0, height, -1}, {0, height, 1}};
+        Groom groom = metres();
+        groom.addStrand(jointedFirst ? jointed : passing);
+        groom.addStrand(jointedFirst ? passing : jointed);
+        return groom;
+      };
+      EXPECT_EQ(crossings(at(from), at(-from).points), 1u) << jointedFirst << " from " << from;
+    }
+  }
+}
+
+// Two edges lie exactly in one plane where a step ends and the next begins, on a path whose numbers are
+// rounded. Each passes the other once, so that both steps together count one crossing. The steps count
+// none or two where the volume at the end of the first has another sign than at the start of the second.
+TEST(Crossings, ATouchBetweenTwoStepsCountsOnce) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<float> about(-0.1f, 0.1f), height(0.1f, 1);
+  for (int i = 0; i < 2000; ++i) {
+    const float plane = about(random), from = i % 2 == 0 ? height(random) : -height(random), to = -from;
+    const auto at = [&](float above) {
+      return std::vector<Vec3f>{{-1 + about(random), plane, about(random)},
+                                {1 + about(random), plane, about(random)},
+                                {about(random), plane + above, -1 + about(random)},
+                                {about(random), plane + above, 1 + about(random)}};
+    };
+    const std::vector<std::uint32_t> firstPoint{0, 2, 4};
+    const auto before = at(from), touching = at(0), after = at(to);
+    ASSERT_EQ(countCrossings(firstPoint, before, touching) + countCrossings(firstPoint, touching, after), 1u)
+        << "pair " << i;
+  }
+}
+
 TEST(Crossings, WhatIsNotFiniteCrossesNothing) {
   for (float lost : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     auto after = crossed(-0.3f).points;

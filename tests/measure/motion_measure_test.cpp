@@ -14,8 +14,8 @@ using namespace test;
 
 constexpr double kFps = 24;
 
-MotionMeasure motionOf(const Groom& rest) {
-  auto motion = MotionMeasure::make(rest, {.framesPerSecond = kFps});
+MotionMeasure motionOf(const Groom& rest, double framesPerSecond = kFps) {
+  auto motion = MotionMeasure::make(rest, {.framesPerSecond = framesPerSecond});
   EXPECT_TRUE(motion) << motion.error().message;
   return std::move(*motion);
 }
@@ -72,6 +72,34 @@ TEST(MotionMeasure, EnergyIsHalfMassTimesSpeedSquared) {
   for (Vec3d p : rest) velocities.push_back({7, static_cast<float>(p.y / 0.25), 0});
   ASSERT_TRUE(given.addFrame(asFloats(rest), 1, Quatd{}, velocities));
   EXPECT_NEAR(given.report().peakEnergy, whole, 1e-3 * whole) << "the root's own 7 m/s do not count";
+}
+
+// The same motion seen at other frame rates has the same speeds, seconds and frequencies.
+TEST(MotionMeasure, DoesNotDependOnTheFrameRate) {
+  const Strand straight = cut({.radius = 0}, 101), curl = cut({}, 64);
+  const double whole = 0.5 * 1e-5 * 0.25 / 3;  // as above: 1 m/s at the tip
+  for (double fps : {24.0, 30.0, 60.0}) {
+    SCOPED_TRACE(testing::Message() << fps << " frames per second");
+    MotionMeasure sliding = motionOf(groomOf({straight}), fps);
+    for (int k = 0; k <= 2 * fps; ++k)
+      ASSERT_TRUE(sliding.addFrame(asFloats(stretched(straight, 1 + k / fps / 0.25)), 1, Quatd{}));
+    EXPECT_NEAR(sliding.report().peakEnergy, whole, 1e-3 * whole);
+    EXPECT_NEAR(sliding.report().strands[0].peakEnergy, whole, 1e-3 * whole);
+    EXPECT_NEAR(sliding.report().seconds, 2, 1e-12);
+
+    const double natural = 2 * kPi * 3, ratio = 0.1;
+    MotionMeasure bouncing = motionOf(groomOf({curl}), fps);
+    for (int k = 0; k <= 8 * fps; ++k) {
+      const double t = k / fps - 2, by = 0.05 * std::exp(-ratio * natural * t) * std::sin(natural * t);
+      const Vec3d head{t < 0 ? 0.1 * std::sin(2 * kPi * 2 * t) : 0, 0, 0};
+      ASSERT_TRUE(bouncing.addFrame(asFloats(moved(stretched(curl, t < 0 ? 1 : 1 + by), {}, head)), 1, Quatd{}));
+    }
+    const MotionReport report = bouncing.report();
+    EXPECT_NEAR(report.freeSeconds, 2, 1.5 / fps);
+    ASSERT_TRUE(report.strands[0].bounceHz && report.strands[0].settleSeconds);
+    EXPECT_NEAR(*report.strands[0].bounceHz, 3, 0.06);
+    EXPECT_NEAR(*report.strands[0].settleSeconds, std::log(100) / (ratio * natural), 0.3);
+  }
 }
 
 TEST(MotionMeasure, ADecayingMotionKeepsTheShareOfItsEnergyThatIsKnown) {

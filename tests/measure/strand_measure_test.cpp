@@ -182,6 +182,7 @@ TEST(Perversion, KeepsItsTurnsThoughItsHalvesCancel) {
     const StrandMeasure wound = measure(rest, cut({.turns = 10}, count));
     EXPECT_NEAR(wound.handednessKept, 0.5, 0.1);
     EXPECT_NEAR(wound.winding, 10, 0.1);
+    EXPECT_NEAR(wound.turns, 0, 0.5) << "the second half counts against its own hand";
   }
 }
 

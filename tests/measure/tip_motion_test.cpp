@@ -98,6 +98,19 @@ TEST(Settle, IsWhenTheEnvelopeFallsBelowAHundredth) {
   }
 }
 
+// A path that falls evenly crosses the limit between two frames, where a formula says, at any frame rate.
+TEST(Settle, IsBetweenFrames) {
+  for (double fps : {12.0, 24.0, 30.0}) {
+    for (double start : {10.0, 10.3, 10.9}) {
+      std::vector<Vec3d> path;  // one unit a frame down to 0 in frame `start`, then at rest
+      for (int k = 0; k < 100; ++k) path.push_back({std::max(0.0, start - k), 0, 0});
+      const double smallest = 2.25;  // more than a hundredth of the greatest excursion
+      EXPECT_NEAR(settleSeconds(path, fps, 0, smallest).value(), (start - smallest) / fps, 1e-12)
+          << fps << " frames per second, from " << start;
+    }
+  }
+}
+
 TEST(Settle, IsNothingForWhatGoesOn) {
   EXPECT_FALSE(settleSeconds(along(release(0.01, 3, 0, 10), {0, 1, 0}, {}), kFps, 0, 1e-9));
   EXPECT_FALSE(settleSeconds(along(release(0.01, 3, 0.3, 10), {0, 1, 0}, {}), kFps, 230, 1e-9)) << "driven";

@@ -142,6 +142,26 @@ TEST(Keyframes, OfEqualTimesGoTheSameWay) {
   EXPECT_NEAR(own.fastestTurn().speed, 1, 1e-9);
 }
 
+// The speed at a key is that of the parabola through it and its neighbours. So keys on a parabola are joined
+// by that parabola, however uneven their times are, and keys of a steady turn by the steady turn.
+TEST(Keyframes, OfTheirOwnTimesFollowAParabola) {
+  Keyframes keys;
+  keys.times = {0, 0.1, 1, 1.05, 1.3, 3, 3.2};
+  const auto at = [](double t) { return Vec3d{2 * t * t - 3 * t + 1, -0.5 * t * t, 4 - t}; };
+  for (double t : keys.times) keys.poses.push_back({at(t), fromRotationVector(Vec3d{0, 0.1 * t, 0})});
+  // The first and the last stretch end at a key that has one neighbour only.
+  for (std::size_t k = 1; k + 2 < keys.times.size(); ++k) {
+    for (double share = 0; share <= 1; share += 0.125) {
+      const double t = keys.times[k] + share * (keys.times[k + 1] - keys.times[k]);
+      EXPECT_LT(length(keys.poseAt(t).position - at(t)), 1e-12) << t;
+      EXPECT_LT(length(rotate(keys.poseAt(t).rotation, Vec3d{1, 0, 0}) -
+                       Vec3d{std::cos(0.1 * t), 0, -std::sin(0.1 * t)}),
+                1e-4)
+          << t;
+    }
+  }
+}
+
 // Where the file rests at its ends, the steady motion of a head that comes gliding does not.
 TEST(Keyframes, OfTheirOwnTimesMayComeGliding) {
   Keyframes keys = turning(3, 0.1, 8);

@@ -31,7 +31,18 @@ class BoxPairs {
   /// Calls visit(j) for boxes j != i that box i overlaps, always in the same order. Over all i every
   /// overlapping pair is met once, from either end. Boxes that all but touch count as overlapping.
   template <class Visit>
-  void visitPartners(std::size_t i, Visit&& visit) const;
+  void visitPartners(std::size_t i, Visit&& visit) const {
+    visitCompared(i, [&](const Entry& entry) {
+      if (overlap(boxes_[i], entry.bounds)) visit(static_cast<std::size_t>(entry.box));
+    });
+  }
+
+  /// How many boxes visitPartners(i) compares with box i: the work it does.
+  std::size_t comparedCount(std::size_t i) const {
+    std::size_t count = 0;
+    visitCompared(i, [&](const Entry&) { ++count; });
+    return count;
+  }
 
  private:
   struct Cell {
@@ -82,6 +93,9 @@ class BoxPairs {
             static_cast<std::int32_t>((p.z - low_.z) / cellSize)};
   }
   void fill(Grid& grid, std::span<const Box> boxes) const;
+  // Calls compare(entry) for the boxes that may overlap box i and are its to look at.
+  template <class Compare>
+  void visitCompared(std::size_t i, Compare&& compare) const;
 
   static constexpr std::uint32_t kNoLevel = ~0u;  // of a box that is not finite
 
@@ -91,8 +105,8 @@ class BoxPairs {
   std::vector<Grid> grids_;            // those that hold boxes, coarse to fine
 };
 
-template <class Visit>
-void BoxPairs::visitPartners(std::size_t i, Visit&& visit) const {
+template <class Compare>
+void BoxPairs::visitCompared(std::size_t i, Compare&& compare) const {
   const Box& box = boxes_[i];
   for (const Grid& grid : grids_) {
     if (levels_[i] == kNoLevel || grid.level > levels_[i]) break;  // finer boxes look up this one
@@ -106,7 +120,7 @@ void BoxPairs::visitPartners(std::size_t i, Visit&& visit) const {
       for (std::uint32_t e = slot.firstEntry; e < slot.firstEntry + slot.entryCount; ++e) {
         const Entry& entry = grid.entries[e];
         if (itself && entry.box <= i) continue;
-        if (overlap(box, entry.bounds)) visit(static_cast<std::size_t>(entry.box));
+        compare(entry);
       }
     }
   }

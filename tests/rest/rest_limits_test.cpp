@@ -1,0 +1,112 @@
+// The limits of rest/rest_state.h: the longest step that needs no warning, the steps chosen by it and the
+// load that is warned of. Each is compared with its formula.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "reference/step.h"
+#include "ringlet/rest/rest_state.h"
+#include "tests/rest/contact_samples.h"
+
+namespace ringlet {
+namespace {
+
+using namespace test;
+
+// A straight strand of S = 0.2 m, along X. Its smoothing length is a tenth of S.
+Groom horizontal() {
+  Groom groom = metres();
+  groom.addStrand(line({}, {0.2, 0, 0}, 41));
+  return groom;
+}
+
+// 3 alpha sqrt(lambda / (K_b w p)), w = lambda g S the weight and p the largest factor of the profile:
+// bending is calm at most at this step [s]. Its edges' middles are where the profile is read.
+double calmBendStep(const Material& material, double largestFactor) {
+  const double S = 0.2, alpha = 0.1 * S;
+  return 3 * alpha / std::sqrt(material.bendStiffness * kStandardGravity * S * largestFactor);
+}
+
+// Stiff in bending, so that bending and not the core decides.
+Material stiffAt(double rootFactor, double tipFactor) {
+  Material material;
+  material.bendStiffness = 100;
+  material.coreStiffness = 0.01;
+  material.bendStiffnessProfile.points = {
+      {0, rootFactor}, {0.1, rootFactor}, {0.9, tipFactor}, {1, tipFactor}};
+  return material;
+}
+
+bool warnsOf(const RestState& rest, const std::string& part) {
+  for (const std::string& warning : rest.warnings)
+    if (warning.find(part) != std::string::npos) return true;
+  return false;
+}
+
+TEST(RestLimits, TheStiffestEdgeDecidesTheLongestCalmStep) {
+  const double ends[][2] = {{1, 1}, {4, 1}, {1, 4}, {9, 0.1}, {0.25, 0.25}};
+  for (const auto& [root, tip] : ends) {
+    const Material material = stiffAt(root, tip);
+    const double calm = calmBendStep(material, std::max(root, tip));
+    const auto rest = buildRestState(horizontal(), material, {});
+    ASSERT_TRUE(rest) << rest.error().message;
+    EXPECT_NEAR(rest->longestCalmStep, calm, 1e-6 * calm) << root << " at the root, " << tip << " at the tip";
+
+    // Just longer is warned of, just shorter is not.
+    Settings settings;
+    settings.stepsPerFrame = 1;
+    for (double share : {0.9999, 1.0001}) {
+      settings.framesPerSecond = 1 / (calm * share);
+      const auto built = buildRestState(horizontal(), material, settings);
+      ASSERT_TRUE(built) << built.error().message;
+      EXPECT_EQ(warnsOf(*built, "too few for the bending of 1 of 1 strands"), share > 1)
+          << share << " of the calm step, " << root << " at the root, " << tip << " at the tip";
+    }
+  }
+}
+
+TEST(RestLimits, StepsAreChosenByTheStiffestEdge) {
+  for (double factor : {1.0, 2.0, 4.0}) {
+    const Material material = stiffAt(factor, 0.5);
+    Settings settings;
+    settings.framesPerSecond = 24;
+    const auto steps = chooseStepsPerFrame(horizontal(), material, settings);
+    ASSERT_TRUE(steps) << steps.error().message;
+    const int needed = static_cast<int>(std::ceil(1 / (24 * calmBendStep(material, factor))));
+    ASSERT_GT(needed, 8) << "more than the motion needs";
+    ASSERT_LT(needed, 32) << "fewer than the most";
+    EXPECT_EQ(*steps, needed) << "factor " << factor;
+  }
+}
+
+// An edge's load is what bends it, the preloaded weight beyond it across it, over its stiffness times its
+// length: the tangent of the angle, 0.5 is 27 degrees. The reference has masses and stiffnesses of its own.
+TEST(RestLimits, ALoadOfMoreThanAHalfIsWarnedOf) {
+  const Groom groom = horizontal();
+  Material material;
+  material.bendStiffness = 0.3;
+  material.bendStiffnessProfile.points = {{0, 2}, {1, 0.5}};
+  material.lineDensityProfile.points = {{0, 1.5}, {1, 0.5}};
+  Settings settings;
+  settings.gravityPreload = 1;
+  const reference::Simulation<double> reference(groom, material, settings);
+  const auto& strand = reference.restStrands()[0];
+  double largest = 0, massBeyond = 0;
+  for (std::size_t i = strand.particleCount() - 1; i-- > 0;) {
+    massBeyond += strand.masses[i + 1];
+    const double load = -settings.gravity.y * massBeyond / (strand.bendStiffness[i] * strand.edgeLengths[i]);
+    if (static_cast<int>(i) + 1 >= settings.rootCount) largest = std::max(largest, load);
+  }
+  ASSERT_GT(largest, 0.5);
+  for (double share : {0.999, 1.001}) {
+    settings.gravityPreload = share * 0.5 / largest;
+    const auto rest = buildRestState(groom, material, settings);
+    ASSERT_TRUE(rest) << rest.error().message;
+    EXPECT_EQ(warnsOf(*rest, "27 degrees (strand 0 most: load 0.50)"), share > 1) << share;
+  }
+  EXPECT_NEAR(std::atan(0.5) * 180 / 3.14159265358979, 27, 0.5);
+}
+
+}  // namespace
+}  // namespace ringlet
