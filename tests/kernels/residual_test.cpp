@@ -1,5 +1,6 @@
-// The reported residual of the velocity solve, |r - L v| over |r| and a step's gravity: at float rounding for the strand block, and
-// falling with the iterations for point Jacobi. Mirrors shaders/integrators/residual.glsl.
+// The reported residual of the velocity solve, |r - L v| over |r| and a step's gravity: at float rounding for
+// the strand block, and falling with the iterations for point Jacobi. Mirrors
+// shaders/integrators/residual.glsl.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

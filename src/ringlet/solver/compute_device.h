@@ -17,9 +17,9 @@ class Device;
 /// One line of `ringlet devices`.
 struct DeviceSummary {
   int index = 0;
-  std::string name;     // as the driver states it
-  std::string type;     // discrete, integrated, virtual, cpu, other
-  std::string driver;   // name and version
+  std::string name;    // as the driver states it
+  std::string type;    // discrete, integrated, virtual, cpu, other
+  std::string driver;  // name and version
   std::uint64_t memoryBytes = 0;
   bool usable = false;  // has a compute queue and the limits the solver needs
   std::string why;      // if not usable: what is missing
