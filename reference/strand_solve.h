@@ -12,8 +12,6 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "reference/fields.h"
@@ -39,27 +37,11 @@ struct StrandSystem {
   Field<double> airMomenta;
 
   std::size_t particleCount() const { return masses.size(); }
-  Matrix3<double> massBlock(std::size_t i) const {
-    Matrix3<double> block = masses[i] * Matrix3<double>::Identity();
-    if (!contactWeights.empty()) block += contactWeights[i];
-    if (!airWeights.empty()) block += airWeights[i];
-    return block;
-  }
-  Vector3<double> rightSide(std::size_t i) const {
-    Vector3<double> sum = momenta[i];
-    if (!contactMomenta.empty()) sum += contactMomenta[i];
-    if (!airMomenta.empty()) sum += airMomenta[i];
-    return sum;
-  }
-  Matrix3<double> edgeBlock(std::size_t i) const {
-    return across[i] * Matrix3<double>::Identity() + along[i] * directions[i] * directions[i].transpose();
-  }
+  Matrix3<double> massBlock(std::size_t i) const;
+  Vector3<double> rightSide(std::size_t i) const;
+  Matrix3<double> edgeBlock(std::size_t i) const;
   /// m_i I + A_i + A_{i-1}, for a free particle.
-  Matrix3<double> particleBlock(std::size_t i) const {
-    Matrix3<double> block = massBlock(i) + edgeBlock(i - 1);
-    if (i + 1 < particleCount()) block += edgeBlock(i);
-    return block;
-  }
+  Matrix3<double> particleBlock(std::size_t i) const;
 };
 
 /// Memory the solves need, kept between steps.
@@ -72,72 +54,17 @@ struct SolveScratch {
 ///     S_i = D_i - A_{i-1} S_{i-1}^-1 A_{i-1},   y_i = r_i + A_{i-1} S_{i-1}^-1 y_{i-1},
 ///     then v_i = S_i^-1 (y_i + A_i v_{i+1})
 /// velocities: pinned ones given, free ones found [m/s].
-inline void solveStrand(const StrandSystem& system, SolveScratch& scratch, FieldView<double> velocities) {
-  const std::size_t n = system.particleCount(), first = system.rootCount;
-  if (n <= first) return;
-  scratch.blocks.resize(n, Eigen::LLT<Matrix3<double>>(Matrix3<double>::Identity()));
-  scratch.reduced.resize(n);
-  auto& pivots = scratch.blocks;
-  Field<double>& y = scratch.reduced;
-
-  for (std::size_t i = first; i < n; ++i) {
-    const Matrix3<double> above = system.edgeBlock(i - 1);
-    Matrix3<double> pivot = system.particleBlock(i);
-    y[i] = system.rightSide(i);
-    if (i == first) {
-      y[i] += above * velocities[i - 1];
-    } else {
-      pivot -= above * pivots[i - 1].solve(above);
-      y[i] += above * pivots[i - 1].solve(y[i - 1]);
-    }
-    pivots[i].compute(pivot);
-  }
-  for (std::size_t i = n; i-- > first;) {
-    if (i + 1 < n) y[i] += system.edgeBlock(i) * velocities[i + 1];
-    velocities[i] = pivots[i].solve(y[i]);
-  }
-}
+void solveStrand(const StrandSystem& system, SolveScratch& scratch, FieldView<double> velocities);
 
 /// A bound on the spectral radius of the plain point iteration [1]: with lambda_i the largest eigenvalue of
 /// A_i + A_{i-1} or more, |D_i^-1 (A_i + A_{i-1})| <= lambda_i / (m_i + lambda_i).
-inline double pointIterationBound(const StrandSystem& system) {
-  double bound = 0;
-  for (std::size_t i = system.rootCount; i < system.particleCount(); ++i) {
-    double lambda = system.across[i - 1] + system.along[i - 1];
-    if (i + 1 < system.particleCount()) lambda += system.across[i] + system.along[i];
-    bound = std::max(bound, lambda / (system.masses[i] + lambda));
-  }
-  return bound;
-}
+double pointIterationBound(const StrandSystem& system);
 
 /// Point Jacobi: all free particles at once, v_i <- D_i^-1 (r_i + A_i v_{i+1} + A_{i-1} v_{i-1}),
 /// `iterationCount` times, written as a correction by the residual. Chebyshev-accelerated (Golub and Varga
 /// 1961; for Jacobi, Wang 2015): v^{k+1} = w_{k+1} (J v^k - v^{k-1}) + v^{k-1}, w_1 = 1, w_2 = 2 / (2 -
 /// mu^2), w_{k+1} = 4 / (4 - mu^2 w_k). velocities: the start, and pinned ones [m/s].
-inline void iteratePoints(const StrandSystem& system, int iterationCount, bool chebyshev,
-                          SolveScratch& scratch, Field<double>& velocities) {
-  const std::size_t n = system.particleCount(), first = system.rootCount;
-  if (n <= first) return;
-  scratch.blocks.resize(n, Eigen::LLT<Matrix3<double>>(Matrix3<double>::Identity()));
-  for (std::size_t i = first; i < n; ++i) scratch.blocks[i].compute(system.particleBlock(i));
-  scratch.older = scratch.newer = velocities;
-
-  const double mu = pointIterationBound(system);
-  double omega = 1;
-  for (int k = 1; k <= iterationCount; ++k) {
-    if (chebyshev && k == 2) omega = 2 / (2 - mu * mu);
-    if (chebyshev && k > 2) omega = 4 / (4 - mu * mu * omega);
-    for (std::size_t i = first; i < n; ++i) {
-      const Vector3<double>& v = velocities[i];
-      Vector3<double> residual = system.rightSide(i) - system.massBlock(i) * v;
-      residual += system.edgeBlock(i - 1) * (velocities[i - 1] - v);
-      if (i + 1 < n) residual += system.edgeBlock(i) * (velocities[i + 1] - v);
-      const Vector3<double> plain = v + scratch.blocks[i].solve(residual);
-      scratch.newer[i] = omega * (plain - scratch.older[i]) + scratch.older[i];
-    }
-    scratch.older = velocities;
-    velocities = scratch.newer;
-  }
-}
+void iteratePoints(const StrandSystem& system, int iterationCount, bool chebyshev, SolveScratch& scratch,
+                   Field<double>& velocities);
 
 }  // namespace ringlet::reference

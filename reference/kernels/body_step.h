@@ -2,12 +2,11 @@
 // keep particles and edges out of where they have moved to. Mirrors shaders/bodies/*.glsl.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
-#include "reference/equations/body_contact.h"
+#include "reference/fields.h"
 #include "reference/rest_strand.h"
-#include "reference/strand_solve.h"
+#include "ringlet/scene/body.h"
 
 namespace ringlet::reference {
 
@@ -63,171 +62,25 @@ struct BodyPush {
   }
 };
 
-/// Along the strand at a free particle: between the directions of its two edges, or zero.
-template <class Real>
-Vector3<Real> strandDirection(FieldView<Real> positions, std::size_t i) {
-  const Vector3<Real> zero = Vector3<Real>::Zero();
-  Vector3<Real> sum = directionOr<Real>(positions[i] - positions[i - 1], zero);
-  if (i + 1 < positions.size()) sum += directionOr<Real>(positions[i + 1] - positions[i], zero);
-  return directionOr<Real>(sum, zero);
-}
-
-/// How many of its first particles are under the body's skin.
-template <class Real>
-std::size_t buriedCount(const BodyStep<Real>& step, FieldView<Real> positions) {
-  std::size_t count = 0;
-  while (count < std::min(kMostBuried, positions.size()) &&
-         bodyDistance(*step.body, step.atStart(positions[count])).distance < Real(-kOutside))
-    ++count;
-  return count;
-}
-
 /// Of all particles, from where they are and the velocities they would have without bodies. Whether there is
 /// any.
 template <class Real>
 bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
-                FieldView<Real> positions, FieldView<Real> free, std::vector<BodyPush<Real>>& pushes) {
-  pushes.assign(rest.particleCount(), {});
-  bool any = false;
-  for (const BodyStep<Real>& step : bodies) {
-    const Body& body = *step.body;
-    const Real T = step.seconds, friction = static_cast<Real>(body.friction);
-    const auto start = [&](std::size_t i) { return step.atStart(positions[i]); };
-    const auto end = [&](std::size_t i) { return step.atEnd(positions[i] + T * free[i]); };
-    for (std::size_t i = std::max(rest.pinnedCount(), buriedCount(step, positions)); i < rest.particleCount();
-         ++i) {
-      const Touch<Real> touch = traceParticle(body, start(i), end(i));
-      if (!touch.found) continue;
-      const bool isDeep = touch.surface.distance < Real(-kDeep);
-      Vector3<Real> n = step.outward(touch.surface.normal);
-      if (isDeep) n = wayOutOfDepth(n, strandDirection<Real>(positions, i));
-      const Vector3<Real> u = step.velocityAt(positions[i]);
-      const Real target = n.dot(u) + leastParting(touch, T), deficit = target - n.dot(free[i]);
-      if (!(deficit > Real(0))) continue;
-      const Real weight = (isDeep ? Real(kDeepShare) : Real(1)) * bodyWeight(rest.masses[i], deficit);
-      pushes[i].add(weight, n, target, u, friction);
-      any = true;
-    }
-    for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
-      const Touch<Real> touch = traceEdge(body, start(i), end(i), start(i + 1), end(i + 1));
-      if (!touch.found) continue;
-      const Vector3<Real> n = step.outward(touch.surface.normal);
-      const Real shares[2] = {1 - touch.along, touch.along};
-      const Vector3<Real> place = shares[0] * positions[i] + shares[1] * positions[i + 1];
-      const Vector3<Real> u = step.velocityAt(place);
-      const Real now = n.dot(shares[0] * free[i] + shares[1] * free[i + 1]);
-      const Real deficit = n.dot(u) + leastParting(touch, T) - now;
-      if (!(deficit > Real(0))) continue;
-      const Real sum = shares[0] * shares[0] + shares[1] * shares[1];
-      for (std::size_t side = 0; side < 2; ++side) {
-        const std::size_t k = i + side;
-        if (k < rest.pinnedCount() || shares[side] < Real(kLeastShare)) continue;
-        const Real target = n.dot(free[k]) + shares[side] / sum * deficit;
-        pushes[k].add(shares[side] * bodyWeight(rest.masses[k], deficit), n, target, u, friction);
-        any = true;
-      }
-    }
-  }
-  return any;
-}
+                FieldView<Real> positions, FieldView<Real> free, std::vector<BodyPush<Real>>& pushes);
 
 /// Friction's weights, from what the pushes came to at the velocities solved without it.
 template <class Real>
 void addFriction(const RestStrand<Real>& rest, std::vector<BodyPush<Real>>& pushes,
-                 FieldView<Real> velocities) {
-  for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
-    BodyPush<Real>& push = pushes[i];
-    const Vector3<Real>& v = velocities[i];
-    push.rubbing =
-        frictionWeight<Real>(push.sliding(v), push.normalMomentum(v), push.friction, rest.masses[i]);
-    const Vector3<double> n = push.normal.template cast<double>();
-    const Matrix3<double> along = Matrix3<double>::Identity() - n * n.transpose();
-    push.weight += double(push.rubbing) * along;
-    push.momentum += double(push.rubbing) * along * push.bodyVelocity.template cast<double>();
-  }
-}
+                 FieldView<Real> velocities);
 
 /// And what is left of it, at the velocities solved with it.
 template <class Real>
-void rub(const RestStrand<Real>& rest, const std::vector<BodyPush<Real>>& pushes,
-         FieldView<Real> velocities) {
-  for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
-    const BodyPush<Real>& push = pushes[i];
-    const Vector3<Real> v = velocities[i];
-    velocities[i] =
-        rubbed<Real>(v, push.sliding(v), push.rubbing, push.normalMomentum(v), push.friction, rest.masses[i]);
-  }
-}
-
-/// A particle that began the step outside, at y0, and has moved to y1: out of the body, the way it came.
-template <class Real>
-struct KeptOut {
-  bool moved = false;
-  Vector3<Real> place, normal;
-};
-template <class Real>
-KeptOut<Real> keptOut(const Body& body, const Vector3<Real>& y0, Vector3<Real> y1) {
-  if (bodyDistance(body, y0).distance < Real(-kOutside)) return {};
-  const Touch<Real> touch = traceParticle(body, y0, y1);
-  if (!touch.found) return {};
-  const Vector3<Real> came = y1;
-  // Onto the plane where it touched, then out of what curves beyond it; else back to the place itself.
-  const Real beyond = touch.surface.normal.dot(y1 - touch.place) + touch.surface.distance;
-  Vector3<Real> normal = touch.surface.normal;
-  y1 -= std::min(beyond, Real(0)) * normal;
-  for (int turn = 0; turn < 3; ++turn) {
-    const Surface<Real> surface = bodyDistance(body, y1);
-    if (surface.distance >= Real(0)) continue;
-    y1 -= surface.distance * surface.normal;
-    normal = surface.normal;
-  }
-  if (bodyDistance(body, y1).distance < Real(-kOutside)) y1 = touch.place;
-  return {(y1 - came).norm() > Real(0), y1, normal};
-}
+void rub(const RestStrand<Real>& rest, const std::vector<BodyPush<Real>>& pushes, FieldView<Real> velocities);
 
 /// After the move: particles first, then edges, which leave at kLeaveSpeed at most; of two edges the one that
 /// moves a particle further. `starts`: positions at the step's start.
 template <class Real>
 void keepOut(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,
-             const Field<Real>& starts, FieldView<Real> positions, FieldView<Real> velocities) {
-  for (const BodyStep<Real>& step : bodies) {
-    for (std::size_t i = rest.pinnedCount(); i < rest.particleCount(); ++i) {
-      const KeptOut<Real> kept = keptOut(*step.body, step.atStart(starts[i]), step.atEnd(positions[i]));
-      if (!kept.moved) continue;
-      const Vector3<Real> place = step.fromEnd(kept.place), n = step.outward(kept.normal);
-      velocities[i] += slowedInward<Real>(velocities[i] - step.velocityAt(starts[i]), n,
-                                          n.dot(place - positions[i]), step.seconds);
-      positions[i] = place;
-    }
-  }
-  Field<Real> shifts(rest.particleCount(), Vector3<Real>::Zero());
-  Field<Real> changes = shifts;  // of velocities, by the same edge
-  for (const BodyStep<Real>& step : bodies) {
-    for (std::size_t i = 0; i + 1 < rest.particleCount(); ++i) {
-      const EdgeSurface<Real> deepest =
-          edgeDistance(*step.body, step.atEnd(positions[i]), step.atEnd(positions[i + 1]));
-      if (!deepest.isWithin || deepest.surface.distance >= Real(0)) continue;
-      const Vector3<Real> n = step.outward(deepest.surface.normal);
-      const Real out = std::min(-deepest.surface.distance, Real(kLeaveSpeed) * step.seconds);
-      const Real shares[2] = {1 - deepest.along, deepest.along};
-      const Real sum = shares[0] * shares[0] + shares[1] * shares[1];
-      const Vector3<Real> start = shares[0] * starts[i] + shares[1] * starts[i + 1];
-      const Vector3<Real> velocity = shares[0] * velocities[i] + shares[1] * velocities[i + 1];
-      const Vector3<Real> slowed =
-          slowedInward<Real>(velocity - step.velocityAt(start), n, out, step.seconds);
-      for (std::size_t side = 0; side < 2; ++side) {
-        const std::size_t k = i + side;
-        const Vector3<Real> shift = shares[side] / sum * out * n;
-        if (k < rest.pinnedCount() || shift.norm() <= shifts[k].norm()) continue;
-        shifts[k] = shift;
-        changes[k] = shares[side] / sum * slowed;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < rest.particleCount(); ++i) {
-    positions[i] += shifts[i];
-    velocities[i] += changes[i];
-  }
-}
+             const Field<Real>& starts, FieldView<Real> positions, FieldView<Real> velocities);
 
 }  // namespace ringlet::reference

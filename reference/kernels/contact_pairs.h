@@ -3,10 +3,10 @@
 // how. Iben et al. 2012, section 4; seeing ahead is ours.
 #pragma once
 
-#include <array>
 #include <compare>
 #include <cstdint>
-#include <map>
+#include <span>
+#include <vector>
 
 #include "reference/fields.h"
 #include "reference/rest_contacts.h"
@@ -33,24 +33,9 @@ struct ContactPair {
 template <class Real>
 std::vector<ContactParticle> listContactParticles(const RestContacts& rest,
                                                   const std::vector<RestStrand<Real>>& strands,
-                                                  std::span<const std::uint32_t> firstPoint) {
-  std::vector<ContactParticle> list;
-  for (std::uint32_t s = 0; s < strands.size(); ++s) {
-    for (const std::uint32_t i : rest.particles[s]) {
-      list.push_back({.index = firstPoint[s] + i,
-                      .strand = s,
-                      .isPinned = i < strands[s].rootCount,
-                      .radius = rest.radii[s],
-                      .mass = rest.masses[s],
-                      .restPlace = strands[s].points[i].template cast<double>()});
-    }
-  }
-  return list;
-}
+                                                  std::span<const std::uint32_t> firstPoint);
 
-inline bool mayTouch(const RestContacts& rest, const ContactParticle& a, const ContactParticle& b) {
-  return a.strand != b.strand && !(a.isPinned && b.isPinned) && rest.mayTouch(a.strand, b.strand);
-}
+bool mayTouch(const RestContacts& rest, const ContactParticle& a, const ContactParticle& b);
 
 /// What the grid found, and how often it looked: from both sides of a pair.
 struct NearPairs {
@@ -61,44 +46,7 @@ struct NearPairs {
 /// All pairs that may touch and are no further apart than the sum of their `reaches` [m], ascending. Entries
 /// of places [m] and reaches follow `particles`. A particle without a reach, or whose place or reach is not
 /// finite, has no pairs.
-inline NearPairs nearPairs(const RestContacts& rest, const std::vector<ContactParticle>& particles,
-                           const Field<double>& places, const Scalars<double>& reaches) {
-  double cellSize = 0;  // whoever is near is in a neighbouring cell
-  for (const double reach : reaches) {
-    if (std::isfinite(reach)) cellSize = std::max(cellSize, 2 * reach);
-  }
-  using Cell = std::array<double, 3>;  // whole numbers
-  const auto cellOf = [&](std::size_t k) {
-    return Cell{std::floor(places[k].x() / cellSize), std::floor(places[k].y() / cellSize),
-                std::floor(places[k].z() / cellSize)};
-  };
-  const auto isUsable = [&](std::size_t k) {
-    return places[k].allFinite() && std::isfinite(reaches[k]) && reaches[k] > 0;
-  };
-  std::map<Cell, std::vector<std::uint32_t>> grid;
-  for (std::uint32_t k = 0; k < particles.size(); ++k) {
-    if (isUsable(k)) grid[cellOf(k)].push_back(k);
-  }
-
-  NearPairs near;
-  std::vector<ContactPair>& pairs = near.pairs;
-  for (std::uint32_t a = 0; a < particles.size(); ++a) {
-    if (!isUsable(a)) continue;
-    const std::size_t firstOfA = pairs.size();
-    const Cell centre = cellOf(a);
-    for (int neighbour = 0; neighbour < 27; ++neighbour) {
-      const auto found = grid.find(
-          {centre[0] + neighbour % 3 - 1, centre[1] + neighbour / 3 % 3 - 1, centre[2] + neighbour / 9 - 1});
-      if (found == grid.end()) continue;
-      near.tests += found->second.size();
-      for (const std::uint32_t b : found->second) {
-        if (b <= a || (places[a] - places[b]).norm() > reaches[a] + reaches[b]) continue;
-        if (mayTouch(rest, particles[a], particles[b])) pairs.push_back({a, b});
-      }
-    }
-    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(firstOfA), pairs.end());
-  }
-  return near;
-}
+NearPairs nearPairs(const RestContacts& rest, const std::vector<ContactParticle>& particles,
+                    const Field<double>& places, const Scalars<double>& reaches);
 
 }  // namespace ringlet::reference

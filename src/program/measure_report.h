@@ -1,4 +1,5 @@
-// What was measured, told: as JSON, and as tables. `ringlet scene` tells its curls by the same keys and digits.
+// What was measured, told: as JSON, and as tables. `ringlet scene` tells its curls by the same keys and
+// digits.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -26,8 +26,8 @@ enum class MotionFileKind { none, bvh, gltf };
 MotionFileKind motionFileKind(const std::string& word);
 
 /// The joint's way, upright along `up`. Warnings, of which none is said twice, say what was taken for granted
-/// (a unit, one animation of several), where the head turns faster than any, and that it does not move at all.
-/// Fails with the names of the joints where the joint is not there.
+/// (a unit, one animation of several), where the head turns faster than any, and that it does not move at
+/// all. Fails with the names of the joints where the joint is not there.
 Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings);
 
 }  // namespace ringlet::program

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "reference/equations/body_contact.h"
 #include "tests/equations/strand_fixtures.h"
 #include "tests/support/sample_bodies.h"
 

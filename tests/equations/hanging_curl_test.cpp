@@ -1,5 +1,5 @@
-// The curl our design was measured on, hung from its root: how far it droops, at any resolution, and not at all
-// with preload.
+// The curl our design was measured on, hung from its root: how far it droops, at any resolution, and not at
+// all with preload.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -108,8 +108,8 @@ TEST(Presets, AShakeLeavesThemWhole) {
   }
 }
 
-// The rules for a calm step: T sqrt(K / lambda) / alpha <= 3, for bending and for the core, at 4 steps per 24 Hz
-// frame and 2 to 24 turns on 25 cm.
+// The rules for a calm step: T sqrt(K / lambda) / alpha <= 3, for bending and for the core, at 4 steps per 24
+// Hz frame and 2 to 24 turns on 25 cm.
 TEST(Presets, NeedNoMoreThanFourStepsPerFrame) {
   for (const std::string& name : presetNames()) {
     const Material material = materialPreset(name).value();

@@ -8,7 +8,8 @@
 
 namespace ringlet {
 
-/// Index of the name nearest to `word` by insertions, deletions and replacements; names.size() if none is near.
+/// Index of the name nearest to `word` by insertions, deletions and replacements; names.size() if none is
+/// near.
 std::size_t nearestName(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace ringlet

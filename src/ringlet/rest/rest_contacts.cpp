@@ -13,8 +13,7 @@ std::vector<std::string> RestContacts::warnings() const {
 
 RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings) {
   ContactParticles particles = chooseContactParticles(rest, settings);
-  ContactGraph graph =
-      pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings);
+  ContactGraph graph = pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings);
   return {std::move(particles), std::move(graph)};
 }
 

@@ -1,7 +1,8 @@
-// The order of strands in memory. Iben et al. 2012, section 4, gives hairs that touch to one processor; here it is
-// caches and workgroups that want them side by side. The paper improves its order by greedy swaps. Along a curve,
-// that halved the distance of overlapping strands in memory once more and gained no time: on a shaken head of 1,000
-// curls (lavapipe) contacts took 5 to 20 % less along the curve than in the groom's order, and the same after swaps.
+// The order of strands in memory. Iben et al. 2012, section 4, gives hairs that touch to one processor; here
+// it is caches and workgroups that want them side by side. The paper improves its order by greedy swaps.
+// Along a curve, that halved the distance of overlapping strands in memory once more and gained no time: on a
+// shaken head of 1,000 curls (lavapipe) contacts took 5 to 20 % less along the curve than in the groom's
+// order, and the same after swaps.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,193 @@
+// Implements kernels/contact_step.h.
+#include "reference/kernels/contact_step.h"
+
+#include <utility>
+
+namespace ringlet::reference {
+namespace {
+
+// D and the sums of push n.
+template <class Real>
+void gatherContacts(std::size_t particleCount, Contacts<Real>& contacts) {
+  contacts.weights.assign(particleCount, Matrix3<double>::Zero());
+  contacts.pushes.assign(particleCount, Vector3<double>::Zero());
+  for (const Contact<Real>& contact : contacts.live) {
+    const std::uint32_t a = contacts.particles[contact.pair.a].index;
+    const std::uint32_t b = contacts.particles[contact.pair.b].index;
+    const Matrix3<double> weight = contactMatrix(contact.weights, contact.normal).template cast<double>();
+    const Vector3<double> push = (contact.weights.push * contact.normal).template cast<double>();
+    contacts.weights[a] += weight;
+    contacts.weights[b] += weight;
+    contacts.pushes[a] += push;
+    contacts.pushes[b] -= push;
+  }
+}
+
+// J = sum push n + sum Q (w_a + w_b) - 2 D v of each particle, w the iterate before v: the momentum contacts
+// gave it. Pairs cancel once w = v. Returns |sum J| / sum |J|.
+template <class Real>
+double contactMomentumError(const Contacts<Real>& contacts, const Field<double>& momenta,
+                            const Field<double>& velocities) {
+  Vector3<double> sum = Vector3<double>::Zero();
+  double size = 0;
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    const Vector3<double> given = momenta[i] - 2 * contacts.weights[i] * velocities[i];
+    sum += given;
+    size += given.norm();
+  }
+  return size > 0 ? sum.norm() / size : 0;
+}
+
+// 2 D beside the strands' own systems.
+template <class Real>
+void setContactWeights(std::span<const std::uint32_t> firstPoint, const Contacts<Real>& contacts,
+                       std::vector<StrandSystem>& systems) {
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    systems[s].contactWeights.clear();
+    for (std::uint32_t i = firstPoint[s]; i < firstPoint[s + 1]; ++i) {
+      systems[s].contactWeights.push_back(2 * contacts.weights[i]);
+    }
+  }
+}
+
+// v^0 [m/s], as the contacts of the step before let expect it to change.
+template <class Real>
+Field<double> guessVelocities(const Field<Real>& velocities, const Contacts<Real>& contacts) {
+  Field<double> guess;
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    guess.push_back(velocities[i].template cast<double>());
+    if (!contacts.changes.empty()) guess[i] += kContactWarmth * contacts.changes[i];
+  }
+  return guess;
+}
+
+}  // namespace
+
+template <class Real>
+Contacts<Real> makeContacts(const std::vector<RestStrand<Real>>& strands,
+                            std::span<const std::uint32_t> firstPoint, const ContactSettings& settings) {
+  Contacts<Real> contacts;
+  contacts.rest = makeRestContacts(strands, settings);
+  contacts.particles = listContactParticles(contacts.rest, strands, firstPoint);
+  return contacts;
+}
+
+template <class Real>
+void updateContacts(const ContactSettings& settings, Real stepSeconds, const Field<Real>& positions,
+                    const Field<Real>& velocities, Contacts<Real>& contacts) {
+  // Far enough for every pair that may touch within the step, and for every one that is not yet broken.
+  Field<double> places;
+  Scalars<double> reaches;
+  for (const ContactParticle& particle : contacts.particles) {
+    places.push_back(positions[particle.index].template cast<double>());
+    reaches.push_back(settings.breakFactor * particle.radius +
+                      static_cast<double>(stepSeconds * velocities[particle.index].norm()));
+  }
+
+  std::vector<Contact<Real>> live;
+  auto before = contacts.live.begin();  // both lists ascend
+  const NearPairs near = nearPairs(contacts.rest, contacts.particles, places, reaches);
+  contacts.nearCount = near.pairs.size();
+  contacts.pairTests += near.tests;
+  for (const ContactPair& pair : near.pairs) {
+    const ContactParticle &a = contacts.particles[pair.a], &b = contacts.particles[pair.b];
+    const auto constants = contactConstants<Real>(settings, (a.mass + b.mass) / 2, a.radius + b.radius,
+                                                  (a.restPlace - b.restPlace).norm());
+    const ContactPlace<Real> place =
+        contactPlace<Real>(positions[a.index] - positions[b.index], velocities[a.index] - velocities[b.index],
+                           a.index < b.index);
+    const bool touching = isTouching(place, constants.restLength, stepSeconds);
+
+    while (before != contacts.live.end() && before->pair < pair) ++before;
+    const bool isKnown = before != contacts.live.end() && before->pair == pair;
+    const ContactLife<Real> life = nextLife(settings, isKnown ? before->life : ContactLife<Real>{}, touching,
+                                            place.distance, constants.restLength, stepSeconds);
+    if (life.isOver()) continue;
+    live.push_back(
+        {pair, life, place.normal,
+         contactWeights(settings, constants, life, isKnown, touching, place.distance, stepSeconds)});
+  }
+  contacts.live = std::move(live);
+}
+
+template <class Real>
+Field<double> pairMomenta(const Contacts<Real>& contacts, const Field<double>& velocities) {
+  Field<double> momenta = contacts.pushes;
+  for (const Contact<Real>& contact : contacts.live) {
+    const std::uint32_t a = contacts.particles[contact.pair.a].index;
+    const std::uint32_t b = contacts.particles[contact.pair.b].index;
+    const Vector3<double> momentum = contactMatrix(contact.weights, contact.normal).template cast<double>() *
+                                     (velocities[a] + velocities[b]);
+    momenta[a] += momentum;
+    momenta[b] += momentum;
+  }
+  return momenta;
+}
+
+template <class Real>
+bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts) {
+  bool dropped = false;
+  for (Contact<Real>& contact : contacts.live) {
+    const Vector3<double> parting = velocities[contacts.particles[contact.pair.a].index] -
+                                    velocities[contacts.particles[contact.pair.b].index];
+    const double separation = contact.normal.template cast<double>().dot(parting);
+    if (contact.weights.isMet(static_cast<Real>(separation))) continue;
+    contact.weights.spring = contact.weights.push = 0;
+    dropped = true;
+  }
+  return dropped;
+}
+
+template <class Real>
+void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts) {
+  contacts.changes.clear();
+  for (std::size_t i = 0; i < velocities.size(); ++i)
+    contacts.changes.push_back((velocities[i] - contacts.freeVelocities[i]).template cast<double>());
+}
+
+template <class Real>
+void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,
+                   std::vector<StrandSystem>& systems, const SolveStrand& solve, Contacts<Real>& contacts,
+                   Field<Real>& velocities) {
+  contacts.freeVelocities = velocities;
+  gatherContacts(velocities.size(), contacts);
+  contacts.momentumError = 0;
+  if (contacts.live.empty()) return;
+  setContactWeights(firstPoint, contacts, systems);
+
+  Field<double> solved = guessVelocities(velocities, contacts), momenta;
+  for (int iteration = 0; iteration < iterationCount; ++iteration) {
+    if (iteration > 0 && dropUnmet(solved, contacts)) {
+      gatherContacts(velocities.size(), contacts);
+      setContactWeights(firstPoint, contacts, systems);
+    }
+    momenta = pairMomenta(contacts, solved);
+    for (std::size_t s = 0; s < systems.size(); ++s) {
+      const std::size_t first = firstPoint[s], count = firstPoint[s + 1] - first;
+      const auto strandMomenta = std::span(momenta).subspan(first, count);
+      systems[s].contactMomenta.assign(strandMomenta.begin(), strandMomenta.end());
+      solve(s, std::span(solved).subspan(first, count));
+    }
+  }
+  contacts.momentumError = contactMomentumError(contacts, momenta, solved);
+  for (std::size_t i = 0; i < solved.size(); ++i) velocities[i] = solved[i].template cast<Real>();
+}
+
+#define RINGLET_INSTANTIATE(Real)                                                                      \
+  template Contacts<Real> makeContacts(const std::vector<RestStrand<Real>>& strands,                   \
+                                       std::span<const std::uint32_t> firstPoint,                      \
+                                       const ContactSettings& settings);                               \
+  template void updateContacts(const ContactSettings& settings, Real stepSeconds,                      \
+                               const Field<Real>& positions, const Field<Real>& velocities,            \
+                               Contacts<Real>& contacts);                                              \
+  template Field<double> pairMomenta(const Contacts<Real>& contacts, const Field<double>& velocities); \
+  template bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts);                  \
+  template void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts);              \
+  template void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,           \
+                              std::vector<StrandSystem>& systems, const SolveStrand& solve,            \
+                              Contacts<Real>& contacts, Field<Real>& velocities)
+RINGLET_INSTANTIATE(float);
+RINGLET_INSTANTIATE(double);
+#undef RINGLET_INSTANTIATE
+
+}  // namespace ringlet::reference

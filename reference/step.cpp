@@ -1,0 +1,236 @@
+// Implements step.h.
+#include "reference/step.h"
+
+#include <algorithm>
+
+#include "ringlet/base/assert.h"
+
+namespace ringlet::reference {
+
+template <class Real>
+Simulation<Real>::Simulation(const Groom& groom, const Material& material, const Settings& settings,
+                             const HeadPose& start, const HeadPose& oneStepEarlier,
+                             const PaperMaterial& paper, std::span<const Body> bodies)
+    : settings_(settings),
+      previousHead_(oneStepEarlier),
+      head_(start),
+      firstPoint_(groom.firstPoint),
+      bodies_(bodies.begin(), bodies.end()) {
+  RINGLET_ASSERT(bodies.empty() || settings.integrator == Integrator::jacobi,
+                 "bodies need the integrator jacobi");
+  for (const Body& body : bodies_) bodyPoses_.push_back(body.poseAt(0, start));
+  if (settings.air.on) windModes_ = windModes(settings.air);
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit, materialOfStrand(material, s),
+                                         paper, settings));
+  }
+  rootShifts_.assign(groom.strandCount(), Vector3<double>::Zero());
+  rootPoses_.assign(groom.strandCount(), BodyPose{});
+  previousRootPoses_ = rootPoses_;
+  systems_.resize(groom.strandCount());
+  taps_.resize(groom.strandCount());
+  if (settings.contacts.on) {
+    RINGLET_ASSERT(settings.integrator == Integrator::jacobi, "contacts need the integrator jacobi");
+    contacts_ = makeContacts(rest_, firstPoint_, settings.contacts);
+  }
+  placeAtRest();
+}
+
+template <class Real>
+void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                                 std::span<const BodyPose> rootPoses) {
+  RINGLET_ASSERT(rootPoses.empty() || rootPoses.size() == stepPoses.size() * rest_.size(),
+                 "every strand has a pose in every step");
+  const std::vector<BodyPose> carried =
+      bodyPoses.empty() ? bodyPosesOf(bodies_, stepPoses, std::vector<double>(stepPoses.size()))
+                        : std::vector<BodyPose>(bodyPoses.begin(), bodyPoses.end());
+  RINGLET_ASSERT(carried.size() == stepPoses.size() * bodies_.size(), "every body has a pose in every step");
+  if (settings_.jumps(length(stepPoses.back().position - head_.position))) {
+    carryTo(stepPoses.back());
+    bodyPoses_.assign(carried.end() - static_cast<std::ptrdiff_t>(bodies_.size()), carried.end());
+    if (!rootPoses.empty())
+      rootPoses_.assign(rootPoses.end() - static_cast<std::ptrdiff_t>(rest_.size()), rootPoses.end());
+    previousRootPoses_ = rootPoses_;
+    report_.steps += stepPoses.size();
+    return;
+  }
+  for (std::size_t k = 0; k < stepPoses.size(); ++k) {
+    const std::vector<BodyPose> roots =
+        rootPoses.empty()
+            ? rootPoses_
+            : std::vector<BodyPose>(rootPoses.begin() + static_cast<std::ptrdiff_t>(k * rest_.size()),
+                                    rootPoses.begin() + static_cast<std::ptrdiff_t>((k + 1) * rest_.size()));
+    stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
+  }
+}
+
+template <class Real>
+void Simulation<Real>::placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
+  RINGLET_ASSERT(now.size() == rest_.size() && oneStepEarlier.size() == rest_.size(),
+                 "every strand has a pose");
+  rootPoses_.assign(now.begin(), now.end());
+  previousRootPoses_.assign(oneStepEarlier.begin(), oneStepEarlier.end());
+  placeAtRest();
+}
+
+template <class Real>
+void Simulation<Real>::setState(const Field<Real>& positions, const Field<Real>& velocities) {
+  RINGLET_ASSERT(positions.size() == positions_.size(), "setState needs a position for every particle");
+  RINGLET_ASSERT(velocities.size() == velocities_.size(), "setState needs a velocity for every particle");
+  positions_ = positions;
+  velocities_ = velocities;
+  contacts_.live.clear();
+  contacts_.changes.clear();
+}
+
+template <class Real>
+void Simulation<Real>::setRootShifts(std::span<const Vec3d> shifts) {
+  RINGLET_ASSERT(shifts.size() == rest_.size(), "every strand has a root shift");
+  for (std::size_t s = 0; s < rest_.size(); ++s) rootShifts_[s] = toEigen<double>(shifts[s]);
+}
+
+template <class Real>
+Report Simulation<Real>::report() const {
+  Report report = report_;
+  report.contacts = contacts_.live.size();
+  report.momentumError = contacts_.momentumError;
+  for (std::size_t i = 0; i < positions_.size(); ++i) {
+    if (!positions_[i].allFinite() || !velocities_[i].allFinite()) ++report.nonfinite;
+  }
+  return report;
+}
+
+template <class Real>
+void Simulation<Real>::placeAtRest() {
+  const double T = settings_.stepSeconds();
+  positions_.clear();
+  velocities_.clear();
+  for (std::size_t s = 0; s < rest_.size(); ++s) {
+    const Carried now = carried(head_, rootPoses_[s]), before = carried(previousHead_, previousRootPoses_[s]);
+    for (const Vector3<Real>& point : rest_[s].points) {
+      const Vector3<double> x = point.template cast<double>();
+      const Vector3<double> here = now.origin + now.rotation * x;
+      positions_.push_back(here.template cast<Real>());
+      velocities_.push_back(((here - before.origin - before.rotation * x) / T).template cast<Real>());
+    }
+  }
+}
+
+template <class Real>
+typename Simulation<Real>::Carried Simulation<Real>::carried(const HeadPose& head, const BodyPose& root) {
+  const Rotation<double> turn = toEigen<double>(head.rotation);
+  return {turn * toEigen<double>(root.rotation), turn * toEigen<double>(root.position)};
+}
+
+template <class Real>
+void Simulation<Real>::carryTo(const HeadPose& next) {
+  const Rotation<double> before = toEigen<double>(head_.rotation), now = toEigen<double>(next.rotation);
+  const Rotation<double> turned = (now * before.conjugate()).normalized();
+  for (Field<Real>* field : {&positions_, &velocities_}) {
+    for (Vector3<Real>& v : *field) v = (turned * v.template cast<double>()).template cast<Real>();
+  }
+  const Vector3<double> step = turned * toEigen<double>(head_.position - previousHead_.position);
+  const Rotation<double> earlier = (turned * toEigen<double>(previousHead_.rotation)).normalized();
+  previousHead_ = {next.position - Vec3d{step.x(), step.y(), step.z()},
+                   {earlier.x(), earlier.y(), earlier.z(), earlier.w()},
+                   next.shift};
+  head_ = next;
+  contacts_.live.clear();
+  contacts_.changes.clear();
+}
+
+template <class Real>
+void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses,
+                                const std::vector<BodyPose>& roots) {
+  const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
+  const AirStep<Real> air = airStep(next);
+  for (std::size_t s = 0; s < rest_.size(); ++s) {
+    const HeadStep<Real> head = headStep(next, s, roots[s]);
+    const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
+    prepareStrand(rest_[s], settings_, head, air, positions, velocities, scratch_, taps_[s], systems_[s]);
+    solveVelocities(rest_[s], settings_, head, bodies, systems_[s], scratch_, taps_[s], positions,
+                    velocities);
+  }
+  if (settings_.contacts.on) {
+    updateContacts(settings_.contacts, static_cast<Real>(settings_.stepSeconds()), positions_, velocities_,
+                   contacts_);
+    const auto solveOne = [&](std::size_t s, std::span<Vector3<double>> velocities) {
+      solveAmongBodies<Real>(rest_[s], bodies, strandOf(positions_, s), systems_[s], scratch_, velocities);
+    };
+    solveContacts(settings_.contacts.iterations, firstPoint_, systems_, solveOne, contacts_, velocities_);
+  }
+  for (std::size_t s = 0; s < rest_.size(); ++s) {
+    moveStrand(rest_[s], settings_, headStep(next, s, roots[s]), bodies, strandOf(positions_, s),
+               strandOf(velocities_, s), scratch_, taps_[s]);
+    record(rest_[s], taps_[s]);
+  }
+  if (settings_.contacts.on) rememberChanges(velocities_, contacts_);
+  ++report_.steps;
+  previousHead_ = head_;
+  head_ = next;
+  previousRootPoses_ = rootPoses_;
+  rootPoses_ = roots;
+  bodyPoses_.assign(bodyPoses.begin(), bodyPoses.end());
+}
+
+template <class Real>
+AirStep<Real> Simulation<Real>::airStep(const HeadPose& next) const {
+  if (!settings_.air.on) return {};
+  const double T = settings_.stepSeconds(), seconds = T * static_cast<double>(report_.steps + 1);
+  const Vec3d travel = (next.position - head_.position) / T;
+  return {.settings = &settings_.air,
+          .wind = toEigen<Real>(evenWindAt(settings_.air, seconds) - travel),
+          .modes = windModes_,
+          .origin = toEigen<double>(head_.position),
+          .seconds = seconds};
+}
+
+template <class Real>
+std::vector<BodyStep<Real>> Simulation<Real>::bodySteps(const HeadPose& next,
+                                                        std::span<const BodyPose> poses) const {
+  std::vector<BodyStep<Real>> steps;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const BodyPose &from = bodyPoses_[b], &to = poses[b];
+    const Vec3d now = from.position - head_.position, then = to.position - next.position;
+    steps.push_back({.body = &bodies_[b],
+                     .rotationNow = toEigen<Real>(from.rotation),
+                     .rotationNext = toEigen<Real>(to.rotation),
+                     .positionNow = toEigen<Real>(now),
+                     .positionNext = toEigen<Real>(then),
+                     .velocity = toEigen<Real>((then - now) / settings_.stepSeconds()),
+                     .turn = toEigen<Real>(to.rotation * from.rotation.conjugate()),
+                     .seconds = static_cast<Real>(settings_.stepSeconds())});
+  }
+  return steps;
+}
+
+template <class Real>
+HeadStep<Real> Simulation<Real>::headStep(const HeadPose& next, std::size_t s,
+                                          const BodyPose& nextRoot) const {
+  const double T = settings_.stepSeconds();
+  const Vec3d velocityNow = (head_.position - previousHead_.position) / T;
+  const Vec3d velocityNext = (next.position - head_.position) / T;
+  const Carried carriedNow = carried(head_, rootPoses_[s]), carriedNext = carried(next, nextRoot);
+  return {.before = carried(previousHead_, previousRootPoses_[s]).rotation,
+          .now = carriedNow.rotation,
+          .next = carriedNext.rotation,
+          .velocityChange = toEigen<Real>(velocityNext - velocityNow),
+          .seconds = static_cast<Real>(T),
+          .originNow = carriedNow.origin,
+          .originNext = carriedNext.origin,
+          .shiftNow = head_.shift * rootShifts_[s],
+          .shiftNext = next.shift * rootShifts_[s]};
+}
+
+template <class Real>
+void Simulation<Real>::record(const RestStrand<Real>& rest, const StrandTaps<Real>& taps) {
+  report_.maxEdgeStretch = std::max(report_.maxEdgeStretch, static_cast<double>(taps.maxEdgeStretch));
+  report_.limitedEdges += taps.limitedCount;
+  report_.degenerateEdges += taps.degenerateCount;
+  report_.edgeSteps += rest.edgeCount();
+}
+
+template class Simulation<float>;
+template class Simulation<double>;
+
+}  // namespace ringlet::reference
