@@ -90,6 +90,16 @@ TEST_F(BodyStep, AirAgrees) {
   }
 }
 
+// Gusts and turbulence go on from frame to frame: the wind has a time of its own, which the device is told.
+TEST_F(BodyStep, FramesInTheWindAgreeWithDouble) {
+  ParityCase c{randomGroom({33, 64, 63, 40}, 17), {}, {}, kVariants[2].kernel, 6};
+  c.settings.air = {
+      .on = true, .fallSpeed = 2, .wind = {5, 0, 1}, .gust = 1, .gustSeconds = 0.1, .turbulence = 2};
+  const FieldError e = oneFrameError(device(), c, 3);
+  fmt::print("three frames in the wind: {:.1e} of the arc length\n", e.error);
+  EXPECT_LE(e.error, kOneFrame) << e.where;
+}
+
 // Not of a distance grid: its normals jump where cells meet, and what lies there may go either way by
 // rounding (2e-3 of the length in one of ten frames; step by step from the same state they agree to 1e-8 m).
 TEST_F(BodyStep, AFrameAgreesWithDouble) {

@@ -1,14 +1,19 @@
-// Frames in flight give the bits of frames one by one, with everything the host writes anew for each.
+// Frames in flight give the bits of frames one by one, with everything the host writes anew for each; and
+// those are the reference's frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "reference/step.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scenes/builtin_scene.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
+#include "tests/support/tolerances.h"
 
 namespace ringlet::test {
 namespace {
@@ -96,6 +101,24 @@ class FramesInFlight : public GpuTest {
     return many;
   }
 
+  // The first frames, each particle within `tolerance` [m].
+  static void expectReference(const Cast& cast, const Seen& seen, std::size_t frameCount, double tolerance) {
+    reference::Simulation<double> reference(cast.groom, cast.material, cast.settings, cast.start, cast.start,
+                                            {}, cast.bodies);
+    if (!cast.rootShifts.empty()) reference.setRootShifts(cast.rootShifts);
+    double worst = 0;
+    for (std::size_t frame = 0; frame < frameCount; ++frame) {
+      const Told& told = cast.frames[frame];
+      reference.stepFrame(told.heads, told.bodies, told.roots);
+      for (std::size_t i = 0; i < cast.groom.points.size(); ++i) {
+        const auto found = reference::toEigen<double>(seen.frames[frame][i]);
+        worst = std::max(worst, (found - reference.positions()[i]).norm());
+      }
+      EXPECT_LE(worst, tolerance) << "frame " << frame;
+    }
+    fmt::print("{:.1e} m from the reference in {} frames\n", worst, frameCount);
+  }
+
   static std::vector<HeadPose> headsOf(const Motion& motion, const Settings& settings, int frame) {
     std::vector<HeadPose> heads;
     for (int k = 1; k <= settings.stepsPerFrame; ++k)
@@ -108,7 +131,7 @@ TEST_F(FramesInFlight, ShakenHair) {
   Cast cast{randomGroom({2, 31, 64, 100}, 9)};
   const Motion motion = *motionByName("shake", {0, 1, 0});
   for (int frame = 0; frame < 24; ++frame) cast.frames.push_back({headsOf(motion, cast.settings, frame)});
-  expectSameBits(cast);
+  expectReference(cast, expectSameBits(cast), 24, kOneSecond * 0.25);  // of the arc length
 }
 
 // Bodies, air and roots that move, and a head that jumps and turns in the middle.
@@ -151,6 +174,7 @@ TEST_F(FramesInFlight, HairThatMeetsHair) {
   for (int frame = 0; frame < scene->frameCount(); ++frame)
     cast.frames.push_back({headsOf(scene->motion, cast.settings, frame)});
   const Seen seen = expectSameBits(cast);
+  expectReference(cast, seen, 12, kMeetingMetres);  // half a second
   EXPECT_GT(seen.contacts.contacts, 0u);
   EXPECT_GT(seen.contacts.rebuilds, 1u);
 }

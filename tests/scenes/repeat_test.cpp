@@ -55,6 +55,32 @@ TEST_F(Repeat, LongFramesGiveTheBitsOfSingleSteps) {
   }
 }
 
+// Hair that wind presses onto a body, and that may not stretch: then a step has the most turns of loops.
+TEST_F(Repeat, LongFramesAmongBodiesGiveTheBitsOfSingleSteps) {
+  constexpr int kSteps = 16;
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < 3; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 250; ++i) strand.push_back(Vec3f(Vec3d{0.001 * i, 0, 0.01 * s}));
+    groom.addStrand(strand);
+  }
+  Settings settings;
+  settings.maxStretch = 1;
+  settings.air = {.on = true, .fallSpeed = 2, .wind = {0, -20, 1}, .turbulence = 2};
+  const std::vector<Body> bodies{{.name = "ball", .radius = 0.05, .place = {{0.12, -0.051, 0}, {}}}};
+  const auto run = [&](int stepsPerFrame) {
+    settings.stepsPerFrame = stepsPerFrame;
+    settings.framesPerSecond = 192.0 / stepsPerFrame;
+    auto simulation =
+        Simulation::create(device(), groom, {}, settings, {}, {}, {KernelChoice::Form::serial}, bodies);
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    for (int step = 0; step < kSteps; step += stepsPerFrame) EXPECT_TRUE(simulation->stepFrame(HeadPose{}));
+    return *simulation->state();
+  };
+  expectSameBits(run(kSteps), run(1), "serial, a body and air");
+}
+
 TEST_F(Repeat, TapsChangeNoBit) {
   for (KernelChoice kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::automatic, 8},
                               KernelChoice{KernelChoice::Form::serial}}) {
@@ -87,6 +113,41 @@ TEST_F(Repeat, StateCanBePutBack) {
   ASSERT_TRUE(simulation->setState(start));
   ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
   expectSameBits(first, *simulation->state(), "the same state stepped again");
+}
+
+// The first step outgrows the lists, which begin short, and is done again in longer ones; once the state is
+// put back there is room at once. Both are a first step, which has nothing to remember.
+TEST_F(Repeat, StateWithContactsCanBePutBackAndRoomMadeInBetween) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < 100; ++s) {
+    const Vec3f root(Vec3d{0.01 * (s % 10), 0, 0.01 * (s / 10)});
+    groom.addStrand(std::vector<Vec3f>{root, root + Vec3f{0, -0.005f, 0}, root + Vec3f{0, -0.01f, 0}});
+  }
+  Settings settings;
+  settings.stepsPerFrame = 1;
+  settings.contacts.on = true;
+  settings.contacts.radius = 0.002;
+  settings.contacts.prunePairs = false;
+  auto simulation = Simulation::create(device(), groom, {}, settings);
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  HairState start = randomState(groom, settings, 3);
+  for (std::size_t i = 0; i < start.positions.size(); ++i) {
+    if (i % 3 != 0) start.positions[i] = start.positions[i] * 0.1f;  // all but roots, near one place
+  }
+  const auto bytes = simulation->memory().contactLists;
+  ASSERT_TRUE(simulation->setState(start));
+  ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  const HairState first = *simulation->state();
+  EXPECT_GT(simulation->memory().contactLists, bytes) << "lists had room from the start";
+  EXPECT_GT(simulation->contactReport()->contacts, 100u);
+  EXPECT_EQ(simulation->contactReport()->rebuilds, 1u);
+  ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  const std::uint64_t rebuilds = simulation->contactReport()->rebuilds;
+  ASSERT_TRUE(simulation->setState(start));
+  ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  expectSameBits(first, *simulation->state(), "the same state stepped again");
+  EXPECT_EQ(simulation->contactReport()->rebuilds, rebuilds + 1);
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ class RootWays {
 
 }  // namespace
 
-std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c) {
+std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c, SimulationReport* report) {
   c.settings.framesPerSecond *= c.settings.stepsPerFrame;
   c.settings.stepsPerFrame = 1;
   c.kernel.taps = true;
@@ -229,6 +229,7 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
   EXPECT_TRUE(simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext));
   const auto found = simulation->state();
   if (!found) return {{"state", INFINITY, found.error().message}};
+  if (report) *report = *simulation->report();
 
   ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
   if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
@@ -277,40 +278,43 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c)
           cPositions.result(), cVelocities.result()};
 }
 
-FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c) {
+FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int frameCount) {
   const RootWays roots(c);
   const HairState start = roots.carried(c.groom, randomState(c.groom, c.settings, c.seed));
   const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-c.settings.stepSeconds());
-  std::vector<BodyPose> rootPoses;
-  std::vector<HeadPose> poses;
-  std::vector<double> times;
   const auto pose = [&](int k) {
     const double t = k * c.settings.stepSeconds();
     return HeadPose{Vec3d{0.5 * t * t, 0, 0.2 * t}, fromRotationVector(Vec3d{0, 2, 0.5} * (t * t))};
   };
-  for (int k = 1; k <= c.settings.stepsPerFrame; ++k) {
-    poses.push_back(pose(k));
-    times.push_back(k * c.settings.stepSeconds());
-    std::ranges::copy(roots.at(times.back()), std::back_inserter(rootPoses));
-  }
-  const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, poses, times);
 
   auto simulation =
       Simulation::create(device, c.groom, c.material, c.settings, pose(0), pose(-1), c.kernel, c.bodies);
   if (!simulation) return {"create", INFINITY, simulation.error().message};
+  ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1), {}, c.bodies);
   if (!roots.empty()) {
     EXPECT_TRUE(simulation->placeRoots(rootsNow, rootsBefore));
+    expected.placeRoots(rootsNow, rootsBefore);
   }
   EXPECT_TRUE(simulation->setState(start));
-  EXPECT_TRUE(simulation->stepFrame(poses, bodyPoses, rootPoses));
+  expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
+  for (int frame = 0; frame < frameCount; ++frame) {
+    std::vector<BodyPose> rootPoses;
+    std::vector<HeadPose> poses;
+    std::vector<double> times;
+    for (int k = 1; k <= c.settings.stepsPerFrame; ++k) {
+      const int step = frame * c.settings.stepsPerFrame + k;
+      poses.push_back(pose(step));
+      times.push_back(step * c.settings.stepSeconds());
+      std::ranges::copy(roots.at(times.back()), std::back_inserter(rootPoses));
+    }
+    const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, poses, times);
+    EXPECT_TRUE(simulation->stepFrame(poses, bodyPoses, rootPoses));
+    expected.stepFrame(poses, bodyPoses, rootPoses);
+  }
   const auto found = simulation->positions();
   if (!found) return {"positions", INFINITY, found.error().message};
 
-  ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1), {}, c.bodies);
-  if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
-  expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
-  expected.stepFrame(poses, bodyPoses, rootPoses);
-  Comparison comparison("positions after a frame");
+  Comparison comparison("positions");
   for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
     for (std::size_t i = 0; i < c.groom.strand(s).size(); ++i) {
       const std::size_t g = c.groom.firstPoint[s] + i;

@@ -53,12 +53,14 @@ struct ParityCase {
   std::vector<Body> bodies{};  // with kernel.movingRoots every strand has small poses of its own, at random
 };
 
-/// All fields of one step, device against reference::Simulation<float>, from the same random state.
-std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase parityCase);
+/// All fields of one step, device against reference::Simulation<float>, from the same random state. `report`:
+/// what the device then reports.
+std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase parityCase,
+                                      SimulationReport* report = nullptr);
 
-/// Largest distance of positions after one frame from reference::Simulation<double>, share of the strand's
+/// Largest distance of positions after some frames from reference::Simulation<double>, share of the strand's
 /// arc length.
-FieldError oneFrameError(const ComputeDevice& device, const ParityCase& parityCase);
+FieldError oneFrameError(const ComputeDevice& device, const ParityCase& parityCase, int frameCount = 1);
 
 /// "smoothed edges 1.2e-07, frames 3e-07, ..." for the test's log.
 std::string toText(const std::vector<FieldError>& errors);

@@ -11,6 +11,10 @@ inline constexpr double kOneStep = 2e-6;
 // its length: 2e-6 sqrt(1000 / 128).
 inline constexpr double kOneStepOfLongStrands = 5.6e-6;
 
+// 30 Chebyshev iterations of point Jacobi, far from the solution: the k-th iterate changes k^2 times as much
+// as the matrix does, whose entries are rounded to 6e-8.
+inline constexpr double kOneStepOfThirtyChebyshev = 30 * 30 * 6e-8;
+
 // One frame of 8 steps, float kernel against the double reference, as a share of the strand's rest arc
 // length: float positions have 3e-8 of it, the springs carry the error of one step into the next.
 inline constexpr double kOneFrame = 1e-5;

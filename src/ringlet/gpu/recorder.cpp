@@ -39,6 +39,7 @@ struct Recorder::State {
   std::vector<OwnedQueryPool> timestamps;
   Phase phase = Phase::empty;
   std::optional<Error> failure;  // of a call that returns nothing; reported by submit
+  std::vector<std::string> recorded;
   std::vector<std::string> stages;
   bool isStageOpen = false;
   Clock::time_point submitted;
@@ -186,6 +187,7 @@ Status Recorder::begin() {
   RINGLET_ASSERT(self_->phase != State::Phase::submitted, "begin before wait");
   self_->phase = State::Phase::empty;
   self_->failure.reset();
+  self_->recorded.clear();
   self_->stages.clear();
   self_->isStageOpen = false;
   self_->partCount = 0;
@@ -209,6 +211,7 @@ void Recorder::bind(const Kernel& kernel, const Bindings& bindings,
   RINGLET_ASSERT(pushConstants.size() == kernel.pushConstantBytes(),
                  "push constants of a size the kernel does not have");
   RINGLET_ASSERT(bindings.bindings() == kernel.bindings(), "bindings made for a kernel that binds others");
+  self_->recorded.push_back(kernel.name());
   const VkDescriptorSet set = bindings.set();
   self_->vk().vkCmdBindPipeline(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
   self_->vk().vkCmdBindDescriptorSets(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
@@ -247,6 +250,7 @@ void Recorder::dispatchNothing(const Kernel& kernel, const Bindings& bindings) {
 // One kind of barrier for everything: on compute work a narrower one gains nothing.
 void Recorder::barrier() {
   RINGLET_ASSERT(self_->phase == State::Phase::recording, "barrier outside begin and submit");
+  self_->recorded.push_back(kBarrier);
   self_->memoryBarrier(kReads | kWrites | VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
                        kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT);
 }
@@ -259,12 +263,14 @@ void Recorder::copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t by
   RINGLET_ASSERT(toOffset <= to.bytes() && bytes <= to.bytes() - toOffset,
                  "a copy runs past its target's end");
   if (bytes == 0) return;
+  self_->recorded.push_back(kCopy);
   const VkBufferCopy region{.srcOffset = fromOffset, .dstOffset = toOffset, .size = bytes};
   self_->vk().vkCmdCopyBuffer(self_->commands, from.handle(), to.handle(), 1, &region);
 }
 
 void Recorder::fillZero(const Buffer& buffer) {
   RINGLET_ASSERT(self_->phase == State::Phase::recording, "fillZero outside begin and submit");
+  self_->recorded.push_back(kFill);
   self_->vk().vkCmdFillBuffer(self_->commands, buffer.handle(), 0, buffer.capacity(), 0);
 }
 
@@ -324,6 +330,7 @@ Status Recorder::submitAndWait() {
   return wait();
 }
 
+const std::vector<std::string>& Recorder::recorded() const { return self_->recorded; }
 const std::vector<std::pair<std::string, double>>& Recorder::stageMilliseconds() const {
   return self_->stageMilliseconds;
 }

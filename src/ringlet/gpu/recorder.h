@@ -87,6 +87,10 @@ class Recorder {
   Status wait();
   Status submitAndWait();
 
+  /// What was recorded since begin, in order, for tests: kernels by name, kBarrier, kCopy or kFill.
+  static constexpr const char *kBarrier = "barrier", *kCopy = "copy", *kFill = "fill";
+  const std::vector<std::string>& recorded() const;
+
   /// Of the last wait, in the order recorded [ms]: by the device's timestamps, else the submission's time on
   /// the host's clock in equal parts, less what went by before the wait for an earlier submission ended. A
   /// name recorded twice stands here twice.

@@ -384,6 +384,10 @@ DeviceMemory Simulation::memory() const {
   return memory;
 }
 
+std::vector<std::string> Simulation::recordedFrame() const {
+  return self_->slotOf(std::max<std::uint64_t>(self_->submitted, 1) - 1).recorder.recorded();
+}
+
 double Simulation::compileMilliseconds() const { return self_->compileMilliseconds; }
 
 std::string Simulation::kernelDescription() const {

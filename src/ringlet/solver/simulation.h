@@ -190,6 +190,9 @@ class Simulation {
   /// What it took to make the kernels, most of it the driver's compiler [ms]. Part of create. A device
   /// compiles each kernel once, for all simulations on it.
   double compileMilliseconds() const;
+  /// What the last frame submitted (or, before it, the first) was recorded as, for tests
+  /// (Recorder::recorded).
+  std::vector<std::string> recordedFrame() const;
   /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".
   std::string kernelDescription() const;
 

@@ -1,0 +1,102 @@
+// How a frame with contacts is recorded. Contact kernels share buffers that several of them write, so that
+// each must see what the one before it wrote; the validation layer does not notice a barrier left out there,
+// and lavapipe runs dispatches in order. Mirrors solver/contact_stage.h.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/solver/simulation.h"
+#include "tests/support/gpu_test.h"
+
+namespace ringlet::test {
+namespace {
+
+using Commands = std::vector<std::string>;
+
+// In the order of a step; contact_gather, between its solves, is counted apart.
+const Commands kOfAStep{"contact_motion", "contact_decide",  "contact_count", "contact_scan",
+                        "contact_sum",    "contact_scatter", "contact_order", "contact_query",
+                        "contact_touch",  "contact_life",    "contact_check"};
+
+bool isContactKernel(const std::string& command) { return command.starts_with("contact_"); }
+
+// Every dispatch has a barrier between itself and the dispatch or copy before it.
+void expectBarriers(const Commands& commands, const std::string& label) {
+  std::string before;  // since the last barrier
+  for (const std::string& command : commands) {
+    if (command == gpu::Recorder::kBarrier) {
+      before.clear();
+      continue;
+    }
+    const bool isCopy = command == gpu::Recorder::kCopy || command == gpu::Recorder::kFill;
+    if (!isCopy || before.starts_with("contact_") || before.starts_with("strand_")) {
+      EXPECT_EQ(before, "") << label << ": no barrier between it and " << command;
+    }
+    before = command;
+  }
+}
+
+// The contact kernels of `steps` whole steps, in order.
+void expectSteps(const Commands& commands, int steps, int iterations, const std::string& label) {
+  Commands expected, found;
+  for (int step = 0; step < steps; ++step) {
+    expected.insert(expected.end(), kOfAStep.begin(), kOfAStep.end());
+    expected.insert(expected.end(), static_cast<std::size_t>(iterations - 1), "contact_gather");
+  }
+  std::ranges::copy_if(commands, std::back_inserter(found), isContactKernel);
+  EXPECT_EQ(found, expected) << label;
+}
+
+// Strands that stand in each other's way once they are put together: their lists outgrow what they begin
+// with.
+Groom besideEachOther(int strandCount, int particles) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < strandCount; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < particles + s % 2 * 20; ++i)  // of two lengths
+      strand.push_back(Vec3f(Vec3d{0.01 * (s % 10), -0.005 * i, 0.01 * (s / 10)}));
+    groom.addStrand(strand);
+  }
+  return groom;
+}
+
+class ContactRecording : public GpuTest {};
+
+TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
+  constexpr int kSteps = 2;
+  const Groom groom = besideEachOther(60, 3);
+  for (const KernelChoice::Form form : {KernelChoice::Form::automatic, KernelChoice::Form::serial}) {
+    for (const int iterations : {1, 3}) {
+      Settings settings;
+      settings.stepsPerFrame = kSteps;
+      settings.contacts.on = true;
+      settings.contacts.radius = 0.002;
+      settings.contacts.prunePairs = false;
+      settings.contacts.iterations = iterations;
+      auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {form});
+      ASSERT_TRUE(simulation) << simulation.error().message;
+      const std::string label = simulation->kernelDescription() + ", " + std::to_string(iterations);
+      const Commands whole = simulation->recordedFrame();
+      expectBarriers(whole, label);
+      expectSteps(whole, kSteps, iterations, label);
+
+      HairState state{*simulation->positions(), std::vector<Vec3f>(groom.points.size())};
+      for (std::size_t i = 0; i < groom.points.size(); ++i) state.positions[i] = state.positions[i] * 0.1f;
+      ASSERT_TRUE(simulation->setState(state));
+      ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+      const Commands again = simulation->recordedFrame();
+      EXPECT_NE(again, whole) << label << ": lists had room from the start";
+      expectBarriers(again, label + ", with more room");
+      const auto steps = std::ranges::count(again, "contact_motion");
+      EXPECT_TRUE(steps == 1 || steps == kSteps) << label;
+      expectSteps(again, static_cast<int>(steps), iterations, label + ", with more room");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ringlet::test
