@@ -1,6 +1,6 @@
 // The buffers and parameters of the strand_step kernels (layout.h), and the taps, which only a kernel compiled with
-// RINGLET_TAPS writes. Contacts are known to kernels compiled with RINGLET_CONTACTS, bodies and air to those compiled with
-// RINGLET_SURROUNDINGS: a constant that is false would still leave their buffers bound, and a small device has few.
+// RINGLET_TAPS writes. Kernels know of contacts where compiled with RINGLET_CONTACTS, of bodies and air where compiled
+// with RINGLET_SURROUNDINGS: a constant that is false still leaves their buffers bound, and a small device has few.
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 

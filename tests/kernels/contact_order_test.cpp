@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -67,16 +66,15 @@ class ContactOrder : public GpuTest {
     auto words = createFilled(gpu(), grid.words, "grid");
     auto places = createZero(gpu(), kContacts * sizeof(layout::ContactPlace), "places");
     EXPECT_TRUE(kernel && unused && position && rest && words && places);
-    gpu::BufferTable buffers;
+    gpu::BufferTable buffers{{layout::kBindContactPositions, *position},
+                             {layout::kBindContactPositionTexels, *position},
+                             {layout::kBindContactSolved, *position},
+                             {layout::kBindContactSolvedTexels, *position},
+                             {layout::kBindContacts, *rest},
+                             {layout::kBindContactTexels, *rest},
+                             {layout::kBindGrid, *words},
+                             {layout::kBindPlaces, *places}};
     for (const auto& [number, kind] : (*kernel)->bindings()) buffers.emplace(number, *unused);
-    const auto bind = [&](std::uint32_t number, const gpu::Buffer& buffer) {
-      buffers.insert_or_assign(number, std::cref(buffer));
-    };
-    bind(layout::kBindContactPositions, *position), bind(layout::kBindContactPositionTexels, *position);
-    bind(layout::kBindContactSolved, *position), bind(layout::kBindContactSolvedTexels, *position);
-    bind(layout::kBindContacts, *rest), bind(layout::kBindContactTexels, *rest);
-    bind(layout::kBindGrid, *words);
-    bind(layout::kBindPlaces, *places);
     auto bindings = gpu::Bindings::create(**kernel, buffers);
     auto recorder = gpu::Recorder::create(gpu(), "order");
     EXPECT_TRUE(bindings && recorder && recorder->begin());
