@@ -92,7 +92,8 @@ TEST(MotionMeasure, DoesNotDependOnTheFrameRate) {
     for (int k = 0; k <= 8 * fps; ++k) {
       const double t = k / fps - 2, by = 0.05 * std::exp(-ratio * natural * t) * std::sin(natural * t);
       const Vec3d head{t < 0 ? 0.1 * std::sin(2 * kPi * 2 * t) : 0, 0, 0};
-      ASSERT_TRUE(bouncing.addFrame(asFloats(moved(stretched(curl, t < 0 ? 1 : 1 + by), {}, head)), 1, Quatd{}));
+      ASSERT_TRUE(
+          bouncing.addFrame(asFloats(moved(stretched(curl, t < 0 ? 1 : 1 + by), {}, head)), 1, Quatd{}));
     }
     const MotionReport report = bouncing.report();
     EXPECT_NEAR(report.freeSeconds, 2, 1.5 / fps);

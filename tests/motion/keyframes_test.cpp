@@ -77,6 +77,14 @@ TEST(Keyframes, FindTheFastestTurn) {
       fromRotationVector(Vec3d{0, 0, std::numbers::pi / 2});
   EXPECT_NEAR(keys.fastestTurn().speed, 50 * std::numbers::pi, 1e-9);
   EXPECT_EQ(keys.fastestTurn().key, 6u);
+
+  // With times of their own, a smaller turn in less time is the faster.
+  keys = {};
+  keys.times = {0, 1, 3, 3.1};
+  for (double angle : {0.0, 1.0, 3.0, 3.5})
+    keys.poses.push_back({{}, fromRotationVector(Vec3d{0, angle, 0})});
+  EXPECT_NEAR(keys.fastestTurn().speed, 5, 1e-9);
+  EXPECT_EQ(keys.fastestTurn().key, 2u);
 }
 
 // An artist's few keys: they are met at their times, stayed at before the first and after the last, and

@@ -8,6 +8,7 @@
 
 #include "tests/motion/gltf_samples.h"
 #include "tests/program/run_program.h"
+#include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
@@ -83,6 +84,7 @@ TEST(BodyProgram, AMeshIsTheSameFromEitherFormat) {
   EXPECT_TRUE(none["deepest_penetration_mm"].is_null());
   ASSERT_FALSE(obj["deepest_penetration_mm"].is_null()) << obj;
   EXPECT_LT(obj["deepest_penetration_mm"].get<double>(), 0.5);
+  EXPECT_GE(obj["deepest_penetration_mm"].get<double>(), 0);
   EXPECT_EQ(obj["inside_bodies"], 0);
   EXPECT_EQ(obj["warnings"].size(), none["warnings"].size()) << obj["warnings"];
   EXPECT_NE(obj["positions_hash"], none["positions_hash"]) << "the strand falls on the box";
@@ -90,6 +92,31 @@ TEST(BodyProgram, AMeshIsTheSameFromEitherFormat) {
       std::abs(obj["deepest_penetration_mm"].get<double>() - gltf["deepest_penetration_mm"].get<double>()),
       1e-2)
       << "glTF holds floats";
+}
+
+// How deep a particle is in a sphere follows from the points of hair.usda: the radius less the distance from
+// its centre. The number of the JSON is the largest of all frames and bodies, in millimetres.
+TEST(BodyProgram, TheDeepestPenetrationIsThatOfTheFrames) {
+  const auto folder = scratchFolder("body_depth");
+  writeFiles(folder);
+  // Two spheres pass through each other, with the strand between them: it cannot be outside of both.
+  const auto sphere = [](double y, double speed) {
+    return fmt::format(
+        "[[body]]\nshape = 'sphere'\nradius = 0.05\nposition = [0.1, {}, 0]\n"
+        "moves = {{ kind = 'glide', axis = [0, 1, 0], amplitude = {} }}\n",
+        y, speed);
+  };
+  const json out = fallOn(folder, sphere(-0.12, 0.4) + sphere(0.12, -0.4));
+  double deepest = 0;  // [m]
+  for (const auto& [frame, points] : test::readUsd(folder / "out/hair.usda").points) {
+    for (double side : {-1.0, 1.0}) {
+      const Vec3d centre{0.1, side * (0.12 - 0.4 * frame / 24), 0};
+      for (std::size_t i = 2; i < points.size(); ++i)  // the first two follow the head
+        deepest = std::max(deepest, 0.05 - length(Vec3d(points[i]) * 0.01 - centre));
+    }
+  }
+  ASSERT_GT(deepest, 1e-3);
+  EXPECT_NEAR(out["deepest_penetration_mm"].get<double>(), 1000 * deepest, 1e-3);
 }
 
 TEST(BodyProgram, MistakesNameTheBody) {

@@ -2,6 +2,7 @@
 // of files that are unfinished, torn or wrong.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -88,6 +89,14 @@ TEST_F(Convert, A16BitCacheIsOffByNoMoreThanItSays) {
   const double bound = info["error_bound_m"].get<double>();
   EXPECT_GT(bound, 0);
   EXPECT_LT(bound, 0.04 / 65535) << "strands 4 cm long";
+  // Of a part it is that of the worst of its frames, the last included.
+  double worst = 0;
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    const double one = convert({"small.rgc", "one.obj", "--frame", std::to_string(frame)})["error_bound_m"];
+    EXPECT_GT(one, 0) << frame;
+    worst = std::max(worst, one);
+  }
+  EXPECT_EQ(worst, bound);
   const auto rounded = readUsd(folder_ / "small.usda");
   for (int frame = 1; frame <= kFrames; ++frame) {
     for (std::size_t i = 0; i < 8; ++i) {
@@ -118,6 +127,8 @@ TEST_F(Convert, FramesBecomeObjFiles) {
     EXPECT_EQ(pointsOf("pose.000" + std::to_string(frame) + ".obj"), usd.points.at(frame));
   EXPECT_EQ(pointsOf("frames/hair.0003.obj"), usd.points.at(3));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "frames"), {}), 2);
+  EXPECT_EQ(some["bytes"], fs::file_size(folder_ / "frames/hair.0002.obj") +
+                               fs::file_size(folder_ / "frames/hair.0003.obj"));
 
   for (const char* input : {"out/hair.rgc", "out/hair.usda"}) {
     convert({input, "one.obj", "--frame", "4"});

@@ -49,16 +49,19 @@ class Backends : public testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(Both, Backends, testing::Values("reference", "gpu"),
                          [](const testing::TestParamInfo<const char*>& backend) { return backend.param; });
 
-// The first frame after two seconds is the 49th without them.
+// The first frame after two seconds is the 49th without them. A part of a frame is a whole one: 0.05 s
+// are 1.2.
 TEST_P(Backends, PreRollBeginsEarlier) {
   const std::vector<std::string> motion{"groom.obj", "--motion",  "still",   "--preload",
                                         "0",         "--backend", GetParam()};
-  std::vector<std::string> whole = motion, rolled = motion;
-  whole.insert(whole.end(), {"--frames", "49"});
-  rolled.insert(rolled.end(), {"--frames", "1", "--pre-roll", "2"});
-  const json expected = simulate(folder_, whole), found = simulate(folder_, rolled);
-  EXPECT_EQ(found["frames"], 1);
-  EXPECT_EQ(found["positions_hash"], expected["positions_hash"]);
+  for (const auto& [seconds, frames] : {std::pair{"2", "49"}, {"0.05", "3"}}) {
+    std::vector<std::string> whole = motion, rolled = motion;
+    whole.insert(whole.end(), {"--frames", frames});
+    rolled.insert(rolled.end(), {"--frames", "1", "--pre-roll", seconds});
+    const json expected = simulate(folder_, whole), found = simulate(folder_, rolled);
+    EXPECT_EQ(found["frames"], 1);
+    EXPECT_EQ(found["positions_hash"], expected["positions_hash"]) << seconds << " s";
+  }
 }
 
 TEST_P(Backends, WritesAllFilesAndAllNumbers) {
@@ -103,6 +106,28 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   ASSERT_TRUE(last);
   EXPECT_EQ(last->groom.points, usd.points.at(7)) << "last.obj is the last sample";
   EXPECT_EQ(readText(folder_ / "out/sheet.png").substr(1, 3), "PNG");
+}
+
+// With one step a frame the longest edge of all steps is that of the frames that are written.
+TEST_P(Backends, TheLongestEdgeIsThatOfTheFrames) {
+  for (const char* limit : {"1.5", "1.02"}) {
+    const json out = simulate(
+        folder_, {"groom.obj", "--frames", "24", "--fps", "192", "--steps-per-frame", "1", "--preload", "0",
+                  "--motion", "jump", "--max-stretch", limit, "--backend", GetParam()});
+    const auto groom = readGroom(folder_ / "groom.obj");
+    ASSERT_TRUE(groom);
+    double longest = 0;
+    for (const auto& [frame, points] : readUsd(folder_ / "out/hair.usda").points) {
+      for (std::size_t s = 0; s < groom->groom.strandCount(); ++s) {
+        for (std::size_t i = groom->groom.firstPoint[s]; i + 1 < groom->groom.firstPoint[s + 1]; ++i) {
+          const double rest = length(groom->groom.points[i + 1] - groom->groom.points[i]);
+          longest = std::max(longest, length(points[i + 1] - points[i]) / rest);
+        }
+      }
+    }
+    ASSERT_GT(longest, 1.001);
+    EXPECT_NEAR(out["max_edge_stretch"].get<double>(), longest, 1e-5) << "limit " << limit;
+  }
 }
 
 TEST_P(Backends, HairAtRestStaysInItsOrderAndUnit) {

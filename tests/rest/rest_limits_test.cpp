@@ -108,5 +108,99 @@ TEST(RestLimits, ALoadOfMoreThanAHalfIsWarnedOf) {
   EXPECT_NEAR(std::atan(0.5) * 180 / 3.14159265358979, 27, 0.5);
 }
 
+std::string errorOf(const Settings& settings) {
+  const Status status = checkSettings(settings, {});
+  return status ? "" : status.error().message;
+}
+
+// The ends of every range are allowed, what lies just beyond is refused by name. Those of the air are in
+// tests/kernels/rest_state_test.cpp.
+template <class Number>
+struct Range {
+  const char* name;
+  Number& (*of)(Settings&);
+  Number low, high, below, above;
+};
+
+template <class Number>
+void expectRange(const Range<Number>& range) {
+  for (Number allowed : {range.low, range.high}) {
+    Settings settings;
+    range.of(settings) = allowed;
+    EXPECT_EQ(errorOf(settings), "") << range.name << " " << allowed;
+  }
+  for (Number refused : {range.below, range.above}) {
+    Settings settings;
+    range.of(settings) = refused;
+    EXPECT_EQ(errorOf(settings).find(std::string(range.name) + " is "), 0u) << range.name << " " << refused;
+  }
+}
+
+TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
+  using S = Settings;
+  const auto real = [](const char* name, double& (*of)(S&), double low, double high) {
+    expectRange<double>({name, of, low, high, std::nextafter(low, -1e9), std::nextafter(high, 1e9)});
+    expectRange<double>({name, of, low, high, -INFINITY, NAN});
+  };
+  real(
+      "framesPerSecond", [](S& s) -> double& { return s.framesPerSecond; }, 1e-3, 1e6);
+  real(
+      "gravityPreload", [](S& s) -> double& { return s.gravityPreload; }, 0, 1);
+  real(
+      "gravity.x", [](S& s) -> double& { return s.gravity.x; }, -1e4, 1e4);
+  real(
+      "gravity.y", [](S& s) -> double& { return s.gravity.y; }, -1e4, 1e4);
+  real(
+      "gravity.z", [](S& s) -> double& { return s.gravity.z; }, -1e4, 1e4);
+  real(
+      "maxStretch", [](S& s) -> double& { return s.maxStretch; }, 1, 100);
+  real(
+      "teleportDistance", [](S& s) -> double& { return s.teleportDistance; }, 0, 1e6);
+  real(
+      "contacts.radius", [](S& s) -> double& { return s.contacts.radius.emplace(); }, 1e-6, 1);
+  real(
+      "contacts.spacing", [](S& s) -> double& { return s.contacts.spacing; }, 0.01, 1);
+  real(
+      "contacts.enlargement", [](S& s) -> double& { return s.contacts.enlargement; }, 1, 100);
+  real(
+      "contacts.dropShare", [](S& s) -> double& { return s.contacts.dropShare; }, 0, 1);
+  real(
+      "contacts.stiffness", [](S& s) -> double& { return s.contacts.stiffness; }, 0, 1e7);
+  real(
+      "contacts.dampingRatio", [](S& s) -> double& { return s.contacts.dampingRatio; }, 0, 100);
+  real(
+      "contacts.friction", [](S& s) -> double& { return s.contacts.friction; }, 0, 1);
+  real(
+      "contacts.rampSeconds", [](S& s) -> double& { return s.contacts.rampSeconds; }, 0, 10);
+  real(
+      "contacts.stiffnessReleaseSeconds", [](S& s) -> double& { return s.contacts.stiffnessReleaseSeconds; },
+      0, 10);
+  real(
+      "contacts.dampingReleaseSeconds", [](S& s) -> double& { return s.contacts.dampingReleaseSeconds; }, 0,
+      10);
+  real(
+      "contacts.breakFactor", [](S& s) -> double& { return s.contacts.breakFactor; }, 1, 10);
+
+  const auto whole = [](const char* name, int& (*of)(S&), int low, int high) {
+    expectRange<int>({name, of, low, high, low - 1, high + 1});
+  };
+  whole(
+      "stepsPerFrame", [](S& s) -> int& { return s.stepsPerFrame; }, 1, 340);
+  whole(
+      "rootCount", [](S& s) -> int& { return s.rootCount; }, 1, layout::kMaxRootCount);
+  whole(
+      "pointIterations", [](S& s) -> int& { return s.pointIterations; }, 1, 60000);
+  whole(
+      "forceLoops", [](S& s) -> int& { return s.forceLoops; }, 1, 1000);
+  whole(
+      "dampingLoops", [](S& s) -> int& { return s.dampingLoops; }, 1, 1000);
+  whole(
+      "contacts.minOverlaps", [](S& s) -> int& { return s.contacts.minOverlaps; }, 1, 1000000);
+  whole(
+      "contacts.maxNeighbours", [](S& s) -> int& { return s.contacts.maxNeighbours; }, 0, 1000000);
+  whole(
+      "contacts.iterations", [](S& s) -> int& { return s.contacts.iterations; }, 1, 1000);
+}
+
 }  // namespace
 }  // namespace ringlet
