@@ -18,7 +18,9 @@ vec3 rightHandSide(int k, vec3 forceBefore) {
 // What is added to particle k's mass, and to its right-hand side: by contacts, 2 D and a momentum, read where they are
 // used and not kept in registers; by the air; by bodies.
 bool withContacts = false;
+#ifdef RINGLET_CONTACTS
 bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
+#endif
 const bool kAddsMass = kContacts || kAir || kBodies;
 Symmetric massOf(int k) {
   Symmetric mass = symmetricDiagonal(restEdge[k].x);
@@ -26,15 +28,20 @@ Symmetric massOf(int k) {
   if (kAir) mass = add(mass, airDragMatrix(drag[k], tangent[k], restEdge[k].x));
   if (kBodies) mass = add(mass, pushWeight[k]);
 #endif
+#ifdef RINGLET_CONTACTS
   if (meetsContacts(k)) {
     ContactSystem contact = contactSystemOf(strand.firstParticle + first + k);
     mass.d += 2.0 * contact.diagonal.xyz;
     mass.o += 2.0 * contact.offDiagonal.xyz;
   }
+#endif
   return mass;
 }
 vec3 addedMomentum(int k) {
-  vec3 momentum = meetsContacts(k) ? contactSystemOf(strand.firstParticle + first + k).momentum.xyz : vec3(0);
+  vec3 momentum = vec3(0);
+#ifdef RINGLET_CONTACTS
+  if (meetsContacts(k)) momentum = contactSystemOf(strand.firstParticle + first + k).momentum.xyz;
+#endif
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) momentum += restEdge[k].x * multiply(drag[k], tangent[k], wind[k]);
   if (kBodies) momentum += pushMomentum[k];

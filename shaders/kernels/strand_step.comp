@@ -4,8 +4,8 @@
 // Loops ask after their body (do, or if and do): a driver that masks lanes (lavapipe) runs the body of one that asks before
 // it once more than it has turns. Specialized with RUN = particles per lane, the lanes per strand and the integrator. With
 // contacts every solve is a dispatch of its own; the last of a step moves the strand and goes on to the next step's first.
-// Compiled three times: `jacobi` by itself; with RINGLET_SURROUNDINGS, bodies and air; with RINGLET_BASELINES, the other
-// integrators.
+// Compiled four times: `jacobi` by itself; with RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies
+// and air; with RINGLET_BASELINES, the other integrators.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -360,11 +360,13 @@ void storeStrand(uint strandIndex) {
   }
 }
 
+#ifdef RINGLET_CONTACTS
 void storeSolved() {
   [[unroll]] for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) solved[strand.firstParticle + first + k] = vec4(v[k], 0);
   }
 }
+#endif
 
 // The forces of a step, from positions and velocities at its start.
 void computeForces(uint step) {
@@ -378,6 +380,7 @@ void computeForces(uint step) {
   coreForces();
 }
 
+#ifdef RINGLET_CONTACTS
 // One solve with the contacts' systems or, of the step after a move, without them. An idle strand has no particles.
 void solveOnce(uint strandIndex, bool idle) {
   bool moves = (parameters.phases & kPhaseMove) != 0;
@@ -393,9 +396,12 @@ void solveOnce(uint strandIndex, bool idle) {
     if (!idle) storeStrand(strandIndex);
   } while (++step < parameters.stepEnd);
 }
+#endif
 
 void main() {
+#ifdef RINGLET_CONTACTS
   if (kContacts && control.isHalted != 0) return;
+#endif
   findLane();
   uint invocation = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
   uint strandIndex = parameters.strandBegin + invocation / kLanes;
@@ -407,10 +413,12 @@ void main() {
   first = lane * RUN;
   loadStrand();
 
+#ifdef RINGLET_CONTACTS
   if (kContacts) {
     solveOnce(strandIndex, idle);
     return;
   }
+#endif
   uint step = parameters.stepBegin;
   do {
     computeForces(step);

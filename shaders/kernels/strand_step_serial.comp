@@ -64,6 +64,7 @@ void setPosition(uint i, vec3 p) { positions[strand.firstParticle + i] = vec4(p,
 void setVelocity(uint i, vec3 v) { velocities[strand.firstParticle + i] = vec4(v, 0); }
 // The solve's result: beside the velocities where it is iterated, in their place where it is not.
 const bool kKeepsVelocities = kContacts || kBodies;
+#ifdef RINGLET_CONTACTS
 vec3 solvedVelocity(uint i) { return kKeepsVelocities ? solved[strand.firstParticle + i].xyz : velocity(i); }
 void setSolved(uint i, vec3 v) {
   if (kKeepsVelocities) {
@@ -72,6 +73,10 @@ void setSolved(uint i, vec3 v) {
     setVelocity(i, v);
   }
 }
+#else
+vec3 solvedVelocity(uint i) { return velocity(i); }
+void setSolved(uint i, vec3 v) { setVelocity(i, v); }
+#endif
 bool withContacts() { return kContacts && (parameters.phases & kPhaseContacts) != 0; }
 ParticleRest restOf(uint i) { return particleRest(strand.firstParticle + i); }
 float edgeScale(uint i) { return edgeScaleOf(restOf(i).edgeLength); }
@@ -162,7 +167,9 @@ void coreSweep(float coreScale) {
   }
 }
 
+#ifdef RINGLET_SURROUNDINGS
 #include "bodies/strand_air.glsl"
+#endif
 
 vec3 forceOn(uint i) {
   vec3 force = i + 1 < count ? scratchOf(i, kForce) : vec3(0);
@@ -171,27 +178,35 @@ vec3 forceOn(uint i) {
 vec3 rightHandSide(uint i) {
   float m = mass(i);
   vec3 sum = m * (velocity(i) - headChange) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
+#ifdef RINGLET_CONTACTS
   if (withContacts()) sum += contactSystemOf(strand.firstParticle + i).momentum.xyz;
+#endif
+#ifdef RINGLET_SURROUNDINGS
   if (kAir) {
     vec4 drag = scratch[slot(i, kDrag)];
     sum += m * multiply(AirDrag(drag.x, drag.y), tangentAt(i), scratchOf(i, kDrag + 1));
   }
   if (kBodies) sum += vec3(scratch[slot(i, kPushWeight)].w, scratch[slot(i, kPushWeight + 1)].w, scratch[slot(i, kPushRest)].x);
+#endif
   return sum;
 }
 // m and what contacts (2 D), the air and bodies add to it.
 Symmetric massOf(uint i) {
   Symmetric m = symmetricDiagonal(mass(i));
+#ifdef RINGLET_SURROUNDINGS
   if (kAir) {
     vec4 drag = scratch[slot(i, kDrag)];
     m = add(m, airDragMatrix(AirDrag(drag.x, drag.y), tangentAt(i), mass(i)));
   }
   if (kBodies) m = add(m, Symmetric(scratchOf(i, kPushWeight), scratchOf(i, kPushWeight + 1)));
+#endif
+#ifdef RINGLET_CONTACTS
   if (withContacts()) {
     ContactSystem contact = contactSystemOf(strand.firstParticle + i);
     m.d += 2.0 * contact.diagonal.xyz;
     m.o += 2.0 * contact.offDiagonal.xyz;
   }
+#endif
   return m;
 }
 ImplicitEdge implicitEdgeOf(uint i) {
@@ -226,7 +241,9 @@ void solveStrandBlock(uint step) {
   }
 }
 
+#ifdef RINGLET_SURROUNDINGS
 #include "bodies/strand_bodies.glsl"
+#endif
 
 void beginPointJacobi(uint step) {
   for (uint i = 0; i < count; ++i) {
@@ -348,7 +365,9 @@ void moveAndLimit(uint step) {
     }
     velocityBefore = v;
   }
+#ifdef RINGLET_SURROUNDINGS
   if (kBodies) keepAmongBodies(step);
+#endif
 }
 
 void storeReport(uint strandIndex) {
@@ -388,7 +407,10 @@ void springs(uint step) {
 
 void main() {
   uint strandIndex = parameters.strandBegin + gl_GlobalInvocationID.x;
-  if (strandIndex >= parameters.strandEnd || (kContacts && control.isHalted != 0)) return;
+  if (strandIndex >= parameters.strandEnd) return;
+#ifdef RINGLET_CONTACTS
+  if (kContacts && control.isHalted != 0) return;
+#endif
   strandAt = strandIndex;
   strand = strandRest(strandAt);
   count = strand.particleCount;
@@ -397,12 +419,11 @@ void main() {
     if ((parameters.phases & kPhaseSprings) != 0) springs(step);
     if ((parameters.phases & kPhaseSolve) != 0) {
       if (kIntegrator == kIntegratorJacobi) {
+#ifdef RINGLET_SURROUNDINGS
         if (kAir) feelAir(step);
-        if (kBodies) {
-          solveAmongBodies(step);
-        } else {
-          solveStrandBlock(step);
-        }
+        if (kBodies) solveAmongBodies(step);
+#endif
+        if (!kBodies) solveStrandBlock(step);
       }
       if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi();
       if (kIntegrator == kIntegratorPaper) loopAsThePaper();

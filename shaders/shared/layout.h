@@ -316,7 +316,7 @@ struct ContactControl {
   uint steps;        // since hair was last put somewhere
   uint rebuilds;     // since the simulation began
   uint listed;       // pairs in all lists, both sides counted
-  uint pairTests;    // pairs looked at since the host last took the number
+  uint pairTests;    // pairs looked at since the simulation began, modulo 2^32
 };
 
 // Why everything stands still: lists have no room until the host has made some; or more particles are near one than the

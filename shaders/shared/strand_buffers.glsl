@@ -1,8 +1,12 @@
 // The buffers and parameters of the strand_step kernels (layout.h), and the taps, which only a kernel compiled with
-// RINGLET_TAPS writes.
+// RINGLET_TAPS writes. Contacts are known to kernels compiled with RINGLET_CONTACTS, bodies and air to those compiled with
+// RINGLET_SURROUNDINGS: a constant that is false would still leave their buffers bound, and a small device has few.
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 
+#ifdef RINGLET_SURROUNDINGS
+#define RINGLET_CONTACTS
+#endif
 #include "maths/quaternion.glsl"
 #include "shared/layout.h"
 #include "shared/texels.glsl"
@@ -12,10 +16,19 @@ layout(constant_id = 2) const uint kIntegrator = kIntegratorJacobi;
 layout(constant_id = 3) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
 layout(constant_id = 4) const bool kMeasureResidual = false;
 layout(constant_id = 5) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
+#ifdef RINGLET_CONTACTS
 layout(constant_id = 6) const bool kContacts = false;    // the solve is iterated with the contacts' systems
+#else
+const bool kContacts = false;
+#endif
+#ifdef RINGLET_SURROUNDINGS
 layout(constant_id = 8) const bool kBodies = false;      // there are some
 layout(constant_id = 9) const bool kAir = false;         // hair feels it
 layout(constant_id = 10) const bool kTurbulent = false;  // and it has waves
+#else
+const bool kBodies = false;
+const bool kAir = false;
+#endif
 layout(constant_id = 11) const bool kMovingRoots = false;  // strands have poses of their own
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
@@ -25,14 +38,10 @@ layout(set = 0, binding = kBindStrands) readonly buffer Strands { StrandRest str
 layout(set = 0, binding = kBindReports) buffer Reports { StrandReport reports[]; };
 layout(set = 0, binding = kBindScratch) buffer Scratch { vec4 scratch[]; };
 layout(set = 0, binding = kBindPoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
-layout(set = 0, binding = kBindSolved) buffer Solved { vec4 solved[]; };
-layout(set = 0, binding = kBindContactSystems) readonly buffer ContactSystems { ContactSystem contactSystems[]; };
-layout(set = 0, binding = kBindContactControl) readonly buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindPositionTexels) uniform usamplerBuffer positionTexels;
 layout(set = 0, binding = kBindVelocityTexels) uniform usamplerBuffer velocityTexels;
 layout(set = 0, binding = kBindParticleTexels) uniform usamplerBuffer particleTexels;
 layout(set = 0, binding = kBindStrandTexels) uniform usamplerBuffer strandTexels;
-layout(set = 0, binding = kBindContactSystemTexels) uniform usamplerBuffer contactSystemTexels;
 layout(push_constant) uniform Parameters { StepParameters parameters; };
 
 // Positions and velocities as they were when the dispatch began.
@@ -53,14 +62,22 @@ StrandRest strandRest(uint s) {
   return StrandRest(a.x, a.y, uintBitsToFloat(a.z), uintBitsToFloat(a.w), b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w,
                     vectorAt(strandTexels, 7 * s + 3), pins);
 }
+
+#ifdef RINGLET_CONTACTS
+layout(set = 0, binding = kBindSolved) buffer Solved { vec4 solved[]; };
+layout(set = 0, binding = kBindContactSystems) readonly buffer ContactSystems { ContactSystem contactSystems[]; };
+layout(set = 0, binding = kBindContactControl) readonly buffer Control { ContactControl control; };
+layout(set = 0, binding = kBindContactSystemTexels) uniform usamplerBuffer contactSystemTexels;
 ContactSystem contactSystemOf(uint i) {
   if (!kTexels) return contactSystems[i];
   return ContactSystem(vectorAt(contactSystemTexels, 3 * i), vectorAt(contactSystemTexels, 3 * i + 1),
                        vectorAt(contactSystemTexels, 3 * i + 2));
 }
-
+#endif
+#ifdef RINGLET_SURROUNDINGS
 #include "shared/air_buffers.glsl"
 #include "shared/body_buffers.glsl"
+#endif
 
 StrandRest strand;  // this invocation's
 uint strandAt;      // and which it is, device order

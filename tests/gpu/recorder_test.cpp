@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,7 +18,6 @@
 namespace ringlet::test {
 namespace {
 
-using gpu::BindingKind;
 using gpu::Bindings;
 using gpu::Buffer;
 using gpu::BufferKind;
@@ -34,7 +34,6 @@ constexpr std::uint32_t kGroupSize = 64;
 gpu::KernelDescription describeKernel(std::uint32_t offset, bool wantsFullSubgroups = false) {
   return {.name = "scale_values",
           .spirv = k_scale_values_test,
-          .bindings = {BindingKind::storage, BindingKind::storage, BindingKind::uniform},
           .pushConstantBytes = sizeof(Push),
           .constants = {{0, kGroupSize}, {1, offset}},
           .groupSize = kGroupSize,
@@ -43,7 +42,7 @@ gpu::KernelDescription describeKernel(std::uint32_t offset, bool wantsFullSubgro
 
 // A kernel and two buffers it goes back and forth between; the values begin as 0, 1, 2, ...
 struct Bench {
-  Kernel kernel;
+  std::shared_ptr<const Kernel> kernel;
   std::array<Buffer, 2> values;
   Buffer shift;
   std::array<Bindings, 2> bindings;  // from buffer 0 to 1, and from 1 to 0
@@ -62,9 +61,9 @@ struct Bench {
     if (!odd) return odd.error();
     auto shift = Buffer::create(device, 16, BufferKind::stream, "shift");
     if (!shift) return shift.error();
-    auto there = Bindings::create(*kernel, {*even, *odd, *shift});
+    auto there = Bindings::create(**kernel, {{0, *even}, {1, *odd}, {2, *shift}});
     if (!there) return there.error();
-    auto back = Bindings::create(*kernel, {*odd, *even, *shift});
+    auto back = Bindings::create(**kernel, {{0, *odd}, {1, *even}, {2, *shift}});
     if (!back) return back.error();
     auto recorder = Recorder::create(device, "bench");
     if (!recorder) return recorder.error();
@@ -83,7 +82,7 @@ struct Bench {
     RINGLET_ASSERT(shift.upload(std::as_bytes(std::span(record))), "a mapped upload cannot fail");
   }
   void dispatch(std::uint32_t factor) {
-    recorder.dispatch(kernel, bindings[current], Push{count, factor}, (count + kGroupSize - 1) / kGroupSize);
+    recorder.dispatch(*kernel, bindings[current], Push{count, factor}, (count + kGroupSize - 1) / kGroupSize);
     current = 1 - current;
   }
   std::vector<std::uint32_t> found() const {
@@ -185,7 +184,7 @@ TEST_F(Recorders, GroupCountsFoundOnTheDevice) {
     RINGLET_EXPECT_OK(bench->recorder.begin());
     bench->recorder.copyBuffer(*wanted, *counts, 12, 0, 4);
     bench->recorder.barrier();
-    bench->recorder.dispatchIndirect(bench->kernel, bench->bindings[0], Push{bench->count, 2}, *counts, 4);
+    bench->recorder.dispatchIndirect(*bench->kernel, bench->bindings[0], Push{bench->count, 2}, *counts, 4);
     RINGLET_EXPECT_OK(bench->recorder.submitAndWait());
     bench->current = 1;
     const auto found = bench->found();
@@ -197,7 +196,7 @@ TEST_F(Recorders, FullSubgroupsWherePromised) {
   auto bench = Bench::create(gpu(), 1000, describeKernel(2, true));
   ASSERT_TRUE(bench) << bench.error().message;
   const auto& p = gpu().properties();
-  EXPECT_EQ(bench->kernel.hasFullSubgroups(), p.hasFullSubgroups && kGroupSize % p.subgroupSize == 0);
+  EXPECT_EQ(bench->kernel->hasFullSubgroups(), p.hasFullSubgroups && kGroupSize % p.subgroupSize == 0);
   RINGLET_EXPECT_OK(bench->recorder.begin());
   bench->dispatch(1);
   RINGLET_EXPECT_OK(bench->recorder.submitAndWait());
@@ -212,7 +211,7 @@ TEST_F(Recorders, WorkOnAPoorDevice) {
   {
     auto bench = Bench::create(**device, 1000, describeKernel(1, true));
     ASSERT_TRUE(bench) << bench.error().message;
-    EXPECT_FALSE(bench->kernel.hasFullSubgroups());
+    EXPECT_FALSE(bench->kernel->hasFullSubgroups());
     Recorder& recorder = bench->recorder;
     RINGLET_EXPECT_OK(recorder.begin());
     for (const char* stage : {"first", "second"}) {
@@ -277,7 +276,7 @@ TEST_F(Recorders, WorkUnderWayIsAwaitedAtTheEnd) {
   auto other = Recorder::create(gpu(), "left alone");
   ASSERT_TRUE(other) << other.error().message;
   RINGLET_EXPECT_OK(other->begin());
-  other->dispatch(bench->kernel, bench->bindings[0], Push{bench->count, 2}, 1000);
+  other->dispatch(*bench->kernel, bench->bindings[0], Push{bench->count, 2}, 1000);
   RINGLET_EXPECT_OK(other->submit());
 }  // `other` goes first
 
@@ -304,7 +303,7 @@ TEST_F(Recorders, KernelsBeyondTheDeviceAreRefusedWithNumbers) {
   auto shift = Buffer::create(gpu(), p.maxUniformBufferRange + 1, BufferKind::stream, "wide");
   ASSERT_TRUE(values);
   if (!shift) return;  // a device whose uniforms may be as large as its buffers
-  auto bindings = Bindings::create(*kernel, {*values, *values, *shift});
+  auto bindings = Bindings::create(**kernel, {{0, *values}, {1, *values}, {2, *shift}});
   ASSERT_FALSE(bindings);
   expectParts(bindings.error().message, {"'wide'", std::to_string(p.maxUniformBufferRange)});
 }
@@ -318,14 +317,15 @@ TEST_F(Recorders, MisuseIsTheCallersFault) {
   EXPECT_DEATH(bench->dispatch(1), "outside begin and submit");
   EXPECT_DEATH((void)recorder.wait(), "wait without submit");
   RINGLET_EXPECT_OK(recorder.begin());
-  EXPECT_DEATH(recorder.dispatch(bench->kernel, bench->bindings[0], std::uint32_t{1}, 1),
+  EXPECT_DEATH(recorder.dispatch(*bench->kernel, bench->bindings[0], std::uint32_t{1}, 1),
                "push constants of a size");
   if (tooMany != ~0u) {
-    EXPECT_DEATH(recorder.dispatch(bench->kernel, bench->bindings[0], Push{1, 1}, tooMany + 1),
+    EXPECT_DEATH(recorder.dispatch(*bench->kernel, bench->bindings[0], Push{1, 1}, tooMany + 1),
                  "more workgroups");
   }
   EXPECT_DEATH(recorder.endStage(), "endStage without beginStage");
-  EXPECT_DEATH((void)Bindings::create(bench->kernel, {bench->shift}), "one buffer a binding");
+  EXPECT_DEATH((void)Bindings::create(*bench->kernel, {{2, bench->shift}}),
+               "a buffer for each of its bindings");
 }
 
 std::string joined(const std::vector<std::string>& messages) {
@@ -344,12 +344,13 @@ TEST_F(Recorders, ValidationSeesAMissingBarrier) {
       auto bench = Bench::create(**device, 100, describeKernel(0));
       auto other = Buffer::create(**device, 400, BufferKind::storage, "other");
       ASSERT_TRUE(bench && other);
-      auto intoSource = Bindings::create(bench->kernel, {*other, bench->values[0], bench->shift});
+      auto intoSource =
+          Bindings::create(*bench->kernel, {{0, *other}, {1, bench->values[0]}, {2, bench->shift}});
       ASSERT_TRUE(intoSource) << intoSource.error().message;
       RINGLET_EXPECT_OK(other->fillZero());
       RINGLET_EXPECT_OK(bench->recorder.begin());
       bench->dispatch(1);
-      bench->recorder.dispatch(bench->kernel, isReadAfterWrite ? bench->bindings[1] : *intoSource,
+      bench->recorder.dispatch(*bench->kernel, isReadAfterWrite ? bench->bindings[1] : *intoSource,
                                Push{100, 1}, 2);
       RINGLET_EXPECT_OK(bench->recorder.submitAndWait());
     }

@@ -11,7 +11,7 @@
 namespace ringlet::test {
 namespace {
 
-const DeviceLimits kLavapipe{8, true, true, 65535};
+const DeviceLimits kLavapipe{8, true, true, 65535, true};
 const DeviceLimits kDiscrete{32, true, false, 65535};
 const DeviceLimits kWithoutShuffle{32, false, false, 65535};
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "ringlet_shaders/strand_step_serial_plain.h"
+#include "ringlet_shaders/strand_step_serial_surroundings.h"
 #include "ringlet_shaders/strand_step_surroundings.h"
 
 namespace ringlet::test {
@@ -165,7 +165,7 @@ void expectSameLayout(std::span<const std::uint32_t> spirv) {
 }
 
 TEST(Layout, LanesKernelAgreesWithCpp) { expectSameLayout(k_strand_step_surroundings); }
-TEST(Layout, SerialKernelAgreesWithCpp) { expectSameLayout(k_strand_step_serial_plain); }
+TEST(Layout, SerialKernelAgreesWithCpp) { expectSameLayout(k_strand_step_serial_surroundings); }
 
 }  // namespace
 }  // namespace ringlet::test

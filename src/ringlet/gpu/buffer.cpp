@@ -9,6 +9,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/memory_choice.h"
 #include "ringlet/gpu/recorder.h"
 
 namespace ringlet::gpu {
@@ -18,39 +19,15 @@ constexpr std::uint64_t kRecordBytes = 16;  // a vec4, the largest unit kernels 
 constexpr std::uint64_t kStagingBytes = 32ull
                                         << 20;  // larger copies go in pieces, to bound the host's memory
 
-constexpr VkMemoryPropertyFlags kCoherent =
-    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-constexpr VkMemoryPropertyFlags kCoherentCached = kCoherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |
+                                            VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
-// Kinds of memory that need features or are not for buffers.
-constexpr VkMemoryPropertyFlags kUnwanted = VK_MEMORY_PROPERTY_PROTECTED_BIT |
-                                            VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
-                                            VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD;
-
-std::optional<std::uint32_t> findMemoryType(const VkPhysicalDeviceMemoryProperties& memory,
-                                            std::uint32_t allowed, VkMemoryPropertyFlags wanted) {
-  for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-    const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
-    if ((allowed >> i & 1) != 0 && (flags & wanted) == wanted && (flags & kUnwanted) == 0) return i;
-  }
-  return std::nullopt;
-}
-
-// Storage is mapped only where the host caches it (integrated and CPU devices): through the window a graphics
-// card opens to its memory, reading is slower than a copy, and the window may be small.
-std::optional<std::uint32_t> chooseMemoryType(const Device& device, std::uint32_t allowed, BufferKind kind) {
-  const auto find = [&](VkMemoryPropertyFlags wanted) {
-    return findMemoryType(device.memory(), allowed, wanted);
-  };
-  if (kind == BufferKind::stream) {
-    const auto cached = find(kCoherentCached);
-    return cached ? cached : find(kCoherent);
-  }
-  if (!device.options().alwaysStage) {
-    if (const auto shared = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | kCoherentCached)) return shared;
-  }
-  const auto local = find(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-  return local ? local : find(0);
+// The heap a buffer of this kind is made in while there is room.
+std::optional<std::uint32_t> bestHeap(const Device& device, BufferKind kind) {
+  const auto types = memoryTypesFor(device.memory(), ~0u, kind, device.options().alwaysStage);
+  if (types.empty()) return std::nullopt;
+  return device.memory().memoryTypes[types.front()].heapIndex;
 }
 
 }  // namespace
@@ -90,33 +67,29 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind ki
 
   VkMemoryRequirements requirements;
   device.vk().vkGetBufferMemoryRequirements(device.handle(), buffer, &requirements);
-  const auto type = chooseMemoryType(device, requirements.memoryTypeBits, kind);
-  if (!type) {
+  const auto types =
+      memoryTypesFor(device.memory(), requirements.memoryTypeBits, kind, device.options().alwaysStage);
+  if (types.empty()) {
     return Error{fmt::format("could not {}: the driver offers no {} memory for it", attempt(),
                              kind == BufferKind::stream ? "host-coherent" : "device")};
   }
-  const VkMemoryType& chosen = device.memory().memoryTypes[*type];
-  const std::uint64_t heapBytes = device.memory().memoryHeaps[chosen.heapIndex].size;
-  if (requirements.size > heapBytes) {
-    return Error{
-        fmt::format("could not {}: the whole memory for it has {} bytes. Use less data, or another device",
-                    attempt(), heapBytes)};
-  }
-
-  auto allocation = zeroed<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
-  allocation.allocationSize = requirements.size;
-  allocation.memoryTypeIndex = *type;
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  RINGLET_VK_CHECK(device.vk().vkAllocateMemory(device.handle(), &allocation, nullptr, &memory),
-                   fmt::format("{} (in a memory of {} bytes)", attempt(), heapBytes));
+  const auto allocate = [&](std::uint32_t type) {
+    auto allocation = zeroed<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+    allocation.allocationSize = requirements.size;
+    allocation.memoryTypeIndex = type;
+    return device.vk().vkAllocateMemory(device.handle(), &allocation, nullptr, &memory);
+  };
+  const auto type = allocateInFirst(device.memory(), types, requirements.size, attempt(), allocate);
+  if (!type) return type.error();
+  const VkMemoryType& chosen = device.memory().memoryTypes[*type];
   self.memory_ = OwnedMemory(device.shared_from_this(), memory);
   self.counted_ = device.countBytes(chosen.heapIndex, requirements.size);
   RINGLET_VK_CHECK(device.vk().vkBindBufferMemory(device.handle(), buffer, memory, 0), attempt());
 
   // Stays mapped: coherent memory needs no flush, and unmapping comes with freeing.
-  const bool isMapped =
-      kind == BufferKind::stream ||
-      (!device.options().alwaysStage && (chosen.propertyFlags & kCoherentCached) == kCoherentCached);
+  const bool isMapped = kind == BufferKind::stream ||
+                        (!device.options().alwaysStage && (chosen.propertyFlags & kMappable) == kMappable);
   if (isMapped) {
     void* address = nullptr;
     RINGLET_VK_CHECK(device.vk().vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &address),
@@ -187,17 +160,12 @@ Status Buffer::fillZero() {
 }
 
 std::uint64_t availableStorageBytes(const Device& device) {
-  const auto type = chooseMemoryType(device, ~0u, BufferKind::storage);
-  return type ? device.availableBytes(device.memory().memoryTypes[*type].heapIndex) : 0;
+  const auto heap = bestHeap(device, BufferKind::storage);
+  return heap ? device.availableBytes(*heap) : 0;
 }
 
 bool isOneMemory(const Device& device) {
-  const auto heapOf = [&](BufferKind kind) -> std::optional<std::uint32_t> {
-    const auto type = chooseMemoryType(device, ~0u, kind);
-    if (!type) return std::nullopt;
-    return device.memory().memoryTypes[*type].heapIndex;
-  };
-  return heapOf(BufferKind::storage) == heapOf(BufferKind::stream);
+  return bestHeap(device, BufferKind::storage) == bestHeap(device, BufferKind::stream);
 }
 
 }  // namespace ringlet::gpu

@@ -14,7 +14,10 @@
 #include <fmt/format.h>
 
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/kernel_cache.h"
 #include "ringlet/gpu/pipeline_cache_file.h"
+#include "ringlet/gpu/queue_family.h"
+#include "ringlet/gpu/subgroup_width.h"
 
 namespace ringlet::gpu {
 namespace {
@@ -72,27 +75,18 @@ Result<std::vector<VkExtensionProperties>> deviceExtensions(VkPhysicalDevice dev
   return extensions;
 }
 
-// The first family that computes and has timestamps, else the first that computes.
-std::optional<std::uint32_t> findComputeFamily(VkPhysicalDevice device, std::uint32_t& timestampBits) {
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
   std::uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-
-  std::optional<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const bool canCompute = (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0;
-    if (canCompute && (!found || (timestampBits == 0 && families[i].timestampValidBits != 0))) {
-      found = i;
-      timestampBits = families[i].timestampValidBits;
-    }
-  }
-  return found;
+  return families;
 }
 
 // What the device lacks of what the solver needs, or nothing.
-std::string findLack(const DeviceProperties& p) {
+std::string findLack(const DeviceProperties& p, const DeviceOptions& options) {
   std::string lack;
+  if (p.memoryBytes == 0 && !options.allowNull) lack = "it has no memory";
   const auto need = [&](const char* limit, std::uint32_t needed, std::uint32_t found) {
     if (found < needed)
       lack += fmt::format("{}{} is {}, needed are {}", lack.empty() ? "" : "; ", limit, found, needed);
@@ -127,12 +121,17 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.name = basic.deviceName;
   p.type = typeName(basic.deviceType);
   p.driver = "driver version " + versionText(basic.driverVersion);
+  p.driverVersion = basic.driverVersion;
+  p.vendorId = basic.vendorID;
+  p.deviceId = basic.deviceID;
   p.memoryBytes = memoryOf(handle);
   p.apiVersion = std::min(basic.apiVersion, instance.apiVersion());
   p.maxStorageBufferRange = basic.limits.maxStorageBufferRange;
   p.maxTexelRecords = basic.limits.maxTexelBufferElements;
   p.maxUniformBufferRange = basic.limits.maxUniformBufferRange;
   p.maxStorageBuffers = basic.limits.maxPerStageDescriptorStorageBuffers;
+  if (options.mostStorageBuffers > 0)
+    p.maxStorageBuffers = std::min(p.maxStorageBuffers, options.mostStorageBuffers);
   p.maxGroupCount = basic.limits.maxComputeWorkGroupCount[0];
   p.maxGroupInvocations =
       std::min(basic.limits.maxComputeWorkGroupInvocations, basic.limits.maxComputeWorkGroupSize[0]);
@@ -187,25 +186,35 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   vkGetPhysicalDeviceProperties2(handle, &properties);
   vkGetPhysicalDeviceFeatures2(handle, &features);
 
-  if (hasDriverProperties) p.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+  if (hasDriverProperties) {
+    p.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
+    p.driverId = static_cast<std::uint32_t>(driver.driverID);
+  }
   p.maxAllocationBytes = memory.maxMemoryAllocationSize;
-  p.subgroupSize = subgroup.subgroupSize;
+  p.reportedSubgroupSize = p.minSubgroupSize = p.maxSubgroupSize = subgroup.subgroupSize;
+  if (hasSizeControl) {
+    p.minSubgroupSize = size.minSubgroupSize;
+    p.maxSubgroupSize = size.maxSubgroupSize;
+  }
   constexpr VkSubgroupFeatureFlags kShuffle = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
   p.hasSubgroupShuffle = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
                          (subgroup.supportedOperations & kShuffle) == kShuffle;
-  p.hasFullSubgroups = !options.withoutFullSubgroups && hasSizeControl && sizeFeatures.subgroupSizeControl &&
-                       sizeFeatures.computeFullSubgroups &&
-                       (size.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
-                       size.minSubgroupSize <= p.subgroupSize && p.subgroupSize <= size.maxSubgroupSize;
-  p.maxFullSubgroups = p.hasFullSubgroups ? size.maxComputeWorkgroupSubgroups : 0;
-  if (p.hasFullSubgroups && !hasSizeControlInCore) {
+  const bool usesSizeControl = hasSizeControl && !options.withoutFullSubgroups;
+  p.canChooseSubgroupSize = usesSizeControl && sizeFeatures.subgroupSizeControl &&
+                            (size.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  p.hasFullSubgroups = usesSizeControl && sizeFeatures.computeFullSubgroups;
+  p.subgroupSize = defaultSubgroupSize(p);
+  p.maxGroupSubgroups = usesSizeControl ? size.maxComputeWorkgroupSubgroups : 0;
+  if ((p.canChooseSubgroupSize || p.hasFullSubgroups) && !hasSizeControlInCore) {
     candidate.extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
   }
 
-  const auto family = findComputeFamily(handle, p.timestampBits);
+  const std::vector<VkQueueFamilyProperties> families = queueFamilies(handle);
+  const auto family = chooseComputeFamily(families);
+  if (family) p.timestampBits = families[*family].timestampValidBits;
   p.hasTimestamps = !options.withoutTimestamps && p.timestampBits > 0 && p.timestampPeriod > 0;
   candidate.queueFamily = family.value_or(0);
-  candidate.listing.why = family ? findLack(p) : "it has no compute queue";
+  candidate.listing.why = family ? findLack(p, options) : "it has no compute queue";
   candidate.listing.usable = candidate.listing.why.empty();
   return candidate;
 }
@@ -341,11 +350,12 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
 
   auto sizeControl = zeroed<VkPhysicalDeviceSubgroupSizeControlFeatures>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES);
-  sizeControl.subgroupSizeControl = VK_TRUE;
-  sizeControl.computeFullSubgroups = VK_TRUE;
+  const DeviceProperties& has = self->properties_;
+  sizeControl.subgroupSizeControl = has.canChooseSubgroupSize;
+  sizeControl.computeFullSubgroups = has.hasFullSubgroups;
 
   auto info = zeroed<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
-  info.pNext = self->properties_.hasFullSubgroups ? &sizeControl : nullptr;
+  info.pNext = has.canChooseSubgroupSize || has.hasFullSubgroups ? &sizeControl : nullptr;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = static_cast<std::uint32_t>(candidate.extensions.size());
@@ -371,12 +381,12 @@ Status Device::openPipelineCache(VkPhysicalDevice physical, const std::filesyste
   if (!folder.empty()) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical, &properties);
-    const PipelineCacheOwner owner{properties.vendorID, properties.deviceID,
-                                   std::to_array(properties.pipelineCacheUUID)};
+    pipelineCacheOwner_ = {properties.vendorID, properties.deviceID, properties.driverVersion,
+                           std::to_array(properties.pipelineCacheUUID)};
     std::string uuid;
-    for (std::uint8_t byte : owner.uuid) uuid += fmt::format("{:02x}", byte);
+    for (std::uint8_t byte : pipelineCacheOwner_.uuid) uuid += fmt::format("{:02x}", byte);
     pipelineCacheFile_ = folder / fmt::format("pipelines-{}.bin", uuid);
-    kept = readPipelineCache(pipelineCacheFile_, owner);
+    kept = readPipelineCache(pipelineCacheFile_, pipelineCacheOwner_);
   }
   auto info = zeroed<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
   info.initialDataSize = kept.size();
@@ -402,12 +412,15 @@ void Device::keepPipelineCache() const {
   std::vector<std::byte> bytes(size);
   if (vk().vkGetPipelineCacheData(device_, pipelineCache_, &size, bytes.data()) != VK_SUCCESS) return;
   bytes.resize(size);
-  (void)writePipelineCache(pipelineCacheFile_, bytes);
+  (void)writePipelineCache(pipelineCacheFile_, pipelineCacheOwner_, bytes);
 }
+
+Device::Device() : kernels_(std::make_unique<KernelCache>()) {}
 
 Device::~Device() {
   if (!device_) return;
   keepPipelineCache();
+  kernels_.reset();
   table_.vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
   table_.vkDestroyDevice(device_, nullptr);
 }

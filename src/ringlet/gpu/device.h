@@ -15,27 +15,37 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/instance.h"
+#include "ringlet/gpu/pipeline_cache_file.h"
 #include "ringlet/gpu/vulkan.h"
 
 namespace ringlet::gpu {
 
+class KernelCache;
+
 // What the solver needs, checked when a device is opened. Vulkan promises 4 storage buffers a stage; nearly
 // every driver has 8 and more.
 inline constexpr std::uint32_t kNeededApiVersion = VK_API_VERSION_1_1;
-inline constexpr std::uint32_t kNeededStorageBuffers = 17;    // bound to one kernel
+inline constexpr std::uint32_t kNeededStorageBuffers = 7;     // bound to one kernel, by hair alone
 inline constexpr std::uint32_t kNeededGroupInvocations = 64;  // invocations of a workgroup
 inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
 
 struct DeviceProperties {
-  int index = 0;                       // in the order of the Vulkan loader
-  std::string name;                    // as the driver states it
-  std::string driver;                  // name and version, in words where the driver gives them
-  std::string type;                    // discrete, integrated, virtual, cpu, other
-  std::uint32_t apiVersion = 0;        // the highest usable here, as VK_MAKE_API_VERSION packs it
-  std::uint32_t subgroupSize = 1;      // invocations
-  bool hasSubgroupShuffle = false;     // basic and shuffle operations in compute kernels
-  bool hasFullSubgroups = false;       // a kernel can insist on full subgroups of subgroupSize invocations
-  std::uint32_t maxFullSubgroups = 0;  // of a workgroup that insists on them
+  int index = 0;                    // in the order of the Vulkan loader
+  std::string name;                 // as the driver states it
+  std::string driver;               // name and version, in words where the driver gives them
+  std::string type;                 // discrete, integrated, virtual, cpu, other
+  std::uint32_t apiVersion = 0;     // the highest usable here, as VK_MAKE_API_VERSION packs it
+  std::uint32_t driverId = 0;       // VkDriverId; 0: the driver does not say
+  std::uint32_t driverVersion = 0;  // packed as the driver likes
+  std::uint32_t vendorId = 0, deviceId = 0;
+  std::uint32_t subgroupSize = 1;          // invocations; what kernels get that ask for no other width
+  std::uint32_t reportedSubgroupSize = 1;  // what the driver gives where nobody asks
+  std::uint32_t minSubgroupSize = 1;       // the driver's range; both as reported where it states none
+  std::uint32_t maxSubgroupSize = 1;
+  bool canChooseSubgroupSize = false;       // a kernel can ask for any power of two of the range
+  bool hasSubgroupShuffle = false;          // basic and shuffle operations in compute kernels
+  bool hasFullSubgroups = false;            // a kernel can insist that no subgroup of it has gaps
+  std::uint32_t maxGroupSubgroups = 0;      // of a workgroup that asks for a width or for full subgroups
   std::uint64_t maxStorageBufferRange = 0;  // [bytes] largest buffer a kernel can see
   std::uint64_t maxUniformBufferRange = 0;  // [bytes]
   std::uint64_t maxTexelRecords = 0;        // 16-byte records a kernel can see as texels
@@ -58,11 +68,14 @@ struct DeviceListing {
   std::string why;  // if not usable: what is missing, with numbers
 };
 
-/// Turns off what a device has, so that tests reach the paths for devices without it.
+/// Turns off what a device has, so that tests reach the paths for devices without it; and opens a device that
+/// can only compile.
 struct DeviceOptions {
-  bool alwaysStage = false;           // never map storage buffers, copy through a staging buffer
-  bool withoutTimestamps = false;     // time by the host's clock
-  bool withoutFullSubgroups = false;  // leave subgroup sizes to the driver
+  bool alwaysStage = false;              // never map storage buffers, copy through a staging buffer
+  bool withoutTimestamps = false;        // time by the host's clock
+  bool withoutFullSubgroups = false;     // leave subgroup sizes to the driver
+  bool allowNull = false;                // open null hardware too: it has no memory and only compiles kernels
+  std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has
 };
 
 class Device : public std::enable_shared_from_this<Device> {
@@ -94,6 +107,8 @@ class Device : public std::enable_shared_from_this<Device> {
   const VolkDeviceTable& vk() const { return table_; }
   VkDevice handle() const { return device_; }
   std::uint32_t queueFamily() const { return queueFamily_; }
+  /// The kernels compiled so far.
+  KernelCache& kernels() const { return *kernels_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
   /// Where it is kept; empty: nowhere.
   const std::filesystem::path& pipelineCacheFile() const { return pipelineCacheFile_; }
@@ -111,7 +126,7 @@ class Device : public std::enable_shared_from_this<Device> {
   void nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
  private:
-  Device() = default;
+  Device();
   Status openPipelineCache(VkPhysicalDevice physical, const std::filesystem::path& folder);
   void keepPipelineCache() const;
 
@@ -125,8 +140,10 @@ class Device : public std::enable_shared_from_this<Device> {
   std::mutex queueMutex_;
   std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;
+  std::unique_ptr<KernelCache> kernels_;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
   std::filesystem::path pipelineCacheFile_;
+  PipelineCacheOwner pipelineCacheOwner_;
   std::size_t pipelineCacheBytes_ = 0;  // when it was new
   VkPhysicalDeviceMemoryProperties memory_{};
   PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;

@@ -10,6 +10,8 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/kernel_cache.h"
+#include "ringlet/gpu/subgroup_width.h"
 
 namespace ringlet::gpu {
 namespace {
@@ -26,8 +28,8 @@ VkDescriptorType descriptorType(BindingKind kind) {
   return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
-std::uint32_t countOf(const std::vector<BindingKind>& bindings, BindingKind kind) {
-  return static_cast<std::uint32_t>(std::count(bindings.begin(), bindings.end(), kind));
+std::uint32_t countOf(const std::vector<KernelBinding>& bindings, BindingKind kind) {
+  return static_cast<std::uint32_t>(std::ranges::count(bindings, kind, &KernelBinding::kind));
 }
 
 // The buffer's records as texels, as many as the device sees.
@@ -44,8 +46,19 @@ std::pair<VkResult, OwnedBufferView> viewOf(Device& device, const Buffer& buffer
 
 }  // namespace
 
-Result<Kernel> Kernel::create(Device& device, const KernelDescription& description) {
+Result<std::shared_ptr<const Kernel>> Kernel::create(Device& device, const KernelDescription& description) {
   RINGLET_ASSERT(!description.spirv.empty(), "a kernel without code");
+  const auto kernel =
+      device.kernels().findOrCompile(description, [&] { return compile(device, description); });
+  if (!kernel) return kernel;
+  return std::shared_ptr<const Kernel>(device.shared_from_this(), kernel->get());
+}
+
+bool Kernel::isCompiled(const Device& device, const KernelDescription& description) {
+  return device.kernels().has(description);
+}
+
+Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const KernelDescription& description) {
   RINGLET_ASSERT(description.pushConstantBytes % 4 == 0, "push constants come in units of 4 bytes");
   const DeviceProperties& limits = device.properties();
   const auto attempt = [&] {
@@ -57,10 +70,13 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
     return Error{
         fmt::format("could not {}: it needs {} {}, the device has {}", attempt(), needed, what, limit)};
   };
-  const std::uint32_t storageCount = countOf(description.bindings, BindingKind::storage);
+  std::vector<KernelBinding> kernelBindings = bindingsOf(description.spirv);
+  const std::uint32_t storageCount = countOf(kernelBindings, BindingKind::storage);
   if (storageCount > limits.maxStorageBuffers) {
-    return tooMuch(storageCount, "storage buffers (maxPerStageDescriptorStorageBuffers)",
-                   limits.maxStorageBuffers);
+    Error error = tooMuch(storageCount, "storage buffers (maxPerStageDescriptorStorageBuffers)",
+                          limits.maxStorageBuffers);
+    if (!description.remedy.empty()) error.message += "; " + description.remedy;
+    return error;
   }
   if (description.groupSize > limits.maxGroupInvocations) {
     return tooMuch(description.groupSize, "invocations in a workgroup (maxComputeWorkGroupInvocations)",
@@ -71,20 +87,26 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
                    limits.maxPushConstantBytes);
   }
 
-  Kernel self;
+  const std::shared_ptr<Kernel> kernel(new Kernel);
+  Kernel& self = *kernel;
+  const std::shared_ptr<Device> keeper = keptByDevice(device);
   self.device_ = &device;
   self.name_ = description.name;
-  self.bindings_ = description.bindings;
+  self.bindings_ = std::move(kernelBindings);
   self.pushConstantBytes_ = description.pushConstantBytes;
   self.groupSize_ = description.groupSize;
-  self.hasFullSubgroups_ = description.wantsFullSubgroups && limits.hasFullSubgroups &&
-                           description.groupSize % limits.subgroupSize == 0 &&
-                           description.groupSize / limits.subgroupSize <= limits.maxFullSubgroups;
+  const std::uint32_t width = description.subgroupSize ? description.subgroupSize : limits.subgroupSize;
+  RINGLET_ASSERT(hasSubgroupSize(limits, width), "a subgroup width the device does not have");
+  const bool fitsGroup = description.groupSize <= std::uint64_t{width} * limits.maxGroupSubgroups;
+  const bool asksForWidth = description.wantsFullSubgroups && limits.canChooseSubgroupSize && fitsGroup;
+  self.subgroupSize_ = width;
+  self.hasFullSubgroups_ = description.wantsFullSubgroups && limits.hasFullSubgroups && fitsGroup &&
+                           description.groupSize % width == 0;
 
   std::vector<VkDescriptorSetLayoutBinding> bindings;
-  for (BindingKind kind : description.bindings) {
+  for (const auto& [number, kind] : self.bindings_) {
     VkDescriptorSetLayoutBinding binding{};
-    binding.binding = static_cast<std::uint32_t>(bindings.size());
+    binding.binding = number;
     binding.descriptorType = descriptorType(kind);
     binding.descriptorCount = 1;
     binding.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -96,7 +118,7 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateDescriptorSetLayout(device.handle(), &setInfo, nullptr, &setLayout),
                    attempt());
-  self.setLayout_ = OwnedSetLayout(device.shared_from_this(), setLayout);
+  self.setLayout_ = OwnedSetLayout(keeper, setLayout);
 
   VkPushConstantRange range{};
   range.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
@@ -109,7 +131,7 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   VkPipelineLayout layout = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout),
                    attempt());
-  self.layout_ = OwnedPipelineLayout(device.shared_from_this(), layout);
+  self.layout_ = OwnedPipelineLayout(keeper, layout);
 
   auto moduleInfo = zeroed<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
   moduleInfo.codeSize = description.spirv.size_bytes();
@@ -117,7 +139,7 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   VkShaderModule module = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
                    attempt());
-  const OwnedShaderModule ownedModule(device.shared_from_this(), module);
+  const OwnedShaderModule ownedModule(keeper, module);
 
   std::vector<VkSpecializationMapEntry> entries;
   for (std::size_t i = 0; i < description.constants.size(); ++i) {
@@ -136,7 +158,7 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
 
   auto subgroupSize = zeroed<VkPipelineShaderStageRequiredSubgroupSizeCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO);
-  subgroupSize.requiredSubgroupSize = limits.subgroupSize;
+  subgroupSize.requiredSubgroupSize = width;
 
   auto info = zeroed<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -144,33 +166,29 @@ Result<Kernel> Kernel::create(Device& device, const KernelDescription& descripti
   info.stage.module = module;
   info.stage.pName = "main";
   info.stage.pSpecializationInfo = &specialization;
-  if (self.hasFullSubgroups_) {
-    info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
-    info.stage.pNext = &subgroupSize;
-  }
+  if (self.hasFullSubgroups_) info.stage.flags = VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
+  if (asksForWidth) info.stage.pNext = &subgroupSize;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
   RINGLET_VK_CHECK(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
                                                         nullptr, &pipeline),
                    attempt());
-  self.pipeline_ = OwnedPipeline(device.shared_from_this(), pipeline);
+  self.pipeline_ = OwnedPipeline(keeper, pipeline);
   device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.name);
-  return self;
+  return std::shared_ptr<const Kernel>(kernel);
 }
 
-Result<Bindings> Bindings::create(const Kernel& kernel,
-                                  const std::vector<std::reference_wrapper<const Buffer>>& buffers) {
-  RINGLET_ASSERT(buffers.size() == kernel.bindings().size(), "a kernel needs one buffer a binding");
+Result<Bindings> Bindings::create(const Kernel& kernel, const BufferTable& buffers) {
   Device& device = kernel.device();
   const auto attempt = [&] { return fmt::format("bind the buffers of the kernel '{}'", kernel.name()); };
 
   Bindings self;
-  self.kinds_ = kernel.bindings();
+  self.bindings_ = kernel.bindings();
 
   // A pool for this one set; Vulkan wants no empty entries.
   std::vector<VkDescriptorPoolSize> sizes;
   for (BindingKind kind : {BindingKind::storage, BindingKind::uniform, BindingKind::texels}) {
-    if (const std::uint32_t count = countOf(self.kinds_, kind))
+    if (const std::uint32_t count = countOf(self.bindings_, kind))
       sizes.push_back({descriptorType(kind), count});
   }
   auto poolInfo = zeroed<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -188,12 +206,15 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
   setInfo.pSetLayouts = &setLayout;
   RINGLET_VK_CHECK(device.vk().vkAllocateDescriptorSets(device.handle(), &setInfo, &self.set_), attempt());
 
-  std::vector<VkDescriptorBufferInfo> infos(buffers.size());
-  std::vector<VkBufferView> views(buffers.size());
+  std::vector<VkDescriptorBufferInfo> infos(self.bindings_.size());
+  std::vector<VkBufferView> views(self.bindings_.size());
   std::vector<VkWriteDescriptorSet> writes;
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    const Buffer& buffer = buffers[i];
-    if (self.kinds_[i] == BindingKind::uniform) {
+  for (std::size_t i = 0; i < self.bindings_.size(); ++i) {
+    const auto& [number, kind] = self.bindings_[i];
+    const auto found = buffers.find(number);
+    RINGLET_ASSERT(found != buffers.end(), "a kernel needs a buffer for each of its bindings");
+    const Buffer& buffer = found->second;
+    if (kind == BindingKind::uniform) {
       const std::uint64_t limit = device.properties().maxUniformBufferRange;
       if (buffer.capacity() > limit) {
         return Error{
@@ -202,7 +223,7 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
                         attempt(), buffer.name(), buffer.bytes(), limit)};
       }
     }
-    if (self.kinds_[i] == BindingKind::texels) {
+    if (kind == BindingKind::texels) {
       auto view = viewOf(device, buffer);
       if (view.first != VK_SUCCESS) return vulkanError("vkCreateBufferView", view.first, attempt());
       views[i] = view.second.get();
@@ -212,9 +233,9 @@ Result<Bindings> Bindings::create(const Kernel& kernel,
     infos[i].range = buffer.capacity();
     auto write = zeroed<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     write.dstSet = self.set_;
-    write.dstBinding = static_cast<std::uint32_t>(i);
+    write.dstBinding = number;
     write.descriptorCount = 1;
-    write.descriptorType = descriptorType(self.kinds_[i]);
+    write.descriptorType = descriptorType(kind);
     write.pBufferInfo = &infos[i];
     write.pTexelBufferView = &views[i];
     writes.push_back(write);

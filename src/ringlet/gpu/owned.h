@@ -1,4 +1,5 @@
-// Owned: a Vulkan object that is destroyed with its owner and holds its device open. Move-only.
+// Owned: a Vulkan object that is destroyed with its owner and holds its device open (but see keptByDevice).
+// Move-only.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,9 @@
 #include "ringlet/gpu/device.h"
 
 namespace ringlet::gpu {
+
+/// For objects that the device itself keeps, and destroys before it closes: does not hold the device open.
+inline std::shared_ptr<Device> keptByDevice(Device& device) { return {std::shared_ptr<Device>(), &device}; }
 
 /// `destroy` is the table's function that ends a Handle.
 template <class Handle, auto destroy>

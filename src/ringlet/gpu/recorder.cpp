@@ -181,7 +181,7 @@ void Recorder::bind(const Kernel& kernel, const Bindings& bindings,
   RINGLET_ASSERT(self_->phase == State::Phase::recording, "dispatch outside begin and submit");
   RINGLET_ASSERT(pushConstants.size() == kernel.pushConstantBytes(),
                  "push constants of a size the kernel does not have");
-  RINGLET_ASSERT(bindings.kinds() == kernel.bindings(), "bindings made for another list of binding kinds");
+  RINGLET_ASSERT(bindings.bindings() == kernel.bindings(), "bindings made for a kernel that binds others");
   const VkDescriptorSet set = bindings.set();
   self_->vk().vkCmdBindPipeline(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
   self_->vk().vkCmdBindDescriptorSets(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,

@@ -1,16 +1,31 @@
 // Implements solver/compute_device.h over gpu/device.h.
 #include "ringlet/solver/compute_device.h"
 
+#include <algorithm>
+
 #include "ringlet/gpu/device.h"
+#include "ringlet/solver/strand_kernels.h"
 
 namespace ringlet {
+namespace {
+
+// lavapipe's compiler does. A CPU device whose driver does not say its name is taken for it.
+bool endsLoopsEarly(const gpu::DeviceProperties& p) {
+  return p.driverId == VK_DRIVER_ID_MESA_LLVMPIPE || (p.driverId == 0 && p.type == "cpu");
+}
+
+}  // namespace
 
 Result<ComputeDevice> ComputeDevice::open(const std::string& choice,
                                           const std::filesystem::path& cacheFolder) {
   auto opened = gpu::Device::open(choice, {}, cacheFolder);
   if (!opened) return opened.error();
+  return over(std::move(*opened));
+}
+
+ComputeDevice ComputeDevice::over(std::shared_ptr<gpu::Device> device) {
   ComputeDevice self;
-  self.device_ = std::move(*opened);
+  self.device_ = std::move(device);
   return self;
 }
 
@@ -27,7 +42,18 @@ std::string ComputeDevice::name() const { return device_->properties().name; }
 std::string ComputeDevice::driver() const { return device_->properties().driver; }
 DeviceLimits ComputeDevice::limits() const {
   const gpu::DeviceProperties& p = device_->properties();
-  return {p.subgroupSize, p.hasSubgroupShuffle, p.type == "cpu", p.maxGroupCount};
+  DeviceLimits limits;
+  // A strand lies within a workgroup too, whatever the width of a subgroup.
+  limits.subgroupSize = std::min(p.subgroupSize, kStrandGroupSize);
+  limits.hasSubgroupShuffle = p.hasSubgroupShuffle;
+  limits.isCpu = p.type == "cpu";
+  limits.maxGroupCount = p.maxGroupCount;
+  limits.endsLoopsEarly = endsLoopsEarly(p);
+  if (p.canChooseSubgroupSize) {
+    limits.minSubgroupSize = p.minSubgroupSize;
+    limits.maxSubgroupSize = std::min(p.maxSubgroupSize, kStrandGroupSize);
+  }
+  return limits;
 }
 std::vector<std::string> ComputeDevice::validationMessages() const { return device_->validationMessages(); }
 

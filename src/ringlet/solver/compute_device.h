@@ -17,9 +17,9 @@ class Device;
 /// One line of `ringlet devices`.
 struct DeviceSummary {
   int index = 0;
-  std::string name;     // as the driver states it
-  std::string type;     // discrete, integrated, virtual, cpu, other
-  std::string driver;   // name and version
+  std::string name;    // as the driver states it
+  std::string type;    // discrete, integrated, virtual, cpu, other
+  std::string driver;  // name and version
   std::uint64_t memoryBytes = 0;
   bool usable = false;  // has a compute queue and the limits the solver needs
   std::string why;      // if not usable: what is missing
@@ -37,6 +37,9 @@ class ComputeDevice {
 
   /// All devices, by index (the Vulkan loader's order). Empty where there is no Vulkan.
   static std::vector<DeviceSummary> list();
+
+  /// A device that is open already, as tests and `ringlet kernels` open it with options of their own.
+  static ComputeDevice over(std::shared_ptr<gpu::Device> device);
 
   std::string name() const;
   std::string driver() const;

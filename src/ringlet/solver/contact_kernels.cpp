@@ -37,19 +37,16 @@ const Compiled kCompiled[kContactKernelCount] = {
 
 }  // namespace
 
-Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize,
-                                        bool texels) {
+gpu::KernelDescription describeContactKernel(ContactKernel which, std::uint32_t groupSize, bool texels) {
   const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
   gpu::KernelDescription description;
   description.name = compiled.name;
   description.spirv = compiled.spirv;
-  description.bindings.assign(layout::kContactBindingCount, gpu::BindingKind::storage);
+  description.remedy = "take another device, or leave out contacts";
   description.pushConstantBytes = sizeof(layout::ContactParameters);
-  description.bindings.insert(description.bindings.end(), layout::kContactTexelBindingCount,
-                              gpu::BindingKind::texels);
   description.constants = {{0, groupSize}, {7, texels ? 1u : 0u}};
   description.groupSize = groupSize;
-  return gpu::Kernel::create(device, description);
+  return description;
 }
 
 }  // namespace ringlet

@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "ringlet/base/result.h"
-#include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
 
 namespace ringlet {
@@ -28,7 +26,6 @@ enum class ContactKernel {
 inline constexpr std::size_t kContactKernelCount = 12;
 
 /// texels: records are read as texels (gpu::BindingKind).
-Result<gpu::Kernel> createContactKernel(gpu::Device& device, ContactKernel which, std::uint32_t groupSize,
-                                        bool texels);
+gpu::KernelDescription describeContactKernel(ContactKernel which, std::uint32_t groupSize, bool texels);
 
 }  // namespace ringlet

@@ -7,7 +7,8 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <span>
+#include <utility>
 
 #include "ringlet/rest/material.h"
 #include "ringlet/solver/contact_kernels.h"
@@ -88,7 +89,9 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
     self.largestList_ = std::min(self.largestList_, seen);
   }
   for (std::size_t k = 0; k < kContactKernelCount; ++k) {
-    auto kernel = createContactKernel(device, static_cast<ContactKernel>(k), kGroupSize, texels);
+    const auto description = describeContactKernel(static_cast<ContactKernel>(k), kGroupSize, texels);
+    if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
+    auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
   }
@@ -119,13 +122,15 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!histories) return histories.error();
   auto guesses = createZero(device, rest.points.size() * sizeof(layout::vec4), "contact guesses");
   if (!guesses) return guesses.error();
+  auto controlRead = gpu::Buffer::create(device, sizeof(layout::ContactControl), gpu::BufferKind::stream,
+                                         "contact control read back");
+  if (!controlRead) return controlRead.error();
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
-                                std::move(*guesses)});
+                                std::move(*guesses), std::move(*controlRead)});
   self.near_ = {static_cast<std::uint32_t>(count), kFirstMostBlocks};
   self.live_ = {static_cast<std::uint32_t>(count / 4 + 1), kFirstMostBlocks};
   if (Status status = self.createLists(); !status) return status.error();
-  self.control() = {};
   return self;
 }
 
@@ -143,8 +148,18 @@ std::uint32_t ContactStage::contactGroups() const {
   return static_cast<std::uint32_t>((particles_.size() + kGroupSize - 1) / kGroupSize);
 }
 
-layout::ContactControl& ContactStage::control() const {
-  return *reinterpret_cast<layout::ContactControl*>(groom_->contactControl.mapped().data());
+void ContactStage::recordControl(gpu::Recorder& recorder) const {
+  recorder.copyBuffer(groom_->contactControl, buffers_->controlRead, sizeof(layout::ContactControl));
+}
+
+void ContactStage::readControl() {
+  const std::uint32_t testsBefore = control_.pairTests;
+  control_ = *reinterpret_cast<const layout::ContactControl*>(buffers_->controlRead.mapped().data());
+  pairTests_ += control_.pairTests - testsBefore;
+}
+
+Status ContactStage::writeControl() {
+  return groom_->contactControl.upload(std::as_bytes(std::span(&control_, 1)));
 }
 
 // As large as `near_` and `live_` say; and what the kernels see of them. Those there were are gone before the
@@ -180,21 +195,49 @@ Status ContactStage::createLists() {
   lists_.emplace(Lists{std::move(made[0]), std::move(made[1]), std::move(made[2]), std::move(made[3]),
                        std::move(made[4])});
 
-  // In the order of layout.h: storage, then texels.
-  const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
-  const auto& [positions, velocities, solved] = std::tie(hair().positions, hair().velocities, hair().solved);
-  const Lists& lists = *lists_;
-  // clang-format off
-  auto bindings = gpu::Bindings::create(kernels_[0], {
-      positions, velocities, solved, contacts, neighbours, indices, grid, places, histories, guesses,
-      lists.heads, lists.pairs, lists.liveHeads, lists.lives, lists.forces,
-      hair().contactSystems, groom_->contactControl,
-      positions, velocities, solved, contacts, neighbours, indices, places, histories, guesses,
-      lists.pairs, lists.lives, lists.forces});
-  // clang-format on
-  if (!bindings) return bindings.error();
-  bindings_ = std::move(*bindings);
+  bindings_.clear();
+  for (const auto& kernel : kernels_) {
+    auto bindings = gpu::Bindings::create(*kernel, bufferTable());
+    if (!bindings) return bindings.error();
+    bindings_.push_back(std::move(*bindings));
+  }
   return {};
+}
+
+// What contact kernels see: as storage, and as texels.
+gpu::BufferTable ContactStage::bufferTable() const {
+  using namespace layout;
+  const auto& [contacts, neighbours, indices, grid, places, histories, guesses, controlRead] = *buffers_;
+  const Lists& lists = *lists_;
+  return {{kBindContactPositions, hair().positions},
+          {kBindContactVelocities, hair().velocities},
+          {kBindContactSolved, hair().solved},
+          {kBindContacts, contacts},
+          {kBindNeighbours, neighbours},
+          {kBindIndices, indices},
+          {kBindGrid, grid},
+          {kBindPlaces, places},
+          {kBindHistories, histories},
+          {kBindGuesses, guesses},
+          {kBindLists, lists.heads},
+          {kBindPairs, lists.pairs},
+          {kBindLiveLists, lists.liveHeads},
+          {kBindLives, lists.lives},
+          {kBindForces, lists.forces},
+          {kBindSystems, hair().contactSystems},
+          {kBindControl, groom_->contactControl},
+          {kBindContactPositionTexels, hair().positions},
+          {kBindContactVelocityTexels, hair().velocities},
+          {kBindContactSolvedTexels, hair().solved},
+          {kBindContactTexels, contacts},
+          {kBindNeighbourTexels, neighbours},
+          {kBindIndexTexels, indices},
+          {kBindPlaceTexels, places},
+          {kBindHistoryTexels, histories},
+          {kBindGuessTexels, guesses},
+          {kBindPairTexels, lists.pairs},
+          {kBindLifeTexels, lists.lives},
+          {kBindForceTexels, lists.forces}};
 }
 
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
@@ -222,16 +265,17 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                             std::uint32_t groupCount) const {
-  recorder.dispatch(kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step), groupCount);
+  const auto at = static_cast<std::size_t>(kernel);
+  recorder.dispatch(*kernels_[at], bindings_[at], parameters(step), groupCount);
 }
 void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                                     std::uint64_t offset) const {
-  recorder.dispatchIndirect(kernels_[static_cast<std::size_t>(kernel)], *bindings_, parameters(step),
-                            groom_->contactControl, offset);
+  const auto at = static_cast<std::size_t>(kernel);
+  recorder.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), groom_->contactControl, offset);
 }
 
 void ContactStage::recordNothing(gpu::Recorder& recorder) const {
-  for (const gpu::Kernel& kernel : kernels_) recorder.dispatchNothing(kernel, *bindings_);
+  for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
 void ContactStage::recordLists(gpu::Recorder& recorder, std::uint32_t step) const {
@@ -278,7 +322,7 @@ void ContactStage::recordGather(gpu::Recorder& recorder) const {
 
 // The step begins anew, from the contacts of the step before, in larger buffers; pairs are found anew.
 Status ContactStage::makeRoom() {
-  layout::ContactControl& c = control();
+  layout::ContactControl& c = control_;
   if (c.isHalted == layout::kHaltedByTurns) {
     return Error{
         "more contact particles are near one another than this device can look through; use a smaller "
@@ -319,17 +363,12 @@ Status ContactStage::makeRoom() {
   c.isHalted = c.isListed = c.listed = 0;
   --c.rebuilds;
   --c.steps;
-  return {};
-}
-
-std::uint64_t ContactStage::takePairTests() {
-  const std::uint64_t tests = control().pairTests;
-  control().pairTests = 0;
-  return tests;
+  return writeControl();
 }
 
 Status ContactStage::forget() {
-  control().isListed = control().steps = 0;
+  control_.isListed = control_.steps = 0;
+  if (Status status = writeControl(); !status) return status;
   if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
   return lists_->liveHeads.fillZero();
 }
@@ -338,13 +377,13 @@ Result<std::uint64_t> ContactStage::contactCount() const {
   auto heads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * particles_.size() * (1 + live_.most));
   if (!heads) return heads.error();
   std::uint64_t sides = 0;
-  for (std::size_t list = control().parity; list < 2 * particles_.size(); list += 2)
+  for (std::size_t list = control_.parity; list < 2 * particles_.size(); list += 2)
     sides += (*heads)[list * (1 + live_.most)];
   return sides / 2;
 }
 
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {
-  const std::size_t count = particles_.size(), parity = control().parity;
+  const std::size_t count = particles_.size(), parity = control_.parity;
   auto heads = downloadAll<std::uint32_t>(lists_->heads, count * (1 + 2 * near_.most));
   if (!heads) return heads.error();
   auto pairs =

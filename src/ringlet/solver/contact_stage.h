@@ -7,7 +7,9 @@
 //                      ->  gather: pair means of v^1                          -> solve -> v^2 ... -> move
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,7 +33,9 @@ class ContactStage {
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const RestContacts& contacts, DeviceGroom& groom);
 
-  /// Every kernel, without work: so that it is compiled before it is needed.
+  /// Kernels that this stage was the first on its device to ask for.
+  std::size_t newKernelCount() const { return newKernels_.size(); }
+  /// Those, without work: so that they are compiled before they are needed.
   void recordNothing(gpu::Recorder& recorder) const;
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
@@ -39,10 +43,14 @@ class ContactStage {
   void recordLists(gpu::Recorder& recorder, std::uint32_t step) const;
   void recordLife(gpu::Recorder& recorder) const;
   void recordGather(gpu::Recorder& recorder) const;
+  /// A frame ends with it, after a barrier: what its control block says comes to the host.
+  void recordControl(gpu::Recorder& recorder) const;
 
-  /// After a frame: whether it stopped for want of room, and at which step.
-  bool isHalted() const { return control().isHalted != 0; }
-  std::uint32_t haltedStep() const { return control().step; }
+  /// After a frame and before all that follows here: what it left in the control block.
+  void readControl();
+  /// Whether it stopped for want of room, and at which step.
+  bool isHalted() const { return control_.isHalted != 0; }
+  std::uint32_t haltedStep() const { return control_.step; }
   /// Makes longer lists, keeping what pairs remember; recordings made before are no longer good.
   Status makeRoom();
 
@@ -50,11 +58,11 @@ class ContactStage {
   std::uint64_t bytes() const;
   std::uint64_t listBytes() const;
 
-  /// Pairs looked at in the frame that ended, both sides counted; and starts counting anew.
-  std::uint64_t takePairTests();
-  std::uint64_t rebuilds() const { return control().rebuilds; }
+  /// Pairs looked at since the simulation began, in all steps, both sides counted.
+  std::uint64_t pairTests() const { return pairTests_; }
+  std::uint64_t rebuilds() const { return control_.rebuilds; }
   /// Pairs in the lists, each once; and how many contacts live.
-  std::uint64_t listedCount() const { return control().listed / 2; }
+  std::uint64_t listedCount() const { return control_.listed / 2; }
   Result<std::uint64_t> contactCount() const;
   /// Forgets lists and lives: the hair was put somewhere else.
   Status forget();
@@ -67,6 +75,7 @@ class ContactStage {
  private:
   struct Buffers {
     gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses;
+    gpu::Buffer controlRead;  // the control block as the last frame left it, in the host's memory
   };
   struct Lists {
     gpu::Buffer heads, pairs;              // of who is near
@@ -79,22 +88,26 @@ class ContactStage {
 
   ContactStage() = default;
   Status createLists();
+  gpu::BufferTable bufferTable() const;
   layout::ContactParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                 std::uint32_t groupCount) const;
   void dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
   std::uint32_t contactGroups() const;
-  layout::ContactControl& control() const;
+  Status writeControl();
   const DeviceChunk& hair() const { return groom_->chunks[0]; }
 
   gpu::Device* device_ = nullptr;
-  std::vector<gpu::Kernel> kernels_;       // by ContactKernel
-  std::optional<gpu::Bindings> bindings_;  // all kernels have the same list
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by ContactKernel
+  std::vector<std::size_t> newKernels_;
+  std::vector<gpu::Bindings> bindings_;  // likewise
   DeviceGroom* groom_ = nullptr;
   std::optional<Buffers> buffers_;
   std::optional<Lists> lists_;
-  std::uint64_t largestList_ = 0;  // [bytes] a buffer of the lists may have
+  std::uint64_t largestList_ = 0;     // [bytes] a buffer of the lists may have
+  layout::ContactControl control_{};  // as the device has it between frames
+  std::uint64_t pairTests_ = 0;
   ContactSettings settings_;
   std::vector<std::uint32_t> particles_;  // device index of each contact particle
   double stepSeconds_ = 0;

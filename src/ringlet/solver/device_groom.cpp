@@ -76,8 +76,8 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
                                         std::size_t slots) {
   auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
   if (!poses) return poses.error();
-  auto control = Buffer::create(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0,
-                                BufferKind::stream, "contact control");
+  auto control =
+      createZero(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0, "contact control");
   if (!control) return control.error();
   DeviceGroom groom{{}, std::move(*poses), std::move(*control)};
   for (const GroomChunk& part : parts) {
@@ -89,11 +89,24 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
   return groom;
 }
 
-std::vector<std::reference_wrapper<const Buffer>> DeviceGroom::inBindingOrder(std::size_t chunk) const {
+gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
+  using namespace layout;
   const DeviceChunk& c = chunks[chunk];
-  return {c.positions, c.velocities, c.particles, c.strands,        c.reports,
-          c.scratch,   poses.seen(), c.solved,    c.contactSystems, contactControl,
-          c.positions, c.velocities, c.particles, c.strands,        c.contactSystems};
+  return {{kBindPositions, c.positions},
+          {kBindVelocities, c.velocities},
+          {kBindParticles, c.particles},
+          {kBindStrands, c.strands},
+          {kBindReports, c.reports},
+          {kBindScratch, c.scratch},
+          {kBindPoses, poses.seen()},
+          {kBindSolved, c.solved},
+          {kBindContactSystems, c.contactSystems},
+          {kBindContactControl, contactControl},
+          {kBindPositionTexels, c.positions},
+          {kBindVelocityTexels, c.velocities},
+          {kBindParticleTexels, c.particles},
+          {kBindStrandTexels, c.strands},
+          {kBindContactSystemTexels, c.contactSystems}};
 }
 
 std::uint64_t DeviceGroom::largestTexels() const {

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/frame_input.h"
@@ -46,8 +46,8 @@ struct DeviceGroom {
                                     std::span<const GroomChunk> parts, const GroomRecords& records,
                                     std::size_t slots);
 
-  /// A chunk's buffers in binding order (layout.h).
-  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder(std::size_t chunk) const;
+  /// A chunk's buffers, as strand kernels bind them.
+  gpu::BufferTable bufferTable(std::size_t chunk) const;
   /// The largest buffer that kernels read as texels [bytes].
   std::uint64_t largestTexels() const;
   std::uint64_t particleBytes() const;  // of all buffers with a record a particle

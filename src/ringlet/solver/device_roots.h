@@ -3,13 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
@@ -32,9 +32,10 @@ class DeviceRoots {
 
   bool areMoving() const { return !now_.empty(); }
 
-  /// Of a chunk, in binding order, storage and texels: from kBindRootPoses on.
-  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder(std::size_t chunk) const {
-    return {poses_[chunk].seen(), poses_[chunk].seen()};
+  /// Of a chunk, as strand kernels bind them.
+  gpu::BufferTable bufferTable(std::size_t chunk) const {
+    return {{layout::kBindRootPoses, poses_[chunk].seen()},
+            {layout::kBindRootPoseTexels, poses_[chunk].seen()}};
   }
   std::uint64_t largestBuffer() const;
   std::uint64_t bytes() const;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/scene/wind.h"
@@ -27,10 +27,14 @@ class DeviceWorld {
   std::size_t bodyCount() const { return bodies_.size(); }
   bool isTurbulent() const { return !waves_.empty(); }
 
-  /// In binding order, storage and texels: from kBindBodies on.
-  std::vector<std::reference_wrapper<const gpu::Buffer>> inBindingOrder() const {
-    return {rests_, poses_.seen(), cells_, air_.seen(), waveBuffer_,
-            rests_, poses_.seen(), cells_, air_.seen(), waveBuffer_};
+  /// As strand kernels bind them.
+  gpu::BufferTable bufferTable() const {
+    using namespace layout;
+    return {{kBindBodies, rests_},         {kBindBodyPoses, poses_.seen()},
+            {kBindGridCells, cells_},      {kBindAir, air_.seen()},
+            {kBindWindModes, waveBuffer_}, {kBindBodyTexels, rests_},
+            {kBindGridCellTexels, cells_}, {kBindBodyPoseTexels, poses_.seen()},
+            {kBindAirTexels, air_.seen()}, {kBindWindModeTexels, waveBuffer_}};
   }
   std::uint64_t largestBuffer() const { return std::max(cells_.bytes(), poses_.bytes()); }
   std::uint64_t bytes() const {

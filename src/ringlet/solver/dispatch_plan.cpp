@@ -10,9 +10,9 @@
 namespace ringlet {
 namespace {
 
-// lavapipe ends every loop of an invocation once they have made 65,535 turns together, without a word. Others
-// have no such limit; theirs is a dispatch short enough not to be taken for a hang.
-std::uint64_t loopBudget(const DeviceLimits& limits) { return limits.isCpu ? 65000 : 4'000'000; }
+// A little below where such a device ends loops. Others have no such limit; theirs is a dispatch short enough
+// not to be taken for a hang.
+std::uint64_t loopBudget(const DeviceLimits& limits) { return limits.endsLoopsEarly ? 65000 : 4'000'000; }
 
 // Turns of loops, at most: what one step costs besides its solve's outer loops, and what one of those costs.
 struct LoopCost {

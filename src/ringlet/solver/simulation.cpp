@@ -37,10 +37,12 @@ std::string describe(std::span<const StrandShape> shapes, std::uint32_t subgroup
   return fmt::format("{} (subgroup {})", text, subgroupSize);
 }
 
-// Tells the observer, where there is one, of a beginning and, whatever happens, of an end.
+// Tells the observer, where there is one and something to compile, of a beginning and, whatever happens, of
+// an end.
 class CompileNotice {
  public:
-  CompileNotice(CompileObserver* observer, std::size_t kernelCount) : observer_(observer) {
+  CompileNotice(CompileObserver* observer, std::size_t kernelCount)
+      : observer_(kernelCount > 0 ? observer : nullptr) {
     if (observer_) observer_->begin(kernelCount);
   }
   ~CompileNotice() {
@@ -113,11 +115,11 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   return Simulation(std::move(self));
 }
 
-// Made, several at a time, and compiled by a dispatch of nothing: some drivers compile only then.
+// Made, several at a time, and compiled by a dispatch of nothing: some drivers compile only then. Kernels
+// that a simulation before has made on this device are ready.
 Status Simulation::Implementation::makeKernels(bool hasBodies) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<StrandShape> shapes = shapesOf(ranges);
-  const CompileNotice notice(choice.observer, shapes.size() + (contacts ? kContactKernelCount : 0));
   const bool oneSmoothing = std::all_of(rest.strands.begin(), rest.strands.end(),
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
@@ -127,31 +129,45 @@ Status Simulation::Implementation::makeKernels(bool hasBodies) {
   const StrandKernelOptions options{settings.integrator,  oneSmoothing,        bendVaries,        choice.taps,
                                     settings.contacts.on, fitsTexels,          choice.residual,   hasBodies,
                                     settings.air.on,      world.isTurbulent(), choice.movingRoots};
+  std::vector<std::size_t> newKernels;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (!gpu::Kernel::isCompiled(device.gpu(), describeStrandKernel(shapes[k], options)))
+      newKernels.push_back(k);
+  }
+  const std::size_t newCount = newKernels.size() + (contacts ? contacts->newKernelCount() : 0);
+  const CompileNotice notice(choice.observer, newCount);
   auto made = createStrandKernels(device.gpu(), shapes, options);
   if (!made) return made.error();
   kernels = std::move(*made);
   for (const StrandRange& range : ranges) {
     kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
-    auto buffersInOrder = buffers.inBindingOrder(range.chunk);
-    std::ranges::copy(world.inBindingOrder(), std::back_inserter(buffersInOrder));
-    std::ranges::copy(roots.inBindingOrder(range.chunk), std::back_inserter(buffersInOrder));
-    auto bound = gpu::Bindings::create(kernels[kernelOf.back()], buffersInOrder);
+    gpu::BufferTable table = buffers.bufferTable(range.chunk);
+    table.merge(world.bufferTable());
+    table.merge(roots.bufferTable(range.chunk));
+    auto bound = gpu::Bindings::create(*kernels[kernelOf.back()], table);
     if (!bound) return bound.error();
     bindings.push_back(std::move(*bound));
   }
 
-  auto recorder = gpu::Recorder::create(device.gpu(), "compile");
-  if (!recorder) return recorder.error();
-  if (Status status = recorder->begin(); !status) return status;
-  for (std::size_t k = 0; k < kernels.size(); ++k) {
-    const auto range = static_cast<std::size_t>(std::ranges::find(kernelOf, k) - kernelOf.begin());
-    recorder->dispatchNothing(kernels[k], bindings[range]);
+  if (newCount > 0) {
+    if (Status status = dispatchNothing(newKernels); !status) return status;
   }
-  if (contacts) contacts->recordNothing(*recorder);
-  if (Status status = recorder->submitAndWait(); !status) return status;
   compileMilliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return {};
+}
+
+// With the strand kernels `newKernels`, and what is new of the contacts'.
+Status Simulation::Implementation::dispatchNothing(std::span<const std::size_t> newKernels) const {
+  auto recorder = gpu::Recorder::create(device.gpu(), "compile");
+  if (!recorder) return recorder.error();
+  if (Status status = recorder->begin(); !status) return status;
+  for (const std::size_t k : newKernels) {
+    const auto range = static_cast<std::size_t>(std::ranges::find(kernelOf, k) - kernelOf.begin());
+    recorder->dispatchNothing(*kernels[k], bindings[range]);
+  }
+  if (contacts) contacts->recordNothing(*recorder);
+  return recorder->submitAndWait();
 }
 
 Status Simulation::Implementation::addContacts() {
@@ -320,6 +336,7 @@ Result<ContactReport> Simulation::contactReport() const {
   if (!contacts) return contacts.error();
   report.contacts = *contacts;
   report.rebuilds = self_->contacts->rebuilds();
+  report.pairTests = self_->contacts->pairTests();
   auto error = self_->contacts->momentumError(self_->rest);
   if (!error) return error.error();
   report.momentumError = *error;

@@ -79,7 +79,7 @@ struct ListedContact {
 };
 
 /// Told when the driver begins to compile a simulation's kernels, which may take seconds, and when it is
-/// done.
+/// done. Not told where a simulation before has compiled them all on this device.
 class CompileObserver {
  public:
   virtual ~CompileObserver() = default;
@@ -184,7 +184,8 @@ class Simulation {
   /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
   /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
-  /// What it took to make the kernels, most of it the driver's compiler [ms]. Part of create.
+  /// What it took to make the kernels, most of it the driver's compiler [ms]. Part of create. A device
+  /// compiles each kernel once, for all simulations on it.
   double compileMilliseconds() const;
   /// The kernel variants in use, e.g. "lanes 4 x 16 (subgroup 8)".
   std::string kernelDescription() const;

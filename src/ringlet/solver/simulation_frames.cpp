@@ -46,7 +46,7 @@ void Simulation::Implementation::dispatchAll(gpu::Recorder& recorder,
     // Only dispatches on the same strands depend on each other; but the validation layer sees whole buffers,
     // and takes those on other strands for hazards.
     if (d > 0) recorder.barrier();
-    recorder.dispatch(kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now), now.groupCount);
+    recorder.dispatch(*kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now), now.groupCount);
   }
   recorder.endStage();
 }
@@ -105,6 +105,7 @@ Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uin
     }
   }
   slots[slot].recordPositions(buffers);
+  contacts->recordControl(recorder);
   slots[slot].isRecorded = firstStep == 0 && predictFirst;
   return {};
 }
@@ -161,7 +162,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
     for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
       stageMilliseconds[stage] += milliseconds;
     if (!contacts) return {};
-    contactReport.pairTests += contacts->takePairTests();
+    contacts->readControl();
     if (!contacts->isHalted()) return {};
     if (Status status = contacts->makeRoom(); !status) return status;
     for (FrameSlot& other : slots) other.isRecorded = false;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,12 +53,12 @@ struct Simulation::Implementation {
   DeviceRoots roots;
   std::vector<StrandRange> ranges;
   std::vector<PlannedDispatch> plan;
-  std::vector<gpu::Kernel> kernels{};     // one a shape
-  std::vector<std::size_t> kernelOf{};    // each range's
-  std::vector<gpu::Bindings> bindings{};  // one a range
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
+  std::vector<std::size_t> kernelOf{};                        // each range's
+  std::vector<gpu::Bindings> bindings{};                      // one a range
 
   std::optional<ContactStage> contacts{};
-  ContactReport contactReport{};  // what is known of the rest pose, and sums
+  ContactReport contactReport{};  // what is known of the rest pose
 
   std::uint64_t stepsDone = 0;
   std::map<std::string, double> stageMilliseconds{};
@@ -72,6 +73,7 @@ struct Simulation::Implementation {
 
   // simulation.cpp
   Status makeKernels(bool hasBodies);
+  Status dispatchNothing(std::span<const std::size_t> newKernels) const;
   Status addContacts();
   Status placeAtRest();
   Status carryTo(const HeadPose& end);

@@ -8,10 +8,14 @@
 
 #include "ringlet_shaders/strand_step_baselines.h"
 #include "ringlet_shaders/strand_step_baselines_taps.h"
+#include "ringlet_shaders/strand_step_contacts.h"
+#include "ringlet_shaders/strand_step_contacts_taps.h"
 #include "ringlet_shaders/strand_step_plain.h"
 #include "ringlet_shaders/strand_step_plain_taps.h"
 #include "ringlet_shaders/strand_step_serial_plain.h"
-#include "ringlet_shaders/strand_step_serial_taps.h"
+#include "ringlet_shaders/strand_step_serial_plain_taps.h"
+#include "ringlet_shaders/strand_step_serial_surroundings.h"
+#include "ringlet_shaders/strand_step_serial_surroundings_taps.h"
 #include "ringlet_shaders/strand_step_surroundings.h"
 #include "ringlet_shaders/strand_step_surroundings_taps.h"
 #include "shared/layout.h"
@@ -21,14 +25,20 @@ namespace {
 
 using Spirv = std::span<const std::uint32_t>;
 
-// Code that is only switched off the driver reads all the same: half a second a kernel on lavapipe.
+// Code that is only switched off the driver reads all the same, half a second a kernel on lavapipe, and its
+// buffers stay bound.
 Spirv spirvOf(const StrandShape& shape, const StrandKernelOptions& options) {
   const auto either = [&](Spirv plain, Spirv taps) { return options.taps ? taps : plain; };
-  if (shape.serial()) return either(k_strand_step_serial_plain, k_strand_step_serial_taps);
+  const bool amongOthers = options.bodies || options.air;
+  if (shape.serial()) {
+    if (amongOthers || options.contacts)
+      return either(k_strand_step_serial_surroundings, k_strand_step_serial_surroundings_taps);
+    return either(k_strand_step_serial_plain, k_strand_step_serial_plain_taps);
+  }
   if (options.integrator != Integrator::jacobi)
     return either(k_strand_step_baselines, k_strand_step_baselines_taps);
-  if (options.bodies || options.air)
-    return either(k_strand_step_surroundings, k_strand_step_surroundings_taps);
+  if (amongOthers) return either(k_strand_step_surroundings, k_strand_step_surroundings_taps);
+  if (options.contacts) return either(k_strand_step_contacts, k_strand_step_contacts_taps);
   return either(k_strand_step_plain, k_strand_step_plain_taps);
 }
 
@@ -55,15 +65,11 @@ std::string strandKernelHash() {
   return fmt::format("{:016x}", hash);
 }
 
-Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
-                                       const StrandKernelOptions& options) {
-  using enum gpu::BindingKind;
+gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const StrandKernelOptions& options) {
   gpu::KernelDescription description;
   description.name = "strand_step " + shape.describe();
   description.spirv = spirvOf(shape, options);
-  description.bindings = {storage, storage, storage, storage, storage, storage, uniform, storage, storage,
-                          storage, texels,  texels,  texels,  texels,  texels,  storage, storage, storage,
-                          storage, storage, texels,  texels,  texels,  texels,  texels,  storage, texels};
+  description.remedy = "take another device, or leave out contacts, bodies and air";
   description.pushConstantBytes = sizeof(layout::StepParameters);
   description.constants = {{0, kStrandGroupSize},
                            {2, integratorConstant(options.integrator)},
@@ -82,21 +88,24 @@ Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& s
     description.constants.push_back({12, shape.particlesPerLane});
     description.wantsFullSubgroups = true;
   }
-  return gpu::Kernel::create(device, description);
+  return description;
 }
 
-Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandShape> shapes,
-                                                     const StrandKernelOptions& options) {
-  std::vector<std::future<Result<gpu::Kernel>>> others;
+Result<std::vector<std::shared_ptr<const gpu::Kernel>>> createStrandKernels(
+    gpu::Device& device, std::span<const StrandShape> shapes, const StrandKernelOptions& options) {
+  const auto create = [&](const StrandShape& shape) {
+    return gpu::Kernel::create(device, describeStrandKernel(shape, options));
+  };
+  std::vector<std::future<Result<std::shared_ptr<const gpu::Kernel>>>> others;
   for (const StrandShape& shape : shapes.subspan(1)) {
-    others.push_back(std::async(std::launch::async, [&device, &shape, &options] {
-      return createStrandKernel(device, shape, options);
-    }));
+    const bool isCompiled = gpu::Kernel::isCompiled(device, describeStrandKernel(shape, options));
+    const auto policy = isCompiled ? std::launch::deferred : std::launch::async;
+    others.push_back(std::async(policy, [&create, &shape] { return create(shape); }));
   }
-  std::vector<Result<gpu::Kernel>> made;
-  made.push_back(createStrandKernel(device, shapes.front(), options));
+  std::vector<Result<std::shared_ptr<const gpu::Kernel>>> made;
+  made.push_back(create(shapes.front()));
   for (auto& other : others) made.push_back(other.get());
-  std::vector<gpu::Kernel> kernels;
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels;
   for (auto& kernel : made) {
     if (!kernel) return kernel.error();
     kernels.push_back(std::move(*kernel));

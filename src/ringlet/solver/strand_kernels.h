@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -31,12 +32,11 @@ struct StrandKernelOptions {
   bool movingRoots = false;  // strands have poses of their own
 };
 
-Result<gpu::Kernel> createStrandKernel(gpu::Device& device, const StrandShape& shape,
-                                       const StrandKernelOptions& options);
+gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const StrandKernelOptions& options);
 
-/// One for each shape, made on threads of their own: lavapipe reads each for half a second, whatever its
-/// cache holds.
-Result<std::vector<gpu::Kernel>> createStrandKernels(gpu::Device& device, std::span<const StrandShape> shapes,
-                                                     const StrandKernelOptions& options);
+/// One for each shape, in order; those not compiled yet are made on threads of their own: lavapipe reads each
+/// for half a second, whatever its cache holds.
+Result<std::vector<std::shared_ptr<const gpu::Kernel>>> createStrandKernels(
+    gpu::Device& device, std::span<const StrandShape> shapes, const StrandKernelOptions& options);
 
 }  // namespace ringlet

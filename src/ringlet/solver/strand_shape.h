@@ -12,10 +12,13 @@ inline constexpr std::uint32_t kShortestRun = 4, kLongestRun = 64;
 
 /// What the plan must know of a device.
 struct DeviceLimits {
-  std::uint32_t subgroupSize = 1;
+  std::uint32_t subgroupSize = 1;  // the strand kernels are planned for, and ask for where they can
   bool hasSubgroupShuffle = false;
-  bool isCpu = false;
+  bool isCpu = false;  // costs are those of a CPU device
   std::uint32_t maxGroupCount = 65535;
+  bool endsLoopsEarly = false;  // ends all loops of an invocation after 65,535 turns together, without a word
+  std::uint32_t minSubgroupSize = 0, maxSubgroupSize = 0;  // the powers of two that can be asked for; 0: none
+                                                           // but subgroupSize
 };
 
 /// A strand laid over a device: lanes x run, or one thread per strand (lanes = 0).
