@@ -27,6 +27,7 @@ constexpr const char* kHelp =
     "Examples:\n"
     "  ringlet kernels\n"
     "  ringlet kernels --statistics --json kernels.json\n"
+    "  ringlet kernels --only 'hair alone'\n"
     "  RADV_FORCE_FAMILY=navi21 ringlet kernels --statistics\n"
     "\n"
     "Compiles every kernel that a run could use on this device: the strand kernels of each kind of work in\n"
@@ -36,6 +37,8 @@ constexpr const char* kHelp =
     "registers, scratch memory, code size, waves. It needs VK_KHR_pipeline_executable_properties for that.\n"
     "Flags: `spills` (registers did not suffice, and values go through memory), `1 wave` (a processor holds\n"
     "one subgroup at a time and cannot hide waiting times).\n"
+    "\n"
+    "lavapipe compiles to machine code only at a kernel's first use; the seconds there are those before it.\n"
     "\n"
     "Each kernel is compiled in a process of its own, since drivers crash in their own statistics: such a\n"
     "kernel is compiled again without them, and its line says so. No hair is simulated, so that a driver\n"
@@ -48,7 +51,7 @@ constexpr const char* kHelp =
 
 // The command line as typed.
 struct Typed {
-  std::string device;
+  std::string device, only;
   std::filesystem::path json;
   bool statistics = false;
   int one = -1;  // in a child: which kernel; statistics then say how
@@ -151,6 +154,7 @@ int run(const Typed& typed) {
   Json json{{"device", p.name}, {"driver", p.driver}, {"kernels", Json::array()}};
   int failures = 0;
   for (std::size_t k = 0; k < kernels.size(); ++k) {
+    if (!hasPart(kernels[k].name, typed.only.c_str())) continue;
     const CompiledKernel compiled = compileSafely(typed, p.index, k);
     fmt::print("{}\n", lineOf(kernels[k], compiled));
     std::fflush(stdout);
@@ -163,7 +167,8 @@ int run(const Typed& typed) {
     file.close();
     if (!file) return fail(fmt::format("cannot write {}", typed.json.string()));
   }
-  if (failures > 0) return fail(fmt::format("{} of {} kernels did not compile", failures, kernels.size()));
+  if (failures > 0)
+    return fail(fmt::format("{} of {} kernels did not compile", failures, json["kernels"].size()));
   return kExitFine;
 }
 
@@ -184,6 +189,7 @@ void addKernelsCommand(CLI::App& app, int& exitCode) {
                     "Tell of registers, spills, scratch, code size, waves");
   command->add_option("--json", typed->json, "Writes it to this file as one JSON object, too")
       ->type_name("FILE");
+  command->add_option("--only", typed->only, "Only kernels with this in their name")->type_name("TEXT");
   // In a child process: compiles the kernel of this number and prints one line.
   command->add_option("--one", typed->one)->group("");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });

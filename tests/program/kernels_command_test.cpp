@@ -22,23 +22,26 @@ class Kernels : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// On lavapipe without its optimiser, where a kernel takes a fifth of the time; others take no notice.
-TEST_F(Kernels, AllOfThemCompile) {
-  setenv("GALLIVM_DEBUG", "nopt", 1);
-  const auto result = runProgram(folder_, {"kernels", "--statistics", "--json", "kernels.json"});
-  unsetenv("GALLIVM_DEBUG");
-  EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
-  const json report = json::parse(test::readText(folder_ / "kernels.json"), nullptr, false);
-  ASSERT_TRUE(report.is_object());
+// Not all that is listed: strand kernels in lanes take a driver seconds each.
+TEST_F(Kernels, CompileInEveryKindOfWork) {
   std::string names;
-  for (const json& kernel : report["kernels"]) {
-    names += kernel["name"].get<std::string>() + "\n";
-    EXPECT_EQ(kernel["compiled"], true) << kernel;
-    EXPECT_GT(kernel["seconds"].get<double>(), 0) << kernel;
+  for (const char* only : {"serial", "contact_", "hair alone, lanes"}) {
+    const auto result =
+        runProgram(folder_, {"kernels", "--statistics", "--only", only, "--json", "kernels.json"});
+    EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
+    const json report = json::parse(test::readText(folder_ / "kernels.json"), nullptr, false);
+    ASSERT_TRUE(report.is_object());
+    for (const json& kernel : report["kernels"]) {
+      const std::string name = kernel["name"];
+      names += name + "\n";
+      EXPECT_NE(name.find(only), std::string::npos) << name;
+      EXPECT_EQ(kernel["compiled"], true) << kernel;
+      EXPECT_GT(kernel["seconds"].get<double>(), 0) << kernel;
+    }
   }
-  for (const char* part : {"strand_step, hair alone, lanes", "strand_step, hair alone, serial",
-                           "contacts, lanes", "bodies in air, lanes", "bodies, serial", "point_jacobi, lanes",
-                           "paper, serial", "contact_motion", "contact_query", "contact_gather"})
+  for (const char* part :
+       {"hair alone, lanes", "hair alone, serial", "contacts, serial", "bodies in air, serial",
+        "point_jacobi, serial", "paper, serial", "contact_motion", "contact_query", "contact_gather"})
     EXPECT_NE(names.find(part), std::string::npos) << part << " is not there:\n" << names;
 }
 
