@@ -23,10 +23,22 @@ nlohmann::ordered_json asJson(const std::vector<DeviceSummary>& devices) {
                                {"type", device.type},
                                {"driver", device.driver},
                                {"memory_bytes", device.memoryBytes},
+                               {"subgroup", device.subgroupSizes.front()},
+                               {"subgroup_reported", device.reportedSubgroupSize},
+                               {"subgroup_choices", device.subgroupSizes},
                                {"usable", device.usable},
                                {"why", device.why}});
   }
   return json;
+}
+
+// "subgroup 32", or with what else it can be: "subgroup 32 (or 64)".
+std::string subgroupText(const DeviceSummary& device) {
+  const auto& sizes = device.subgroupSizes;
+  std::string others;
+  for (std::size_t i = 1; i < sizes.size(); ++i)
+    others += fmt::format("{}{}", i == 1 ? "or " : ", ", sizes[i]);
+  return fmt::format("subgroup {}{}", sizes.front(), others.empty() ? "" : " (" + others + ")");
 }
 
 std::string asText(const std::vector<DeviceSummary>& devices) {
@@ -35,9 +47,10 @@ std::string asText(const std::vector<DeviceSummary>& devices) {
   for (const DeviceSummary& device : devices) nameWidth = std::max(nameWidth, device.name.size());
   std::string text;
   for (const DeviceSummary& device : devices) {
-    text += fmt::format("{:>2}  {:<{}}  {:<10}  {:>6.1f} GiB  {}{}\n", device.index, device.name, nameWidth,
-                        device.type, static_cast<double>(device.memoryBytes) / (1 << 30), device.driver,
-                        device.usable ? "" : "  (unusable: " + device.why + ")");
+    text +=
+        fmt::format("{:>2}  {:<{}}  {:<10}  {:>6.1f} GiB  {}  {}{}\n", device.index, device.name, nameWidth,
+                    device.type, static_cast<double>(device.memoryBytes) / (1 << 30), subgroupText(device),
+                    device.driver, device.usable ? "" : "  (unusable: " + device.why + ")");
   }
   return text;
 }
@@ -62,10 +75,18 @@ int run(bool json) {
 
 void addDevicesCommand(CLI::App& app, int& exitCode) {
   auto json = std::make_shared<bool>(false);
-  CLI::App* command =
-      app.add_subcommand("devices", "Lists the Vulkan devices: number, name, kind, memory, driver");
+  CLI::App* command = app.add_subcommand(
+      "devices",
+      "Lists the Vulkan devices: number, name, kind, memory, subgroup widths, driver, and why a device "
+      "cannot be used");
   command->add_flag("--json", *json, "Print one JSON object");
-  command->footer("Example:\n  ringlet devices\n  ringlet simulate groom.obj --device 0 -o out");
+  command->footer(
+      "subgroup: the width strand kernels are given by default, and in brackets what else --subgroup of "
+      "simulate\n"
+      "and scene can ask for.\n\n"
+      "--json keys: devices (of each index name type driver memory_bytes subgroup (by default)\n"
+      "subgroup_reported (by the driver) subgroup_choices usable why)\n\n"
+      "Example:\n  ringlet devices\n  ringlet simulate groom.obj --device 0 -o out");
   command->callback([json, &exitCode] { exitCode = run(*json); });
 }
 

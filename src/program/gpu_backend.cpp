@@ -67,6 +67,9 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
     fmt::print(stderr, "ringlet: {} was tuned with another driver or ringlet; `ringlet tune` does it anew\n",
                device->name());
   KernelChoice choice = gpu.kernel;
+  // Costs are true only of the width they were measured at.
+  if (choice.subgroupSize == 0) choice.subgroupSize = static_cast<int>(tuned.subgroupSize);
+  if (choice.subgroupSize != static_cast<int>(tuned.subgroupSize)) tuned.costs.clear();
   choice.measured = tuned.costs;
   choice.movingRoots = !input.rootStarts.empty();
   CompileNote note(device->name());

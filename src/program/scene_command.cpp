@@ -80,6 +80,7 @@ struct Typed {
   RunNames names{.material = "scene"};
   std::string core = "on", framesOn = "smoothed";
   std::filesystem::path file;  // to write the scene to
+  std::optional<int> subgroup;
   bool list = false, keys = false, untuned = false, json = false, quiet = false;
 };
 
@@ -342,6 +343,9 @@ void resolve(Typed& typed) {
     throw CLI::ValidationError("--output", "with --write nothing is run; leave one of the two out");
   if (typed.run.onReference && typed.untuned)
     throw CLI::ValidationError("--untuned", "only --backend gpu is ever tuned");
+  if (typed.run.onReference && typed.subgroup)
+    throw CLI::ValidationError("--subgroup", "only --backend gpu asks for subgroups");
+  typed.run.kernel.subgroupSize = typed.subgroup.value_or(0);
   typed.run.usesTuned = !typed.untuned;
   typed.run.showProgress = !typed.quiet;
 }
@@ -430,6 +434,10 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->add_option("--device", typed->run.device,
                    "Vulkan device, by index or part of its name; see `ringlet devices`")
       ->type_name("D")
+      ->group(solver);
+  command->add_option("--subgroup", typed->subgroup, kSubgroupHelp)
+      ->check(wholeBetween(1, 128))
+      ->type_name("N")
       ->group(solver);
   command
       ->add_flag("--untuned", typed->untuned,

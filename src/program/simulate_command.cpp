@@ -71,7 +71,7 @@ constexpr const char* kExitHelp =
 // The command line as typed; what is left out is the scene file's, or the default.
 struct Typed {
   std::filesystem::path input, folder;
-  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames, lanes, run;
+  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
   std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload,
       width;
   std::optional<std::string> motion, joint, animation, up, integrator;
@@ -178,6 +178,10 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
     throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
                                "only --backend gpu with --kernel auto or lanes has lanes and runs");
   }
+  if (typed.subgroup && (typed.backend == "reference" || typed.kernel == "serial")) {
+    throw CLI::ValidationError("--subgroup",
+                               "only --backend gpu with --kernel auto or lanes asks for subgroups");
+  }
 }
 
 // All but the bodies, which must be read.
@@ -226,6 +230,7 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
                                                    : Form::automatic;
   options.kernel.lanes = typed.lanes.value_or(0);
   options.kernel.particlesPerLane = typed.run.value_or(0);
+  options.kernel.subgroupSize = typed.subgroup.value_or(0);
   options.usesTuned = !typed.untuned;
   options.showProgress = !typed.quiet;
   return options;
@@ -439,6 +444,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("K")
       ->group(machine);
 
+  command->add_option("--subgroup", typed->subgroup, kSubgroupHelp)
+      ->check(wholeBetween(1, 128))
+      ->type_name("N")
+      ->group(machine);
   command
       ->add_flag("--untuned", typed->untuned,
                  "Choose lanes and run by the built-in model, whatever `ringlet tune` measured")

@@ -36,13 +36,16 @@ constexpr const char* kHelp =
     "on\n"
     "the same device and driver and with the same ringlet; what was not timed counts as the model has it, "
     "in\n"
-    "proportion. How long a kernel takes to make counts too: few strands keep one that is soon there.\n"
+    "proportion. Where the driver lets the subgroup width be chosen, shapes are timed at every width, and "
+    "the\n"
+    "width whose best shapes are fastest over all lengths is remembered with its times. How long a kernel "
+    "takes to make counts too: few strands keep one that is soon there.\n"
     "Another shape gives other last bits: --untuned leaves it aside. Tuning again replaces what was\n"
     "measured before.\n"
     "\n"
-    "--json keys: device driver rounds left_out (shapes there was no time for) shapes (of each particles "
-    "shape\n"
-    "lanes run (0: serial) ns_per_particle_step model_ns_per_particle_step difference against) file\n"
+    "--json keys: device driver rounds left_out (shapes there was no time for) subgroup (the fastest width)\n"
+    "shapes (of each particles shape lanes run (0: serial) subgroup\n"
+    "ns_per_particle_step model_ns_per_particle_step difference against) file\n"
     "interrupted. difference: the farthest particle from where `against` has it after a frame, as a share "
     "of\n"
     "the strands' length.\n"
@@ -60,16 +63,15 @@ struct Typed {
 
 nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& outcome,
                               const std::filesystem::path& file) {
-  nlohmann::ordered_json json{{"device", device.name()},
-                              {"driver", device.driver()},
-                              {"rounds", outcome.rounds},
-                              {"left_out", outcome.leftOut},
-                              {"shapes", nlohmann::json::array()}};
+  nlohmann::ordered_json json{{"device", device.name()},          {"driver", device.driver()},
+                              {"rounds", outcome.rounds},         {"left_out", outcome.leftOut},
+                              {"subgroup", outcome.subgroupSize}, {"shapes", nlohmann::json::array()}};
   for (const TimedShape& one : outcome.timed) {
     json["shapes"].push_back({{"particles", one.particleCount},
                               {"shape", one.shape.describe()},
                               {"lanes", one.shape.lanes},
                               {"run", one.shape.particlesPerLane},
+                              {"subgroup", one.subgroupSize},
                               {"ns_per_particle_step", one.nanoseconds},
                               {"model_ns_per_particle_step", one.model},
                               {"difference", one.difference},
@@ -85,17 +87,19 @@ std::string asText(const ComputeDevice& device, const TuneOutcome& outcome,
                    const std::filesystem::path& file) {
   std::string text = fmt::format(
       "{} ({}), ns a particle and step, medians of {} rounds\n"
-      "  particles  shape           measured     model  differs by\n",
+      "  particles  shape          subgroup  measured     model  differs by\n",
       device.name(), device.driver(), outcome.rounds);
   for (const TimedShape& one : outcome.timed) {
     const bool isFastest = std::ranges::none_of(outcome.timed, [&](const TimedShape& other) {
       return other.particleCount == one.particleCount && other.nanoseconds < one.nanoseconds;
     });
-    text += fmt::format("  {:>9}  {:<14} {:>9.4g} {:>9.4g}  {:.1e} from {}\n", one.particleCount,
-                        one.shape.describe() + (isFastest ? " *" : ""), one.nanoseconds, one.model,
-                        one.difference, one.against.describe());
+    text += fmt::format("  {:>9}  {:<14} {:>8} {:>9.4g} {:>9.4g}  {:.1e} from {}\n", one.particleCount,
+                        one.shape.describe() + (isFastest ? " *" : ""),
+                        one.shape.serial() ? "" : std::to_string(one.subgroupSize), one.nanoseconds,
+                        one.model, one.difference, one.against.describe());
   }
-  if (!file.empty()) text += fmt::format("  remembered in {}\n", file.string());
+  if (!file.empty())
+    text += fmt::format("  remembered, for subgroups of {}, in {}\n", outcome.subgroupSize, file.string());
   return text;
 }
 
@@ -134,7 +138,7 @@ int run(Typed& typed) {
 
   // The table is shown even where it cannot be remembered.
   Result<std::filesystem::path> file = std::filesystem::path{};
-  if (!outcome->interrupted) file = rememberShapes(*device, outcome->costs);
+  if (!outcome->interrupted) file = rememberShapes(*device, outcome->costs, outcome->subgroupSize);
   const std::filesystem::path written = file ? *file : std::filesystem::path{};
   for (const std::string& message : device->validationMessages())
     fmt::print(stderr, "ringlet tune: warning: Vulkan validation: {}\n", message);

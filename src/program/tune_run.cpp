@@ -14,6 +14,7 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/solver/shape_plan.h"
 #include "ringlet/solver/simulation.h"
+#include "ringlet/solver/subgroup_choice.h"
 
 namespace ringlet::program {
 namespace {
@@ -43,6 +44,7 @@ class Clock {
 struct Entry {
   std::uint32_t particleCount = 0;
   StrandShape shape;
+  std::uint32_t subgroupSize = 0;
   bool isOfPair = false;
 };
 
@@ -61,16 +63,26 @@ std::vector<Entry> entriesOf(std::uint32_t particleCount, bool isLongest, const 
   if (isLongest || costs.size() < 2) costs.push_back({});
   std::vector<Entry> entries;
   if (costs.size() < 2) return entries;  // no choice
-  for (const ShapeCost& c : costs) entries.push_back({particleCount, c.shape, entries.size() < 2});
+  for (const ShapeCost& c : costs)
+    entries.push_back({particleCount, c.shape, limits.subgroupSize, entries.size() < 2});
   return entries;
 }
 
-// The pairs of all lengths first, in case time runs out.
+DeviceLimits atWidth(DeviceLimits limits, std::uint32_t subgroupSize) {
+  limits.subgroupSize = subgroupSize;
+  return limits;
+}
+
+// The pairs of all lengths and widths first, in case time runs out; the device's default width before others.
+// The serial form asks for no width.
 std::vector<Entry> allEntries(std::span<const std::uint32_t> lengths, const DeviceLimits& limits) {
   std::vector<Entry> all;
-  for (const std::uint32_t length : lengths) {
-    const auto some = entriesOf(length, length == lengths.back(), limits);
-    all.insert(all.end(), some.begin(), some.end());
+  for (const std::uint32_t width : subgroupSizes(limits)) {
+    for (const std::uint32_t length : lengths) {
+      const bool takesSerial = length == lengths.back() && width == limits.subgroupSize;
+      const auto some = entriesOf(length, takesSerial, atWidth(limits, width));
+      all.insert(all.end(), some.begin(), some.end());
+    }
   }
   std::ranges::stable_partition(all, &Entry::isOfPair);
   return all;
@@ -103,12 +115,16 @@ struct Runner {
     choice.form = entry.shape.serial() ? KernelChoice::Form::serial : KernelChoice::Form::lanes;
     choice.lanes = static_cast<int>(entry.shape.lanes);
     choice.particlesPerLane = static_cast<int>(entry.shape.particlesPerLane);
+    choice.subgroupSize = static_cast<int>(entry.subgroupSize);
     auto simulation = Simulation::create(device, *groom, {}, Settings{}, {}, {}, choice);
     if (!simulation) return simulation.error();
     if (Status stepped = simulation->stepFrame(kMoved); !stepped) return stepped.error();
     auto positions = simulation->positions();
     if (!positions) return positions.error();
-    return Runner{{.particleCount = entry.particleCount, .shape = entry.shape, .against = {}},
+    return Runner{{.particleCount = entry.particleCount,
+                   .shape = entry.shape,
+                   .subgroupSize = entry.subgroupSize,
+                   .against = {}},
                   std::move(*simulation),
                   groom->strandCount(),
                   std::move(*positions)};
@@ -172,10 +188,11 @@ Status verifyLast(std::vector<Runner>& runners) {
 }
 
 // A shape that holds strands of several lengths costs what it does on average.
-std::vector<ShapeCost> costsOf(std::span<const TimedShape> timed) {
+std::vector<ShapeCost> costsOf(std::span<const TimedShape> timed, std::uint32_t subgroupSize) {
   std::vector<ShapeCost> costs;
   std::vector<int> counts;
   for (const TimedShape& one : timed) {
+    if (one.subgroupSize != subgroupSize && !one.shape.serial()) continue;
     const double cost = one.nanoseconds * (one.shape.serial() ? 1 : one.particleCount);
     const auto found = std::ranges::find(costs, one.shape, &ShapeCost::shape);
     if (found == costs.end()) {
@@ -242,13 +259,16 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
   outcome.interrupted = wasInterrupted();
   if (outcome.interrupted) return outcome;
 
-  const std::vector<ShapeCost> model = shapeCosts(limits);
+  std::vector<WidthTime> times;
   for (Runner& runner : runners) {
-    runner.finish(model);
-    outcome.timed.push_back(runner.result);
+    runner.finish(shapeCosts(atWidth(limits, runner.result.subgroupSize)));
+    const TimedShape& one = runner.result;
+    outcome.timed.push_back(one);
+    times.push_back({one.particleCount, one.subgroupSize, one.nanoseconds});
   }
   std::ranges::stable_sort(outcome.timed, {}, &TimedShape::particleCount);
-  outcome.costs = costsOf(outcome.timed);
+  outcome.subgroupSize = fastestSubgroupSize(times);
+  outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
   return outcome;
 }
 

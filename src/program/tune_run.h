@@ -25,6 +25,7 @@ struct TuneOptions {
 struct TimedShape {
   std::uint32_t particleCount = 0;  // of a strand
   StrandShape shape;
+  std::uint32_t subgroupSize = 0;
   double nanoseconds = 0;  // device time of a particle and step, the median over rounds
   double model = 0;        // the same by the model
   double difference = 0;   // from `against` after a frame: the farthest particle, as a share of the length
@@ -32,8 +33,9 @@ struct TimedShape {
 };
 
 struct TuneOutcome {
-  std::vector<TimedShape> timed;  // by length
-  std::vector<ShapeCost> costs;   // for KernelChoice::measured
+  std::vector<TimedShape> timed;   // by length
+  std::vector<ShapeCost> costs;    // for KernelChoice::measured, at the fastest width
+  std::uint32_t subgroupSize = 0;  // that width
   int rounds = 0;
   std::size_t leftOut = 0;   // shapes there was no time for
   bool interrupted = false;  // Ctrl-C came; nothing is timed

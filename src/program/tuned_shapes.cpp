@@ -8,6 +8,7 @@
 
 #include "program/cache_folder.h"
 #include "ringlet/solver/shape_cost_file.h"
+#include "ringlet/solver/subgroup_choice.h"
 
 namespace ringlet::program {
 namespace {
@@ -42,15 +43,17 @@ TunedShapes recallShapes(const ComputeDevice& device) {
   }
   const DeviceCosts here{device.name(), device.driver(), strandKernelHash(), {}};
   for (const DeviceCosts& known : *devices) {
-    if (known.isOf(here)) tuned.costs = known.costs;
+    const bool isPossible =
+        static_cast<bool>(withSubgroupSize(device.limits(), static_cast<int>(known.subgroupSize)));
+    if (known.isOf(here) && isPossible) tuned.costs = known.costs, tuned.subgroupSize = known.subgroupSize;
     tuned.isOutdated = tuned.isOutdated || known.device == here.device;
   }
   tuned.isOutdated = tuned.isOutdated && tuned.costs.empty();
   return tuned;
 }
 
-Result<std::filesystem::path> rememberShapes(const ComputeDevice& device,
-                                             const std::vector<ShapeCost>& costs) {
+Result<std::filesystem::path> rememberShapes(const ComputeDevice& device, const std::vector<ShapeCost>& costs,
+                                             std::uint32_t subgroupSize) {
   const auto file = shapesFile();
   if (file.empty())
     return Error{
@@ -58,7 +61,7 @@ Result<std::filesystem::path> rememberShapes(const ComputeDevice& device,
         "not set, or not absolute paths"};
   auto known = readShapesFile();
   std::vector<DeviceCosts> devices = known ? std::move(*known) : std::vector<DeviceCosts>{};
-  const DeviceCosts here{device.name(), device.driver(), strandKernelHash(), costs};
+  const DeviceCosts here{device.name(), device.driver(), strandKernelHash(), costs, subgroupSize};
   std::erase_if(devices, [&](const DeviceCosts& other) { return other.isOf(here); });
   devices.insert(devices.begin(), here);
   devices.resize(std::min(devices.size(), kMostDevices));

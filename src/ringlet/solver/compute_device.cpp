@@ -5,6 +5,7 @@
 
 #include "ringlet/gpu/device.h"
 #include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/subgroup_choice.h"
 
 namespace ringlet {
 namespace {
@@ -12,6 +13,21 @@ namespace {
 // lavapipe's compiler does. A CPU device whose driver does not say its name is taken for it.
 bool endsLoopsEarly(const gpu::DeviceProperties& p) {
   return p.driverId == VK_DRIVER_ID_MESA_LLVMPIPE || (p.driverId == 0 && p.type == "cpu");
+}
+
+DeviceLimits limitsOf(const gpu::DeviceProperties& p) {
+  DeviceLimits limits;
+  // A strand lies within a workgroup too, whatever the width of a subgroup.
+  limits.subgroupSize = std::min(p.subgroupSize, kStrandGroupSize);
+  limits.hasSubgroupShuffle = p.hasSubgroupShuffle;
+  limits.isCpu = p.type == "cpu";
+  limits.maxGroupCount = p.maxGroupCount;
+  limits.endsLoopsEarly = endsLoopsEarly(p);
+  if (p.canChooseSubgroupSize) {
+    limits.minSubgroupSize = p.minSubgroupSize;
+    limits.maxSubgroupSize = std::min(p.maxSubgroupSize, kStrandGroupSize);
+  }
+  return limits;
 }
 
 }  // namespace
@@ -33,28 +49,15 @@ std::vector<DeviceSummary> ComputeDevice::list() {
   std::vector<DeviceSummary> summaries;
   for (const gpu::DeviceListing& listing : gpu::Device::list()) {
     const gpu::DeviceProperties& p = listing.properties;
-    summaries.push_back({p.index, p.name, p.type, p.driver, p.memoryBytes, listing.usable, listing.why});
+    summaries.push_back({p.index, p.name, p.type, p.driver, p.memoryBytes, p.reportedSubgroupSize,
+                         subgroupSizes(limitsOf(p)), listing.usable, listing.why});
   }
   return summaries;
 }
 
 std::string ComputeDevice::name() const { return device_->properties().name; }
 std::string ComputeDevice::driver() const { return device_->properties().driver; }
-DeviceLimits ComputeDevice::limits() const {
-  const gpu::DeviceProperties& p = device_->properties();
-  DeviceLimits limits;
-  // A strand lies within a workgroup too, whatever the width of a subgroup.
-  limits.subgroupSize = std::min(p.subgroupSize, kStrandGroupSize);
-  limits.hasSubgroupShuffle = p.hasSubgroupShuffle;
-  limits.isCpu = p.type == "cpu";
-  limits.maxGroupCount = p.maxGroupCount;
-  limits.endsLoopsEarly = endsLoopsEarly(p);
-  if (p.canChooseSubgroupSize) {
-    limits.minSubgroupSize = p.minSubgroupSize;
-    limits.maxSubgroupSize = std::min(p.maxSubgroupSize, kStrandGroupSize);
-  }
-  return limits;
-}
+DeviceLimits ComputeDevice::limits() const { return limitsOf(device_->properties()); }
 std::vector<std::string> ComputeDevice::validationMessages() const { return device_->validationMessages(); }
 
 }  // namespace ringlet

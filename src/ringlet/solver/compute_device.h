@@ -21,8 +21,10 @@ struct DeviceSummary {
   std::string type;    // discrete, integrated, virtual, cpu, other
   std::string driver;  // name and version
   std::uint64_t memoryBytes = 0;
-  bool usable = false;  // has a compute queue and the limits the solver needs
-  std::string why;      // if not usable: what is missing
+  std::uint32_t reportedSubgroupSize = 0;    // by the driver [invocations]
+  std::vector<std::uint32_t> subgroupSizes;  // strand kernels can have, the default first
+  bool usable = false;                       // has a compute queue and the limits the solver needs
+  std::string why;                           // if not usable: what is missing
 };
 
 /// Cheap to copy; the device closes with its last copy.

@@ -17,7 +17,7 @@ namespace ringlet {
 namespace {
 
 constexpr const char* kWhat = "measured strand shapes";
-constexpr std::int64_t kMostLanes = 128;  // of any device
+constexpr std::int64_t kMostLanes = 128;  // of any device; a subgroup has no more
 
 Error inFile(const std::string& name, const toml::node& node, const std::string& message) {
   return Error{fmt::format("{}: line {}: {}", name, lineOf(node), message)};
@@ -53,6 +53,9 @@ Result<DeviceCosts> deviceCostsOf(const toml::table& table, const std::string& n
     if (!value) return inFile(name, table, fmt::format("expected {}, a text", key));
     *text = *value;
   }
+  const auto width = wholeIn(table, "subgroup", 0, kMostLanes, name);
+  if (!width) return width.error();
+  device.subgroupSize = *width;
   const toml::array* shapes = table["shapes"].as_array();
   if (!shapes) return inFile(name, table, "expected shapes, a list");
   for (const toml::node& node : *shapes) {
@@ -65,8 +68,9 @@ Result<DeviceCosts> deviceCostsOf(const toml::table& table, const std::string& n
 }
 
 std::string textOf(const DeviceCosts& device) {
-  std::string text = fmt::format("\n[[device]]\nname = {}\ndriver = {}\nkernels = {}\nshapes = [\n",
-                                 tomlText(device.device), tomlText(device.driver), tomlText(device.kernels));
+  std::string text = fmt::format(
+      "\n[[device]]\nname = {}\ndriver = {}\nkernels = {}\nsubgroup = {}\nshapes = [\n",
+      tomlText(device.device), tomlText(device.driver), tomlText(device.kernels), device.subgroupSize);
   for (const ShapeCost& cost : device.costs) {
     const std::string shape = cost.shape.serial() ? "serial = true"
                                                   : fmt::format("lanes = {}, run = {}", cost.shape.lanes,

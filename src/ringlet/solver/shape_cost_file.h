@@ -4,6 +4,7 @@
 //   name = "llvmpipe (LLVM 15.0.6, 256 bits)"
 //   driver = "llvmpipe 22.3.6"
 //   kernels = "9c0f3a51e2d47b68"
+//   subgroup = 8
 //   shapes = [
 //     { lanes = 4, run = 16, nanoseconds = 612.5 },
 //     { serial = true, nanoseconds = 46.1 },
@@ -24,6 +25,7 @@ struct DeviceCosts {
   std::string device, driver;  // ComputeDevice::name, driver
   std::string kernels;         // strandKernelHash
   std::vector<ShapeCost> costs;
+  std::uint32_t subgroupSize = 0;  // they were measured at; 0: the device's default
 
   bool isOf(const DeviceCosts& other) const {
     return device == other.device && driver == other.driver && kernels == other.kernels;
@@ -31,7 +33,7 @@ struct DeviceCosts {
 };
 
 /// Errors, with the line: as for readWholeFile; no TOML, more than 1 MiB, a value that is missing or out of
-/// range. Keys it does not know it leaves alone.
+/// range, as `subgroup` is in files of older versions. Keys it does not know it leaves alone.
 Result<std::vector<DeviceCosts>> readShapeCosts(const std::filesystem::path& path);
 
 /// Replaces the file, whole or not at all, and makes its folder. Errors: as for writeWholeFile.

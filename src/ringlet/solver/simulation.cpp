@@ -18,6 +18,7 @@
 #include "ringlet/solver/packed.h"
 #include "ringlet/solver/simulation_implementation.h"
 #include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/subgroup_choice.h"
 
 namespace ringlet {
 namespace {
@@ -42,6 +43,12 @@ std::string describe(std::span<const StrandShape> shapes, std::uint32_t subgroup
   std::string text;
   for (const StrandShape& shape : shapes) text += (text.empty() ? "" : ", ") + shape.describe();
   return fmt::format("{} (subgroup {})", text, subgroupSize);
+}
+
+// The width kernels are to ask the driver for; 0 where that is the device's default, or nothing can be asked.
+std::uint32_t askedWidth(const gpu::DeviceProperties& device, const KernelChoice& choice) {
+  const auto width = static_cast<std::uint32_t>(choice.subgroupSize);
+  return device.canChooseSubgroupSize && width != device.subgroupSize ? width : 0;
 }
 
 // Tells the observer, where there is one and something to compile, of a beginning and, whatever happens, of
@@ -74,7 +81,9 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   auto rest = buildRestState(groom, material, settings, order);
   if (!rest) return rest.error();
 
-  const DeviceLimits limits = device.limits();
+  const auto chosenLimits = withSubgroupSize(device.limits(), choice.subgroupSize);
+  if (!chosenLimits) return chosenLimits.error();
+  const DeviceLimits& limits = *chosenLimits;
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
   auto ranges = planRanges(counts, limits, choice, strandWork(settings, material, !bodies.empty()));
@@ -133,9 +142,12 @@ Status Simulation::Implementation::makeKernels(bool hasBodies) {
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer()}));
-  const StrandKernelOptions options{settings.integrator,  oneSmoothing,        bendVaries,        choice.taps,
-                                    settings.contacts.on, fitsTexels,          choice.residual,   hasBodies,
-                                    settings.air.on,      world.isTurbulent(), choice.movingRoots};
+  const StrandKernelOptions options{settings.integrator,  oneSmoothing,
+                                    bendVaries,           choice.taps,
+                                    settings.contacts.on, fitsTexels,
+                                    choice.residual,      hasBodies,
+                                    settings.air.on,      world.isTurbulent(),
+                                    choice.movingRoots,   askedWidth(device.gpu().properties(), choice)};
   std::vector<std::size_t> newKernels;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     if (!gpu::Kernel::isCompiled(device.gpu(), describeStrandKernel(shapes[k], options)))
@@ -391,7 +403,8 @@ std::vector<std::string> Simulation::recordedFrame() const {
 double Simulation::compileMilliseconds() const { return self_->compileMilliseconds; }
 
 std::string Simulation::kernelDescription() const {
-  return describe(shapesOf(self_->ranges), self_->device.gpu().properties().subgroupSize);
+  const auto width = static_cast<std::uint32_t>(self_->choice.subgroupSize);
+  return describe(shapesOf(self_->ranges), width ? width : self_->device.gpu().properties().subgroupSize);
 }
 
 }  // namespace ringlet

@@ -93,6 +93,7 @@ struct KernelChoice {
   Form form = Form::automatic;            // lanes x run, or one thread per strand
   int particlesPerLane = 0;               // see longestRun in shape_plan.h; 0: choose
   int lanes = 0;                          // of a strand, a power of two; 0: choose
+  int subgroupSize = 0;                   // see subgroupSizes in subgroup_choice.h; 0: choose
   std::span<const ShapeCost> measured{};  // on this device, needed until create returns; none: a model's
   bool manyKernels = false;               // the best shape for every strand, whatever kernels cost to make
   CompileObserver* observer = nullptr;    // needed until create returns

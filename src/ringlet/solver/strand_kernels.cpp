@@ -87,6 +87,7 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
     description.constants.push_back({1, shape.lanes});
     description.constants.push_back({12, shape.particlesPerLane});
     description.wantsFullSubgroups = true;
+    description.subgroupSize = options.subgroupSize;
   }
   return description;
 }

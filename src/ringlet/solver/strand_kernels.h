@@ -29,7 +29,8 @@ struct StrandKernelOptions {
   bool bodies = false;    // there are some
   bool air = false;       // hair feels it
   bool turbulence = false;
-  bool movingRoots = false;  // strands have poses of their own
+  bool movingRoots = false;        // strands have poses of their own
+  std::uint32_t subgroupSize = 0;  // of the lanes form, one the device can be asked for; 0: its default
 };
 
 gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const StrandKernelOptions& options);
