@@ -18,8 +18,8 @@ std::uint64_t hashOf(std::span<const std::uint32_t> words) {
 
 // Everything of a description that decides what is compiled.
 std::vector<std::uint64_t> keyOf(const KernelDescription& d) {
-  std::vector<std::uint64_t> key{hashOf(d.spirv), d.spirv.size(), d.pushConstantBytes, d.groupSize,
-                                 d.wantsFullSubgroups, d.subgroupSize};
+  std::vector<std::uint64_t> key{hashOf(d.spirv), d.spirv.size(),       d.pushConstantBytes,
+                                 d.groupSize,     d.wantsFullSubgroups, d.subgroupSize};
   for (const SpecializationConstant& constant : d.constants)
     key.push_back(std::uint64_t{constant.id} << 32 | constant.value);
   return key;
