@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/device_lack.h"
 
 namespace ringlet::test {
 namespace {
@@ -101,6 +102,24 @@ TEST_F(Devices, PropertiesMeetTheNeeds) {
   EXPECT_EQ(p.subgroupSize & (p.subgroupSize - 1), 0u);
   EXPECT_GE(p.subgroupSize, 1u);
   EXPECT_LE(p.subgroupSize, 128u);
+}
+
+// Null hardware, which only compiles, has 0 bytes.
+TEST(DeviceLack, SaysWhatIsMissing) {
+  gpu::DeviceProperties enough;
+  enough.memoryBytes = 1;
+  enough.maxStorageBuffers = gpu::kNeededStorageBuffers;
+  enough.maxGroupInvocations = gpu::kNeededGroupInvocations;
+  enough.maxPushConstantBytes = gpu::kNeededPushConstantBytes;
+  EXPECT_EQ(gpu::findLack(enough, {}), "");
+
+  gpu::DeviceProperties null = enough;
+  null.memoryBytes = 0;
+  EXPECT_EQ(gpu::findLack(null, {}), "it has no memory");
+  EXPECT_EQ(gpu::findLack(null, {.allowNull = true}), "");
+  null.maxStorageBuffers = 3;
+  expectParts(gpu::findLack(null, {}), {"it has no memory; maxPerStageDescriptorStorageBuffers is 3",
+                                        std::to_string(gpu::kNeededStorageBuffers)});
 }
 
 // The messages of machines without the parts, by hiding the parts from the loader.

@@ -1,10 +1,15 @@
 // Which widths a user can ask for, and which of those that were timed is taken.
 #include "ringlet/solver/subgroup_choice.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
 
 #include "ringlet/groom/generate.h"
 #include "ringlet/solver/simulation.h"
+#include "ringlet/solver/strand_kernels.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {
@@ -97,6 +102,27 @@ TEST_F(SubgroupOption, LanesNeedNoPromisedSubgroups) {
     for (Simulation* simulation : {&*rich, &*plain})
       ASSERT_TRUE(simulation->stepFrame(HeadPose{{0.01, 0, 0}, {}}));
     EXPECT_EQ(*rich->positions(), *plain->positions()) << lanes << " lanes";
+  }
+}
+
+// On null hardware too, which only compiles: RADV_FORCE_FAMILY=navi21 has 32 and 64.
+TEST(SubgroupKernels, CompileAtEveryWidth) {
+  auto opened = gpu::Device::open("", {.allowNull = true});
+  const char* required = std::getenv("RINGLET_REQUIRE_GPU");
+  if (!opened && !(required && std::string(required) == "1"))
+    GTEST_SKIP() << "SKIPPED, NOTHING WAS TESTED: " << opened.error().message;
+  ASSERT_TRUE(opened) << opened.error().message;
+  const DeviceLimits limits = ComputeDevice::over(*opened).limits();
+  const bool canChoose = (*opened)->properties().canChooseSubgroupSize;
+  for (const std::uint32_t width : subgroupSizes(limits)) {
+    StrandKernelOptions options;
+    options.subgroupSize = canChoose ? width : 0;
+    const auto kernel = gpu::Kernel::create(**opened, describeStrandKernel({4, 4}, options));
+    ASSERT_TRUE(kernel) << kernel.error().message;
+    fmt::print("{}: subgroup {}, {}\n", (*opened)->properties().name, (*kernel)->subgroupSize(),
+               (*kernel)->hasFullSubgroups() ? "full" : "not promised to be full");
+    EXPECT_EQ((*kernel)->subgroupSize(), canChoose ? width : (*opened)->properties().reportedSubgroupSize);
+    EXPECT_EQ((*kernel)->hasFullSubgroups(), (*opened)->properties().hasFullSubgroups);
   }
 }
 

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "ringlet/gpu/check.h"
+#include "ringlet/gpu/device_lack.h"
 #include "ringlet/gpu/kernel_cache.h"
 #include "ringlet/gpu/pipeline_cache_file.h"
 #include "ringlet/gpu/queue_family.h"
@@ -81,20 +82,6 @@ std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
   std::vector<VkQueueFamilyProperties> families(count);
   vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
   return families;
-}
-
-// What the device lacks of what the solver needs, or nothing.
-std::string findLack(const DeviceProperties& p, const DeviceOptions& options) {
-  std::string lack;
-  if (p.memoryBytes == 0 && !options.allowNull) lack = "it has no memory";
-  const auto need = [&](const char* limit, std::uint32_t needed, std::uint32_t found) {
-    if (found < needed)
-      lack += fmt::format("{}{} is {}, needed are {}", lack.empty() ? "" : "; ", limit, found, needed);
-  };
-  need("maxPerStageDescriptorStorageBuffers", kNeededStorageBuffers, p.maxStorageBuffers);
-  need("maxComputeWorkGroupInvocations", kNeededGroupInvocations, p.maxGroupInvocations);
-  need("maxPushConstantsSize", kNeededPushConstantBytes, p.maxPushConstantBytes);
-  return lack;
 }
 
 // Of the device's own heaps; a device without takes the host's.
