@@ -19,5 +19,6 @@ function(ringlet_add_kernel target stem variant)
     COMMENT "shader ${name}"
     VERBATIM)
   target_sources(${target} PRIVATE ${header})
+  set_property(TARGET ${target} APPEND PROPERTY RINGLET_KERNELS ${name})
   target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/shaders)
 endfunction()

@@ -1,171 +1,255 @@
-// The structs of shaders/shared/layout.h lie the same in C++ and in the compiled shaders: offsets and strides
-// are read from the SPIR-V itself.
+// Every struct of shaders/shared/layout.h lies the same in C++ and in every embedded shader. Offsets, sizes
+// and array strides are read from the SPIR-V itself, and which structs there are is read from layout.h.
 #include "shared/layout.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <map>
-#include <span>
-#include <string>
+#include <fstream>
+#include <regex>
 
-#include "ringlet_shaders/strand_step_serial_surroundings.h"
-#include "ringlet_shaders/strand_step_surroundings.h"
+#include "embedded_modules.h"
+#include "tests/kernels/spirv_structs.h"
 
 namespace ringlet::test {
 namespace {
 
-// Member offsets of every struct of a module, by struct and member name; array strides by the struct they
-// hold.
-struct Reflection {
-  std::map<std::string, std::map<std::string, std::uint32_t>> offsets;
-  std::map<std::string, std::uint32_t> strides;
-
-  explicit Reflection(std::span<const std::uint32_t> spirv) {
-    constexpr std::uint32_t kOpName = 5, kOpMemberName = 6, kOpDecorate = 71, kOpMemberDecorate = 72,
-                            kOffset = 35, kArrayStride = 6, kOpTypeArray = 28, kOpTypeRuntimeArray = 29;
-    std::map<std::uint32_t, std::string> names;
-    std::map<std::uint32_t, std::map<std::uint32_t, std::string>> memberNames;
-    std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> memberOffsets;
-    std::map<std::uint32_t, std::uint32_t> arrayStrides;
-    for (std::size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
-      const auto* word = &spirv[at];
-      switch (word[0] & 0xffff) {
-        case kOpName:
-          names[word[1]] = reinterpret_cast<const char*>(word + 2);
-          break;
-        case kOpMemberName:
-          memberNames[word[1]][word[2]] = reinterpret_cast<const char*>(word + 3);
-          break;
-        case kOpDecorate:
-          if (word[2] == kArrayStride) arrayStrides[word[1]] = word[3];
-          break;
-        case kOpMemberDecorate:
-          if (word[3] == kOffset) memberOffsets[word[1]][word[2]] = word[4];
-          break;
-        case kOpTypeArray:
-        case kOpTypeRuntimeArray:
-          if (arrayStrides.count(word[1])) strides[names[word[2]]] = arrayStrides[word[1]];
-          break;
-        default:
-          break;
-      }
-    }
-    for (const auto& [id, members] : memberOffsets) {
-      for (const auto& [member, offset] : members) offsets[names[id]][memberNames[id][member]] = offset;
-    }
-  }
+struct CppStruct {
+  std::string name;
+  std::uint32_t size;                // [bytes]
+  std::vector<SpirvMember> members;  // in order
 };
 
-#define EXPECT_SAME_OFFSET(Struct, member) \
-  EXPECT_EQ(offsets.at(#Struct).at(#member), offsetof(layout::Struct, member)) << #Struct "::" #member
+#define RINGLET_MEMBER(member) \
+  SpirvMember { #member, offsetof(S, member), sizeof(S::member) }
 
-void expectSameLayout(std::span<const std::uint32_t> spirv) {
-  const Reflection reflection(spirv);
-  const auto& offsets = reflection.offsets;
-  EXPECT_SAME_OFFSET(ParticleRest, target);
-  EXPECT_SAME_OFFSET(ParticleRest, mass);
-  EXPECT_SAME_OFFSET(ParticleRest, edgeLength);
-  EXPECT_SAME_OFFSET(ParticleRest, coreEdgeLength);
-  EXPECT_SAME_OFFSET(ParticleRest, bendFactor);
-  EXPECT_EQ(offsets.at("ParticleRest").size(), 5u);
-  EXPECT_EQ(reflection.strides.at("ParticleRest"), sizeof(layout::ParticleRest));
+// The one list of the C++ side.
+const std::vector<CppStruct> kCppStructs = {
+    [] {
+      using S = layout::ParticleRest;
+      return CppStruct{"ParticleRest",
+                       sizeof(S),
+                       {RINGLET_MEMBER(target), RINGLET_MEMBER(mass), RINGLET_MEMBER(edgeLength),
+                        RINGLET_MEMBER(coreEdgeLength), RINGLET_MEMBER(bendFactor)}};
+    }(),
+    [] {
+      using S = layout::StrandRest;
+      return CppStruct{
+          "StrandRest",
+          sizeof(S),
+          {RINGLET_MEMBER(firstParticle), RINGLET_MEMBER(particleCount), RINGLET_MEMBER(bendBeta),
+           RINGLET_MEMBER(coreBeta), RINGLET_MEMBER(stretchStiffness), RINGLET_MEMBER(stretchDamping),
+           RINGLET_MEMBER(bendStiffness), RINGLET_MEMBER(bendDamping), RINGLET_MEMBER(coreStiffness),
+           RINGLET_MEMBER(coreDamping), RINGLET_MEMBER(restCoreLength), RINGLET_MEMBER(jacobiGap),
+           RINGLET_MEMBER(firstEdge), RINGLET_MEMBER(pins)}};
+    }(),
+    [] {
+      using S = layout::StrandReport;
+      return CppStruct{"StrandReport",
+                       sizeof(S),
+                       {RINGLET_MEMBER(maxStretch), RINGLET_MEMBER(limitedEdges),
+                        RINGLET_MEMBER(degenerateEdges), RINGLET_MEMBER(nonfiniteParticles),
+                        RINGLET_MEMBER(firstNonfinite), RINGLET_MEMBER(velocityResidual)}};
+    }(),
+    [] {
+      using S = layout::StepPose;
+      return CppStruct{"StepPose",
+                       sizeof(S),
+                       {RINGLET_MEMBER(rotation), RINGLET_MEMBER(turn), RINGLET_MEMBER(velocityChange)}};
+    }(),
+    [] {
+      using S = layout::RootPose;
+      return CppStruct{"RootPose",
+                       sizeof(S),
+                       {RINGLET_MEMBER(position), RINGLET_MEMBER(rotation), RINGLET_MEMBER(turn),
+                        RINGLET_MEMBER(velocity)}};
+    }(),
+    [] {
+      using S = layout::BodyRest;
+      return CppStruct{"BodyRest",
+                       sizeof(S),
+                       {RINGLET_MEMBER(halfExtents), RINGLET_MEMBER(bounds), RINGLET_MEMBER(gridOrigin),
+                        RINGLET_MEMBER(cells), RINGLET_MEMBER(firstCell), RINGLET_MEMBER(friction),
+                        RINGLET_MEMBER(shape), RINGLET_MEMBER(unused)}};
+    }(),
+    [] {
+      using S = layout::BodyPose;
+      return CppStruct{"BodyPose",
+                       sizeof(S),
+                       {RINGLET_MEMBER(position), RINGLET_MEMBER(rotation), RINGLET_MEMBER(turn),
+                        RINGLET_MEMBER(velocity)}};
+    }(),
+    [] {
+      using S = layout::StepAir;
+      return CppStruct{"StepAir", sizeof(S), {RINGLET_MEMBER(wind), RINGLET_MEMBER(phases)}};
+    }(),
+    [] {
+      using S = layout::WindWave;
+      return CppStruct{"WindWave", sizeof(S), {RINGLET_MEMBER(wave), RINGLET_MEMBER(amplitude)}};
+    }(),
+    [] {
+      using S = layout::StepParameters;
+      return CppStruct{"StepParameters",
+                       sizeof(S),
+                       {RINGLET_MEMBER(gravity),
+                        RINGLET_MEMBER(maxStretch),
+                        RINGLET_MEMBER(coreRelaxedShare),
+                        RINGLET_MEMBER(coreElongationLow),
+                        RINGLET_MEMBER(coreElongationHigh),
+                        RINGLET_MEMBER(strandBegin),
+                        RINGLET_MEMBER(strandEnd),
+                        RINGLET_MEMBER(stepBegin),
+                        RINGLET_MEMBER(stepEnd),
+                        RINGLET_MEMBER(rootCount),
+                        RINGLET_MEMBER(pointIterations),
+                        RINGLET_MEMBER(chebyshev),
+                        RINGLET_MEMBER(forceLoops),
+                        RINGLET_MEMBER(dampingLoops),
+                        RINGLET_MEMBER(particleCount),
+                        RINGLET_MEMBER(phases),
+                        RINGLET_MEMBER(loopBegin),
+                        RINGLET_MEMBER(loopEnd),
+                        RINGLET_MEMBER(bodyCount),
+                        RINGLET_MEMBER(dragStrength),
+                        RINGLET_MEMBER(dragAlong),
+                        RINGLET_MEMBER(strandCount)}};
+    }(),
+    [] {
+      using S = layout::ContactRest;
+      return CppStruct{"ContactRest",
+                       sizeof(S),
+                       {RINGLET_MEMBER(point), RINGLET_MEMBER(particle), RINGLET_MEMBER(strand),
+                        RINGLET_MEMBER(mass), RINGLET_MEMBER(inverseMassUnit)}};
+    }(),
+    [] {
+      using S = layout::ContactPair;
+      return CppStruct{"ContactPair", sizeof(S), {RINGLET_MEMBER(particle), RINGLET_MEMBER(restLength)}};
+    }(),
+    [] {
+      using S = layout::ContactLife;
+      return CppStruct{"ContactLife",
+                       sizeof(S),
+                       {RINGLET_MEMBER(particle), RINGLET_MEMBER(shares), RINGLET_MEMBER(restLength),
+                        RINGLET_MEMBER(stiffness)}};
+    }(),
+    [] {
+      using S = layout::ContactForce;
+      return CppStruct{"ContactForce",
+                       sizeof(S),
+                       {RINGLET_MEMBER(normal), RINGLET_MEMBER(particle), RINGLET_MEMBER(damping),
+                        RINGLET_MEMBER(gap), RINGLET_MEMBER(unused)}};
+    }(),
+    [] {
+      using S = layout::ContactSystem;
+      return CppStruct{"ContactSystem",
+                       sizeof(S),
+                       {RINGLET_MEMBER(diagonal), RINGLET_MEMBER(offDiagonal), RINGLET_MEMBER(momentum)}};
+    }(),
+    [] {
+      using S = layout::ContactPlace;
+      return CppStruct{"ContactPlace", sizeof(S), {RINGLET_MEMBER(position), RINGLET_MEMBER(velocity)}};
+    }(),
+    [] {
+      using S = layout::ContactHistory;
+      return CppStruct{"ContactHistory",
+                       sizeof(S),
+                       {RINGLET_MEMBER(position), RINGLET_MEMBER(velocity), RINGLET_MEMBER(predicted)}};
+    }(),
+    [] {
+      using S = layout::ContactControl;
+      return CppStruct{"ContactControl",
+                       sizeof(S),
+                       {RINGLET_MEMBER(indirectContacts),
+                        RINGLET_MEMBER(isListed),
+                        RINGLET_MEMBER(indirectBuckets),
+                        RINGLET_MEMBER(parity),
+                        RINGLET_MEMBER(indirectOne),
+                        RINGLET_MEMBER(isHalted),
+                        RINGLET_MEMBER(indirectMeeting),
+                        RINGLET_MEMBER(meetingCount),
+                        RINGLET_MEMBER(motion),
+                        RINGLET_MEMBER(speed),
+                        RINGLET_MEMBER(cellSize),
+                        RINGLET_MEMBER(longestList),
+                        RINGLET_MEMBER(blocks),
+                        RINGLET_MEMBER(longestLive),
+                        RINGLET_MEMBER(liveBlocks),
+                        RINGLET_MEMBER(step),
+                        RINGLET_MEMBER(steps),
+                        RINGLET_MEMBER(rebuilds),
+                        RINGLET_MEMBER(listed),
+                        RINGLET_MEMBER(pairTests)}};
+    }(),
+    [] {
+      using S = layout::ContactParameters;
+      return CppStruct{
+          "ContactParameters", sizeof(S), {RINGLET_MEMBER(contactCount),   RINGLET_MEMBER(bucketCount),
+                                           RINGLET_MEMBER(blockCount),     RINGLET_MEMBER(mostBlocks),
+                                           RINGLET_MEMBER(liveBlockCount), RINGLET_MEMBER(mostLiveBlocks),
+                                           RINGLET_MEMBER(everyPair),      RINGLET_MEMBER(step),
+                                           RINGLET_MEMBER(seconds),        RINGLET_MEMBER(skin),
+                                           RINGLET_MEMBER(largestRadius),  RINGLET_MEMBER(stiffness),
+                                           RINGLET_MEMBER(dampingRatio),   RINGLET_MEMBER(friction),
+                                           RINGLET_MEMBER(ramp),           RINGLET_MEMBER(stiffnessRelease),
+                                           RINGLET_MEMBER(dampingRelease), RINGLET_MEMBER(breakFactor),
+                                           RINGLET_MEMBER(seenAhead),      RINGLET_MEMBER(warmth)}};
+    }(),
+};
 
-  EXPECT_SAME_OFFSET(StrandRest, firstParticle);
-  EXPECT_SAME_OFFSET(StrandRest, particleCount);
-  EXPECT_SAME_OFFSET(StrandRest, bendBeta);
-  EXPECT_SAME_OFFSET(StrandRest, coreBeta);
-  EXPECT_SAME_OFFSET(StrandRest, stretchStiffness);
-  EXPECT_SAME_OFFSET(StrandRest, stretchDamping);
-  EXPECT_SAME_OFFSET(StrandRest, bendStiffness);
-  EXPECT_SAME_OFFSET(StrandRest, bendDamping);
-  EXPECT_SAME_OFFSET(StrandRest, coreStiffness);
-  EXPECT_SAME_OFFSET(StrandRest, coreDamping);
-  EXPECT_SAME_OFFSET(StrandRest, restCoreLength);
-  EXPECT_SAME_OFFSET(StrandRest, jacobiGap);
-  EXPECT_SAME_OFFSET(StrandRest, firstEdge);
-  EXPECT_SAME_OFFSET(StrandRest, pins);
-  EXPECT_EQ(offsets.at("StrandRest").size(), 14u);
-  EXPECT_EQ(reflection.strides.at("StrandRest"), sizeof(layout::StrandRest));
-
-  EXPECT_SAME_OFFSET(StrandReport, maxStretch);
-  EXPECT_SAME_OFFSET(StrandReport, limitedEdges);
-  EXPECT_SAME_OFFSET(StrandReport, degenerateEdges);
-  EXPECT_SAME_OFFSET(StrandReport, nonfiniteParticles);
-  EXPECT_SAME_OFFSET(StrandReport, firstNonfinite);
-  EXPECT_SAME_OFFSET(StrandReport, velocityResidual);
-  EXPECT_EQ(offsets.at("StrandReport").size(), 6u);
-  EXPECT_EQ(reflection.strides.at("StrandReport"), sizeof(layout::StrandReport));
-
-  EXPECT_SAME_OFFSET(StepPose, rotation);
-  EXPECT_SAME_OFFSET(StepPose, turn);
-  EXPECT_SAME_OFFSET(StepPose, velocityChange);
-  EXPECT_EQ(offsets.at("StepPose").size(), 3u);
-  EXPECT_EQ(reflection.strides.at("StepPose"), sizeof(layout::StepPose));
-
-  EXPECT_SAME_OFFSET(BodyRest, halfExtents);
-  EXPECT_SAME_OFFSET(BodyRest, bounds);
-  EXPECT_SAME_OFFSET(BodyRest, gridOrigin);
-  EXPECT_SAME_OFFSET(BodyRest, cells);
-  EXPECT_SAME_OFFSET(BodyRest, firstCell);
-  EXPECT_SAME_OFFSET(BodyRest, friction);
-  EXPECT_SAME_OFFSET(BodyRest, shape);
-  EXPECT_SAME_OFFSET(BodyRest, unused);
-  EXPECT_EQ(offsets.at("BodyRest").size(), 8u);
-  EXPECT_EQ(reflection.strides.at("BodyRest"), sizeof(layout::BodyRest));
-  EXPECT_EQ(sizeof(layout::BodyRest), 5 * sizeof(layout::vec4)) << "read as texels";
-
-  EXPECT_SAME_OFFSET(BodyPose, position);
-  EXPECT_SAME_OFFSET(BodyPose, rotation);
-  EXPECT_SAME_OFFSET(BodyPose, turn);
-  EXPECT_SAME_OFFSET(BodyPose, velocity);
-  EXPECT_EQ(offsets.at("BodyPose").size(), 4u);
-  EXPECT_EQ(reflection.strides.at("BodyPose"), sizeof(layout::BodyPose));
-
-  EXPECT_SAME_OFFSET(StepAir, wind);
-  EXPECT_SAME_OFFSET(StepAir, phases);
-  EXPECT_EQ(offsets.at("StepAir").size(), 2u);
-  EXPECT_EQ(reflection.strides.at("StepAir"), sizeof(layout::StepAir));
-  EXPECT_SAME_OFFSET(WindWave, wave);
-  EXPECT_SAME_OFFSET(WindWave, amplitude);
-  EXPECT_EQ(offsets.at("WindWave").size(), 2u);
-  EXPECT_EQ(reflection.strides.at("WindWave"), sizeof(layout::WindWave));
-
-  EXPECT_SAME_OFFSET(RootPose, position);
-  EXPECT_SAME_OFFSET(RootPose, rotation);
-  EXPECT_SAME_OFFSET(RootPose, turn);
-  EXPECT_SAME_OFFSET(RootPose, velocity);
-  EXPECT_EQ(offsets.at("RootPose").size(), 4u);
-  EXPECT_EQ(reflection.strides.at("RootPose"), sizeof(layout::RootPose));
-
-  EXPECT_SAME_OFFSET(StepParameters, gravity);
-  EXPECT_SAME_OFFSET(StepParameters, maxStretch);
-  EXPECT_SAME_OFFSET(StepParameters, coreRelaxedShare);
-  EXPECT_SAME_OFFSET(StepParameters, coreElongationLow);
-  EXPECT_SAME_OFFSET(StepParameters, coreElongationHigh);
-  EXPECT_SAME_OFFSET(StepParameters, strandBegin);
-  EXPECT_SAME_OFFSET(StepParameters, strandEnd);
-  EXPECT_SAME_OFFSET(StepParameters, stepBegin);
-  EXPECT_SAME_OFFSET(StepParameters, stepEnd);
-  EXPECT_SAME_OFFSET(StepParameters, rootCount);
-  EXPECT_SAME_OFFSET(StepParameters, pointIterations);
-  EXPECT_SAME_OFFSET(StepParameters, chebyshev);
-  EXPECT_SAME_OFFSET(StepParameters, forceLoops);
-  EXPECT_SAME_OFFSET(StepParameters, dampingLoops);
-  EXPECT_SAME_OFFSET(StepParameters, particleCount);
-  EXPECT_SAME_OFFSET(StepParameters, phases);
-  EXPECT_SAME_OFFSET(StepParameters, loopBegin);
-  EXPECT_SAME_OFFSET(StepParameters, loopEnd);
-  EXPECT_SAME_OFFSET(StepParameters, bodyCount);
-  EXPECT_SAME_OFFSET(StepParameters, dragStrength);
-  EXPECT_SAME_OFFSET(StepParameters, dragAlong);
-  EXPECT_SAME_OFFSET(StepParameters, strandCount);
-  EXPECT_EQ(offsets.at("StepParameters").size(), 22u);
-  EXPECT_LE(sizeof(layout::StepParameters), 128u) << "Vulkan guarantees 128 bytes of push constants";
+const CppStruct* cppStruct(const std::string& name) {
+  const auto found = std::ranges::find(kCppStructs, name, &CppStruct::name);
+  return found == kCppStructs.end() ? nullptr : &*found;
 }
 
-TEST(Layout, LanesKernelAgreesWithCpp) { expectSameLayout(k_strand_step_surroundings); }
-TEST(Layout, SerialKernelAgreesWithCpp) { expectSameLayout(k_strand_step_serial_surroundings); }
+std::set<std::string> structsOfLayoutFile() {
+  std::ifstream file(RINGLET_SOURCE_DIR "/shaders/shared/layout.h");
+  static const std::regex pattern(R"(^struct (\w+) \{)");
+  std::set<std::string> names;
+  std::smatch match;
+  for (std::string line; std::getline(file, line);)
+    if (std::regex_search(line, match, pattern)) names.insert(match[1]);
+  return names;
+}
+
+void expectSame(const SpirvStruct& shader, const CppStruct& cpp) {
+  SCOPED_TRACE("struct " + cpp.name);
+  ASSERT_EQ(shader.members.size(), cpp.members.size());
+  for (std::size_t k = 0; k < cpp.members.size(); ++k) {
+    EXPECT_EQ(shader.members[k].name, cpp.members[k].name);
+    EXPECT_EQ(shader.members[k].offset, cpp.members[k].offset) << cpp.members[k].name;
+    EXPECT_EQ(shader.members[k].size, cpp.members[k].size) << cpp.members[k].name;
+  }
+  for (const std::uint32_t stride : shader.strides) EXPECT_EQ(stride, cpp.size);
+}
+
+TEST(Layout, EmbeddedShadersAgreeWithCpp) {
+  std::set<std::string> seen;
+  for (const EmbeddedModule& module : kEmbeddedModules) {
+    SCOPED_TRACE(module.name);
+    for (const SpirvStruct& shader : SpirvModule(module.words).structs()) {
+      const CppStruct* cpp = cppStruct(shader.name);
+      ASSERT_TRUE(cpp) << "struct " << shader.name << " has no row in kCppStructs";
+      expectSame(shader, *cpp);
+      seen.insert(shader.name);
+    }
+  }
+  EXPECT_EQ(seen, structsOfLayoutFile()) << "structs that shaders hold in buffers, and structs of layout.h";
+}
+
+TEST(Layout, PushConstantsFitEveryDevice) {
+  EXPECT_LE(sizeof(layout::StepParameters), 128u) << "Vulkan guarantees 128 bytes";
+  EXPECT_LE(sizeof(layout::ContactParameters), 128u);
+}
+
+// They are read as texels of 16 bytes (shared/texels.glsl).
+TEST(Layout, TexelRecordsAreWholeTexels) {
+  for (const char* name :
+       {"ParticleRest", "StrandRest", "RootPose", "BodyRest", "BodyPose", "StepAir", "WindWave",
+        "ContactRest", "ContactLife", "ContactForce", "ContactSystem", "ContactPlace", "ContactHistory"})
+    EXPECT_EQ(cppStruct(name)->size % sizeof(layout::vec4), 0u) << name;
+  EXPECT_EQ(2 * sizeof(layout::ContactPair), sizeof(layout::vec4));
+}
 
 }  // namespace
 }  // namespace ringlet::test

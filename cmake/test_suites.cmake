@@ -1,0 +1,15 @@
+# ringlet_add_suites(target folder): one ctest entry for each GoogleTest suite of the target, named folder/Suite. The tests of a
+# suite share a process, and with it the device and its compiled kernels. The suites are read from the program when ctest starts.
+#   RINGLET_LONG_SUITES  a list of "folder/Suite=seconds[/shards]". ctest starts the longest first, so that no long suite is left
+#                        over at the end. A suite with shards is split into so many entries, folder/Suite:1 and so on.
+set(RINGLET_LIST_SUITES ${CMAKE_CURRENT_LIST_DIR}/list_suites.cmake)
+
+function(ringlet_add_suites target folder)
+  set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
+  file(GENERATE OUTPUT ${script} CONTENT "set(program [[$<TARGET_FILE:${target}>]])
+set(folder [[${folder}]])
+set(long_suites [[${RINGLET_LONG_SUITES}]])
+include([[${RINGLET_LIST_SUITES}]])
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
+endfunction()
