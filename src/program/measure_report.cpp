@@ -2,6 +2,7 @@
 #include "program/measure_report.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <iterator>

@@ -2,7 +2,7 @@
 // step hair share it, so that the same key means the same everywhere.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -3,6 +3,7 @@
 #include "program/scene_command.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cctype>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "program/simulate_command.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include "program/tune_command.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -107,8 +108,7 @@ Result<std::vector<std::uint32_t>> lengthsOf(const Typed& typed) {
   if (typed.groom.empty()) {
     std::vector<std::uint32_t> lengths = typed.particles.empty() ? TuneOptions{}.lengths : typed.particles;
     std::ranges::sort(lengths);
-    const auto [first, last] = std::ranges::unique(lengths);
-    lengths.erase(first, last);
+    lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
     return lengths;
   }
   const auto loaded = readGroom(typed.groom);

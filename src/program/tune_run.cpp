@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -84,7 +85,7 @@ std::vector<Entry> allEntries(std::span<const std::uint32_t> lengths, const Devi
       all.insert(all.end(), some.begin(), some.end());
     }
   }
-  std::ranges::stable_partition(all, &Entry::isOfPair);
+  std::stable_partition(all.begin(), all.end(), std::mem_fn(&Entry::isOfPair));
   return all;
 }
 
@@ -212,8 +213,7 @@ std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts) {
   std::vector<std::uint32_t> lengths;
   for (std::size_t quarter = 1; quarter <= 4 && !counts.empty(); ++quarter)
     lengths.push_back(counts[(counts.size() * quarter + 3) / 4 - 1]);
-  const auto [first, last] = std::ranges::unique(lengths);
-  lengths.erase(first, last);
+  lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
   return lengths;
 }
 

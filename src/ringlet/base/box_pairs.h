@@ -85,7 +85,9 @@ class BoxPairs {
     // A little generous: a caller's own test of the pair must not be beaten by rounding here.
     const Vec3d gap = a.centre - b.centre, reach = (a.halfSize + b.halfSize) * (1 + 1e-12);
     // All three at once: most boxes looked at do not overlap, and a branch that cannot be foretold is dear.
-    return (std::abs(gap.x) <= reach.x) & (std::abs(gap.y) <= reach.y) & (std::abs(gap.z) <= reach.z);
+    const int inX = std::abs(gap.x) <= reach.x, inY = std::abs(gap.y) <= reach.y,
+              inZ = std::abs(gap.z) <= reach.z;
+    return (inX & inY & inZ) != 0;
   }
   Cell cellOf(Vec3d p, double cellSize) const {
     return {static_cast<std::int32_t>((p.x - low_.x) / cellSize),

@@ -11,7 +11,8 @@ namespace ringlet {
 
 ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
                                std::span<const Vec3f> positions) {
-  const auto& [particles, graph] = contacts;
+  const auto& particles = contacts.particles;  // names, since Clang 14 captures no structured binding
+  const auto& graph = contacts.graph;
   RINGLET_ASSERT(positions.size() == rest.points.size(), "one position per particle");
   std::vector<Box> boxes;
   std::vector<Vec3d> restPoints;

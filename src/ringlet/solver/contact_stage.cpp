@@ -416,8 +416,8 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
   }
   const auto place = [](const ListedContact& x) { return std::pair(x.a, x.b); };
   std::ranges::stable_sort(contacts, {}, place);
-  const auto twice = std::ranges::unique(contacts, {}, place);
-  contacts.erase(twice.begin(), twice.end());
+  const auto isSame = [&](const ListedContact& x, const ListedContact& y) { return place(x) == place(y); };
+  contacts.erase(std::unique(contacts.begin(), contacts.end(), isSame), contacts.end());
   return contacts;
 }
 
