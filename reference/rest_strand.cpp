@@ -13,7 +13,8 @@
 namespace ringlet::reference {
 namespace {
 
-// alpha by the rule of section 4: half a turn, more for a tightly wound curl; a tenth of a straight strand.
+// The smoothing length alpha [m] of a curl: half a turn, more for a tightly wound one; a tenth of a straight
+// strand.
 // At most half the strand: the rule grows without bound as a curl becomes a flat ring, which has no core to
 // follow.
 double smoothingLengthByRule(const CurlShape& curl, double arcLength) {
@@ -61,7 +62,7 @@ ContinuumConstants continuumConstants(const Material& material, const RestStrand
   constants.stretch = material.stretchStiffness * weight;
   constants.stretchDamping = material.stretchDampingTime * constants.stretch;
 
-  // tanh: the target follows smoothed edges that lag behind the strand; see section 8.
+  // tanh: the target follows smoothed edges, which lag behind the strand.
   const double bend = material.bendStiffness * weight, alphaB = strand.bendSmoothingLength;
   constants.bend =
       alphaB > 0 ? 2 * alphaB * bend * std::tanh(l / (2 * alphaB)) / l : 2 * ruleLength * bend / l;
@@ -109,8 +110,8 @@ void setEdgeConstants(const Material& material, const PaperMaterial& paper, cons
   }
 }
 
-// Rest lengths and targets, with the share `settings.gravityPreload` of gravity balanced edge by edge
-// (section 8): edge i carries W_i, the weight of all particles beyond it; the part along the edge shortens
+// Rest lengths and targets, with the share `settings.gravityPreload` of gravity balanced edge by edge:
+// edge i carries W_i, the weight of all particles beyond it; the part along the edge shortens
 // the stretch spring's rest length, the part across it moves the target.
 void setRestShape(const Settings& settings, RestStrand<double>& strand) {
   const std::size_t edgeCount = strand.edgeCount();

@@ -192,14 +192,14 @@ struct StepParameters {
   uint chebyshev;
   uint forceLoops;
   uint dampingLoops;
-  uint particleCount;  // of the whole groom: stride of the taps
+  uint particleCount;  // of the chunk: stride of the taps
   uint phases;         // serial form: which parts of the step to do
   uint loopBegin;      // serial form: which of the solve's iterations (point_jacobi) or force loops (paper) to do
   uint loopEnd;
   uint bodyCount;
   float dragStrength;  // g / U^2, U the fall speed [1/m]
   float dragAlong;     // share of drag that what passes along a strand has
-  uint strandCount;    // of the whole groom: stride of the root poses
+  uint strandCount;    // of the chunk: stride of the root poses
 };
 
 // Bindings of the contact kernels, all in set 0.
