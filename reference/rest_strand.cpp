@@ -52,7 +52,7 @@ struct ContinuumConstants {
   bool coreIsCapped = false;
 };
 
-// Sections 5 and 8, from material and strand: `weight` w = lambda g S [N], lengths as in RestStrand [m],
+// From material and strand: `weight` w = lambda g S [N], lengths as in RestStrand [m],
 // `ruleLength` alpha by the rule, T [s].
 ContinuumConstants continuumConstants(const Material& material, const RestStrand<double>& strand,
                                       double weight, double ruleLength, double stepSeconds) {
