@@ -1,7 +1,6 @@
 # ringlet_add_suites(target folder): one ctest entry for each GoogleTest suite of the target, named folder/Suite. The tests of a
 # suite share a process, and with it the device and its compiled kernels. The suites are read from the program when ctest starts.
-#   RINGLET_LONG_SUITES  a list of "folder/Suite=seconds[/shards]". ctest starts the longest first, so that no long suite is left
-#                        over at the end. A suite with shards is split into so many entries, folder/Suite:1 and so on.
+#   RINGLET_LONG_SUITES  a list of "folder/Suite=seconds". ctest starts the longest first, so that none is left over at the end.
 set(RINGLET_LIST_SUITES ${CMAKE_CURRENT_LIST_DIR}/list_suites.cmake)
 
 function(ringlet_add_suites target folder)
