@@ -38,6 +38,7 @@ void main() {
     float R = 2.0 * parameters.largestRadius;
     float ahead = 2.0 * parameters.seconds * uintBitsToFloat(control.speed);
     control.cellSize = 1.01 * (min(R + ahead, parameters.seenAhead * R) + parameters.skin);
+    control.cellsPerMetre = 1.0 / control.cellSize;
     control.isListed = 1;
     control.listed = 0;
     control.blocks = 0;

@@ -93,7 +93,10 @@ uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket
 
 // Cells of one size, hashed, so that hair may be anywhere. Cells that follow each other along x are in buckets that do, so
 // that three of them are one range. Beyond 2^30 cells all share the last.
-ivec3 cellOf(vec3 x) { return ivec3(clamp(floor(x / control.cellSize), vec3(-1073741824.0), vec3(1073741824.0))); }
+// A product, not a quotient: Vulkan rounds products one way only, and two kernels must find the same cell for one place.
+ivec3 cellOf(vec3 x) {
+  return ivec3(clamp(floor(x * control.cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
+}
 uint bucketOf(ivec3 cell) {
   uint row = uint(cell.y) * 2654435761u ^ uint(cell.z) * 2246822519u;
   row = (row ^ (row >> 15)) * 2654435769u;

@@ -312,6 +312,7 @@ struct ContactControl {
   uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
   uint speed;        // the fastest contact particle's [m/s], as bits
   float cellSize;    // [m]
+  float cellsPerMetre;  // its inverse
   uint longestList;  // pairs of the longest list
   uint blocks;       // that lists have asked for
   uint longestLive;  // contacts of the particle that has most

@@ -171,6 +171,7 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(motion),
                         RINGLET_MEMBER(speed),
                         RINGLET_MEMBER(cellSize),
+                        RINGLET_MEMBER(cellsPerMetre),
                         RINGLET_MEMBER(longestList),
                         RINGLET_MEMBER(blocks),
                         RINGLET_MEMBER(longestLive),

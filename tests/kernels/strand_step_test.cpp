@@ -21,7 +21,7 @@ const Variant kVariants[] = {
     {"automatic", {}},
     {"lanes of 4", {KernelChoice::Form::automatic, 4}},
     {"lanes of 8", {KernelChoice::Form::automatic, 8}},
-    {"lanes of 16", {KernelChoice::Form::lanes, 16}},
+    {"lanes of 16", {KernelChoice::Form::automatic, 16}},
     {"1 lane of 17", {KernelChoice::Form::automatic, 17, 1}},
     {"2 lanes of 17", {KernelChoice::Form::automatic, 17, 2}},
     {"serial", {KernelChoice::Form::serial}},
