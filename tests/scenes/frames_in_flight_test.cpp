@@ -101,22 +101,29 @@ class FramesInFlight : public GpuTest {
     return many;
   }
 
-  // The first frames, each particle within `tolerance` [m].
+  // The first frames, each particle within `tolerance` [m] of the reference in double, and what the reference
+  // in float is off in the frames so far: where hair meets hair, rounding grows.
   static void expectReference(const Cast& cast, const Seen& seen, std::size_t frameCount, double tolerance) {
-    reference::Simulation<double> reference(cast.groom, cast.material, cast.settings, cast.start, cast.start,
-                                            {}, cast.bodies);
-    if (!cast.rootShifts.empty()) reference.setRootShifts(cast.rootShifts);
-    double worst = 0;
+    reference::Simulation<double> exact(cast.groom, cast.material, cast.settings, cast.start, cast.start, {},
+                                        cast.bodies);
+    reference::Simulation<float> rounded(cast.groom, cast.material, cast.settings, cast.start, cast.start, {},
+                                         cast.bodies);
+    if (!cast.rootShifts.empty())
+      exact.setRootShifts(cast.rootShifts), rounded.setRootShifts(cast.rootShifts);
+    double worst = 0, rounding = 0;
     for (std::size_t frame = 0; frame < frameCount; ++frame) {
       const Told& told = cast.frames[frame];
-      reference.stepFrame(told.heads, told.bodies, told.roots);
+      exact.stepFrame(told.heads, told.bodies, told.roots);
+      rounded.stepFrame(told.heads, told.bodies, told.roots);
       for (std::size_t i = 0; i < cast.groom.points.size(); ++i) {
-        const auto found = reference::toEigen<double>(seen.frames[frame][i]);
-        worst = std::max(worst, (found - reference.positions()[i]).norm());
+        const Eigen::Vector3d expected = exact.positions()[i];
+        worst = std::max(worst, (reference::toEigen<double>(seen.frames[frame][i]) - expected).norm());
+        rounding = std::max(rounding, (rounded.positions()[i].cast<double>() - expected).norm());
       }
-      EXPECT_LE(worst, tolerance) << "frame " << frame;
+      EXPECT_LE(worst, tolerance + rounding) << "frame " << frame;
     }
-    fmt::print("{:.1e} m from the reference in {} frames\n", worst, frameCount);
+    fmt::print("after {} frames {:.1e} m from the reference in double, that in float {:.1e} m\n", frameCount,
+               worst, rounding);
   }
 
   static std::vector<HeadPose> headsOf(const Motion& motion, const Settings& settings, int frame) {
