@@ -22,7 +22,7 @@ case ${1:-} in
     files -name '*.cpp' -o -name '*.h' ! -path './shaders/*' | xargs clang-format --dry-run -Werror
     ;;
   shaders)
-    long=$(files -path './shaders/*' -o -name '*.comp' | xargs awk 'length > 120 { printf "%s:%d: %d columns\n", substr(FILENAME, 3), FNR, length }')
+    long=$(files -path './shaders/*' -o -name '*.comp' | LC_ALL=C.UTF-8 xargs grep -nE '^.{121,}' || true)
     if [[ -n $long ]]; then
       echo "$long"
       echo "Shaders have at most 120 columns."

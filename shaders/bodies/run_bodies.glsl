@@ -1,7 +1,7 @@
-// Bodies in the lanes form: what they ask of this lane's particles, in the velocity solve and after the move. Included by
-// kernels/strand_step.comp. Mirrored by reference/kernels/body_step.h. First all particles are looked at, and those that
-// may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one. Looks are a
-// loop too, over some at a time: written out for every particle they were half of the kernel's code.
+// Bodies in the lanes form: what they ask of this lane's particles, in the velocity solve and after the move. Included
+// by kernels/strand_step.comp. Mirrored by reference/kernels/body_step.h. First all particles are looked at, and those
+// that may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one.
+// Looks are a loop too, over some at a time: written out for every particle they were half of the kernel's code.
 #include "bodies/near_bodies.glsl"
 #include "equations/body_contact.glsl"
 
@@ -109,7 +109,8 @@ float massAt(int k, float next) {
 }
 bool isPinnedAt(int k) { return first + k < parameters.rootCount; }
 
-// Everything that bodies ask, from positions and v, the velocities without them. Whether they ask anything of the strand.
+// Everything that bodies ask, from positions and v, the velocities without them. Whether they ask anything of the
+// strand.
 bool findPushes(uint step) {
   float T = stepSeconds();
   vec3 pNext = fromTipward(p[0], 1);
@@ -145,7 +146,8 @@ bool findPushes(uint step) {
         float left = distance - 1.001 * way - 2.0 * kTouchDistance;
         isBuried = isBuried && k < kMostBuried && distance < -kOutside;
         if (k < RUN && isFree(k) && left <= 0.0 && !isBuried) particleBits |= 1u << k;
-        if (k > 0 && k <= RUN && isEdge(k - 1) && left + roomBefore <= length(position - placeBefore)) edgeBits |= 1u << (k - 1);
+        if (k > 0 && k <= RUN && isEdge(k - 1) && left + roomBefore <= length(position - placeBefore))
+          edgeBits |= 1u << (k - 1);
         roomBefore = left;
         placeBefore = position;
       }
@@ -184,7 +186,8 @@ bool findPushes(uint step) {
       if (!isPinnedAt(k) && shares.x >= kLeastShare)
         push(k, shares.x * bodyWeight(massAt(k, massNext), deficit), n, dot(n, va) + part.x, u, body.rest.friction);
       if (!isPinnedAt(k + 1) && shares.y >= kLeastShare)
-        push(k + 1, shares.y * bodyWeight(massAt(k + 1, massNext), deficit), n, dot(n, vc) + part.y, u, body.rest.friction);
+        push(k + 1, shares.y * bodyWeight(massAt(k + 1, massNext), deficit), n, dot(n, vc) + part.y, u,
+            body.rest.friction);
       asked = 1;
     } while (edgeBits != 0);
     b = nextNear(room, reach, step, parameters.bodyCount, b + 1);

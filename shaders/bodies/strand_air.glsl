@@ -1,5 +1,5 @@
-// The air in the form of one thread per strand: drag on all of its particles. Included by kernels/strand_step_serial.comp;
-// the lanes form has run_air.glsl.
+// The air in the form of one thread per strand: drag on all of its particles. Included by
+// kernels/strand_step_serial.comp; the lanes form has run_air.glsl.
 #include "equations/air_drag.glsl"
 #include "equations/turbulence.glsl"
 
@@ -20,7 +20,8 @@ void feelAir(uint step) {
       }
     }
     AirDrag drag =
-        airDrag(velocity(i) - headChange - wind, tangentAt(i), parameters.dragStrength, parameters.dragAlong, stepSeconds());
+        airDrag(velocity(i) - headChange - wind, tangentAt(i), parameters.dragStrength, parameters.dragAlong,
+            stepSeconds());
     scratch[slot(i, kDrag)] = vec4(drag.across, drag.along, 0, 0);
     setScratch(i, kDrag + 1, wind);
   }

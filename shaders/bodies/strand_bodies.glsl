@@ -1,5 +1,6 @@
-// Bodies in the form of one thread per strand: what they ask of its particles, in the velocity solve and after the move.
-// Included by kernels/strand_step_serial.comp; the lanes form has run_bodies.glsl. Mirrored by reference/kernels/body_step.h.
+// Bodies in the form of one thread per strand: what they ask of its particles, in the velocity solve and after the
+// move. Included by kernels/strand_step_serial.comp; the lanes form has run_bodies.glsl. Mirrored by
+// reference/kernels/body_step.h.
 #include "bodies/near_bodies.glsl"
 #include "equations/body_contact.glsl"
 
@@ -11,7 +12,8 @@ void clearPushes() {
 
 void push(uint i, float weight, vec3 n, float target, vec3 u, float friction) {
   Symmetric sum = addOuter(Symmetric(scratchOf(i, kPushWeight), scratchOf(i, kPushWeight + 1)), weight, n);
-  vec3 momentum = vec3(scratch[slot(i, kPushWeight)].w, scratch[slot(i, kPushWeight + 1)].w, scratch[slot(i, kPushRest)].x) +
+  vec3 momentum = vec3(scratch[slot(i, kPushWeight)].w, scratch[slot(i, kPushWeight + 1)].w,
+                       scratch[slot(i, kPushRest)].x) +
                   (weight * target) * n;
   bool isHeaviest = weight > scratch[slot(i, kPushNormal)].w;
   scratch[slot(i, kPushWeight)] = vec4(sum.d, momentum.x);

@@ -1,24 +1,26 @@
-// Where a particle or an edge meets a body within a step, and what velocities that leaves it (our choice; the paper has no
-// bodies). In the body's frame, where it rests, ways are followed by the distance to its surface, which cannot be overshot
-// ("sphere tracing", Hart 1996). Mirrored by reference/equations/body_contact.h, where there is a sketch.
+// Where a particle or an edge meets a body within a step, and what velocities that leaves it (our choice; the paper has
+// no bodies). In the body's frame, where it rests, ways are followed by the distance to its surface, which cannot be
+// overshot ("sphere tracing", Hart 1996). Mirrored by reference/equations/body_contact.h, where there is a sketch.
 #ifndef RINGLET_BODY_CONTACT
 #define RINGLET_BODY_CONTACT
 
 #include "shared/body_buffers.glsl"
 
-const float kDone = 1e30;           // [m] gone: this way's loop is over. Found things are carried round it until then, since
-                                    // lavapipe computes on for lanes that are done, and is sure to keep only what is carried
+const float kDone = 1e30;           // [m] gone: this way's loop is over. Found things are carried round it until then,
+                                    // since lavapipe computes on for lanes that are done, and is sure to keep only what
+                                    // is carried
 const float kTouchDistance = 1e-5;  // [m]: nearer counts as touching; a tenth of a hair
 const float kOutside = 1e-4;        // [m]: no deeper counts as outside, and is put outside at once
 const int kTraceTurns = 16;         // looks along a way; grazing ones give up and count as touching
 const float kLeaveSpeed = 0.2;      // [m/s]: what begins inside leaves no faster
-const float kDeep = 1e-3;           // [m]: what is deeper inside leaves across its strand, which else would be stretched
+const float kDeep = 1e-3;           // [m]: what is deeper inside leaves across its strand, which else would be
+                                    // stretched
 const float kDeepShare = 0.04;      // or crushed, held by this share of the weight
 const float kBodyWeight = 200.0;    // of what holds a particle at its allowed speed, in its masses
-const float kFullDeficit = 0.01;    // [m/s]: of a deficit that gives half of that weight: without a ramp, rounding would
-                                    // decide whether what just rests is held
-const uint kMostBuried = 4;         // of a strand whose root is in a body, so many particles may be under its skin, root
-                                    // included: these are not pushed
+const float kFullDeficit = 0.01;    // [m/s]: of a deficit that gives half of that weight: without a ramp, rounding
+                                    // would decide whether what just rests is held
+const uint kMostBuried = 4;         // of a strand whose root is in a body, so many particles may be under its skin,
+                                    // root included: these are not pushed
 const uint kKeepOutRounds = 8;      // after the move, out of bodies and within the stretch limit, by turns, until edges
                                     // are short enough
 const float kLeastShare = 0.2;      // an edge touched nearer its other end does not move this one
@@ -63,8 +65,8 @@ float leastOfCubic(float value0, float slope0, float value1, float slope1) {
   return clamp(-slope0 / max(square + root, 1e-20), 0.0, 1.0);
 }
 
-/// The place of an edge from a to b that is deepest. Where that is an end, it is its particle's; and an edge with an end
-/// inside leaves with its particle.
+/// The place of an edge from a to b that is deepest. Where that is an end, it is its particle's; and an edge with an
+/// end inside leaves with its particle.
 struct EdgeSurface {
   bool isWithin;
   float along;
@@ -87,7 +89,8 @@ EdgeSurface edgeDistance(BodyRest body, vec3 a, vec3 b) {
   bool isBefore = slope > 0.0;
   float least = isBefore ? leastOfCubic(atA.distance, first * slopeA, there.distance, first * slope)
                          : leastOfCubic(there.distance, rest * slope, atB.distance, rest * slopeB);
-  float along = isWithin ? (isBefore ? first * least : first + rest * least) : (atA.distance < atB.distance ? 0.0 : 1.0);
+  float along = isWithin ? (isBefore ? first * least : first + rest * least)
+                         : (atA.distance < atB.distance ? 0.0 : 1.0);
   vec3 place = a + along * edge;
   Surface surface = bodyDistance(body, place);
   return EdgeSurface(isWithin, along, surface, place, min(min(atA.distance, atB.distance), surface.distance));
@@ -111,7 +114,8 @@ Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
     gone = touches || passes ? kDone : gone + here.nearest;
     ++turn;
   } while (gone < kDone);
-  return Touch(!passes && deepest.isWithin && deepest.surface.distance <= kTouchDistance, deepest.surface, deepest.place,
+  return Touch(!passes && deepest.isWithin && deepest.surface.distance <= kTouchDistance, deepest.surface,
+      deepest.place,
                a0 + deepest.along * (b0 - a0), deepest.along, 0.0);
 }
 
@@ -130,8 +134,8 @@ vec3 wayOutOfDepth(vec3 n, vec3 t) {
   return size > 0.05 ? across / size : n;
 }
 
-/// Coulomb's friction, nearly all of it as a weight in the solve that takes `coefficient` times the normal momentum from
-/// what slides as fast as was found without: a strand feels as a whole what holds one of its particles.
+/// Coulomb's friction, nearly all of it as a weight in the solve that takes `coefficient` times the normal momentum
+/// from what slides as fast as was found without: a strand feels as a whole what holds one of its particles.
 float frictionWeight(vec3 sliding, float normalMomentum, float coefficient, float mass) {
   float most = coefficient * max(normalMomentum, 0.0);
   return min(most / max(length(sliding), 1e-6), mass * kBodyWeight);
@@ -144,8 +148,8 @@ vec3 rubbed(vec3 velocity, vec3 sliding, float weight, float normalMomentum, flo
   return speed > 0.0 && left > 0.0 ? velocity - min(1.0, left / mass / speed) * sliding : velocity;
 }
 
-/// What velocity into the body [m/s], relative to it and along n, hair loses that is put back by `shift` [m]: as much as
-/// the shift is worth, and never so much that it bounces.
+/// What velocity into the body [m/s], relative to it and along n, hair loses that is put back by `shift` [m]: as much
+/// as the shift is worth, and never so much that it bounces.
 vec3 slowedInward(vec3 relative, vec3 n, float shift, float T) {
   return clamp(-dot(n, relative), 0.0, max(shift, 0.0) / T) * n;
 }

@@ -1,5 +1,5 @@
-// The spring between two contact particles of different strands, and its life. Iben et al. 2012, section 4, describe it; the
-// formulas are ours. Mirrored by reference/equations/contact_spring.h, where they are drawn and explained.
+// The spring between two contact particles of different strands, and its life. Iben et al. 2012, section 4, describe
+// it; the formulas are ours. Mirrored by reference/equations/contact_spring.h, where they are drawn and explained.
 //
 //   d = |x_a - x_b|, n = (x_a - x_b) / d, u_n = n . (v_a - v_b)
 //   touching: d < r0, or seen ahead: d + T u_n < r0
@@ -37,7 +37,8 @@ float lifeOfShares(vec2 shares) { return shares.x > 0.0 ? -shares.x : shares.y; 
 /// A share that falls to nothing, so that rounding does not keep a contact for a step.
 float faded(float share) { return share < 1e-5 ? 0.0 : share; }
 
-/// shares: (kappa, delta); changes: what they may change by in a step, (ramp, release of stiffness, release of damping).
+/// shares: (kappa, delta); changes: what they may change by in a step, (ramp, release of stiffness, release of
+/// damping).
 vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, vec3 changes, float breakFactor) {
   if (touching) return vec2(min(1.0, shares.x + changes.x), 1.0);
   if (distance > breakFactor * restLength) return vec2(0);
@@ -50,8 +51,10 @@ struct ContactWeights {
 };
 
 /// lived: the contact was there before this step, which left it `shares`.
-ContactWeights contactWeights(vec2 shares, bool lived, bool touching, float gap, float stiffness, float damping, float T) {
-  return ContactWeights(touching ? T * T * stiffness * shares.x : 0.0, lived || gap > 0.0 ? T * damping * shares.y : 0.0);
+ContactWeights contactWeights(vec2 shares, bool lived, bool touching, float gap, float stiffness, float damping,
+    float T) {
+  return ContactWeights(touching ? T * T * stiffness * shares.x : 0.0,
+      lived || gap > 0.0 ? T * damping * shares.y : 0.0);
 }
 
 /// gap: r0 - d [m]. push, along n [kg m/s].

@@ -13,8 +13,8 @@ struct Elimination {
   Symmetric response;  // Z = (P_{i+1} + A)⁻¹
 };
 
-/// In: P and y of particle i+1 (P v = y + pull from i). Out: the same for particle i without its own mass and right-hand
-/// side, which the caller adds.
+/// In: P and y of particle i+1 (P v = y + pull from i). Out: the same for particle i without its own mass and
+/// right-hand side, which the caller adds.
 Elimination eliminateEdge(ImplicitEdge edge, inout Symmetric P, inout vec3 y) {
   Symmetric inverseP = inverse(addDiagonal(P, edge.across));
   vec3 u = multiply(inverseP, edge.direction);

@@ -8,8 +8,8 @@
 /// x / |x|; the zero vector for one without direction, to and from which no frame turns.
 vec3 directionOf(vec3 x) { return x * inversesqrt(max(dot(x, x), 1e-30)); }
 
-/// The smallest rotation that takes the unit vector a to the unit vector b, less the identity: (x, y, z, w - 1). A chain
-/// of a thousand of them then rounds by each turn's own smallness. Between opposite vectors, where
+/// The smallest rotation that takes the unit vector a to the unit vector b, less the identity: (x, y, z, w - 1). A
+/// chain of a thousand of them then rounds by each turn's own smallness. Between opposite vectors, where
 /// none is the smallest: about the axis that rounding leaves, or none.
 vec4 smallestTurn(vec3 a, vec3 b) {
   vec3 axis = cross(a, b);
@@ -22,8 +22,8 @@ vec4 smallestTurn(vec3 a, vec3 b) {
 /// `frame` turned by a turn less the identity.
 vec4 turned(vec4 turn, vec4 frame) { return frame + multiply(turn, frame); }
 
-/// The same turn for a vector at right angles to a, in a third of the work: mirrored in the plane between a and b, it is at
-/// right angles to b. Keeps its length whatever a and b are.
+/// The same turn for a vector at right angles to a, in a third of the work: mirrored in the plane between a and b, it
+/// is at right angles to b. Keeps its length whatever a and b are.
 vec3 carriedNormal(vec3 normal, vec3 a, vec3 b) {
   vec3 h = a + b;
   return normal - (2.0 * dot(normal, h) / max(dot(h, h), 1e-20)) * h;
@@ -36,8 +36,8 @@ vec3 someNormal(vec3 a) {
   return vec3(1.0 + s * a.x * a.x * t, s * a.x * a.y * t, -s * a.x);
 }
 
-/// Cosine and sine of half the angle of the vector x, which is in (-pi, pi]. Without atan(), which Vulkan owes 4096 ulp,
-/// and which some drivers get wrong at -0. The larger of the two comes from a sum, the smaller from a quotient.
+/// Cosine and sine of half the angle of the vector x, which is in (-pi, pi]. Without atan(), which Vulkan owes 4096
+/// ulp, and which some drivers get wrong at -0. The larger of the two comes from a sum, the smaller from a quotient.
 vec2 halfAngle(vec2 x) {
   float size = length(x);
   float larger = sqrt(0.5 + 0.5 * abs(x.x) / size);

@@ -4,9 +4,11 @@
 #ifndef RINGLET_IMPLICIT_EDGE
 #define RINGLET_IMPLICIT_EDGE
 
-/// Backward Euler damps by T k of itself: take that off the bend damping, but keep half, so that motion does not depend on
-/// the step. (The reference: compensatedBendDamping in reference/equations/bend_spring.h.)
-float compensatedBendDamping(float damping, float stiffness, float T) { return max(damping - T * stiffness, 0.5 * damping); }
+/// Backward Euler damps by T k of itself: take that off the bend damping, but keep half, so that motion does not depend
+/// on the step. (The reference: compensatedBendDamping in reference/equations/bend_spring.h.)
+float compensatedBendDamping(float damping, float stiffness, float T) {
+  return max(damping - T * stiffness, 0.5 * damping);
+}
 
 struct ImplicitEdge {
   vec3 direction;  // ê; zero for an edge without length
@@ -14,7 +16,8 @@ struct ImplicitEdge {
   float across;    // bending [mass unit]; positive for a real edge, 0 for a void one
 };
 
-/// T: the step; stiffness and damping per edge, the bend's compensated. It acts across the edge only (eq. 3), hence the difference.
+/// T: the step; stiffness and damping per edge, the bend's compensated. It acts across the edge only (eq. 3), hence the
+/// difference.
 ImplicitEdge implicitEdge(vec3 direction, float T, float stretchStiffness, float stretchDamping, float bendStiffness,
                           float bendDamping) {
   float along = max(0.0, T * (stretchDamping + T * stretchStiffness - bendDamping));

@@ -1,6 +1,6 @@
 // Smoothing along a strand, Iben et al. 2012, section 3.2.1, as a cascade of two exponential filters: the paper's
-// expanded recurrence d_i = 2(1-β) d_{i-1} - (1-β)² d_{i-2} + β² e_i loses float32 digits on long strands, this does not.
-// The filters' factors β are left out, as many take only the direction; smoothed() puts them in. Mirrored by
+// expanded recurrence d_i = 2(1-β) d_{i-1} - (1-β)² d_{i-2} + β² e_i loses float32 digits on long strands, this does
+// not. The filters' factors β are left out, as many take only the direction; smoothed() puts them in. Mirrored by
 // reference/equations/smoothing.h.
 #ifndef RINGLET_SMOOTHING
 #define RINGLET_SMOOTHING
@@ -10,8 +10,8 @@ struct FilterState {
   vec3 d;  // after the second, over β²
 };
 
-// 1 - β, rounded; and β once more, so that both add up to 1 and a constant stays what it is. What the rounding does to the
-// smoothing length, 3e-8 / β of it, hundreds of explicit loops show: for them, with β itself and an operation more.
+// 1 - β, rounded; and β once more, so that both add up to 1 and a constant stays what it is. What the rounding does to
+// the smoothing length, 3e-8 / β of it, hundreds of explicit loops show: for them, with β itself and an operation more.
 float keptShare(float beta) { return 1.0 - beta; }
 #ifdef RINGLET_EXACT_SMOOTHING
 float takenShare(float beta) { return beta; }

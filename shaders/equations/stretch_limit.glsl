@@ -1,5 +1,5 @@
-// Stretch limit, Iben et al. 2012, section 3.1: what must be added to an edge that is longer than allowed, along the edge.
-// The shifts are summed from the root to the tip, with the edges as they are before limiting. Mirrored by
+// Stretch limit, Iben et al. 2012, section 3.1: what must be added to an edge that is longer than allowed, along the
+// edge. The shifts are summed from the root to the tip, with the edges as they are before limiting. Mirrored by
 // reference/equations/stretch_limit.h.
 #ifndef RINGLET_STRETCH_LIMIT
 #define RINGLET_STRETCH_LIMIT

@@ -1,5 +1,6 @@
-// How well velocities solve the implicit system L v = r: |r - L v| over |r| and a step's gravity, T m 9.81 m/s^2, together.
-// Without the gravity a hair at rest, whose r vanishes, would have no scale. Ours; the reference solves exactly.
+// How well velocities solve the implicit system L v = r: |r - L v| over |r| and a step's gravity, T m 9.81 m/s^2,
+// together. Without the gravity a hair at rest, whose r vanishes, would have no scale. Ours; the reference solves
+// exactly.
 #ifndef RINGLET_VELOCITY_RESIDUAL
 #define RINGLET_VELOCITY_RESIDUAL
 
@@ -9,6 +10,8 @@ float residualScaleSquared(vec3 rightHandSide, float mass, float T) {
   return dot(rightHandSide, rightHandSide) + gravity * gravity;
 }
 
-float velocityResidualShare(float residualSquared, float scaleSquared) { return sqrt(residualSquared / max(scaleSquared, 1e-30)); }
+float velocityResidualShare(float residualSquared, float scaleSquared) {
+  return sqrt(residualSquared / max(scaleSquared, 1e-30));
+}
 
 #endif

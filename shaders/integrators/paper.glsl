@@ -1,6 +1,6 @@
 // `paper`: Iben et al. 2012, section 5, its explicit loops and its springs as printed: forces n_f times a step, damping
-// n_d times a force loop, each followed by the velocity limit of section 3.1. Stable while 4 c_max T / (n_f n_d m) stays
-// below about 1.1. Included by kernels/strand_step.comp.
+// n_d times a force loop, each followed by the velocity limit of section 3.1. Stable while 4 c_max T / (n_f n_d m)
+// stays below about 1.1. Included by kernels/strand_step.comp.
 
 // The core's smoothed edges again: the damping loops need their directions. Smoothed from the first edge, as printed.
 void smoothedEdges(vec3 x[RUN], vec3 start, out vec3 result[RUN]) {

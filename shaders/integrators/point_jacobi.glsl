@@ -1,6 +1,7 @@
 // `point_jacobi`, the particle as block: a fixed number of Jacobi iterations on the same implicit system, plain or
-// Chebyshev-accelerated. By residuals and changes: the error of an inverse in float32 then slows the iteration instead of
-// moving its end, and Chebyshev's recurrence adds up rounding of the change, not of the velocity. The baseline, and a check of the strand block. Included by kernels/strand_step.comp.
+// Chebyshev-accelerated. By residuals and changes: the error of an inverse in float32 then slows the iteration instead
+// of moving its end, and Chebyshev's recurrence adds up rounding of the change, not of the velocity. The baseline, and
+// a check of the strand block. Included by kernels/strand_step.comp.
 
 #include "equations/chebyshev_weight.glsl"
 
@@ -39,7 +40,8 @@ void iteratePointJacobi(vec3 pinned[3]) {
       vec3 tipwardNow = k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext;
       ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
       vec3 now = v[k];
-      vec3 residual = rhs[k] - restEdge[k].x * now + multiply(edge[k], tipwardNow - now) + multiply(before, rootwardNow - now);
+      vec3 residual = rhs[k] - restEdge[k].x * now + multiply(edge[k], tipwardNow - now) +
+                      multiply(before, rootwardNow - now);
       change[k] = (omega - 1.0) * change[k] + omega * multiply(inverseDiagonal[k], residual);
       if (isFree(k)) v[k] = now + change[k];
       rootwardNow = now;

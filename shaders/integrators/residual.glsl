@@ -1,5 +1,5 @@
-// The residual of the velocity solve over the strand's free particles. Included by kernels/strand_step.comp; compiled in
-// only where asked for.
+// The residual of the velocity solve over the strand's free particles. Included by kernels/strand_step.comp; compiled
+// in only where asked for.
 #include "equations/velocity_residual.glsl"
 
 void measureResidual(vec3 before[RUN]) {
@@ -9,7 +9,8 @@ void measureResidual(vec3 before[RUN]) {
   vec3 vBefore = fromRootward(v[RUN - 1], 1);
   vec3 vNext = fromTipward(v[0], 1);
   ImplicitEdge last = implicitEdgeOf(RUN - 1);
-  ImplicitEdge rootwardEdge = ImplicitEdge(fromRootward(last.direction, 1), fromRootward(last.along, 1), fromRootward(last.across, 1));
+  ImplicitEdge rootwardEdge = ImplicitEdge(fromRootward(last.direction, 1), fromRootward(last.along, 1),
+      fromRootward(last.across, 1));
   if (lane == 0) rootwardEdge = voidEdge();
   float residualSquared = 0.0;
   float scaleSquared = 0.0;

@@ -1,13 +1,15 @@
-// `jacobi` for one or two lanes and hair alone: the same exact solve, in two lanes from both ends of the strand at once, lane 0
-// from the root and lane 1 from the tip, met at the edge between them; in one lane from the root to the tip and back. No lane
-// waits for what lies beyond its run, so no transfers and no compliances of whole runs are needed: 2/5 of the work of the
-// elimination with a star join (integrators/jacobi.glsl). Four lanes, the inner two a turn after the outer, were tried: what
-// is done twice costs what the star does. Mirrored by reference/strand_solve.h. Included by kernels/strand_step.comp.
+// `jacobi` for one or two lanes and hair alone: the same exact solve, in two lanes from both ends of the strand at
+// once, lane 0 from the root and lane 1 from the tip, met at the edge between them; in one lane from the root to the
+// tip and back. No lane waits for what lies beyond its run, so no transfers and no compliances of whole runs are
+// needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). Four lanes, the inner two a
+// turn after the outer, were tried: what is done twice costs what the star does. Mirrored by reference/strand_solve.h.
+// Included by kernels/strand_step.comp.
 //
 //   root  o-o-o-o   o-o-o-o  tip
 //         lane 0 -> <- lane 1
 //
-// A particle is seen from the other end as its velocity without further pull, and how it gives way to one (its mobility):
+// A particle is seen from the other end as its velocity without further pull, and how it gives way to one (its
+// mobility):
 //   v = c + C f.   Over an edge of compliance A⁻¹ to a particle of mass m and right-hand side r:
 //   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
 // All sums of positive matrices: stiff edges cost no digits.
@@ -16,7 +18,8 @@ const bool kFromEnds = kLanes <= 2 && !kAddsMass && !kBendVaries;
 
 // A⁻¹ of an edge of this direction and length; void ones are never used.
 Symmetric complianceOf(vec3 direction, float edgeLength) {
-  ImplicitEdge one = implicitEdge(direction, stepSeconds(), strand.stretchStiffness, strand.stretchDamping, strand.bendStiffness,
+  ImplicitEdge one = implicitEdge(direction, stepSeconds(), strand.stretchStiffness, strand.stretchDamping,
+      strand.bendStiffness,
                                   compensatedBendDamping(strand.bendDamping, strand.bendStiffness, stepSeconds()));
   float a = edgeLength / one.across;
   return addOuter(symmetricDiagonal(a), -a * (one.along / (one.along + one.across)), direction);

@@ -1,5 +1,5 @@
-// Whether the step's lists had room; one invocation. If not, everything stands still until the host has made some. If so, the
-// step has looked at all they hold.
+// Whether the step's lists had room; one invocation. If not, everything stands still until the host has made some. If
+// so, the step has looked at all they hold.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

@@ -1,6 +1,6 @@
-// Whether this step makes new lists: one invocation, so that no host has to be asked. A list made for reach + skin is good
-// while no two particles can have come closer by more than the skin: that is while none has moved, and would be moved by
-// its change of velocity, by more than half of it.
+// Whether this step makes new lists: one invocation, so that no host has to be asked. A list made for reach + skin is
+// good while no two particles can have come closer by more than the skin: that is while none has moved, and would be
+// moved by its change of velocity, by more than half of it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

@@ -1,6 +1,6 @@
-// The contacts of a step: every one's life goes on by one step, from positions at its start and from v^0, and its weights are
-// set for the solve's iterations; the first of them is prepared here, from guessed velocities. Both sides of a contact reckon
-// alike, so momentum is kept. Mirrored by reference/kernels/contact_step.h.
+// The contacts of a step: every one's life goes on by one step, from positions at its start and from v^0, and its
+// weights are set for the solve's iterations; the first of them is prepared here, from guessed velocities. Both sides
+// of a contact reckon alike, so momentum is kept. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -44,7 +44,8 @@ void liveOn(ContactLife before) {
   if (shares == vec2(0)) return;
   // 2 zeta sqrt(k m_c), m_c by k.
   float damping =
-      2.0 * parameters.dampingRatio * before.stiffness * sqrt((rest.point.w + other.w) / max(parameters.stiffness, 1e-30));
+      2.0 * parameters.dampingRatio * before.stiffness *
+      sqrt((rest.point.w + other.w) / max(parameters.stiffness, 1e-30));
   float gap = r0 - meeting.distance;
   ContactWeights weights =
       contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters.seconds);
@@ -62,8 +63,8 @@ ContactLife newLife(uint particle, float restLength) {
   return ContactLife(particle, 0.0, restLength, parameters.stiffness * mass / (rest.point.w + other.point.w));
 }
 
-// Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one must; and
-// loops ask after their body, or it does one turn more.
+// Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one
+// must; and loops ask after their body, or it does one turn more.
 void main() {
   if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];

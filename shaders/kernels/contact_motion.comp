@@ -1,7 +1,8 @@
-// How far contact particles have come since their lists were made, and how fast the fastest is: what decides whether lists
-// are still good (contact_decide.comp); and the velocities the solve starts from. Contacts change from step to step by
-// little: the step is guessed to change v^0 by most of what the last one did. Reads positions, v^0 and the velocities the last
-// step ended with; writes the control's motion and speed, and the guesses. Mirrored by reference/kernels/contact_step.h.
+// How far contact particles have come since their lists were made, and how fast the fastest is: what decides whether
+// lists are still good (contact_decide.comp); and the velocities the solve starts from. Contacts change from step to
+// step by little: the step is guessed to change v^0 by most of what the last one did. Reads positions, v^0 and the
+// velocities the last step ended with; writes the control's motion and speed, and the guesses. Mirrored by
+// reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

@@ -1,5 +1,5 @@
-// The grid, 5 of 5: the order inside a bucket, by index, so that nothing depends on which thread came first; and positions
-// and velocities beside them, in that order, for the query.
+// The grid, 5 of 5: the order inside a bucket, by index, so that nothing depends on which thread came first; and
+// positions and velocities beside them, in that order, for the query.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

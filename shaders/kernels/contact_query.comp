@@ -1,6 +1,6 @@
-// Lists: every contact particle's pairs, from the 27 cells about it, in the order of cells and of contact particles inside
-// one. Pairs of strands that may not touch are left out. Where there is no room the frame stops (contact_check.comp), and the
-// host makes some.
+// Lists: every contact particle's pairs, from the 27 cells about it, in the order of cells and of contact particles
+// inside one. Pairs of strands that may not touch are left out. Where there is no room the frame stops
+// (contact_check.comp), and the host makes some.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -62,8 +62,10 @@ void main() {
     if (entries > 0) do {
       if (entry == parameters.contactCount) entry = 0;
       uint looked = min(min(entries, 32), parameters.contactCount - entry);
-      // Three sieves, finer and dearer each, over what is left as bits: a driver that runs invocations in step does for all
-      // of them what a single one must. And it runs the body of a loop that asks before it once more than there are turns;
+      // Three sieves, finer and dearer each, over what is left as bits: a driver that runs invocations in step does for
+      // all
+      // of them what a single one must. And it runs the body of a loop that asks before it once more than there are
+      // turns;
       // hence if and do.
       uint near = 0;
       uint k = 0;

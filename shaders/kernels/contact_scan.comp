@@ -1,5 +1,5 @@
-// The grid, 2 of 5: where each bucket starts within its block of buckets, a workgroup a block, and the block's sum. Leaves
-// the counts zero for the next time.
+// The grid, 2 of 5: where each bucket starts within its block of buckets, a workgroup a block, and the block's sum.
+// Leaves the counts zero for the next time.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

@@ -1,5 +1,6 @@
 // Which neighbours touch, as bits beside each list's blocks, and which contact particles have contacts or had some: the
-// kernels after this one run for those only, and most only stand near others. Mirrored by reference/kernels/contact_step.h.
+// kernels after this one run for those only, and most only stand near others. Mirrored by
+// reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

@@ -1,11 +1,11 @@
-// The strand kernel, lanes x run: all outer steps of a dispatch for one strand, in registers; global memory is touched at
-// its start and end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose stages
-// these are, in the same order. Mirrored by reference/kernels/strand_step.h; one thread per strand: strand_step_serial.comp.
-// Loops ask after their body (do, or if and do): a driver that masks lanes (lavapipe) runs the body of one that asks before
-// it once more than it has turns. Specialized with RUN = particles per lane, the lanes per strand and the integrator. With
-// contacts every solve is a dispatch of its own; the last of a step moves the strand and goes on to the next step's first.
-// Compiled four times: `jacobi` by itself; with RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies
-// and air; with RINGLET_BASELINES, the other integrators.
+// The strand kernel, lanes x run: all outer steps of a dispatch for one strand, in registers; global memory is touched
+// at its start and end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose
+// stages these are, in the same order. Mirrored by reference/kernels/strand_step.h; one thread per strand:
+// strand_step_serial.comp. Loops ask after their body (do, or if and do): a driver that masks lanes (lavapipe) runs the
+// body of one that asks before it once more than it has turns. Specialized with RUN = particles per lane, the lanes per
+// strand and the integrator. With contacts every solve is a dispatch of its own; the last of a step moves the strand
+// and goes on to the next step's first. Compiled four times: `jacobi` by itself; with RINGLET_CONTACTS, contacts; with
+// RINGLET_SURROUNDINGS, contacts, bodies and air; with RINGLET_BASELINES, the other integrators.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -26,11 +26,12 @@
 #include "scan/prefix_sum.glsl"
 
 // This lane's run: particle k and its edge to k + 1. Every loop over a run says [[unroll]]: left to themselves, drivers
-// unroll some, and an array that is indexed by a variable anywhere lives in memory, lane by lane (lavapipe: 3 x slower and
-// 4 x longer to compile).
+// unroll some, and an array that is indexed by a variable anywhere lives in memory, lane by lane (lavapipe: 3 x slower
+// and 4 x longer to compile).
 vec3 p[RUN];
 vec3 v[RUN];
-vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest length
+vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest
+                       // length
 vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
 float inverseLength[RUN];  // 1 / the groom's edge length
 vec2 bendVariation[RUN];   // factors of bend stiffness and damping, where they vary along the strand
@@ -107,8 +108,8 @@ void measureEdges() {
   }
 }
 
-// The smoothed curves: directions and normals of the frames from one, forces of the core spring from the other. Two passes:
-// the first finds each lane's end state, the scan carries it, the second begins where the lane before ended.
+// The smoothed curves: directions and normals of the frames from one, forces of the core spring from the other. Two
+// passes: the first finds each lane's end state, the scan carries it, the second begins where the lane before ended.
 void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 rootNormal) {
   FilterState bendStart = startFilter(edgeStart, strand.bendBeta);
   FilterState coreStart = startFilter(edgeStart, strand.coreBeta);
@@ -228,8 +229,8 @@ vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN -
 #endif
 
 #ifdef RINGLET_SURROUNDINGS
-// The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is one
-// solve in the code.
+// The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is
+// one solve in the code.
 void solveAmongBodies(uint step, vec3 pinned[3]) {
   vec3 before[RUN];
   [[unroll]] for (int k = 0; k < RUN; ++k) before[k] = v[k];
@@ -274,8 +275,8 @@ void solveVelocities(uint step) {
   }
 }
 
-// The stretch limit as a prefix sum along the strand; e is the moved edges, then of no more use. Whether an edge was too
-// long.
+// The stretch limit as a prefix sum along the strand; e is the moved edges, then of no more use. Whether an edge was
+// too long.
 bool limitEdges(bool velocitiesFollow) {
   vec3 shift = vec3(0);
   uint limited = 0;
@@ -375,7 +376,8 @@ void computeForces(uint step) {
   vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge.xyz);
   vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
   vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
-  smoothCurves(edgeStart, velocityStart, directionOf(firstEdge), rotate(rotationAtStart(step), someNormal(restDirection())));
+  smoothCurves(edgeStart, velocityStart, directionOf(firstEdge),
+               rotate(rotationAtStart(step), someNormal(restDirection())));
   shapeForces();
   coreForces();
 }

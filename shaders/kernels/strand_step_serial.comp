@@ -1,6 +1,6 @@
-// The strand kernel, one thread per strand: the same steps as strand_step.comp on the same equations, sweep by sweep over
-// buffers. For strands longer than the lanes form holds, for devices without subgroup shuffles, and as its independent
-// check. Mirrored by reference/kernels/strand_step.h.
+// The strand kernel, one thread per strand: the same steps as strand_step.comp on the same equations, sweep by sweep
+// over buffers. For strands longer than the lanes form holds, for devices without subgroup shuffles, and as its
+// independent check. Mirrored by reference/kernels/strand_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -98,8 +98,8 @@ vec4 measuredEdge(uint i) {
   return vec4(e / max(edgeLength, 1e-15), edgeLength);
 }
 
-// Root to tip: edges, smoothed curves, frames, targets, stretch and bend springs, the core spring on the smoothed curve.
-// Returns the blend of the core's constants.
+// Root to tip: edges, smoothed curves, frames, targets, stretch and bend springs, the core spring on the smoothed
+// curve. Returns the blend of the core's constants.
 float springSweep(uint step) {
   vec4 frame = rotationAtStart(step);
   vec3 firstEdge = rotate(frame, strand.firstEdge.xyz);
@@ -186,7 +186,8 @@ vec3 rightHandSide(uint i) {
     vec4 drag = scratch[slot(i, kDrag)];
     sum += m * multiply(AirDrag(drag.x, drag.y), tangentAt(i), scratchOf(i, kDrag + 1));
   }
-  if (kBodies) sum += vec3(scratch[slot(i, kPushWeight)].w, scratch[slot(i, kPushWeight + 1)].w, scratch[slot(i, kPushRest)].x);
+  if (kBodies)
+    sum += vec3(scratch[slot(i, kPushWeight)].w, scratch[slot(i, kPushWeight + 1)].w, scratch[slot(i, kPushRest)].x);
 #endif
   return sum;
 }

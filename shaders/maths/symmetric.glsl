@@ -31,7 +31,8 @@ mat3 multiply(Symmetric a, mat3 b) { return mat3(multiply(a, b[0]), multiply(a, 
 
 /// The six numbers of a product known to be symmetric, a b with a and b commuting.
 Symmetric multiplyCommuting(Symmetric a, Symmetric b) {
-  return Symmetric(a.d * b.d + vec3(a.o.z * b.o.z + a.o.y * b.o.y, a.o.z * b.o.z + a.o.x * b.o.x, a.o.y * b.o.y + a.o.x * b.o.x),
+  return Symmetric(a.d * b.d + vec3(a.o.z * b.o.z + a.o.y * b.o.y, a.o.z * b.o.z + a.o.x * b.o.x,
+      a.o.y * b.o.y + a.o.x * b.o.x),
                    vec3(a.o.z * b.o.y + a.d.y * b.o.x + a.o.x * b.d.z,
                         a.d.x * b.o.y + a.o.z * b.o.x + a.o.y * b.d.z,
                         a.d.x * b.o.z + a.o.z * b.d.y + a.o.y * b.o.x));

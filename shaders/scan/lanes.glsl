@@ -1,5 +1,5 @@
-// Lanes x run: a strand's particles are cut into kLanes runs of RUN consecutive ones, and each subgroup invocation keeps
-// one run in registers. Several strands share a subgroup; kLanes is a power of two no larger than the subgroup.
+// Lanes x run: a strand's particles are cut into kLanes runs of RUN consecutive ones, and each subgroup invocation
+// keeps one run in registers. Several strands share a subgroup; kLanes is a power of two no larger than the subgroup.
 //
 //   strand   o-o-o-o | o-o-o-o | o-o-o-o | o-o          RUN = 4, kLanes = 4
 //   lane        0         1         2       3
@@ -19,7 +19,9 @@ void findLane() { lane = gl_SubgroupInvocationID & (kLanes - 1); }
 // Source invocation `offset` lanes towards the root or the tip; where there is none, this one itself, whose value the
 // caller must not use.
 uint rootward(uint offset) { return lane >= offset ? gl_SubgroupInvocationID - offset : gl_SubgroupInvocationID; }
-uint tipward(uint offset) { return lane + offset < kLanes ? gl_SubgroupInvocationID + offset : gl_SubgroupInvocationID; }
+uint tipward(uint offset) {
+  return lane + offset < kLanes ? gl_SubgroupInvocationID + offset : gl_SubgroupInvocationID;
+}
 
 float fromRootward(float x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec2 fromRootward(vec2 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }

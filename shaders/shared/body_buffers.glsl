@@ -57,7 +57,9 @@ struct BodyStep {
 BodyStep bodyStep(uint step, uint bodyCount, uint b) {
   return BodyStep(bodyRest(b), bodyPose(step * bodyCount + b), bodyPose((step + 1) * bodyCount + b));
 }
-vec3 placeAtStart(BodyStep body, vec3 p) { return rotate(conjugate(body.before.rotation), p - body.before.position.xyz); }
+vec3 placeAtStart(BodyStep body, vec3 p) {
+  return rotate(conjugate(body.before.rotation), p - body.before.position.xyz);
+}
 vec3 placeAtEnd(BodyStep body, vec3 p) { return rotate(conjugate(body.after.rotation), p - body.after.position.xyz); }
 vec3 outOfBody(BodyStep body, vec3 y) { return rotate(body.after.rotation, y) + body.after.position.xyz; }
 vec3 outward(BodyStep body, vec3 normal) { return rotate(body.after.rotation, normal); }

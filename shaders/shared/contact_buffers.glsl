@@ -40,7 +40,9 @@ layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
 // Records as they were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
-vec3 lastVelocityOf(uint particle) { return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz; }
+vec3 lastVelocityOf(uint particle) {
+  return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz;
+}
 vec3 velocityOf(uint particle) { return kTexels ? vectorAt(solvedTexels, particle).xyz : solved[particle].xyz; }
 ContactRest contactOf(uint c) {
   if (!kTexels) return contacts[c];
@@ -79,8 +81,8 @@ ContactForce forceAt(uint entry) {
   return ContactForce(vectorAt(forceTexels, 2 * entry), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), 0);
 }
 
-// The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact particles
-// are entries [start of b, start of b + 1).
+// The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact
+// particles are entries [start of b, start of b + 1).
 uint gridCount(uint bucket) { return bucket; }  // how many are in a bucket; 0 outside a rebuild
 uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }  // within its block; one more than buckets
 uint gridSum(uint block) { return 2 * parameters.bucketCount + 1 + block; }  // before a block; one more than blocks
@@ -91,9 +93,10 @@ uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }
 
 uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBucketBlock)]; }
 
-// Cells of one size, hashed, so that hair may be anywhere. Cells that follow each other along x are in buckets that do, so
-// that three of them are one range. Beyond 2^30 cells all share the last.
-// A product, not a quotient: Vulkan rounds products one way only, and two kernels must find the same cell for one place.
+// Cells of one size, hashed, so that hair may be anywhere. Cells that follow each other along x are in buckets that do,
+// so that three of them are one range. Beyond 2^30 cells all share the last.
+// A product, not a quotient: Vulkan rounds products one way only, and two kernels must find the same cell for one
+// place.
 ivec3 cellOf(vec3 x) {
   return ivec3(clamp(floor(x * control.cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
 }
@@ -103,8 +106,8 @@ uint bucketOf(ivec3 cell) {
   return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
 }
 
-// The lists' buffer. Where a contact particle's list starts; there its length stands, then, of each of its blocks, which it
-// is and which of its pairs touch, as bits.
+// The lists' buffer. Where a contact particle's list starts; there its length stands, then, of each of its blocks,
+// which it is and which of its pairs touch, as bits.
 uint listOf(uint c) { return c * (1 + 2 * parameters.mostBlocks); }
 uint listedBlock(uint list, uint b) { return list + 1 + 2 * b; }
 uint touchingBits(uint list, uint b) { return list + 2 + 2 * b; }

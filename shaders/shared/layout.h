@@ -24,7 +24,8 @@ RINGLET_CONSTANT uint kBindVelocities = 1;  // vec4[particles]: velocity relativ
 RINGLET_CONSTANT uint kBindParticles = 2;   // ParticleRest[particles]
 RINGLET_CONSTANT uint kBindStrands = 3;     // StrandRest[strands]
 RINGLET_CONSTANT uint kBindReports = 4;     // StrandReport[strands]
-RINGLET_CONSTANT uint kBindScratch = 5;     // serial form: vec4[particles][kScratchPerParticle]; taps: vec4[field][particles]
+RINGLET_CONSTANT uint kBindScratch = 5;     // serial form: vec4[particles][kScratchPerParticle]; taps:
+                                            // vec4[field][particles]
 RINGLET_CONSTANT uint kBindPoses = 6;       // uniform: StepPose[kMaxStepPoses]
 // And of those that solve with contacts:
 RINGLET_CONSTANT uint kBindSolved = 7;          // vec4[particles]: the solve's last iterate v^k [m/s], 0
@@ -70,11 +71,12 @@ RINGLET_CONSTANT uint kPhaseSprings = 1;
 RINGLET_CONSTANT uint kPhaseSolve = 2;
 RINGLET_CONSTANT uint kPhaseMove = 4;
 RINGLET_CONSTANT uint kPhaseAll = 7;
-// With contacts a step is several dispatches: the solve without contacts, then iterations with them, the last of which moves.
-// This one makes the solve of step stepBegin an iteration with the contacts' systems.
+// With contacts a step is several dispatches: the solve without contacts, then iterations with them, the last of which
+// moves. This one makes the solve of step stepBegin an iteration with the contacts' systems.
 RINGLET_CONSTANT uint kPhaseContacts = 8;
 
-// Fields the kernels write when compiled with RINGLET_TAPS, each vec4[particles]; an edge's fields stand at its particle i.
+// Fields the kernels write when compiled with RINGLET_TAPS, each vec4[particles]; an edge's fields stand at its
+// particle i.
 RINGLET_CONSTANT uint kTapSmoothedEdge = 0;  // d_i, smoothed with alpha_b [m]
 RINGLET_CONSTANT uint kTapCoreEdge = 1;      // b_i, smoothed with alpha_c [m]
 RINGLET_CONSTANT uint kTapFrame = 2;         // F_i, quaternion (x, y, z, w)
@@ -95,8 +97,8 @@ struct ParticleRest {
   float bendFactor;      // of the bend stiffness profile, root to tip; 1 where there is none
 };
 
-// Constant per strand. Stiffnesses K and dampings C [N and N s per mass unit]: divided by the edge's length they are the
-// edge's own. For `paper`, k and c of every edge, as they are.
+// Constant per strand. Stiffnesses K and dampings C [N and N s per mass unit]: divided by the edge's length they are
+// the edge's own. For `paper`, k and c of every edge, as they are.
 struct StrandRest {
   uint firstParticle;
   uint particleCount;
@@ -109,7 +111,8 @@ struct StrandRest {
   float coreStiffness;
   float coreDamping;
   float restCoreLength;  // sum of |b_i| at rest [m]
-  float jacobiGap;       // 1 - mu^2, mu a bound on the spectral radius of the point Jacobi iteration: the gap keeps its digits
+  float jacobiGap;       // 1 - mu^2, mu a bound on the spectral radius of the point Jacobi iteration: the gap keeps its
+                         // digits
   vec4 firstEdge;        // xyz: e_0 at rest [m]; w: mass unit [kg]
   vec4 pins[kMaxRootCount];  // xyz: rest positions of the first particles, which the head carries [m]; the three w: the
                              // strand's shift beside the head, x, y and z [m]
@@ -122,7 +125,8 @@ struct StrandReport {
   uint degenerateEdges;     // edges x steps that had no direction
   uint nonfiniteParticles;  // now
   uint firstNonfinite;      // the first of them, counted along the strand
-  float velocityResidual;   // since the simulation began, where measured, of the solve L v = r: see velocityResidualShare
+  float velocityResidual;   // since the simulation began, where measured, of the solve L v = r: see
+                            // velocityResidualShare
 };
 
 // The head, per outer step. poses[0] is the frame's start, poses[1 + k] the end of step k.
@@ -135,7 +139,8 @@ struct StepPose {
 };
 
 // What carries a strand's roots, the head and the strand's own pose in the head's frame together: where it brings the
-// groom's origin, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step k.
+// groom's origin, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step
+// k.
 struct RootPose {
   vec4 position;  // xyz [m]
   vec4 rotation;  // quaternion (x, y, z, w)
@@ -158,7 +163,8 @@ RINGLET_CONSTANT uint kShapeBox = 0;
 RINGLET_CONSTANT uint kShapePlane = 1;
 RINGLET_CONSTANT uint kShapeGrid = 2;
 
-// Where a body is, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step k.
+// Where a body is, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step
+// k.
 struct BodyPose {
   vec4 position;  // xyz [m]; w: how far any of it moves in the step that ends here [m]
   vec4 rotation;  // quaternion (x, y, z, w)
@@ -212,7 +218,8 @@ RINGLET_CONSTANT uint kBindIndices = 5;            // uvec4: the contact particl
 RINGLET_CONSTANT uint kBindGrid = 6;               // uint: see gridStart and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPlaces = 7;             // ContactPlace[contacts], in cell order
 RINGLET_CONSTANT uint kBindHistories = 8;          // ContactHistory[contacts]
-RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[particles]: xyz: the first iterate's velocity [m/s]; w: radius [m]
+RINGLET_CONSTANT uint kBindGuesses = 9;            // vec4[particles]: xyz: the first iterate's velocity [m/s]; w:
+                                                   // radius [m]
 RINGLET_CONSTANT uint kBindLists = 10;              // uint: see listOf and its like in shared/contact_buffers.glsl
 RINGLET_CONSTANT uint kBindPairs = 11;             // ContactPair[blocks][kListBlock]
 RINGLET_CONSTANT uint kBindLiveLists = 12;         // uint: see liveListOf
@@ -241,9 +248,9 @@ RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 RINGLET_CONSTANT uint kListBlock = 16;          // at most as many as an integer has bits (contact_touch.comp)
 RINGLET_CONSTANT uint kLiveBlock = 4;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
-RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for each
-                                                // strand, (first of its buckets, how many less one, 0, 0), then the buckets of
-                                                // four strands; see solver/neighbour_table.h
+RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for
+                                                // each strand, (first of its buckets, how many less one, 0, 0), then
+                                                // the buckets of four strands; see solver/neighbour_table.h
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
@@ -260,8 +267,8 @@ struct ContactPair {
   float restLength;  // r0 [m]
 };
 
-// What a contact remembers from step to step, in two rows, that of the step and that of the step before. The shares are one
-// number, for the damping's is 1 while the stiffness's is not 0: -kappa, or delta where kappa is 0.
+// What a contact remembers from step to step, in two rows, that of the step and that of the step before. The shares are
+// one number, for the damping's is 1 while the stiffness's is not 0: -kappa, or delta where kappa is 0.
 struct ContactLife {
   uint particle;     // the other, device order
   float shares;
@@ -285,8 +292,8 @@ struct ContactSystem {
   vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]; w: push z. The push is the sum of push n
 };
 
-// A place of the grid: a contact particle as it was when lists were made. Numbers of both kinds are integers here: a driver
-// may flush an integer to 0 that it moves as a float, and none a float that it moves as an integer.
+// A place of the grid: a contact particle as it was when lists were made. Numbers of both kinds are integers here: a
+// driver may flush an integer to 0 that it moves as a float, and none a float that it moves as an integer.
 struct ContactPlace {
   uvec4 position;  // xyz: [m], bits of floats; w: which contact particle
   uvec4 velocity;  // xyz: v^0 [m/s], bits of floats; w: its strand

@@ -1,5 +1,5 @@
-// What carries the strand: the head, and where strands have poses of their own those as well. Part of strand_buffers.glsl,
-// whose `strand` and `strandAt` say which.
+// What carries the strand: the head, and where strands have poses of their own those as well. Part of
+// strand_buffers.glsl, whose `strand` and `strandAt` say which.
 #ifndef RINGLET_ROOT_BUFFERS
 #define RINGLET_ROOT_BUFFERS
 
@@ -51,7 +51,9 @@ vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(t
 vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
 float shiftedShare(uint step) { return poses[step].velocityChange.w; }
 // From the carried origin of the groom.
-vec3 pinArm(uint pose, uint k) { return rotate(rotationAt(pose), strand.pins[k].xyz + shiftedShare(pose) * rootShift()); }
+vec3 pinArm(uint pose, uint k) {
+  return rotate(rotationAt(pose), strand.pins[k].xyz + shiftedShare(pose) * rootShift());
+}
 vec3 pinAt(uint pose, uint k) {
   if (!kMovingRoots) return pinArm(pose, k);
   return rootPosition(pose) + pinArm(pose, k);

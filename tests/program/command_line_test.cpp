@@ -55,7 +55,8 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
     std::string message;
   };
   const std::vector<Case> cases{
-      {{}, "say what to do: make, simulate, measure, convert, scene, devices, tune, conform, kernels, material"},
+      {{},
+       "say what to do: make, simulate, measure, convert, scene, devices, tune, conform, kernels, material"},
       {{"simulat"}, "did you mean simulate?"},
       {{"make", "crul", "-o", "a.obj"}, "did you mean curl?"},
       {{"make", "curl"}, "--output is required"},
