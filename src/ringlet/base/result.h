@@ -10,9 +10,23 @@
 
 namespace ringlet {
 
+/// Whose fault a failure is, for a program that decides what to do next: `ringlet` has an exit status for each.
+enum class Fault {
+  other,
+  input,         // a file that cannot be read: missing, no permission, changed meanwhile
+  output,        // a file or folder that cannot be written
+  diskFull,      // nor more of it: the disk, a quota, a limit of the process
+  busy,          // another process is writing it
+  hostMemory,    // is used up
+  deviceMemory,  // likewise
+  deviceLost,    // the driver gave up on it
+  compile,       // the driver does not make a kernel
+};
+
 /// What failed, as a sentence for a person: what was tried, what was found, what to do.
 struct Error {
   std::string message;
+  Fault fault = Fault::other;
 };
 
 /// Either a T or an Error. Test it before use: `if (!result) return result.error();`
