@@ -37,6 +37,12 @@ Rotation<Real> toEigen(const Quat<T>& q) {
   return {static_cast<Real>(q.w), static_cast<Real>(q.x), static_cast<Real>(q.y), static_cast<Real>(q.z)};
 }
 
+/// The numbers of a field, one after the other.
+template <class Real>
+std::span<Real> numbersOf(Field<Real>& field) {
+  return {field.empty() ? nullptr : field.front().data(), 3 * field.size()};
+}
+
 /// v / |v|; for the zero vector `fallback`.
 template <class Real>
 Vector3<Real> directionOr(const Vector3<Real>& v, const std::type_identity_t<Vector3<Real>>& fallback) {

@@ -230,6 +230,19 @@ void Simulation<Real>::record(const RestStrand<Real>& rest, const StrandTaps<Rea
   report_.edgeSteps += rest.edgeCount();
 }
 
+template <class Real>
+void Simulation<Real>::archive(Archive& archive) {
+  archive.value(previousHead_);
+  archive.value(head_);
+  archive.values(std::span(previousRootPoses_));
+  archive.values(std::span(rootPoses_));
+  archive.values(std::span(bodyPoses_));
+  archive.values(numbersOf(positions_));
+  archive.values(numbersOf(velocities_));
+  archive.value(report_);
+  if (settings_.contacts.on) archiveContacts(archive, contacts_);
+}
+
 template class Simulation<float>;
 template class Simulation<double>;
 

@@ -9,6 +9,7 @@
 
 #include "reference/kernels/contact_step.h"
 #include "reference/kernels/strand_step.h"
+#include "ringlet/base/archive.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
@@ -71,6 +72,9 @@ class Simulation {
   const std::vector<StrandTaps<Real>>& taps() const { return taps_; }
 
   Report report() const;
+
+  /// All that later frames depend on, as Simulation::checkpoint of the solver has it, and back.
+  void archive(Archive& archive);
 
  private:
   void placeAtRest();

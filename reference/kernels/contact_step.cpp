@@ -173,6 +173,31 @@ void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint
   for (std::size_t i = 0; i < solved.size(); ++i) velocities[i] = solved[i].template cast<Real>();
 }
 
+template <class Real>
+void archiveContacts(Archive& archive, Contacts<Real>& contacts) {
+  std::vector<ContactPair> pairs;
+  std::vector<ContactLife<Real>> lives;
+  for (const Contact<Real>& contact : contacts.live) {
+    pairs.push_back(contact.pair);
+    lives.push_back(contact.life);
+  }
+  archive.list(pairs);
+  archive.list(lives);
+  contacts.live.resize(std::min(pairs.size(), lives.size()));
+  for (std::size_t i = 0; i < contacts.live.size(); ++i) {
+    contacts.live[i].pair = pairs[i];
+    contacts.live[i].life = lives[i];
+  }
+  std::vector<double> changes(numbersOf(contacts.changes).begin(), numbersOf(contacts.changes).end());
+  archive.list(changes);
+  contacts.changes.resize(changes.size() / 3);
+  std::ranges::copy(std::span(changes).first(3 * contacts.changes.size()),
+                    numbersOf(contacts.changes).begin());
+  archive.value(contacts.nearCount);
+  archive.value(contacts.pairTests);
+  archive.value(contacts.momentumError);
+}
+
 #define RINGLET_INSTANTIATE(Real)                                                                      \
   template Contacts<Real> makeContacts(const std::vector<RestStrand<Real>>& strands,                   \
                                        std::span<const std::uint32_t> firstPoint,                      \
@@ -183,6 +208,7 @@ void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint
   template Field<double> pairMomenta(const Contacts<Real>& contacts, const Field<double>& velocities); \
   template bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts);                  \
   template void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts);              \
+  template void archiveContacts(Archive& archive, Contacts<Real>& contacts);                           \
   template void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,           \
                               std::vector<StrandSystem>& systems, const SolveStrand& solve,            \
                               Contacts<Real>& contacts, Field<Real>& velocities)

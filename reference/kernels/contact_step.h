@@ -18,6 +18,7 @@
 #include "reference/equations/contact_spring.h"
 #include "reference/kernels/contact_pairs.h"
 #include "reference/strand_solve.h"
+#include "ringlet/base/archive.h"
 #include "ringlet/scene/contact_settings.h"
 
 namespace ringlet::reference {
@@ -68,6 +69,10 @@ bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts);
 /// After the step's move: what its velocities v [m/s] are to v^0.
 template <class Real>
 void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts);
+
+/// What one step leaves to the next, to an archive or back.
+template <class Real>
+void archiveContacts(Archive& archive, Contacts<Real>& contacts);
 
 /// Solves strand s of the system with what contacts add to it; `velocities` are the strand's part [m/s].
 using SolveStrand = std::function<void(std::size_t s, std::span<Vector3<double>> velocities)>;

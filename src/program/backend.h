@@ -48,6 +48,9 @@ class Backend {
   virtual std::vector<Vec3f> framePositions() = 0;
   /// The same of now, before the first frame too, and no frame in flight.
   virtual Result<std::vector<Vec3f>> positions() = 0;
+  /// As Simulation::checkpoint and restore.
+  virtual Result<std::vector<std::byte>> checkpoint() = 0;
+  virtual Status restore(std::span<const std::byte> checkpoint) = 0;
   virtual Result<SimulationReport> report() = 0;
   virtual Result<ContactReport> contactReport() = 0;
   /// By stage of computing, summed over all frames waited for [ms].

@@ -1,22 +1,28 @@
 // Implements compile_note.h.
 #include "program/compile_note.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <system_error>
 
 namespace ringlet::program {
 
 void CompileNote::begin(std::size_t kernelCount) {
   start_ = std::chrono::steady_clock::now();
   isDone_ = hasSpoken_ = false;
-  watcher_ = std::thread([this, kernelCount] {
+  const auto watch = [this, kernelCount] {
     std::unique_lock lock(mutex_);
     if (changed_.wait_for(lock, std::chrono::seconds(1), [this] { return isDone_; })) return;
-    fmt::print(stderr, "ringlet: compiling {} kernel{} for {}; the first use takes longest ...\n",
-               kernelCount, kernelCount == 1 ? "" : "s", device_);
+    say("ringlet: compiling {} kernel{} for {}; the first use takes longest ...\n", kernelCount,
+        kernelCount == 1 ? "" : "s", device_);
     hasSpoken_ = true;
-  });
+  };
+  try {
+    watcher_ = std::thread(watch);
+  } catch (const std::system_error&) {
+    // No thread to be had: nothing is said.
+  }
 }
 
 void CompileNote::end() {
@@ -29,7 +35,7 @@ void CompileNote::end() {
   watcher_.join();
   if (!hasSpoken_) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-  fmt::print(stderr, "ringlet: compiled in {:.1f} s\n", seconds.count());
+  say("ringlet: compiled in {:.1f} s\n", seconds.count());
 }
 
 }  // namespace ringlet::program

@@ -1,6 +1,7 @@
 // Implements conform_command.h: options, and the report as text and JSON. The checks are conform_probes.cpp
 // and conform_cases.cpp, the facts conform_facts.cpp.
 #include "program/conform_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 
@@ -99,24 +100,24 @@ nlohmann::ordered_json asJson(const nlohmann::ordered_json& facts, const Typed& 
   return json;
 }
 
-int fail(const std::string& message) {
-  fmt::print(stderr, "ringlet conform: {}\n", message);
-  return kExitFailed;
+int fail(const Error& error) {
+  say("ringlet conform: {}\n", error.message);
+  return exitCodeOf(error);
 }
 
 int writeJson(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
   std::ofstream file(path);
   file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
   file.close();
-  return file ? kExitFine : fail(fmt::format("cannot write {}", path.string()));
+  return file ? kExitFine : fail({fmt::format("cannot write {}", path.string()), Fault::output});
 }
 
 // A line as soon as it is there: some take a driver's compiler many seconds.
 int run(const Typed& typed) {
   const auto device = openDevice(typed, 0);
-  if (!device) return fail(device.error().message);
+  if (!device) return fail(device.error());
   const auto withoutTexels = openDevice(typed, 1);
-  if (!withoutTexels) return fail(withoutTexels.error().message);
+  if (!withoutTexels) return fail(withoutTexels.error());
 
   const nlohmann::ordered_json facts = factsOf(*device);
   fmt::print("ringlet conform{}\n{}\n", typed.quick ? " --quick" : "", factsText(facts));

@@ -1,5 +1,6 @@
 // Implements convert_command.h: options to a ConvertPlan. The conversion is convert_run.cpp.
 #include "program/convert_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 
@@ -205,15 +206,14 @@ void printOutcome(const Typed& typed, const AnimationSource& source, const Conve
 Status runConvert(const Typed& typed) {
   auto source = AnimationSource::open(typed.input);
   if (!source) return source.error();
-  for (const std::string& warning : source->warnings())
-    fmt::print(stderr, "ringlet convert: warning: {}\n", warning);
+  for (const std::string& warning : source->warnings()) say("ringlet convert: warning: {}\n", warning);
   if (typed.info) {
     printInfo(typed, *source);
     return {};
   }
   if (!source->isFinished())
-    fmt::print(stderr, "ringlet convert: warning: {} was not finished; it has {} frames\n",
-               typed.input.string(), source->frameCount());
+    say("ringlet convert: warning: {} was not finished; it has {} frames\n", typed.input.string(),
+        source->frameCount());
   auto range = chooseFrames(typed, *source);
   if (!range) return range.error();
   if (Status free = checkOutput(typed); !free) return free;
@@ -234,8 +234,8 @@ int run(const Typed& typed) {
   checkOptions(typed);
   const Status done = runConvert(typed);
   if (done) return kExitFine;
-  fmt::print(stderr, "ringlet convert: {}\n", done.error().message);
-  return kExitFailed;
+  say("ringlet convert: {}\n", done.error().message);
+  return exitCodeOf(done.error());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ int frameCountOf(const ConvertPlan& plan) { return plan.lastFrame - plan.firstFr
 // Calls visit(frame) once the source's groom is in the pose of that frame of the animation.
 Status forEachFrame(AnimationSource& source, const ConvertPlan& plan,
                     const std::function<Status(int)>& visit) {
-  ProgressBar progress(frameCountOf(plan), plan.showProgress);
+  ProgressBar progress(0, frameCountOf(plan), plan.showProgress);
   for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) {
     progress.show(frame - plan.firstFrame);
     if (Status read = source.readFrame(frame); !read) return read;
@@ -42,7 +42,8 @@ Status throughWriter(AnimationSource& source, const ConvertPlan& plan, Result<Wr
     const bool isSaid = added.error().message.find(partial) != std::string::npos;  // by the writer
     if (writer->frameCount() == 0 || isSaid) return added;
     return Error{fmt::format("{} (the {} frames before it are kept in {})", added.error().message,
-                             writer->frameCount(), partial)};
+                             writer->frameCount(), partial),
+                 added.error().fault};
   }
   return writer->finish();
 }

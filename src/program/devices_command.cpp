@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program/exit_codes.h"
+#include "program/standard_error.h"
 #include "ringlet/solver/compute_device.h"
 
 namespace ringlet::program {
@@ -64,9 +65,7 @@ int run(bool json) {
   }
   if (std::any_of(devices.begin(), devices.end(), [](const DeviceSummary& d) { return d.usable; }))
     return kExitFine;
-  fmt::print(
-      stderr,
-      "ringlet devices: {}; install a Vulkan driver (Debian: mesa-vulkan-drivers has one for the CPU)\n",
+  say("ringlet devices: {}; install a Vulkan driver (Debian: mesa-vulkan-drivers has one for the CPU)\n",
       devices.empty() ? "there is no Vulkan device" : "no device can be used");
   return kExitFailed;
 }

@@ -1,12 +1,46 @@
 // What the program returns to the shell.
 #pragma once
 
+#include "ringlet/base/result.h"
+
 namespace ringlet::program {
 
 inline constexpr int kExitFine = 0;
-inline constexpr int kExitFailed = 1;         // the world's fault: a file, the device, memory
+inline constexpr int kExitFailed = 1;         // the world's fault, and none of those below
 inline constexpr int kExitUsage = 2;          // the command line makes no sense
 inline constexpr int kExitNonfinite = 3;      // the run ended, but some particles have no position
+inline constexpr int kExitInput = 4;          // a file that cannot be read, or is not what it should be
+inline constexpr int kExitOutput = 5;         // a file or folder that cannot be written
+inline constexpr int kExitDiskFull = 6;       // or a quota, or the size a file may have
+inline constexpr int kExitBusy = 7;           // another run has the folder
+inline constexpr int kExitHostMemory = 8;     // is used up
+inline constexpr int kExitDeviceMemory = 9;   // likewise
+inline constexpr int kExitDeviceLost = 10;    // the driver gave up on the device
+inline constexpr int kExitCompile = 11;       // the driver does not make a kernel
 inline constexpr int kExitInterrupted = 130;  // Ctrl-C, as shells have it: 128 + SIGINT
+
+inline int exitCodeOf(const Error& error) {
+  switch (error.fault) {
+    case Fault::input:
+      return kExitInput;
+    case Fault::output:
+      return kExitOutput;
+    case Fault::diskFull:
+      return kExitDiskFull;
+    case Fault::busy:
+      return kExitBusy;
+    case Fault::hostMemory:
+      return kExitHostMemory;
+    case Fault::deviceMemory:
+      return kExitDeviceMemory;
+    case Fault::deviceLost:
+      return kExitDeviceLost;
+    case Fault::compile:
+      return kExitCompile;
+    case Fault::other:
+      break;
+  }
+  return kExitFailed;
+}
 
 }  // namespace ringlet::program

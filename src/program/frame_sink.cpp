@@ -29,6 +29,15 @@ Status FrameSink::hand(ComputedFrame frame) {
   return thread_.hand([this, frame = std::move(frame)]() mutable { return take(std::move(frame)); });
 }
 
+void FrameSink::archive(Archive& archive) {
+  int frameCount = frameCount_;
+  archive.value(frameCount);
+  frameCount_ = frameCount;
+  archive.value(mostReplaced_);
+  archive.list(last_.positions);
+  if (readers_.bodies) readers_.bodies->archive(archive);
+}
+
 Status FrameSink::take(ComputedFrame frame) {
   if (readers_.bodies) {
     Stopwatch watch(watching_);

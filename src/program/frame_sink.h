@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "program/writer_thread.h"
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
@@ -41,6 +42,11 @@ class FrameSink {
   /// finish; what was handed over after it is dropped.
   Status hand(ComputedFrame frame);
   Status finish() { return thread_.finish(); }
+  /// After the frames handed over so far, as one of them.
+  Status handJob(WriterThread::Job job) { return thread_.hand(std::move(job)); }
+
+  /// What is known of the frames so far, for a checkpoint: in a job, or before the first frame.
+  void archive(Archive& archive);
 
   /// Frames done so far, at any time.
   int frameCount() const { return frameCount_; }

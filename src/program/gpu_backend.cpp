@@ -7,6 +7,7 @@
 #include "program/backend.h"
 #include "program/cache_folder.h"
 #include "program/compile_note.h"
+#include "program/standard_error.h"
 #include "program/tuned_shapes.h"
 #include "ringlet/solver/shape_plan.h"
 
@@ -25,6 +26,8 @@ class GpuBackend : public Backend {
   Status waitFrame() override { return simulation_.waitFrame(); }
   std::vector<Vec3f> framePositions() override { return simulation_.framePositions(); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
+  Result<std::vector<std::byte>> checkpoint() override { return simulation_.checkpoint(); }
+  Status restore(std::span<const std::byte> checkpoint) override { return simulation_.restore(checkpoint); }
   Result<SimulationReport> report() override { return simulation_.report(); }
   Result<ContactReport> contactReport() override { return simulation_.contactReport(); }
   std::map<std::string, double> stageMilliseconds() const override { return simulation_.stageMilliseconds(); }
@@ -60,12 +63,14 @@ bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
 
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu) {
   auto device = ComputeDevice::open(gpu.device, cacheFolder());
-  if (!device) return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)"};
+  if (!device)
+    return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)",
+                 device.error().fault};
   TunedShapes tuned;
   if (gpu.usesTuned && mayBeTuned(input, gpu.kernel)) tuned = recallShapes(*device);
   if (tuned.isOutdated && gpu.tells)
-    fmt::print(stderr, "ringlet: {} was tuned with another driver or ringlet; `ringlet tune` does it anew\n",
-               device->name());
+    say("ringlet: {} was tuned with another driver or ringlet; `ringlet tune` does it anew\n",
+        device->name());
   KernelChoice choice = gpu.kernel;
   // Costs are true only of the width they were measured at.
   if (choice.subgroupSize == 0) choice.subgroupSize = static_cast<int>(tuned.subgroupSize);

@@ -1,12 +1,17 @@
-// Ctrl-C, noticed between frames so that what is finished can be kept.
+// Signals: Ctrl-C, noticed between frames so that what is finished can be kept, and those that are failures
+// of a call.
 #pragma once
 
 namespace ringlet::program {
 
-/// From now on the first Ctrl-C (or SIGTERM) only sets a flag; the second ends the program at once.
+/// From now on the first Ctrl-C (or SIGTERM, SIGHUP, SIGQUIT) only sets a flag; the second ends the program
+/// at once. A signal that is ignored stays so. Output that nobody reads any more is lost, and ends nothing.
 void catchInterruption();
 
 /// Whether it has come.
 bool wasInterrupted();
+
+/// A file larger than the process may write (RLIMIT_FSIZE) fails to be written, and does not end the program.
+void failInsteadOfEnding();
 
 }  // namespace ringlet::program

@@ -1,5 +1,6 @@
 // Implements kernels_command.h: options, the table and its JSON. A kernel is compiled by kernels_child.cpp.
 #include "program/kernels_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 
@@ -117,9 +118,9 @@ Json asJson(const ListedKernel& kernel, const CompiledKernel& compiled) {
   return json;
 }
 
-int fail(const std::string& message) {
-  fmt::print(stderr, "ringlet kernels: {}\n", message);
-  return kExitFailed;
+int fail(const Error& error) {
+  say("ringlet kernels: {}\n", error.message);
+  return exitCodeOf(error);
 }
 
 // With statistics first; where the driver dies of them, without.
@@ -138,10 +139,10 @@ CompiledKernel compileSafely(const Typed& typed, int device, std::size_t index) 
 
 int run(const Typed& typed) {
   const auto device = openDevice(typed);
-  if (!device) return fail(device.error().message);
+  if (!device) return fail(device.error());
   const std::vector<ListedKernel> kernels = listKernels(*device);
   if (typed.one >= 0) {
-    if (typed.one >= static_cast<int>(kernels.size())) return fail("there are fewer kernels than that");
+    if (typed.one >= static_cast<int>(kernels.size())) return fail({"there are fewer kernels than that"});
     printCompiled(compileKernel(*device, kernels[static_cast<std::size_t>(typed.one)]));
     return kExitFine;
   }
@@ -165,10 +166,11 @@ int run(const Typed& typed) {
     std::ofstream file(typed.json);
     file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
     file.close();
-    if (!file) return fail(fmt::format("cannot write {}", typed.json.string()));
+    if (!file) return fail({fmt::format("cannot write {}", typed.json.string()), Fault::output});
   }
   if (failures > 0)
-    return fail(fmt::format("{} of {} kernels did not compile", failures, json["kernels"].size()));
+    return fail(
+        {fmt::format("{} of {} kernels did not compile", failures, json["kernels"].size()), Fault::compile});
   return kExitFine;
 }
 

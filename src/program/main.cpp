@@ -12,17 +12,20 @@
 #include "program/convert_command.h"
 #include "program/devices_command.h"
 #include "program/exit_codes.h"
+#include "program/interruption.h"
 #include "program/kernels_command.h"
 #include "program/make_command.h"
 #include "program/material_command.h"
 #include "program/measure_command.h"
 #include "program/scene_command.h"
 #include "program/simulate_command.h"
+#include "program/standard_error.h"
 #include "program/tune_command.h"
 
 int main(int argumentCount, char** arguments) {
   using namespace ringlet::program;
   int exitCode = kExitFine;
+  failInsteadOfEnding();
 
   CLI::App app("Ringlet simulates stylised curly hair on the GPU.", "ringlet");
   app.set_version_flag("--version", "ringlet " RINGLET_VERSION);
@@ -47,19 +50,19 @@ int main(int argumentCount, char** arguments) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);  // --help, --version
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "{}\n", usageMessage(app, error));
+    say("{}\n", usageMessage(app, error));
     return kExitUsage;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "ringlet: not enough memory for this groom\n");
-    return kExitFailed;
+    say("ringlet: not enough memory for this groom\n");
+    return kExitHostMemory;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "ringlet: {}\n", error.what());
+    say("ringlet: {}\n", error.what());
     return kExitFailed;
   }
   // A full disk or a closed pipe behind standard output is a failure too: someone waits for that text.
   if (std::fflush(stdout) != 0 && exitCode == kExitFine) {
-    fmt::print(stderr, "ringlet: cannot write to standard output\n");
-    return kExitFailed;
+    say("ringlet: cannot write to standard output\n");
+    return kExitOutput;
   }
   return exitCode;
 }

@@ -1,5 +1,6 @@
 // Implements make_command.h.
 #include "program/make_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 
@@ -29,15 +30,14 @@ struct Typed {
 
 int write(const char* command, const Typed& typed, const Result<Groom>& groom) {
   if (!groom) {
-    fmt::print(stderr, "{}: {}\n", command, groom.error().message);
+    say("{}: {}\n", command, groom.error().message);
     return kExitUsage;
   }
   if (Status written = writeGroom(typed.file, *groom); !written) {
-    fmt::print(stderr, "{}: {}\n", command, written.error().message);
-    return kExitFailed;
+    say("{}: {}\n", command, written.error().message);
+    return exitCodeOf(written.error());
   }
-  if (const auto warning = coarseCurlWarning(typed.curl))
-    fmt::print(stderr, "{}: warning: {}\n", command, *warning);
+  if (const auto warning = coarseCurlWarning(typed.curl)) say("{}: warning: {}\n", command, *warning);
   if (!typed.quiet) {
     fmt::print("{} strand{}, {} particles: {}\n", groom->strandCount(), groom->strandCount() == 1 ? "" : "s",
                groom->points.size(), typed.file.string());

@@ -1,5 +1,6 @@
 // Implements material_command.h.
 #include "program/material_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -161,15 +162,14 @@ int list(const Typed& typed) {
 int show(const Typed& typed) {
   auto loaded = loadMaterial(typed.name);
   if (!loaded) {
-    fmt::print(stderr, "ringlet material: {}\n", loaded.error().message);
-    return kExitFailed;
+    say("ringlet material: {}\n", loaded.error().message);
+    return exitCodeOf(loaded.error());
   }
-  for (const std::string& warning : loaded->warnings)
-    fmt::print(stderr, "ringlet material: warning: {}\n", warning);
+  for (const std::string& warning : loaded->warnings) say("ringlet material: warning: {}\n", warning);
   if (!typed.file.empty()) {
     if (Status written = writeMaterial(typed.file, loaded->material, loaded->dials); !written) {
-      fmt::print(stderr, "ringlet material: {}\n", written.error().message);
-      return kExitFailed;
+      say("ringlet material: {}\n", written.error().message);
+      return exitCodeOf(written.error());
     }
   }
 

@@ -1,6 +1,7 @@
 // Implements measure_command.h: reads a groom and what became of it. The measuring is src/ringlet/measure,
 // the telling measure_report.h.
 #include "program/measure_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -66,7 +67,7 @@ struct Typed {
   bool json = false, strands = false;
 };
 
-void warn(const std::string& sentence) { fmt::print(stderr, "ringlet measure: warning: {}\n", sentence); }
+void warn(const std::string& sentence) { say("ringlet measure: warning: {}\n", sentence); }
 
 Result<Groom> read(const std::filesystem::path& path, double metresPerUnit) {
   auto loaded = readGroom(path);
@@ -233,8 +234,8 @@ Result<Measured> measure(const Typed& typed) {
 int run(const Typed& typed) {
   auto measured = measure(typed);
   if (!measured) {
-    fmt::print(stderr, "ringlet measure: {}\n", measured.error().message);
-    return kExitFailed;
+    say("ringlet measure: {}\n", measured.error().message);
+    return exitCodeOf(measured.error());
   }
   if (measured->isUnfinished) warn("the animation was not finished; its frames so far were measured");
   if (typed.json) {

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "program/standard_error.h"
+
 namespace ringlet::program {
 namespace {
 
 constexpr int kWidth = 30;  // characters of the bar itself; the line fits a terminal of 80
 constexpr std::chrono::milliseconds kPause{80};  // between two updates: often enough to look alive
+constexpr std::chrono::seconds kLinePause{30};   // between two lines of a log
 
 std::string clockTime(double seconds) {
   const auto whole = static_cast<long>(std::ceil(seconds));
@@ -21,29 +24,37 @@ std::string clockTime(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(int count, bool wanted, const char* what)
-    : count_(count), what_(what), enabled_(wanted && isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar(int first, int count, bool wanted, const char* what)
+    : first_(first), count_(count), what_(what), isWanted_(wanted), isTerminal_(isatty(STDERR_FILENO) == 1) {}
 
 void ProgressBar::show(int finished) {
+  if (!isWanted_) return;
   const auto now = Clock::now();
-  if (!enabled_ || (visible_ && now - lastShown_ < kPause && finished < count_)) return;
+  const auto pause = isTerminal_ ? Clock::duration(kPause) : Clock::duration(kLinePause);
+  const bool isFirst = isTerminal_ && !visible_, isLast = isTerminal_ && finished >= count_;
+  if (now - lastShown_ < pause && !isFirst && !isLast) return;
   lastShown_ = now;
-  visible_ = true;
-  const double share = static_cast<double>(finished) / count_;
-  const int filled = static_cast<int>(share * kWidth);
-  std::string line =
-      fmt::format("\r  {} {}/{} [{:#<{}}{:.<{}}]", what_, finished, count_, "", filled, "", kWidth - filled);
-  if (finished > 0) {
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    line += fmt::format(" {} left", clockTime(seconds / share - seconds));
+  const std::string left = leftAfter(finished);
+  if (!isTerminal_) {
+    say("ringlet: {} {} of {}{}{}\n", what_, finished, count_, left.empty() ? "" : ", ", left);
+    return;
   }
-  fmt::print(stderr, "{}\x1b[K", line);
+  visible_ = true;
+  const int filled = static_cast<int>(static_cast<double>(finished) / count_ * kWidth);
+  say("\r  {} {}/{} [{:#<{}}{:.<{}}] {}\x1b[K", what_, finished, count_, "", filled, "", kWidth - filled,
+      left);
   std::fflush(stderr);
+}
+
+std::string ProgressBar::leftAfter(int finished) const {
+  if (finished <= first_) return "";
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  return fmt::format("{} left", clockTime(seconds * (count_ - finished) / (finished - first_)));
 }
 
 void ProgressBar::clear() {
   if (!visible_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  say("\r\x1b[K");
   std::fflush(stderr);
   visible_ = false;
 }

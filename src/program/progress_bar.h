@@ -1,14 +1,16 @@
-// ProgressBar: one line on the terminal that shows how far a run is and how long it will take; silent where
-// standard error is no terminal.
+// ProgressBar: how far a run is and how long it will take. On a terminal one line that changes; elsewhere, as
+// in a log, a line every half minute.
 #pragma once
 
 #include <chrono>
+#include <string>
 
 namespace ringlet::program {
 
 class ProgressBar {
  public:
-  ProgressBar(int count, bool wanted, const char* what = "frame");
+  /// `first`: what is done before it begins.
+  ProgressBar(int first, int count, bool wanted, const char* what = "frame");
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
 
@@ -18,11 +20,14 @@ class ProgressBar {
 
  private:
   using Clock = std::chrono::steady_clock;
-  int count_;
+  /// "2:05 left"; "" as long as it cannot be told.
+  std::string leftAfter(int finished) const;
+
+  int first_, count_;
   const char* what_;
-  bool enabled_;
+  bool isWanted_, isTerminal_;
   bool visible_ = false;
-  Clock::time_point start_ = Clock::now(), lastShown_{};
+  Clock::time_point start_ = Clock::now(), lastShown_ = start_;
 };
 
 }  // namespace ringlet::program

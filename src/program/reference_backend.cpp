@@ -42,6 +42,17 @@ class ReferenceBackend : public Backend {
   }
   std::vector<Vec3f> framePositions() override { return waited_; }
   Result<std::vector<Vec3f>> positions() override { return pointsNow(); }
+  Result<std::vector<std::byte>> checkpoint() override {
+    Archive archive = Archive::writing();
+    simulation_.archive(archive);
+    return archive.take();
+  }
+  Status restore(std::span<const std::byte> checkpoint) override {
+    Archive archive = Archive::reading(checkpoint);
+    simulation_.archive(archive);
+    if (!archive.isWhole()) return Error{kForeignCheckpoint};
+    return {};
+  }
 
   Result<SimulationReport> report() override {
     const auto from = simulation_.report();

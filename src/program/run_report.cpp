@@ -1,5 +1,6 @@
 // Implements run_report.h.
 #include "program/run_report.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -149,8 +150,7 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
 }
 
 int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameCount) {
-  for (const std::string& warning : outcome.warnings)
-    fmt::print(stderr, "ringlet {}: warning: {}\n", command, warning);
+  for (const std::string& warning : outcome.warnings) say("ringlet {}: warning: {}\n", command, warning);
 
   // Particles without a position: say which was the first, so that it can be looked at.
   const SimulationReport& report = outcome.report;
@@ -160,14 +160,15 @@ int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameC
       first = fmt::format(", first strand {} particle {}", report.firstNonfiniteStrand,
                           report.firstNonfiniteParticle);
     }
-    fmt::print(stderr,
-               "ringlet {}: {} particles have no finite position{}; in the files their strands end before "
-               "them. Try more --steps-per-frame.\n",
-               command, report.nonfinite, first);
+    say("ringlet {}: {} particles have no finite position{}; in the files their strands end before "
+        "them. Try more --steps-per-frame.\n",
+        command, report.nonfinite, first);
   }
   if (outcome.interrupted) {
-    fmt::print(stderr, "ringlet {}: interrupted after {} of {} frames{}\n", command, outcome.frameCount,
-               frameCount, outcome.frameCount == 0 ? "; nothing was written" : "; they are kept");
+    say("ringlet {}: interrupted after {} of {} frames{}\n", command, outcome.frameCount, frameCount,
+        outcome.canResume         ? "; --resume goes on from there"
+        : outcome.frameCount == 0 ? "; nothing was written"
+                                  : "; they are kept");
     return kExitInterrupted;
   }
   return report.nonfinite > 0 ? kExitNonfinite : kExitFine;

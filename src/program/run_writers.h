@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "program/simulate_run.h"
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
@@ -15,21 +16,39 @@
 
 namespace ringlet::program {
 
-struct Writers {
-  std::optional<UsdWriter> usd;
-  std::optional<CacheWriter> cache;
-  std::optional<Sheet> sheet;
-  bool writesLast;
-  std::vector<Vec3f> lastPoints;  // [file unit]
+/// The files of a run, made when there is a frame to write: until then nothing in the folder is touched.
+class Writers {
+ public:
+  /// The input must live as long. `frameCount`: frames that a run before left and this one goes on with; they
+  /// are in the files, and archive() brings back what is not.
+  Writers(const RunInput& input, const RunOptions& options, int frameCount);
 
   /// Frames in order, 1 is the first; points in the groom's unit and order, finite.
   Status addFrame(int frame, std::vector<Vec3f> points);
-
+  /// What was added is on the disk.
+  Status sync();
+  /// What is kept beside the files, for a checkpoint.
+  void archive(Archive& archive);
   /// Closes the files, after at least one frame, and says which there are.
-  Result<std::vector<std::filesystem::path>> finish(const std::filesystem::path& folder, const Groom& groom);
+  Result<std::vector<std::filesystem::path>> finish();
+
+  /// How far a point of the cache may be from its particle; none where there is no cache [m].
+  std::optional<double> cacheErrorBound() const;
+
+ private:
+  Status open();
+
+  const RunInput& input_;
+  const RunOptions& options_;
+  int frameCount_;
+  bool isOpen_ = false;
+  std::optional<UsdWriter> usd_;
+  std::optional<CacheWriter> cache_;
+  std::optional<Sheet> sheet_;
+  std::vector<Vec3f> lastPoints_;  // [file unit]
 };
 
-/// Makes the folder and the files that frames are added to.
-Result<Writers> openWriters(const RunInput& input, const RunOptions& options);
+/// What such a run writes, finished.
+std::vector<std::filesystem::path> outputsOf(const RunOptions& options);
 
 }  // namespace ringlet::program

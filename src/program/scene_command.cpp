@@ -1,6 +1,7 @@
 // Implements scene_command.h: options to a BuiltinScene, which is stepped as `ringlet simulate` steps and
 // measured as `ringlet measure` measures.
 #include "program/scene_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -166,7 +167,7 @@ void printKeys(bool asJson) {
 }
 
 Error inScene(const Typed& typed, const Error& cause) {
-  return Error{fmt::format("{}: {}", typed.name, cause.message)};
+  return Error{fmt::format("{}: {}", typed.name, cause.message), cause.fault};
 }
 
 // The groom at rest beside the animation, so that `ringlet measure DIR/groom.obj DIR` works.
@@ -232,8 +233,7 @@ Result<int> writeScene(const Typed& typed, const BuiltinScene& scene) {
   if (Status written = writeObj(groom, scene.groom); !written) return written.error();
   if (Status written = writeWholeFile(typed.file, std::as_bytes(std::span<const char>(text))); !written)
     return written.error();
-  for (const std::string& warning : scene.warnings)
-    fmt::print(stderr, "ringlet scene: warning: {}\n", warning);
+  for (const std::string& warning : scene.warnings) say("ringlet scene: warning: {}\n", warning);
   if (typed.json) {
     printJson({{"scene", scene.name}, {"outputs", {typed.file.string(), groom.string()}}});
   } else if (!typed.quiet) {
@@ -295,8 +295,8 @@ int run(Typed& typed) {
   }
   auto exitCode = runScene(typed);
   if (exitCode) return *exitCode;
-  fmt::print(stderr, "ringlet scene: {}\n", exitCode.error().message);
-  return kExitFailed;
+  say("ringlet scene: {}\n", exitCode.error().message);
+  return exitCodeOf(exitCode.error());
 }
 
 // Throws CLI11's error for what makes no sense with --list or --keys: everything but --json.

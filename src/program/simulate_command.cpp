@@ -1,6 +1,7 @@
 // Implements simulate_command.h: a scene file and options to SimulateOptions. The run is simulate_run.cpp,
 // what is said of it run_report.cpp.
 #include "program/simulate_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,9 @@
 #include "program/exit_codes.h"
 #include "program/load_scene.h"
 #include "program/material_command.h"
+#include "program/run_facts.h"
 #include "program/run_report.h"
+#include "program/run_writers.h"
 #include "program/simulate_run.h"
 #include "ringlet/scenes/scene_fields.h"
 #include "ringlet/scenes/scene_parts.h"
@@ -66,8 +69,11 @@ constexpr const char* kExample =
     "interrupted warnings outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
-    "Exit status: 0 done, 1 something failed, 2 wrong usage, 3 done but some particles have no position, 130 "
-    "Ctrl-C.";
+    "Exit status: 0 done, 2 wrong usage, 3 done but some particles have no position, 130 Ctrl-C; of "
+    "failures\n"
+    "4 a file that cannot be read, 5 one that cannot be written, 6 disk full, 7 another run has the folder,\n"
+    "8 out of memory, 9 out of the device's memory, 10 device lost, 11 a kernel does not compile, 1 all "
+    "others.";
 
 // The command line as typed; what is left out is the scene file's, or the default.
 struct Typed {
@@ -79,8 +85,9 @@ struct Typed {
   MaterialChoice material;
   ContactChoice contacts;
   std::string backend = "gpu", device, kernel = "auto", cache;
+  std::optional<int> checkpoint;
   bool measuresContacts = false, noChebyshev = false, noUsd = false, untuned = false, json = false,
-       quiet = false;
+       quiet = false, jsonProgress = false, resume = false, overwrite = false;
 };
 
 template <class Value>
@@ -234,12 +241,17 @@ SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   options.kernel.subgroupSize = typed.subgroup.value_or(0);
   options.usesTuned = !typed.untuned;
   options.showProgress = !typed.quiet;
+  options.tellsFrames = typed.jsonProgress;
+  options.checkpointFrames = typed.checkpoint.value_or(0);
+  options.leftovers = typed.resume      ? Leftovers::resume
+                      : typed.overwrite ? Leftovers::overwrite
+                                        : Leftovers::refuse;
   return options;
 }
 
 int fail(const Error& error) {
-  fmt::print(stderr, "ringlet simulate: {}\n", error.message);
-  return kExitFailed;
+  say("ringlet simulate: {}\n", error.message);
+  return exitCodeOf(error);
 }
 
 int run(const Typed& typed) {
@@ -252,6 +264,14 @@ int run(const Typed& typed) {
   auto bodies = loadBodies(*scene, options.warnings);
   if (!bodies) return fail(bodies.error());
   options.bodies = std::move(*bodies);
+
+  const std::vector<std::filesystem::path> inputs = inputFilesOf(typed.input, *scene);
+  if (Status stays = checkInputsStay(inputs, outputsOf(options)); !stays) return fail(stays.error());
+  if (typed.checkpoint || typed.resume) {
+    auto facts = factsOf(*scene, inputs);
+    if (!facts) return fail(facts.error());
+    options.facts = std::move(*facts);
+  }
 
   auto outcome = runSimulation(options);
   if (!outcome) return fail(outcome.error());
@@ -468,6 +488,27 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
                    "Diameter of strands in hair.usda and hair.rgc, metres (default 0.0005)")
       ->check(between(1e-9, 1))
       ->type_name("METRES")
+      ->group(output);
+  command
+      ->add_option(
+          "--checkpoint", typed->checkpoint,
+          "Every N frames write what a run that is killed can go on from, with --resume: DIR/checkpoint.rgk, "
+          "which goes when the run ends")
+      ->check(wholeBetween(1, kMostFrames))
+      ->type_name("N")
+      ->group(output);
+  CLI::Option* resume =
+      command->add_flag("--resume", typed->resume,
+                        "Go on with the run in DIR from its last checkpoint, to the same bits as without a "
+                        "break; begin where there is "
+                        "nothing to go on with. Everything else must be asked for as it was");
+  CLI::Option* overwrite = command->add_flag("--overwrite", typed->overwrite,
+                                             "Begin anew where DIR holds frames of a run that did not end");
+  resume->group(output)->excludes(overwrite);
+  overwrite->group(output);
+  command
+      ->add_flag("--json-progress", typed->jsonProgress,
+                 "Print a line of JSON for every frame that is written: frame, frames, seconds, seconds_left")
       ->group(output);
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary")->group(output);
   command->add_flag("--quiet", typed->quiet, "No progress bar and no summary")->group(output);

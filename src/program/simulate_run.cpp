@@ -13,10 +13,14 @@
 #include <utility>
 
 #include "program/backend.h"
+#include "program/frame_lines.h"
 #include "program/frame_sink.h"
 #include "program/interruption.h"
 #include "program/load_scene.h"
 #include "program/progress_bar.h"
+#include "program/run_checkpoints.h"
+#include "program/run_facts.h"
+#include "program/run_folder.h"
 #include "program/run_writers.h"
 #include "program/stopwatch.h"
 #include "ringlet/output/positions_hash.h"
@@ -145,6 +149,23 @@ class Stepper {
   /// Of the frame waited for last, once.
   std::vector<Vec3f> framePositions() { return watch_ ? std::move(waited_) : backend_->framePositions(); }
 
+  /// All that later frames depend on, none being in flight; and back, before the first.
+  Status archive(Archive& archive) {
+    std::vector<std::byte> hair;
+    if (!archive.isReading()) {
+      auto state = backend_->checkpoint();
+      if (!state) return state.error();
+      hair = std::move(*state);
+    }
+    archive.list(hair);
+    if (archive.isReading()) {
+      if (Status restored = backend_->restore(hair); !restored) return restored;
+    }
+    if (watch_) watch_->archive(archive);
+    archive.value(worst_);
+    return {};
+  }
+
   /// What was seen goes into the outcome.
   Status tell(SimulateOutcome& outcome) const {
     outcome.waitedForDevice = waiting_;
@@ -207,7 +228,29 @@ Error afterFrames(int frameCount, const Error& cause, const RunOptions& options)
   if (frameCount == 0 || options.folder.empty() || (!options.writesUsd && !options.cache)) return cause;
   const char* file = options.writesUsd ? "hair.usda.partial" : "hair.rgc.partial";
   return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
-                           (options.folder / file).string())};
+                           (options.folder / file).string()),
+               cause.fault};
+}
+
+// What this run and one that goes on with it must have in common.
+std::vector<RunFact> factsOf(const RunInput& input, const RunOptions& options, const Backend& backend) {
+  std::vector<RunFact> facts = options.facts;
+  const auto add = [&](const char* name, auto value) { facts.push_back({name, fmt::format("{}", value)}); };
+  add("program", RINGLET_VERSION);
+  add("device", backend.device());
+  add("driver", backend.driver());
+  add("kernel", backend.kernel());
+  add("strands", input.groom.strandCount());
+  add("frames", options.frameCount);
+  add("steps a frame", input.settings.stepsPerFrame);
+  add("pre-roll", options.preRollSeconds);
+  add("hair.usda", options.writesUsd);
+  add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);
+  add("sheet.png", options.writesSheet);
+  add("width", options.width);
+  add("measured contacts", options.measuresContacts);
+  add("measured residual", measuresResidual(input, options));
+  return facts;
 }
 
 struct LoopTimes {
@@ -217,8 +260,10 @@ struct LoopTimes {
 // Frames, until all are done or Ctrl-C comes: while one computes, the one before it is read back and those
 // before that are written.
 Status runFrames(Stepper& stepper, const RunInput& input, const RunOptions& options, FrameSink& sink,
+                 const RunCheckpoints& checkpoints, const std::function<Status(int)>& saveAt,
                  LoopTimes& times) {
-  ProgressBar progress(options.frameCount, options.showProgress);
+  const int first = sink.frameCount();
+  ProgressBar progress(first, options.frameCount, options.showProgress);
   const auto afterWritten = [&](const Error& cause) {
     (void)sink.finish();
     return afterFrames(sink.frameCount(), cause, options);
@@ -237,8 +282,13 @@ Status runFrames(Stepper& stepper, const RunInput& input, const RunOptions& opti
     return sink.hand(std::move(frame));
   };
 
-  for (int frame = 0; frame < options.frameCount && !wasInterrupted(); ++frame) {
+  int frame = first;
+  for (; frame < options.frameCount && !wasInterrupted(); ++frame) {
     progress.show(sink.frameCount());
+    if (checkpoints.areDueAt(frame) && frame > first) {
+      if (Status taken = takeUnderWay(); !taken) return taken;
+      if (Status saved = saveAt(frame); !saved) return afterWritten(saved.error());
+    }
     const FramePoses poses = [&] {
       Stopwatch watch(times.poses);
       return posesOfFrame(input, frame);
@@ -252,6 +302,9 @@ Status runFrames(Stepper& stepper, const RunInput& input, const RunOptions& opti
     underWay = {frame + 1, {}, poses.heads.back(), {bodies.begin(), bodies.end()}};
   }
   if (Status taken = takeUnderWay(); !taken) return taken;
+  if (frame < options.frameCount && checkpoints.areWanted()) {
+    if (Status saved = saveAt(frame); !saved) return afterWritten(saved.error());
+  }
   const Status written = sink.finish();
   progress.show(sink.frameCount());
   return written;
@@ -277,19 +330,34 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
 
   // Everything that can fail before the first step: the folder, the device.
   const Clock::time_point start = Clock::now();
-  std::optional<Writers> writers;
+  std::optional<RunFolder> folder;
   if (!options.folder.empty()) {
-    auto opened = openWriters(input, options);
+    auto opened = RunFolder::open(options.folder, options.leftovers);
     if (!opened) return opened.error();
-    writers.emplace(std::move(*opened));
+    folder.emplace(std::move(*opened));
   }
   auto backend = makeBackend(input, options);
   if (!backend) return backend.error();
-  if (Status rolled = preRoll(**backend, input, options); !rolled) return rolled.error();
+  RunCheckpoints checkpoints;
+  if (folder && (options.checkpointFrames > 0 || folder->checkpoint())) {
+    auto made = RunCheckpoints::make(*folder, options.checkpointFrames, factsOf(input, options, **backend));
+    if (!made) return made.error();
+    checkpoints = std::move(*made);
+  }
+  const int done = folder && folder->checkpoint() ? folder->checkpoint()->frame : 0;
+  outcome.resumedFrom = done;
+  if (done == 0) {
+    if (checkpoints.areWanted()) {
+      if (Status written = checkpoints.write(0, {}, {}); !written) return written.error();
+    }
+    if (Status rolled = preRoll(**backend, input, options); !rolled) return rolled.error();
+  }
   const std::map<std::string, double> stagesBefore = (*backend)->stageMilliseconds();
   auto stepper = Stepper::make(**backend, input, options);
   if (!stepper) return stepper.error();
 
+  std::optional<Writers> writers;
+  if (folder) writers.emplace(input, options, done);
   std::optional<BodyWatch> bodyWatch;
   if (!input.bodies.empty()) bodyWatch.emplace(groom, input.bodies, input.settings.rootCount);
   FrameReaders readers{.bodies = bodyWatch ? &*bodyWatch : nullptr, .observe = {}, .write = {}};
@@ -300,24 +368,51 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
     };
   }
   if (writers) {
-    readers.write = [&](int number, std::vector<Vec3f> points) {
-      return writers->addFrame(number, std::move(points));
+    FrameLines lines(done, options.frameCount, options.tellsFrames);
+    readers.write = [&writers, lines](int number, std::vector<Vec3f> points) mutable -> Status {
+      if (Status added = writers->addFrame(number, std::move(points)); !added) return added;
+      lines.tell(number);
+      return {};
     };
   }
   FrameSink sink(groom, std::move(readers));
+  if (done > 0) {
+    Archive computed = Archive::reading(folder->checkpoint()->computed);
+    Archive written = Archive::reading(folder->checkpoint()->written);
+    if (Status restored = stepper->archive(computed); !restored) return restored.error();
+    sink.archive(written);
+    writers->archive(written);
+    if (!computed.isWhole() || !written.isWhole()) return Error{kForeignCheckpoint, Fault::input};
+    folder->dropState();
+  }
+  // The state now; what is written so far joins it on the writers' thread.
+  const auto saveAt = [&](int frame) -> Status {
+    Archive computed = Archive::writing();
+    if (Status kept = stepper->archive(computed); !kept) return kept;
+    return sink.handJob([&, frame, state = computed.take()]() mutable -> Status {
+      Archive written = Archive::writing();
+      sink.archive(written);
+      writers->archive(written);
+      if (Status synced = writers->sync(); !synced) return synced;
+      return checkpoints.write(frame, std::move(state), written.take());
+    });
+  };
   LoopTimes times;
   const Clock::time_point first = Clock::now();
-  if (Status ran = runFrames(*stepper, input, options, sink, times); !ran) return ran.error();
+  if (Status ran = runFrames(*stepper, input, options, sink, checkpoints, saveAt, times); !ran)
+    return ran.error();
   const Clock::time_point last = Clock::now();
   outcome.frameCount = sink.frameCount();
   outcome.interrupted = wasInterrupted() && outcome.frameCount < options.frameCount;
+  outcome.canResume = outcome.interrupted && checkpoints.areWanted();
 
-  // What there is becomes files.
-  if (writers && outcome.frameCount > 0) {
-    auto outputs = writers->finish(options.folder, groom);
+  // What there is becomes files, unless another run goes on with it.
+  if (writers && outcome.frameCount > 0 && !outcome.canResume) {
+    auto outputs = writers->finish();
     if (!outputs) return outputs.error();
     outcome.outputs = std::move(*outputs);
-    if (writers->cache) outcome.cacheErrorBound = writers->cache->errorBound();
+    outcome.cacheErrorBound = writers->cacheErrorBound();
+    folder->finish();
   }
   outcome.wall = {secondsBetween(start, first), secondsBetween(first, last),
                   secondsBetween(last, Clock::now())};
@@ -348,11 +443,13 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
     outcome.bodyNumbers = bodyWatch->numbers();
   }
   if (Status told = stepper->tell(outcome); !told) return told.error();
-  const double frames = std::max(outcome.frameCount, 1);
+  const double frames = std::max(outcome.frameCount - done, 1);
   for (auto& [stage, milliseconds] : outcome.stages) milliseconds /= frames;
   for (double* time : {&outcome.millisecondsPerFrame, &outcome.waitedForDevice, &outcome.waitedForWriter})
     *time /= frames;
   outcome.warnings = stepper->warnings();
+  if (folder)
+    outcome.warnings.insert(outcome.warnings.begin(), folder->warnings().begin(), folder->warnings().end());
   for (const std::string& message : (*backend)->deviceMessages()) outcome.warnings.push_back(message);
   return outcome;
 }
@@ -392,6 +489,7 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
     if (!bound) return bound.error();
     scalp = std::move(*bound);
   }
+  if (!options.facts.empty()) addMaterialFacts(*material, options.facts);
   auto outcome = runHair(
       {loaded->groom, *material, settings, options.motion, shifts, options.bodies, scalp ? &*scalp : nullptr},
       options);

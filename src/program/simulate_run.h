@@ -12,6 +12,7 @@
 
 #include "program/material_command.h"
 #include "program/motion_file.h"
+#include "program/run_folder.h"
 #include "ringlet/base/result.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
@@ -40,6 +41,12 @@ struct RunOptions {
   KernelChoice kernel;    // its residual: measured where the integrator has one, on the GPU
   bool usesTuned = true;  // strand shapes by what `ringlet tune` measured
   bool showProgress = true;
+  bool tellsFrames = false;  // a line of JSON a finished frame, on standard output
+  // Runs that do not end. A folder then has a checkpoint, from 1 frame up; 0: none, or as many as the run
+  // had.
+  int checkpointFrames = 0;  // from one to the next
+  Leftovers leftovers = Leftovers::refuse;
+  std::vector<RunFact> facts;  // what a run that goes on must have been a run of, but for device and kernels
   bool measuresContacts = false;  // every step and frame, with contacts on or off; costs CPU time
 };
 
@@ -87,6 +94,8 @@ struct SimulateOutcome {
   double compileMilliseconds = 0;            // of the kernels, once
   std::string positionsHash;                 // of the last frame
   bool interrupted = false;
+  bool canResume = false;  // it was interrupted, and a checkpoint is there
+  int resumedFrom = 0;     // frames that a run before had done
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> outputs;
   std::optional<double> cacheErrorBound;  // how far a point of the cache may be from its particle [m]
@@ -108,7 +117,8 @@ struct RunInput {
 /// unit, in its order, finite; and where the head is.
 using FrameObserver = std::function<Status(std::span<const Vec3f> points, const HeadPose& head)>;
 
-/// Fails with one sentence; frames finished before a failure are kept. Ctrl-C ends it early, but well.
+/// Fails with one sentence; frames finished before a failure are kept. Ctrl-C ends it early, but well: with
+/// what is finished, or, where it has checkpoints, with one.
 Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
                                 const FrameObserver& observer = {});
 

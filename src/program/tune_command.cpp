@@ -1,6 +1,7 @@
 // Implements tune_command.h: options to lengths, and the table. The timing is tune_run.cpp, the file
 // tuned_shapes.cpp.
 #include "program/tune_command.h"
+#include "program/standard_error.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -122,8 +123,8 @@ Result<std::vector<std::uint32_t>> lengthsOf(const Typed& typed) {
 }
 
 int fail(const Error& error) {
-  fmt::print(stderr, "ringlet tune: {}\n", error.message);
-  return kExitFailed;
+  say("ringlet tune: {}\n", error.message);
+  return exitCodeOf(error);
 }
 
 int run(Typed& typed) {
@@ -141,17 +142,17 @@ int run(Typed& typed) {
   if (!outcome->interrupted) file = rememberShapes(*device, outcome->costs, outcome->subgroupSize);
   const std::filesystem::path written = file ? *file : std::filesystem::path{};
   for (const std::string& message : device->validationMessages())
-    fmt::print(stderr, "ringlet tune: warning: Vulkan validation: {}\n", message);
+    say("ringlet tune: warning: Vulkan validation: {}\n", message);
   if (outcome->leftOut > 0)
-    fmt::print(stderr, "ringlet tune: warning: no time for {} of the shapes; give it more with --seconds\n",
-               outcome->leftOut);
+    say("ringlet tune: warning: no time for {} of the shapes; give it more with --seconds\n",
+        outcome->leftOut);
   if (typed.json) {
     printJson(asJson(*device, *outcome, written));
   } else if (!typed.quiet && !outcome->interrupted) {
     fmt::print("{}", asText(*device, *outcome, written));
   }
   if (outcome->interrupted) {
-    fmt::print(stderr, "ringlet tune: interrupted; nothing was remembered\n");
+    say("ringlet tune: interrupted; nothing was remembered\n");
     return kExitInterrupted;
   }
   return file ? kExitFine : fail(file.error());

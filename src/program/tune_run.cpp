@@ -163,7 +163,8 @@ struct Runner {
 
 Error inShape(const Entry& entry, const Error& cause) {
   return Error{fmt::format("strands of {} particles in the shape {}: {}", entry.particleCount,
-                           entry.shape.describe(), cause.message)};
+                           entry.shape.describe(), cause.message),
+               cause.fault};
 }
 
 // Holds the last of them against the first of its length.
@@ -226,7 +227,7 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
         fmt::format("{} has only the serial form for strands of {} particles; there is nothing to choose",
                     device.name(), options.lengths.back())};
   TuneOutcome outcome;
-  ProgressBar progress(static_cast<int>(std::ceil(options.seconds)), options.showProgress, "second");
+  ProgressBar progress(0, static_cast<int>(std::ceil(options.seconds)), options.showProgress, "second");
   const auto isTimeFor = [&](double share) {
     progress.show(static_cast<int>(std::min(clock.seconds(), std::ceil(options.seconds))));
     return clock.seconds() < share * options.seconds;

@@ -2,6 +2,7 @@
 #include "ringlet/base/whole_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
@@ -11,6 +12,8 @@
 #include <memory>
 #include <string>
 #include <system_error>
+
+#include "ringlet/base/file_fault.h"
 
 namespace ringlet {
 namespace {
@@ -42,27 +45,30 @@ Result<std::vector<std::byte>> readWholeFile(const std::filesystem::path& path) 
   std::error_code code;
   const std::filesystem::file_status status = std::filesystem::status(path, code);
   if (!std::filesystem::exists(status)) {
-    return Error{fmt::format("{}: cannot read it: {}", name, code ? code.message() : "no such file")};
+    return Error{fmt::format("{}: cannot read it: {}", name, code ? code.message() : "no such file"),
+                 Fault::input};
   }
   if (std::filesystem::is_directory(status))
-    return Error{fmt::format("{}: is a folder; expected a file", name)};
-  if (!std::filesystem::is_regular_file(status)) return Error{fmt::format("{}: is not a regular file", name)};
+    return Error{fmt::format("{}: is a folder; expected a file", name), Fault::input};
+  if (!std::filesystem::is_regular_file(status))
+    return Error{fmt::format("{}: is not a regular file", name), Fault::input};
   const std::uintmax_t size = std::filesystem::file_size(path, code);
-  if (code) return Error{fmt::format("{}: cannot tell its size: {}", name, code.message())};
+  if (code) return Error{fmt::format("{}: cannot tell its size: {}", name, code.message()), Fault::input};
 
   if (size > kLargestFile) {
-    return Error{fmt::format("{}: has {} bytes; at most {} can be read", name, size, kLargestFile)};
+    return Error{fmt::format("{}: has {} bytes; at most {} can be read", name, size, kLargestFile),
+                 Fault::input};
   }
 
   const File file(std::fopen(name.c_str(), "rb"));
-  if (!file) return Error{fmt::format("{}: cannot open it: {}", name, reasonOf(errno))};
+  if (!file) return Error{fmt::format("{}: cannot open it: {}", name, reasonOf(errno)), Fault::input};
   std::vector<std::byte> bytes;
   bytes.resize(static_cast<std::size_t>(size));
   const std::size_t found = bytes.empty() ? 0 : std::fread(bytes.data(), 1, bytes.size(), file.get());
   if (found != bytes.size()) {
-    return Error{
-        fmt::format("{}: read {} of {} bytes: {}", name, found, size,
-                    std::ferror(file.get()) ? reasonOf(errno) : "the file became shorter meanwhile")};
+    return Error{fmt::format("{}: read {} of {} bytes: {}", name, found, size,
+                             std::ferror(file.get()) ? reasonOf(errno) : "the file became shorter meanwhile"),
+                 Fault::input};
   }
   return bytes;
 }
@@ -71,12 +77,14 @@ Status writeWholeFile(const std::filesystem::path& path, std::span<const std::by
   const std::string name = path.string();
   const std::filesystem::path temporary = temporaryBeside(path);
   File file(std::fopen(temporary.string().c_str(), "wbx"));
-  if (!file) return Error{fmt::format("{}: cannot write into its folder: {}", name, reasonOf(errno))};
+  if (!file)
+    return Error{fmt::format("{}: cannot write into its folder: {}", name, reasonOf(errno)),
+                 writeFault(errno)};
 
-  // A full disk shows at any of the three: the write, the flush or the close.
+  // A full disk shows at any of the four: the write, the flush, the way to the disk or the close.
   errno = 0;
   bool isWritten = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  isWritten = isWritten && std::fflush(file.get()) == 0;
+  isWritten = isWritten && std::fflush(file.get()) == 0 && fdatasync(fileno(file.get())) == 0;
   int reason = errno;
   if (std::fclose(file.release()) != 0 && isWritten) {
     isWritten = false;
@@ -86,13 +94,15 @@ Status writeWholeFile(const std::filesystem::path& path, std::span<const std::by
   std::error_code ignored;
   if (!isWritten) {
     std::filesystem::remove(temporary, ignored);
-    return Error{fmt::format("{}: cannot write its {} bytes: {}", name, bytes.size(), reasonOf(reason))};
+    return Error{fmt::format("{}: cannot write its {} bytes: {}", name, bytes.size(), reasonOf(reason)),
+                 writeFault(reason)};
   }
   std::error_code code;
   std::filesystem::rename(temporary, path, code);
   if (code) {
     std::filesystem::remove(temporary, ignored);
-    return Error{fmt::format("{}: cannot put the finished file in place: {}", name, code.message())};
+    return Error{fmt::format("{}: cannot put the finished file in place: {}", name, code.message()),
+                 writeFault(code.value())};
   }
   return {};
 }

@@ -15,8 +15,9 @@ namespace ringlet {
 /// Throws std::bad_alloc when memory does not hold it; readGroom turns that into an Error.
 Result<std::vector<std::byte>> readWholeFile(const std::filesystem::path& path);
 
-/// Replaces a file: writes a temporary beside it and renames that, so neither a crash nor a full disk leaves
-/// half a file. Errors: the folder is missing or read-only, the disk is full, the path is a folder.
+/// Replaces a file: writes a temporary beside it to the disk and renames that, so neither a crash nor a full
+/// disk leaves half a file. Errors: the folder is missing or read-only, the disk is full, the path is a
+/// folder.
 Status writeWholeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace ringlet

@@ -7,9 +7,9 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <system_error>
 #include <thread>
 
+#include "ringlet/base/in_parallel.h"
 #include "ringlet/bodies/hole_film.h"
 #include "ringlet/bodies/triangle_tree.h"
 
@@ -84,16 +84,7 @@ Samples sampleAll(const TriangleTree& tree, const DistanceGrid& grid, bool isWat
   };
   const unsigned wanted =
       threadCount > 0 ? static_cast<unsigned>(threadCount) : std::thread::hardware_concurrency();
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < std::min(wanted, grid.counts[2]); ++i) {
-    try {
-      others.emplace_back(takeLayers);
-    } catch (const std::system_error&) {
-      break;  // no thread to be had: those there are do it
-    }
-  }
-  takeLayers();
-  for (std::thread& other : others) other.join();
+  inParallel(std::min(wanted, grid.counts[2]), takeLayers);
   return samples;
 }
 

@@ -59,6 +59,19 @@ const char* advice(VkResult result) {
   }
 }
 
+Fault faultOf(VkResult result) {
+  switch (result) {
+    case VK_ERROR_DEVICE_LOST:
+      return Fault::deviceLost;
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return Fault::deviceMemory;
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return Fault::hostMemory;
+    default:
+      return Fault::other;
+  }
+}
+
 }  // namespace
 
 std::string resultName(VkResult result) {
@@ -70,7 +83,8 @@ std::string resultName(VkResult result) {
 
 Error vulkanError(std::string_view call, VkResult result, std::string_view attempt) {
   return {fmt::format("could not {}: {} failed with {}{}", attempt, callName(call), resultName(result),
-                      advice(result))};
+                      advice(result)),
+          faultOf(result)};
 }
 
 }  // namespace ringlet::gpu

@@ -179,9 +179,17 @@ Result<std::shared_ptr<const Kernel>> Kernel::compile(Device& device, const Kern
   if (limits.inspection == Inspection::statistics)
     info.flags |= VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  RINGLET_VK_CHECK(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
-                                                        nullptr, &pipeline),
-                   attempt());
+  const auto compiled = [&]() -> Status {
+    RINGLET_VK_CHECK(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
+                                                          nullptr, &pipeline),
+                     attempt());
+    return {};
+  }();
+  if (!compiled) {
+    Error error = compiled.error();
+    if (error.fault == Fault::other) error.fault = Fault::compile;
+    return error;
+  }
   self.pipeline_ = OwnedPipeline(keeper, pipeline);
   device.nameObject(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<std::uint64_t>(pipeline), description.name);
   return std::shared_ptr<const Kernel>(kernel);

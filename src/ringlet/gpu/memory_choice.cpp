@@ -68,7 +68,8 @@ Result<std::uint32_t> allocateInFirst(const VkPhysicalDeviceMemoryProperties& me
     return Error{
         fmt::format("could not {}: it is larger than the whole memory for it ({}). Use less data, or "
                     "another device",
-                    attempt, tried)};
+                    attempt, tried),
+        Fault::deviceMemory};
   return vulkanError("vkAllocateMemory", last, fmt::format("{} (tried {})", attempt, tried));
 }
 

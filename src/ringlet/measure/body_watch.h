@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/scene/body.h"
 
@@ -29,6 +30,12 @@ class BodyWatch {
   void look(std::span<const Vec3f> positions, const HeadPose& head, std::span<const BodyPose> poses);
 
   BodyNumbers numbers() const;
+  /// What was seen so far, for a checkpoint.
+  void archive(Archive& archive) {
+    archive.values(std::span(wasOutside_));
+    archive.value(numbers_);
+    archive.value(looks_);
+  }
 
  private:
   std::vector<std::uint32_t> firstPoint_;

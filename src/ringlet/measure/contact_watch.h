@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
@@ -38,6 +39,11 @@ class ContactWatch {
   bool endFrame();
 
   const ContactNumbers& numbers() const { return numbers_; }
+  /// What was seen so far, for a checkpoint.
+  void archive(Archive& archive) {
+    archive.list(positions_);
+    archive.value(numbers_);
+  }
   /// What the solver warns of with these settings (Simulation::warnings).
   const std::vector<std::string>& warnings() const { return rest_.warnings; }
 

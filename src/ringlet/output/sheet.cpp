@@ -12,9 +12,10 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <system_error>
 #include <thread>
 #include <utility>
+
+#include "ringlet/base/in_parallel.h"
 
 namespace ringlet {
 namespace {
@@ -252,6 +253,16 @@ void Sheet::offer(int frame, std::span<const Vec3f> points) {
   frames_.back().points.assign(points.begin(), points.end());
 }
 
+void Sheet::archive(Archive& archive) {
+  std::uint64_t count = frames_.size();
+  archive.value(count);
+  if (archive.isReading()) frames_.assign(std::min<std::uint64_t>(count, kSheetPanels + 1), {});
+  for (Frame& frame : frames_) {
+    archive.value(frame.number);
+    archive.list(frame.points);
+  }
+}
+
 Picture Sheet::draw() const {
   RINGLET_ASSERT(!frames_.empty(), "a sheet shows at least one frame");
   Picture picture(kSheetPanels * kPanelWidth, kPanelHeight, kBackground);
@@ -316,17 +327,8 @@ Picture Sheet::draw() const {
     Canvas canvas;
     for (std::size_t panel; (panel = nextPanel++) < frames.size();) drawPanel(panel, canvas);
   };
-  {
-    std::vector<std::jthread> helpers;
-    const std::size_t processors =
-        std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, frames.size());
-    try {
-      for (std::size_t i = 1; i < processors; ++i) helpers.emplace_back(drawPanels);
-    } catch (const std::system_error&) {
-      // No more threads to be had: those there are draw everything.
-    }
-    drawPanels();
-  }
+  const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
+  inParallel(std::min(processors, static_cast<unsigned>(frames.size())), drawPanels);
 
   // A thin line between panels.
   for (int panel = 1; panel < kSheetPanels; ++panel) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
@@ -31,6 +32,9 @@ class Sheet {
   /// Hand in every frame, in order (1 is the first): the sheet keeps what it shows, and the latest, in case
   /// it is the last. Points in groom order, any unit, finite (see finite_points.h).
   void offer(int frame, std::span<const Vec3f> points);
+
+  /// The frames it keeps, for a checkpoint.
+  void archive(Archive& archive);
 
   /// Draws the frames it has, at least one; a processor draws about a million edges a second, and panels are
   /// drawn in parallel.

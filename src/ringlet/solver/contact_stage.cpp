@@ -373,6 +373,25 @@ Status ContactStage::forget() {
   return lists_->liveHeads.fillZero();
 }
 
+Status ContactStage::archive(Archive& archive) {
+  archive.value(control_);
+  archive.value(pairTests_);
+  Room near = near_, live = live_;
+  archive.value(near);
+  archive.value(live);
+  if (archive.isShort()) return {};
+  if (near != near_ || live != live_) {
+    near_ = near, live_ = live;
+    if (Status status = createLists(); !status) return status;
+  }
+  DeviceChunk& chunk = groom_->chunks[0];
+  for (gpu::Buffer* buffer : {&lists_->heads, &lists_->pairs, &lists_->liveHeads, &lists_->lives,
+                              &buffers_->histories, &chunk.contactSystems, &chunk.solved}) {
+    if (Status status = archiveBuffer(archive, *buffer); !status) return status;
+  }
+  return archive.isReading() ? writeControl() : Status{};
+}
+
 Result<std::uint64_t> ContactStage::contactCount() const {
   auto heads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * particles_.size() * (1 + live_.most));
   if (!heads) return heads.error();

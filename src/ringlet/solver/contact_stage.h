@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/kernel.h"
@@ -67,6 +68,9 @@ class ContactStage {
   Result<std::uint64_t> contactCount() const;
   /// Forgets lists and lives: the hair was put somewhere else.
   Status forget();
+  /// All that the next step depends on beside positions and velocities. Where the archive is read, recordings
+  /// made before are no longer good.
+  Status archive(Archive& archive);
 
   /// All pairs that are near or contacts, a < b, each once, sorted.
   Result<std::vector<ListedContact>> listed(const RestState& rest) const;
@@ -85,6 +89,7 @@ class ContactStage {
   struct Room {
     std::uint32_t blocks = 0;  // there are, for all lists
     std::uint32_t most = 0;    // of one list
+    bool operator==(const Room&) const = default;
   };
 
   ContactStage() = default;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
@@ -42,6 +43,14 @@ Result<std::vector<T>> downloadAll(const gpu::Buffer& buffer, std::size_t count,
     return status.error();
   }
   return values;
+}
+
+/// All of a buffer to an archive, or from one; nothing where that is too short.
+inline Status archiveBuffer(Archive& archive, gpu::Buffer& buffer) {
+  const auto bytes = static_cast<std::size_t>(buffer.bytes());
+  if (!archive.isReading()) return buffer.download(archive.room(bytes));
+  const std::span<const std::byte> read = archive.next(bytes);
+  return archive.isShort() ? Status{} : buffer.upload(read);
 }
 
 /// What grows, or is cut to fit, is read as texels where a device sees at least this much of a buffer

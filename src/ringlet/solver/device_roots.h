@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
@@ -55,6 +56,11 @@ class DeviceRoots {
   /// A frame of this slot begins with it.
   void record(gpu::Recorder& recorder, std::size_t slot) const {
     for (const FrameInput& poses : poses_) poses.record(recorder, slot);
+  }
+  /// Where roots are now, and were one step earlier.
+  void archive(Archive& archive) {
+    archive.values(std::span(now_));
+    archive.values(std::span(oneStepEarlier_));
   }
   /// A frame that is not stepped: roots are at once where they end, and still there, seen from the head.
   void endFrame(std::span<const BodyPose> poses);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
@@ -55,6 +56,8 @@ class DeviceWorld {
     poses_.record(recorder, slot);
     air_.record(recorder, slot);
   }
+  /// Where bodies are now.
+  void archive(Archive& archive) { archive.values(std::span(now_)); }
   /// A frame that is not stepped: bodies are at once where they end, `poses` as above.
   void endFrame(const HeadPose& head, std::span<const BodyPose> poses);
 

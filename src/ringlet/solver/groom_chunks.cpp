@@ -100,7 +100,8 @@ Status checkMemory(const std::string& what, std::uint64_t neededBytes, std::uint
   return Error{
       fmt::format("{} needs {} of the device's memory, which has {} left; use fewer or coarser strands, or "
                   "another device",
-                  what, mebibytes(neededBytes), mebibytes(availableBytes))};
+                  what, mebibytes(neededBytes), mebibytes(availableBytes)),
+      Fault::deviceMemory};
 }
 
 }  // namespace ringlet

@@ -293,6 +293,35 @@ Status Simulation::setState(const HairState& state) {
   return upload(&DeviceChunk::velocities, state.velocities);
 }
 
+Status Simulation::Implementation::archive(Archive& archive) {
+  if (Status status = finishFrames(); !status) return status;
+  archive.value(head);
+  archive.value(stepsDone);
+  world.archive(archive);
+  roots.archive(archive);
+  for (DeviceChunk& chunk : buffers.chunks) {
+    for (gpu::Buffer* buffer : {&chunk.positions, &chunk.velocities, &chunk.reports}) {
+      if (Status status = archiveBuffer(archive, *buffer); !status) return status;
+    }
+  }
+  return contacts ? contacts->archive(archive) : Status{};
+}
+
+Result<std::vector<std::byte>> Simulation::checkpoint() {
+  Archive archive = Archive::writing();
+  if (Status status = self_->archive(archive); !status) return status.error();
+  return archive.take();
+}
+
+Status Simulation::restore(std::span<const std::byte> checkpoint) {
+  Archive archive = Archive::reading(checkpoint);
+  if (Status status = self_->archive(archive); !status) return status;
+  if (!archive.isWhole()) return Error{kForeignCheckpoint};
+  self_->isReadBack = false;
+  for (FrameSlot& slot : self_->slots) slot.isRecorded = false;
+  return {};
+}
+
 void Simulation::placeBodies(std::span<const BodyPose> poses) {
   RINGLET_ASSERT(poses.size() == self_->world.bodyCount(), "every body has a place");
   self_->world.placeBodies(poses);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -71,6 +72,10 @@ struct HairState {
   std::vector<Vec3f> positions;   // [m]
   std::vector<Vec3f> velocities;  // [m/s]
 };
+
+/// Simulation::restore says this of bytes that do not fit.
+inline constexpr const char* kForeignCheckpoint =
+    "the checkpoint is not of this simulation: it holds another number of bytes";
 
 /// A pair of contact particles in a list, by groom order, and what it remembers (ContactSettings).
 struct ListedContact {
@@ -153,9 +158,17 @@ class Simulation {
   /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
   /// p.
   Result<std::vector<Vec3f>> positions() const;
-  /// Positions and velocities, for a checkpoint; setState puts one back.
+  /// Positions and velocities; setState puts them back, at rest with each other: contacts are found anew.
   Result<HairState> state() const;
   Status setState(const HairState& state);
+
+  /// All that later frames depend on: hair, contacts, where head, bodies and roots are, what report() counts.
+  /// restore() puts it into a simulation that was created with the same arguments on the same device by the
+  /// same program: from there on it gives the same bits as if it had stepped all frames itself. The bytes are
+  /// not guarded against damage. Cost: 32 bytes a particle to read back, and with contacts their lists.
+  Result<std::vector<std::byte>> checkpoint();
+  /// Fails, with this simulation spoilt, where the bytes are those of another.
+  Status restore(std::span<const std::byte> checkpoint);
 
   /// How far each strand's root (groom order) moves beside the head, when the head's pose has `shift` 1: in
   /// the groom's axes [m]. For scenes that bring hair together which is apart at rest. Before the first

@@ -79,6 +79,7 @@ struct Simulation::Implementation {
   Status placeAtRest();
   Status carryTo(const HeadPose& end);
   DeviceGroom& changed();
+  Status archive(Archive& archive);
   Result<std::vector<Vec3f>> inGroomOrder(DeviceGroom::Field field) const;
 
   // simulation_frames.cpp

@@ -101,7 +101,12 @@ Result<std::vector<std::shared_ptr<const gpu::Kernel>>> createStrandKernels(
   for (const StrandShape& shape : shapes.subspan(1)) {
     const bool isCompiled = gpu::Kernel::isCompiled(device, describeStrandKernel(shape, options));
     const auto policy = isCompiled ? std::launch::deferred : std::launch::async;
-    others.push_back(std::async(policy, [&create, &shape] { return create(shape); }));
+    const auto make = [&create, &shape] { return create(shape); };
+    try {
+      others.push_back(std::async(policy, make));
+    } catch (const std::system_error&) {  // no thread to be had: this one makes it
+      others.push_back(std::async(std::launch::deferred, make));
+    }
   }
   std::vector<Result<std::shared_ptr<const gpu::Kernel>>> made;
   made.push_back(create(shapes.front()));

@@ -1,0 +1,23 @@
+// FrameLines: one line of JSON on standard output for each frame that is written, for a scheduler
+// (--json-progress).
+#pragma once
+
+#include <chrono>
+
+namespace ringlet::program {
+
+class FrameLines {
+ public:
+  /// `first`: frames done before; of `count`.
+  FrameLines(int first, int count, bool areWanted) : first_(first), count_(count), areWanted_(areWanted) {}
+
+  /// {"frame": 12, "frames": 48, "seconds": 3.1, "seconds_left": 9.3}
+  void tell(int frame) const;
+
+ private:
+  int first_, count_;
+  bool areWanted_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace ringlet::program

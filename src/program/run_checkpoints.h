@@ -1,0 +1,33 @@
+// RunCheckpoints: when a run writes what it could go on from, and what it was a run of.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "program/run_folder.h"
+#include "ringlet/base/result.h"
+#include "ringlet/output/checkpoint_file.h"
+
+namespace ringlet::program {
+
+class RunCheckpoints {
+ public:
+  /// None: without a folder, or where the options ask for none and there is nothing to go on from.
+  RunCheckpoints() = default;
+  /// `facts`: all that the run depends on. Fails where they differ from those of the folder's checkpoint.
+  static Result<RunCheckpoints> make(const RunFolder& folder, int everyFrames, std::vector<RunFact> facts);
+
+  bool areWanted() const { return every_ > 0; }
+  bool areDueAt(int frame) const { return every_ > 0 && frame % every_ == 0; }
+  /// Replaces the one there is.
+  Status write(int frame, std::vector<std::byte> computed, std::vector<std::byte> written) const;
+
+ private:
+  std::filesystem::path path_;
+  int every_ = 0;
+  std::vector<RunFact> facts_;
+};
+
+}  // namespace ringlet::program

@@ -1,0 +1,78 @@
+// Implements run_facts.h.
+#include "program/run_facts.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "ringlet/base/whole_file.h"
+#include "ringlet/rest/material_file.h"
+
+namespace ringlet::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Lines of TOML that Ringlet writes, "key = value  # what it is" below "[table]", each a fact.
+void addLines(std::string_view text, std::string table, std::vector<RunFact>& facts) {
+  std::size_t lineNumber = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++lineNumber;
+    line = line.substr(0, line.find("  #"));
+    if (line.empty() || line.starts_with('#')) continue;
+    if (line.starts_with('[')) {
+      // Tables of a list have one name: the line's number tells them apart.
+      table = line.starts_with("[[") ? fmt::format("{} {}", line, lineNumber) : std::string(line);
+      continue;
+    }
+    const std::size_t equals = line.find(" = ");
+    if (equals == std::string_view::npos) {
+      facts.push_back({fmt::format("{} line {}", table, lineNumber), std::string(line)});
+    } else {
+      facts.push_back(
+          {fmt::format("{} {}", table, line.substr(0, equals)), std::string(line.substr(equals + 3))});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene) {
+  std::set<fs::path> files{input, scene.groom.file, scene.motion.file, scene.scalp.file};
+  for (const SceneBody& body : scene.bodies) {
+    files.insert(body.file);
+    if (body.motion) files.insert(body.motion->file);
+  }
+  files.erase(fs::path());
+  return {files.begin(), files.end()};
+}
+
+Result<std::vector<RunFact>> factsOf(const SceneFile& scene, const std::vector<fs::path>& inputs) {
+  SceneFile asked = scene;
+  asked.hasMaterial = false;  // see addMaterialFacts
+  asked.output = {};          // and simulate_run.cpp
+  std::vector<RunFact> facts;
+  addLines(sceneText(asked), "", facts);
+  for (const fs::path& input : inputs) {
+    if (isSceneFile(input)) continue;  // its keys are what counts
+    const auto bytes = readWholeFile(input);
+    if (!bytes) return bytes.error();
+    const auto* data = reinterpret_cast<const Bytef*>(bytes->data());
+    facts.push_back(
+        {fmt::format("the content of {}", input.string()),
+         fmt::format("{} bytes with CRC-32 {:08x}", bytes->size(), crc32_z(0, data, bytes->size()))});
+  }
+  return facts;
+}
+
+void addMaterialFacts(const Material& material, std::vector<RunFact>& facts) {
+  addLines(materialText(material), "material", facts);
+}
+
+}  // namespace ringlet::program

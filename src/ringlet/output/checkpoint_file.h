@@ -1,0 +1,43 @@
+// The file that a run which was killed goes on from: what it was a run of, how many frames were done, and all
+// that the frames after them depend on.
+//
+//   magic 8 | version u32 | CRC-32 of the content u32 | bytes of the content u64 | content
+//
+// The content is an Archive (base/archive.h), as the machine has it in memory: the program that wrote it
+// reads it, on such a machine. A file that is damaged, or another version's, is refused.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+
+namespace ringlet {
+
+/// Something a run depends on, and what it was: {"simulation.fps", "24"}.
+struct RunFact {
+  std::string name, value;
+  bool operator==(const RunFact&) const = default;
+};
+
+struct Checkpoint {
+  std::vector<RunFact> facts;       // of the run
+  int everyFrames = 0;              // there is one
+  int frame = 0;                    // frames done
+  std::vector<std::byte> computed;  // state of what computes frames; of frame 0 none
+  std::vector<std::byte> written;   // and of what looks at and writes them
+};
+
+/// Replaces the file; it is on the disk when this returns. A crash at any time leaves the one before or this
+/// one. Errors: those of a file that cannot be written.
+Status writeCheckpoint(const std::filesystem::path& path, Checkpoint checkpoint);
+
+/// Errors: no such file, no checkpoint, one of another version, damaged.
+Result<Checkpoint> readCheckpoint(const std::filesystem::path& path);
+
+/// What differs between two runs, as "simulation.fps is 30 and was 24; ...", the first few; empty: nothing.
+std::string differencesOf(const std::vector<RunFact>& now, const std::vector<RunFact>& before);
+
+}  // namespace ringlet
