@@ -1,0 +1,43 @@
+// FramePoses: where everything that moves by itself is in the steps of a frame.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "program/backend.h"
+#include "program/simulate_run.h"
+#include "ringlet/base/result.h"
+#include "ringlet/scene/body.h"
+#include "ringlet/scene/head_pose.h"
+
+namespace ringlet::program {
+
+/// Where head, bodies and roots are at the end of every step of a frame.
+struct FramePoses {
+  std::vector<HeadPose> heads;
+  std::vector<BodyPose> bodies;  // as bodyPosesOf gives them
+  std::vector<BodyPose> roots;   // as Simulation::stepFrame takes them
+
+  /// Hands over steps [first, first + count) of them.
+  Status submit(Backend& backend, std::size_t first, std::size_t count) const {
+    const auto ofSteps = [&](const std::vector<BodyPose>& poses) {
+      const std::size_t each = poses.size() / heads.size();
+      return std::span(poses).subspan(first * each, count * each);
+    };
+    return backend.submitFrame(std::span(heads).subspan(first, count), ofSteps(bodies), ofSteps(roots));
+  }
+  Status submit(Backend& backend) const { return submit(backend, 0, heads.size()); }
+  Status step(Backend& backend, std::size_t first, std::size_t count) const {
+    if (Status handed = submit(backend, first, count); !handed) return handed;
+    return backend.waitFrame();
+  }
+  std::span<const BodyPose> bodiesAtEnd() const {
+    return std::span(bodies).last(bodies.size() / heads.size());
+  }
+};
+
+/// Frame 0 is the first that is written. Times are exact quotients, so they do not drift.
+FramePoses posesOfFrame(const RunInput& input, int frame);
+
+}  // namespace ringlet::program

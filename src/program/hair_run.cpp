@@ -1,0 +1,371 @@
+// Implements runHair of simulate_run.h.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "program/backend.h"
+#include "program/frame_lines.h"
+#include "program/frame_poses.h"
+#include "program/frame_sink.h"
+#include "program/interruption.h"
+#include "program/progress_bar.h"
+#include "program/run_checkpoints.h"
+#include "program/run_folder.h"
+#include "program/run_writers.h"
+#include "program/simulate_run.h"
+#include "program/stepper.h"
+#include "program/stopwatch.h"
+#include "ringlet/output/positions_hash.h"
+
+namespace ringlet::program {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double secondsBetween(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+// The paper's loops solve no system; contacts, air and bodies have one of other terms; the reference does not
+// measure.
+bool measuresResidual(const RunInput& input, const RunOptions& options) {
+  return options.kernel.residual && !options.onReference && !input.settings.contacts.on &&
+         !input.settings.air.on && input.bodies.empty() && input.settings.integrator != Integrator::paper;
+}
+
+// The same steps, each a frame of its own: so that each can be looked at.
+Settings stepByStep(Settings settings) {
+  settings.framesPerSecond *= settings.stepsPerFrame;
+  settings.stepsPerFrame = 1;
+  return settings;
+}
+
+// Frames before the first, in which nothing is written.
+int preRollFrames(const RunInput& input, const RunOptions& options) {
+  return static_cast<int>(std::ceil(options.preRollSeconds * input.settings.framesPerSecond - 1e-6));
+}
+
+Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOptions& options) {
+  const double start = -preRollFrames(input, options) / input.settings.framesPerSecond;
+  const Settings settings = options.measuresContacts ? stepByStep(input.settings) : input.settings;
+  const HeadPose head = input.motion.poseAt(start);
+  const std::vector<BodyPose> bodies = bodyPosesOf(input.bodies, std::span(&head, 1), std::span(&start, 1));
+  const double earlier = start - settings.stepSeconds();
+  std::vector<BodyPose> roots, rootsEarlier;
+  if (input.scalp) roots = input.scalp->rootPosesAt(start), rootsEarlier = input.scalp->rootPosesAt(earlier);
+  const BackendInput made{input.groom,      input.material, settings, head,  input.motion.poseAt(earlier),
+                          input.rootShifts, input.bodies,   bodies,   roots, rootsEarlier};
+  if (options.onReference) return makeReferenceBackend(made);
+  KernelChoice kernel = options.kernel;
+  kernel.residual = measuresResidual(input, options);
+  return makeGpuBackend(made, {options.device, kernel, options.usesTuned, options.showProgress});
+}
+
+// The motion up to the first frame, so that hair begins it as it moves.
+Status preRoll(Backend& backend, const RunInput& input, const RunOptions& options) {
+  for (int frame = -preRollFrames(input, options); frame < 0 && !wasInterrupted(); ++frame) {
+    const FramePoses poses = posesOfFrame(input, frame);
+    const std::size_t together = options.measuresContacts ? 1 : poses.heads.size();  // as makeBackend says
+    for (std::size_t step = 0; step < poses.heads.size(); step += together) {
+      if (Status stepped = poses.step(backend, step, together); !stepped) return stepped;
+    }
+  }
+  return {};
+}
+
+// A failure in the middle of a run, with what it leaves.
+Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
+  if (frameCount == 0 || options.folder.empty() || (!options.writesUsd && !options.cache)) return cause;
+  const char* file = options.writesUsd ? "hair.usda.partial" : "hair.rgc.partial";
+  return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
+                           (options.folder / file).string()),
+               cause.fault};
+}
+
+// What this run and one that goes on with it must have in common.
+std::vector<RunFact> factsOf(const RunInput& input, const RunOptions& options, const Backend& backend) {
+  std::vector<RunFact> facts = options.facts;
+  const auto add = [&](const char* name, auto value) { facts.push_back({name, fmt::format("{}", value)}); };
+  add("program", RINGLET_VERSION);
+  add("device", backend.device());
+  add("driver", backend.driver());
+  add("kernel", backend.kernel());
+  add("strands", input.groom.strandCount());
+  add("frames", options.frameCount);
+  add("steps a frame", input.settings.stepsPerFrame);
+  add("pre-roll", options.preRollSeconds);
+  add("hair.usda", options.writesUsd);
+  add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);
+  add("sheet.png", options.writesSheet);
+  add("width", options.width);
+  add("measured contacts", options.measuresContacts);
+  add("measured residual", measuresResidual(input, options));
+  return facts;
+}
+
+// From the folder to the numbers, in the order of its functions.
+class HairRun {
+ public:
+  HairRun(const RunInput& input, const RunOptions& options, const FrameObserver& observer)
+      : input_(input), options_(options), observer_(observer) {
+    outcome_.strandCount = input.groom.strandCount();
+    outcome_.particleCount = input.groom.points.size();
+  }
+
+  Result<SimulateOutcome> run() {
+    for (const auto part : {&HairRun::openFolder, &HairRun::makeHair, &HairRun::makeSink, &HairRun::stepAll,
+                            &HairRun::finishFiles, &HairRun::tellReports}) {
+      if (Status done = (this->*part)(); !done) return done.error();
+    }
+    tellTimes();
+    tellWarnings();
+    return std::move(outcome_);
+  }
+
+ private:
+  Status openFolder();
+  Status makeHair();
+  Status makeSink();
+  Status restore();
+  Status stepAll();
+  Status takeUnderWay();
+  Status saveAt(int frame);
+  Status writeCheckpoint(int frame, std::vector<std::byte> computed);
+  Error afterWritten(const Error& cause);
+  Status finishFiles();
+  Status tellReports();
+  void tellTimes();
+  void tellWarnings();
+
+  const RunInput& input_;
+  const RunOptions& options_;
+  const FrameObserver& observer_;
+  SimulateOutcome outcome_;
+
+  std::optional<RunFolder> folder_;
+  RunCheckpoints checkpoints_;
+  std::unique_ptr<Backend> backend_;
+  std::optional<Stepper> stepper_;
+  std::optional<Writers> writers_;
+  std::optional<BodyWatch> bodyWatch_;
+  std::optional<ComputedFrame> underWay_;  // its positions are still to come
+
+  const Clock::time_point start_ = Clock::now();
+  Clock::time_point firstFrame_{}, lastFrame_{};
+  std::map<std::string, double> stagesBefore_;
+  double posesTime_ = 0, readbackTime_ = 0, waitedForWriter_ = 0;  // [ms]
+  std::optional<FrameSink> sink_;                                  // goes first: it works on the rest
+};
+
+Status HairRun::openFolder() {
+  if (options_.folder.empty()) return {};
+  auto opened = RunFolder::open(options_.folder, options_.leftovers);
+  if (!opened) return opened.error();
+  folder_.emplace(std::move(*opened));
+  if (folder_->checkpoint()) outcome_.resumedFrom = folder_->checkpoint()->frame;
+  return {};
+}
+
+// What can fail before the first step; and the steps before the first frame.
+Status HairRun::makeHair() {
+  auto backend = makeBackend(input_, options_);
+  if (!backend) return backend.error();
+  backend_ = std::move(*backend);
+  if (folder_ && (options_.checkpointFrames > 0 || folder_->checkpoint())) {
+    auto made =
+        RunCheckpoints::make(*folder_, options_.checkpointFrames, factsOf(input_, options_, *backend_));
+    if (!made) return made.error();
+    checkpoints_ = std::move(*made);
+  }
+  if (outcome_.resumedFrom == 0) {
+    if (checkpoints_.areWanted()) {
+      if (Status written = checkpoints_.write(0, {}, {}); !written) return written;
+    }
+    if (Status rolled = preRoll(*backend_, input_, options_); !rolled) return rolled;
+  }
+  stagesBefore_ = backend_->stageMilliseconds();
+  auto stepper = Stepper::make(*backend_, input_, options_);
+  if (!stepper) return stepper.error();
+  stepper_.emplace(std::move(*stepper));
+  return {};
+}
+
+Status HairRun::makeSink() {
+  const int done = outcome_.resumedFrom;
+  if (folder_) writers_.emplace(input_, options_, done);
+  if (!input_.bodies.empty()) bodyWatch_.emplace(input_.groom, input_.bodies, input_.settings.rootCount);
+  FrameReaders readers{.bodies = bodyWatch_ ? &*bodyWatch_ : nullptr, .observe = {}, .write = {}};
+  if (observer_) {
+    readers.observe = [this](const ComputedFrame& frame, std::span<const Vec3f> points) -> Status {
+      const Status seen = observer_(points, frame.head);
+      return seen ? seen : afterFrames(frame.number - 1, seen.error(), options_);
+    };
+  }
+  if (writers_) {
+    const FrameLines lines(done, options_.frameCount, options_.tellsFrames);
+    readers.write = [this, lines](int number, std::vector<Vec3f> points) -> Status {
+      if (Status added = writers_->addFrame(number, std::move(points)); !added) return added;
+      lines.tell(number);
+      return {};
+    };
+  }
+  sink_.emplace(input_.groom, std::move(readers));
+  return done > 0 ? restore() : Status{};
+}
+
+Status HairRun::restore() {
+  Archive computed = Archive::reading(folder_->checkpoint()->computed);
+  Archive written = Archive::reading(folder_->checkpoint()->written);
+  if (Status restored = stepper_->archive(computed); !restored) return restored;
+  sink_->archive(written);
+  writers_->archive(written);
+  if (!computed.isWhole() || !written.isWhole()) return Error{kForeignCheckpoint, Fault::input};
+  folder_->dropState();
+  return {};
+}
+
+// Frames, until all are done or Ctrl-C comes: while one computes, the one before it is read back and those
+// before that are written.
+Status HairRun::stepAll() {
+  firstFrame_ = Clock::now();
+  const int first = outcome_.resumedFrom;
+  ProgressBar progress(first, options_.frameCount, options_.showProgress);
+  int frame = first;
+  for (; frame < options_.frameCount && !wasInterrupted(); ++frame) {
+    progress.show(sink_->frameCount());
+    if (checkpoints_.areDueAt(frame) && frame > first) {
+      if (Status saved = saveAt(frame); !saved) return saved;
+    }
+    const FramePoses poses = [&] {
+      Stopwatch watch(posesTime_);
+      return posesOfFrame(input_, frame);
+    }();
+    if (Status submitted = stepper_->submitFrame(poses); !submitted) {
+      (void)takeUnderWay();  // it may be whole
+      return afterWritten(submitted.error());
+    }
+    if (Status taken = takeUnderWay(); !taken) return taken;
+    const auto bodies = poses.bodiesAtEnd();
+    underWay_ = {frame + 1, {}, poses.heads.back(), {bodies.begin(), bodies.end()}};
+  }
+  if (Status taken = takeUnderWay(); !taken) return taken;
+  if (frame < options_.frameCount && checkpoints_.areWanted()) {
+    if (Status saved = saveAt(frame); !saved) return saved;
+  }
+  const Status written = sink_->finish();
+  progress.show(sink_->frameCount());
+  lastFrame_ = Clock::now();
+  return written;
+}
+
+Status HairRun::takeUnderWay() {
+  if (!underWay_) return {};
+  ComputedFrame frame = std::move(*underWay_);
+  underWay_.reset();
+  if (Status waited = stepper_->waitFrame(); !waited) return afterWritten(waited.error());
+  {
+    Stopwatch watch(readbackTime_);
+    frame.positions = stepper_->framePositions();
+  }
+  Stopwatch watch(waitedForWriter_);
+  return sink_->hand(std::move(frame));
+}
+
+// A checkpoint after `frame` frames: the hair's state now; what was written joins it on the writers' thread.
+Status HairRun::saveAt(int frame) {
+  if (Status taken = takeUnderWay(); !taken) return taken;
+  Archive archive = Archive::writing();
+  if (Status kept = stepper_->archive(archive); !kept) return afterWritten(kept.error());
+  return sink_->handJob([this, frame, computed = archive.take()]() mutable {
+    return writeCheckpoint(frame, std::move(computed));
+  });
+}
+
+Status HairRun::writeCheckpoint(int frame, std::vector<std::byte> computed) {
+  Archive written = Archive::writing();
+  sink_->archive(written);
+  writers_->archive(written);
+  if (Status synced = writers_->sync(); !synced) return synced;
+  return checkpoints_.write(frame, std::move(computed), written.take());
+}
+
+Error HairRun::afterWritten(const Error& cause) {
+  (void)sink_->finish();
+  return afterFrames(sink_->frameCount(), cause, options_);
+}
+
+// What there is becomes files, unless another run goes on with it.
+Status HairRun::finishFiles() {
+  outcome_.frameCount = sink_->frameCount();
+  outcome_.interrupted = wasInterrupted() && outcome_.frameCount < options_.frameCount;
+  outcome_.canResume = outcome_.interrupted && checkpoints_.areWanted();
+  if (writers_ && outcome_.frameCount > 0 && !outcome_.canResume) {
+    auto outputs = writers_->finish();
+    if (!outputs) return outputs.error();
+    outcome_.outputs = std::move(*outputs);
+    outcome_.cacheErrorBound = writers_->cacheErrorBound();
+    folder_->finish();
+  }
+  outcome_.wall = {secondsBetween(start_, firstFrame_), secondsBetween(firstFrame_, lastFrame_),
+                   secondsBetween(lastFrame_, Clock::now())};
+  return {};
+}
+
+Status HairRun::tellReports() {
+  auto report = backend_->report();
+  if (!report) return report.error();
+  outcome_.report = *report;
+  outcome_.report.nonfinite = std::max<std::uint64_t>(report->nonfinite, sink_->mostReplaced());
+  if (measuresResidual(input_, options_)) outcome_.velocityResidual = report->velocityResidual;
+  outcome_.positionsHash = positionsHash(sink_->lastPositions());
+  outcome_.device = backend_->device();
+  outcome_.driver = backend_->driver();
+  outcome_.kernel = backend_->kernel();
+  outcome_.isTuned = backend_->isTuned();
+  outcome_.deviceBytes = backend_->deviceBytes();
+  if (bodyWatch_) outcome_.bodyNumbers = bodyWatch_->numbers();
+  return stepper_->tell(outcome_);
+}
+
+// Per frame of this run.
+void HairRun::tellTimes() {
+  outcome_.compileMilliseconds = backend_->compileMilliseconds();
+  std::map<std::string, double> computing = backend_->stageMilliseconds();
+  for (const auto& [stage, milliseconds] : stagesBefore_) computing[stage] -= milliseconds;
+  for (const auto& [stage, milliseconds] : computing) outcome_.millisecondsPerFrame += milliseconds;
+  outcome_.computeShare = outcome_.millisecondsPerFrame / (1000 * outcome_.wall.frames);
+  outcome_.stages.merge(computing);
+  outcome_.stages["readback"] = readbackTime_;
+  outcome_.stages["write"] = sink_->millisecondsWriting();
+  outcome_.waitedForWriter = waitedForWriter_;
+  if (input_.scalp) outcome_.stages["scalp"] = posesTime_;
+  if (bodyWatch_) outcome_.stages["measure_bodies"] = sink_->millisecondsWatching();
+  const double frames = std::max(outcome_.frameCount - outcome_.resumedFrom, 1);
+  for (auto& [stage, milliseconds] : outcome_.stages) milliseconds /= frames;
+  for (double* time : {&outcome_.millisecondsPerFrame, &outcome_.waitedForDevice, &outcome_.waitedForWriter})
+    *time /= frames;
+}
+
+void HairRun::tellWarnings() {
+  if (folder_) outcome_.warnings = folder_->warnings();
+  const auto add = [&](const std::vector<std::string>& warnings) {
+    outcome_.warnings.insert(outcome_.warnings.end(), warnings.begin(), warnings.end());
+  };
+  add(stepper_->warnings());
+  add(backend_->deviceMessages());
+}
+
+}  // namespace
+
+Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
+                                const FrameObserver& observer) {
+  catchInterruption();
+  return HairRun(input, options, observer).run();
+}
+
+}  // namespace ringlet::program
