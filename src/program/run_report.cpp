@@ -105,6 +105,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["material"] = names.material;
   json["steps_per_frame"] = settings.stepsPerFrame;
   json["fps"] = settings.framesPerSecond;
+  json["resumed_from"] = outcome.resumedFrom;
   json["interrupted"] = outcome.interrupted;
   json["warnings"] = outcome.warnings;
   json["outputs"] = nlohmann::json::array();

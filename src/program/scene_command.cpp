@@ -83,7 +83,8 @@ struct Typed {
   std::string core = "on", framesOn = "smoothed";
   std::filesystem::path file;  // to write the scene to
   std::optional<int> subgroup;
-  bool list = false, keys = false, untuned = false, json = false, quiet = false;
+  bool list = false, keys = false, untuned = false, json = false, quiet = false,
+       overwrite = false;
 };
 
 // What a scene measures beside the run's own numbers.
@@ -349,6 +350,7 @@ void resolve(Typed& typed) {
   typed.run.kernel.subgroupSize = typed.subgroup.value_or(0);
   typed.run.usesTuned = !typed.untuned;
   typed.run.showProgress = !typed.quiet;
+  if (typed.overwrite) typed.run.leftovers = Leftovers::overwrite;
 }
 
 }  // namespace
@@ -370,6 +372,8 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->type_name("FILE");
   command->add_option("-o,--output", typed->run.folder, "Folder for the animation (default: none is written)")
       ->type_name("DIR");
+  command->add_flag("--overwrite", typed->overwrite,
+                    "Begin anew where DIR holds frames of a run that did not end");
 
   const char* hair = "Hair";
   command->add_option("--particles", typed->scene.particles, "Particles of each strand (default 64)")

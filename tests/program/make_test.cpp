@@ -60,7 +60,7 @@ TEST(Make, WarnsOfCurlsCutTooCoarsely) {
 TEST(Make, SaysWhereItCannotWrite) {
   const auto folder = scratchFolder("make_nowhere");
   const auto result = runProgram(folder, {"make", "curl", "-o", "no/such/curl.obj"});
-  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.exitCode, 5);
   EXPECT_NE(result.err.find("ringlet make curl: no/such/curl.obj"), std::string::npos) << result.err;
 }
 

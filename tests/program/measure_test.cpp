@@ -169,13 +169,13 @@ TEST(Measure, SaysWhatIsWrong) {
     const char* part;
   };
   for (const Case& c :
-       {Case{{"missing.obj"}, 1, "missing.obj"}, Case{{"rest.obj", "missing.obj"}, 1, "missing.obj"},
+       {Case{{"missing.obj"}, 4, "missing.obj"}, Case{{"rest.obj", "missing.obj"}, 4, "missing.obj"},
         Case{{"rest.obj", "fewer.obj"}, 1, "2 and 1 strands"},
         Case{{"rest.obj", "shorter.obj"}, 1, "strand 1 has 64 particles"},
         Case{{"fewer.obj", "out"}, 1, "1 and 2 strands"},
         Case{{"rest.obj", "--against", "fewer.obj"}, 1, "rest.obj and fewer.obj hold 2 and 1 strands"},
         Case{{"rest.obj", "out", "--against", "shorter.obj"}, 1, "63 in shorter.obj"},
-        Case{{"rest.obj", "--against", "missing.obj"}, 1, "missing.obj"},
+        Case{{"rest.obj", "--against", "missing.obj"}, 4, "missing.obj"},
         Case{{"rest.obj", "empty"}, 1, "holds no hair.usda"},
         Case{{"out"}, 1, "name the groom first, as in `ringlet measure groom.obj out`"},
         Case{{"out/hair.usda", "rest.obj"}, 1, "name the groom first"},

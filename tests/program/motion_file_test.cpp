@@ -146,7 +146,7 @@ TEST(MotionFile, MistakesAreOneSentence) {
            Case{{"--motion", "walk.BVH", "--amplitude", "1"}, 2, "a motion from a file has its own"},
            Case{{"--motion", "walk.BVH", "--motion-unit", "0"}, 2, "must be a number from"},
            Case{{"--motion", "nod", "--joint", "Head"}, 2, "only a .bvh, .gltf or .glb file has a --joint"},
-           Case{{"--motion", "missing.bvh"}, 1, "missing.bvh"},
+           Case{{"--motion", "missing.bvh"}, 4, "missing.bvh"},
            Case{{"--motion", "broken.bvh"}, 1, "broken.bvh is no BVH motion: line 2: \"ROOT\" should stand"},
            Case{{"--motion", "walk.BVH", "--animation", "run"}, 2, "a .bvh file has only one"},
            Case{
@@ -155,7 +155,7 @@ TEST(MotionFile, MistakesAreOneSentence) {
            Case{{"--motion", "walk.glb", "--joint", "LeftWrist"}, 1, "it has rig:Head, Hips"},
            Case{{"--motion", "walk.glb", "--animation", "run"}, 1, "has no animation run; it has take0"},
            Case{{"--motion", "still.gltf"}, 1, "still.gltf has no animation"},
-           Case{{"--motion", "missing.gltf"}, 1, "missing.gltf"},
+           Case{{"--motion", "missing.gltf"}, 4, "missing.gltf"},
            Case{{"--motion", "cut.glb"}, 1, "cut.glb is no glTF: it says it has"},
            Case{{"--motion", "nodd"}, 2, "did you mean nod?"},
        }) {

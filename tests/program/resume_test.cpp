@@ -30,21 +30,21 @@ constexpr const char* kScene = R"(
 file = "tuft.obj"
 [motion]
 kind = "shake"
-pre_roll_s = 0.1
+pre_roll = 0.1
 [simulation]
 frames = 24
 steps_per_frame = 4
 [contacts]
 on = true
-radius_m = 0.006
+radius = 0.006
 [air]
 on = true
-wind_m_per_s = [1, 0, 2]
-[[bodies]]
+wind = [1, 0, 2]
+[[body]]
 name = "ball"
 shape = "sphere"
-radius_m = 0.03
-position_m = [0, -0.05, 0]
+radius = 0.03
+position = [0, -0.05, 0]
 )";
 
 // 40 strands of 16 particles that wind through one another, in centimetres.

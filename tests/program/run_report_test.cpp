@@ -55,6 +55,7 @@ SimulateOutcome outcome() {
   outcome.deviceBytes = 123456;
   outcome.compileMilliseconds = 1500;
   outcome.positionsHash = "0123456789abcdef";
+  outcome.resumedFrom = 3;
   outcome.interrupted = true;
   outcome.warnings = {"a warning"};
   outcome.outputs = {"out/hair.usda", "out/hair.rgc"};
@@ -110,6 +111,7 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"material", "fine"},
       {"steps_per_frame", 10},
       {"fps", 30.0},
+      {"resumed_from", 3},
       {"interrupted", true},
       {"warnings", {"a warning"}},
       {"outputs", {"out/hair.usda", "out/hair.rgc"}},

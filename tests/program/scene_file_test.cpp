@@ -256,7 +256,7 @@ TEST(SceneFileProgram, MistakesAreOneSentence) {
            Case{"", with({"--iterations", "5"}), 2, "only --integrator point_jacobi has iterations"},
            Case{"[contacts]\non = false\n", with({"--prune", "5"}), 2, "only with --contacts on"},
            Case{"[contacts]\n[simulation]\nintegrator = 'paper'\n", out, 1, "contacts need jacobi"},
-           Case{"[motion]\nfile = 'none.bvh'\n", out, 1, "none.bvh"},
+           Case{"[motion]\nfile = 'none.bvh'\n", out, 4, "none.bvh"},
        }) {
     writeScene(folder / "scene.toml", c.text);
     std::vector<std::string> arguments{"simulate", "scene.toml", "--backend", "reference"};
@@ -266,7 +266,7 @@ TEST(SceneFileProgram, MistakesAreOneSentence) {
     expectContains(result.err, c.message);
   }
   const auto missing = runProgram(folder, {"simulate", "none.toml", "-o", "out"});
-  EXPECT_EQ(missing.exitCode, 1);
+  EXPECT_EQ(missing.exitCode, 4);
   expectContains(missing.err, "none.toml: cannot read it");
 }
 
@@ -340,7 +340,7 @@ TEST(SceneFileProgram, KeysArePrinted) {
     expectContains(result.err, message);
   }
   const auto nowhere = runProgram(folder, {"scene", "pile", "--write", "none/a.toml"});
-  EXPECT_EQ(nowhere.exitCode, 1);
+  EXPECT_EQ(nowhere.exitCode, 5);
   expectContains(nowhere.err, "cannot write into its folder");
 }
 

@@ -446,7 +446,7 @@ TEST(Scene, MistakesAreOneSentence) {
            Case{{"twist_jump", "--particles", "8"},
                 1,
                 "ringlet scene: twist_jump with 8 particles: it takes 16"},
-           Case{{"bounce", "--backend", "reference", "-o", "file"}, 1, "ringlet scene: bounce: "},
+           Case{{"bounce", "--backend", "reference", "-o", "file"}, 5, "ringlet scene: bounce: "},
            Case{{"bounce", "--device", "Voodoo 2"}, 1, "--backend reference"},
        }) {
     auto arguments = c.arguments;
