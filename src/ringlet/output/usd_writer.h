@@ -34,6 +34,12 @@ class UsdWriter {
   static Result<UsdWriter> create(const std::filesystem::path& path, const Groom& topology,
                                   const UsdOptions& options);
 
+  static Result<UsdWriter> resume(const std::filesystem::path& path, const Groom& t, const UsdOptions& o,
+                                  int frames) {
+    RINGLET_ASSERT(frames == 0, "stub");
+    return create(path, t, o);
+  }
+  Status sync() { return {}; }
   UsdWriter(UsdWriter&&) = default;
   UsdWriter& operator=(UsdWriter&&) = delete;
   /// Without finish(): leaves the partial file if it holds a frame, else removes it.
