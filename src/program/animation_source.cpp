@@ -69,6 +69,7 @@ Result<AnimationSource> AnimationSource::open(const fs::path& path) {
                     .framesPerSecond = usd.framesPerSecond(),
                     .metresPerUnit = usd.metresPerUnit()};
   source.frameCount_ = usd.frameCount();
+  source.warnings_ = usd.warnings();
   source.isFinished_ = path.extension() != ".partial";
   std::error_code code;
   source.byteCount_ = fs::file_size(path, code);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 
 #include "program/command_line.h"
@@ -48,7 +49,8 @@ int main(int argumentCount, char** arguments) {
   try {
     app.parse(argumentCount, arguments);
   } catch (const CLI::Success& asked) {
-    return app.exit(asked);  // --help, --version
+    exitCode = app.exit(asked);  // --help, --version
+    std::cout.flush();
   } catch (const CLI::ParseError& error) {
     say("{}\n", usageMessage(app, error));
     return kExitUsage;
@@ -60,7 +62,8 @@ int main(int argumentCount, char** arguments) {
     return kExitFailed;
   }
   // A full disk or a closed pipe behind standard output is a failure too: someone waits for that text.
-  if (std::fflush(stdout) != 0 && exitCode == kExitFine) {
+  const bool isWritten = std::fflush(stdout) == 0 && std::cout.good();
+  if (!isWritten && exitCode == kExitFine) {
     say("ringlet: cannot write to standard output\n");
     return kExitOutput;
   }

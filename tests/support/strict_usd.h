@@ -48,8 +48,19 @@ class StrictUsdReader {
     expect("BasisCurves");
     if (quoted() != "\"Hair\"") fail("the prim's name");
     expect("{");
-    while (!accept("}")) readAttribute(usd);
+    while (!accept("}")) {
+      readAttribute(usd);
+      // A statement ends with its line, or with a semicolon.
+      const std::size_t end = at_;
+      skipSpace();
+      const bool isNewLine = text_.find('\n', end) < at_;
+      if (!accept(";") && !isNewLine) fail("the statement's end");
+    }
     skipSpace();
+    while (at_ < text_.size() && text_[at_] == '#') {  // a comment runs to its line's end
+      at_ = std::min(text_.find('\n', at_), text_.size());
+      skipSpace();
+    }
     if (at_ != text_.size()) fail("the end of the file");
     return usd;
   }

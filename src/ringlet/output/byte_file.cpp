@@ -1,77 +1,154 @@
 // Implements output/byte_file.h.
 #include "ringlet/output/byte_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
 
+#include "ringlet/base/file_fault.h"
+
 namespace ringlet {
 namespace {
 
-Error failure(const char* what, const std::filesystem::path& path, int code) {
+namespace fs = std::filesystem;
+
+Error cannot(const char* what, const fs::path& path, int code) {
   const char* advice = "";
   if (code == ENOSPC || code == EDQUOT) advice = "; free some space or choose another folder";
+  if (code == EFBIG) advice = "; it may not grow further here: choose another folder, or write less";
   if (code == EACCES || code == EPERM || code == EROFS) advice = "; choose a folder you may write to";
-  return Error{
-      fmt::format("cannot {} {}: {}{}", what, path.string(), std::generic_category().message(code), advice)};
+  return {
+      fmt::format("cannot {} {}: {}{}", what, path.string(), std::generic_category().message(code), advice),
+      writeFault(code)};
+}
+
+Error cannotRead(const fs::path& path, const std::string& why) {
+  return {fmt::format("cannot read {}: {}", path.string(), why), Fault::input};
+}
+
+bool isRegular(int file) {
+  struct stat found {};
+  return fstat(file, &found) == 0 && S_ISREG(found.st_mode);
+}
+
+// Whether the file of that name is still this one: its writer may have given it another between our opening
+// and our lock.
+bool isNamed(const fs::path& path, int file) {
+  struct stat named {
+  }, open{};
+  return stat(path.c_str(), &named) == 0 && fstat(file, &open) == 0 && named.st_ino == open.st_ino &&
+         named.st_dev == open.st_dev;
 }
 
 }  // namespace
 
-Result<OpenFile> openToRead(const std::filesystem::path& path) {
-  errno = 0;
+Result<OpenFile> openToRead(const fs::path& path) {
   std::error_code code;
-  if (std::filesystem::is_directory(path, code))
-    return Error{fmt::format("cannot read {}: it is a folder", path.string())};
-  OpenFile file(std::fopen(path.c_str(), "rb"));
-  if (!file)
-    return Error{fmt::format("cannot read {}: {}", path.string(), std::generic_category().message(errno))};
+  if (fs::is_directory(path, code)) return cannotRead(path, "it is a folder");
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return cannotRead(path, std::generic_category().message(errno));
+  if (!isRegular(file)) {
+    close(file);
+    return cannotRead(path, "it is not a regular file");
+  }
+  return OpenFile(fdopen(file, "rb"));
+}
+
+Result<ByteFile> ByteFile::create(const fs::path& path) {
+  auto file = openLocked(path, O_CREAT);
+  if (!file) return file;
+  if (ftruncate(file->descriptor(), 0) != 0) return file->failure("empty", errno);
   return file;
 }
 
-Result<ByteFile> ByteFile::create(const std::filesystem::path& path) {
-  ByteFile made;
-  made.path_ = path;
-  made.file_.reset(std::fopen(path.c_str(), "wb"));
-  if (!made.file_) return failure("create", path, errno);
-  std::setvbuf(made.file_.get(), nullptr, _IONBF, 0);
-  return made;
+Result<ByteFile> ByteFile::open(const fs::path& path) { return openLocked(path, 0); }
+
+Result<ByteFile> ByteFile::openLocked(const fs::path& path, int flags) {
+  while (true) {
+    // Without O_NONBLOCK a pipe of that name would make the program wait.
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK | flags, 0666);
+    if (file < 0) return cannot(flags & O_CREAT ? "create" : "open", path, errno);
+    ByteFile made;
+    made.path_ = path;
+    made.file_.reset(fdopen(file, "r+b"));
+    if (!isRegular(file))
+      return Error{fmt::format("cannot write {}: it is not a regular file", path.string()), Fault::output};
+    if (flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      return Error{fmt::format("cannot write {}: another process is writing it", path.string()), Fault::busy};
+    if (!isNamed(path, file)) continue;
+    std::setvbuf(made.file_.get(), nullptr, _IONBF, 0);
+    return made;
+  }
 }
 
+Error ByteFile::failure(const char* what, int code) const { return cannot(what, path_, code); }
+
 Status ByteFile::writeAt(std::uint64_t offset, std::string_view bytes) {
-  errno = 0;
-  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0 ||
-      std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
-    int code = errno;
-    std::clearerr(file_.get());
-    return failure("write", path_, code);
+  while (!bytes.empty()) {
+    const ssize_t written = pwrite(descriptor(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return failure("write", written == 0 ? ENOSPC : errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    offset += static_cast<std::uint64_t>(written);
   }
   return {};
 }
 
+Result<std::string> ByteFile::readAt(std::uint64_t offset, std::size_t count) const {
+  std::string bytes(count, '\0');
+  std::size_t found = 0;
+  while (found < count) {
+    const ssize_t read =
+        pread(descriptor(), bytes.data() + found, count - found, static_cast<off_t>(offset + found));
+    if (read < 0 && errno == EINTR) continue;
+    if (read < 0) return failure("read", errno);
+    if (read == 0) break;
+    found += static_cast<std::size_t>(read);
+  }
+  bytes.resize(found);
+  return bytes;
+}
+
 Status ByteFile::truncate(std::uint64_t size) {
-  std::error_code code;
-  std::filesystem::resize_file(path_, size, code);
-  if (code) return failure("shorten", path_, code.value());
+  if (ftruncate(descriptor(), static_cast<off_t>(size)) != 0) return failure("shorten", errno);
+  return {};
+}
+
+Status ByteFile::sync() {
+  if (fdatasync(descriptor()) != 0) return failure("write", errno);
   return {};
 }
 
 Status ByteFile::close() {
   errno = 0;
-  if (std::fclose(file_.release()) != 0) return failure("finish writing", path_, errno);
+  if (std::fclose(file_.release()) != 0) return failure("finish writing", errno);
   return {};
 }
 
-Status ByteFile::closeAs(const std::filesystem::path& finished) {
-  if (Status closed = close(); !closed) return closed;
+// Renamed while it is open and locked, so that no other process takes it for an unfinished one in between.
+Status ByteFile::closeAs(const fs::path& finished) {
   std::error_code code;
-  std::filesystem::rename(path_, finished, code);
-  if (code) {
-    return Error{fmt::format("cannot name {} as {}: {}; all frames are kept under the first name",
-                             path_.string(), finished.string(), code.message())};
+  const bool isThere = isNamed(path_, descriptor());
+  if (isThere) fs::rename(path_, finished, code);
+  if (!isThere || code) {
+    const std::string why = isThere ? code.message() + "; all frames are kept under the first name"
+                                    : "it is no longer there; somebody removed or moved it";
+    return Error{fmt::format("cannot name {} as {}: {}", path_.string(), finished.string(), why),
+                 Fault::output};
   }
-  return {};
+  return close();
+}
+
+Result<ByteFile> openPartial(const fs::path& path) {
+  const fs::path partial = path.string() + ".partial";
+  std::error_code code;
+  if (!fs::exists(partial, code) && fs::exists(path, code)) fs::rename(path, partial, code);
+  return ByteFile::open(partial);
 }
 
 }  // namespace ringlet

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include "ringlet/base/result.h"
@@ -17,19 +18,29 @@ struct FileCloser {
 };
 using OpenFile = std::unique_ptr<std::FILE, FileCloser>;
 
-/// To be read from its beginning.
+/// To be read from its beginning: a regular file; a pipe would make the reader wait.
 Result<OpenFile> openToRead(const std::filesystem::path& path);
 
 /// Unbuffered: what a call wrote is with the operating system when it returns, so killing the program loses
-/// none of it.
+/// none of it. One process at a time has it (an advisory lock). What one call writes within a page of kPage
+/// bytes of the file is seen by others whole or not at all, whenever the program is killed.
 class ByteFile {
  public:
-  /// Creates the file, or empties the one that is there. Its folder must exist.
+  static constexpr std::uint64_t kPage = 4096;
+
+  /// Creates the file, or empties the one that is there. Its folder must exist. Errors: another process is
+  /// writing it (Fault::busy); it is no regular file.
   static Result<ByteFile> create(const std::filesystem::path& path);
+  /// The one that is there, as it is.
+  static Result<ByteFile> open(const std::filesystem::path& path);
 
   Status writeAt(std::uint64_t offset, std::string_view bytes);
+  /// So many bytes, or as many as there are.
+  Result<std::string> readAt(std::uint64_t offset, std::size_t count) const;
   /// Cuts the file to its first `size` bytes.
   Status truncate(std::uint64_t size);
+  /// What was written is on the disk.
+  Status sync();
   /// Some file systems tell only here that the disk is full.
   Status close();
   /// Closes it and gives it the name of a finished file. Where it cannot have that, it keeps its own.
@@ -40,8 +51,16 @@ class ByteFile {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  static Result<ByteFile> openLocked(const std::filesystem::path& path, int flags);
+  Error failure(const char* what, int code) const;
+  int descriptor() const { return fileno(file_.get()); }
+
   OpenFile file_;
   std::filesystem::path path_;
 };
+
+/// Where one run of `ringlet` goes on with what another left: PATH.partial, or, where that one was ended
+/// while it gave its files their names, PATH, which becomes PATH.partial again.
+Result<ByteFile> openPartial(const std::filesystem::path& path);
 
 }  // namespace ringlet

@@ -97,6 +97,7 @@ bool CacheReader::readIndex() {
     if (!isBound(frames[k].errorBound)) return false;
   }
   frames_ = std::move(frames);
+  framesEnd_ = at;
   return !frames_.empty();
 }
 
@@ -122,6 +123,7 @@ void CacheReader::scan() {
     meetsIndex = false;
     frames_.pop_back();
   }
+  framesEnd_ = at;
   if (meetsIndex) {
     warnings_.push_back(fmt::format("{}: its index is damaged; its {} frames were found without it",
                                     path_.string(), frames_.size()));
@@ -171,8 +173,12 @@ double CacheReader::errorBound() const {
   return largest;
 }
 
+std::uint64_t CacheReader::endOf(int frame) const {
+  return frame < frameCount() ? frameOffset(frame + 1) : framesEnd_;
+}
+
 Error CacheReader::damaged(std::string_view what) const {
-  return Error{fmt::format("{}: {}", path_.string(), what)};
+  return {fmt::format("{}: {}", path_.string(), what), Fault::input};
 }
 
 }  // namespace ringlet

@@ -35,6 +35,9 @@ class CacheReader {
   /// The farthest that a point of this frame, or of any, may be from the one that was written [m].
   double errorBound(int frame) const { return frames_[static_cast<std::size_t>(frame) - 1].errorBound; }
   double errorBound() const;
+  /// Where a frame's bytes begin and end in the file.
+  std::uint64_t frameOffset(int frame) const { return frames_[static_cast<std::size_t>(frame) - 1].offset; }
+  std::uint64_t endOf(int frame) const;
   /// Whether its writer came to the end. Of others the frames so far are here.
   bool isFinished() const { return isFinished_; }
   /// Sentences for a person: what was lost of the file's end.
@@ -63,6 +66,7 @@ class CacheReader {
   CacheHeader header_;
   std::vector<std::uint32_t> firstPoint_{0};
   std::vector<Frame> frames_;
+  std::uint64_t framesEnd_ = 0;             // where the last frame's chunk ends [byte]
   std::vector<std::byte> chunk_, content_;  // kept from one frame to the next
   bool isFinished_ = false;
   std::vector<std::string> warnings_;

@@ -8,6 +8,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/base/little_endian.h"
+#include "ringlet/output/cache_reader.h"
 
 namespace ringlet {
 namespace {
@@ -25,10 +26,7 @@ Result<CacheWriter> CacheWriter::create(const std::filesystem::path& path, const
   RINGLET_ASSERT(topology.strandCount() > 0, "a groom without strands is not written");
   auto file = ByteFile::create(path.string() + ".partial");
   if (!file) return file.error();
-  CacheWriter writer(std::move(*file));
-  writer.path_ = path;
-  writer.firstPoint_ = topology.firstPoint;
-  writer.header_ = header;
+  CacheWriter writer(std::move(*file), path, topology, header);
 
   std::vector<std::byte> counts;
   for (std::size_t s = 0; s < topology.strandCount(); ++s)
@@ -38,6 +36,32 @@ Result<CacheWriter> CacheWriter::create(const std::filesystem::path& path, const
   if (Status written = writer.append(writer.packer_.pack(ChunkKind::strands, strandCount, 0, counts));
       !written)
     return written.error();
+  return writer;
+}
+
+Result<CacheWriter> CacheWriter::resume(const std::filesystem::path& path, const Groom& topology,
+                                        const CacheHeader& header, int frameCount) {
+  if (frameCount == 0) return create(path, topology, header);
+  auto file = openPartial(path);
+  if (!file) return file.error();
+  const auto before = CacheReader::open(file->path());
+  if (!before) return before.error();
+  const auto begins = file->readAt(0, cache::kHeaderBytes);
+  if (!begins) return begins.error();
+  if (*begins != textOf(cache::headerBytes(header)) || before->firstPoint() != topology.firstPoint ||
+      before->frameCount() < frameCount) {
+    return Error{fmt::format("cannot go on with {}: expected {} whole frames of this animation, found {}",
+                             file->path().string(), frameCount,
+                             before->firstPoint() == topology.firstPoint
+                                 ? fmt::format("{} frames, or another header", before->frameCount())
+                                 : std::string("those of another groom")),
+                 Fault::input};
+  }
+  CacheWriter writer(std::move(*file), path, topology, header);
+  for (int frame = 1; frame <= frameCount; ++frame)
+    writer.index_.push_back({before->frameOffset(frame), before->errorBound(frame)});
+  writer.end_ = before->endOf(frameCount);
+  if (Status cut = writer.file_.truncate(writer.end_); !cut) return cut.error();
   return writer;
 }
 
@@ -57,7 +81,8 @@ Status CacheWriter::append(std::span<const std::byte> bytes) {
   const Status ignored = file_.truncate(end_);
   if (index_.empty()) return written;
   return Error{fmt::format("{} (the first {} frames are kept in {})", written.error().message, index_.size(),
-                           file_.path().string())};
+                           file_.path().string()),
+               written.error().fault};
 }
 
 Status CacheWriter::addFrame(std::span<const Vec3f> points) {

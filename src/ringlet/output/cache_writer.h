@@ -28,12 +28,12 @@ class CacheWriter {
   static Result<CacheWriter> create(const std::filesystem::path& path, const Groom& topology,
                                     const CacheHeader& header);
 
-  static Result<CacheWriter> resume(const std::filesystem::path& path, const Groom& t, const CacheHeader& o,
-                                    int frames) {
-    RINGLET_ASSERT(frames == 0, "stub");
-    return create(path, t, o);
-  }
-  Status sync() { return {}; }
+  /// Goes on with PATH.partial after its first `frameCount` frames, dropping what follows, to the bytes of a
+  /// file written in one go; with 0 it begins anew. Errors: the file is not that of such an animation, or has
+  /// fewer whole frames.
+  static Result<CacheWriter> resume(const std::filesystem::path& path, const Groom& topology,
+                                    const CacheHeader& header, int frameCount);
+
   CacheWriter(CacheWriter&&) = default;
   CacheWriter& operator=(CacheWriter&&) = delete;
   /// Without finish(): leaves the partial file if it holds a frame, else removes it.
@@ -42,6 +42,8 @@ class CacheWriter {
   /// Adds a frame; points in the file's unit, in groom order, finite (see finite_points.h). Cost: one write,
   /// and about 1 ms of processor time for 64,000 points.
   Status addFrame(std::span<const Vec3f> points);
+  /// What was added is on the disk.
+  Status sync() { return file_.sync(); }
   /// Writes the index, closes the file with the frames so far (at least one) and gives it its name.
   Status finish();
 
@@ -56,7 +58,9 @@ class CacheWriter {
     double errorBound;     // [m]
   };
 
-  explicit CacheWriter(ByteFile file) : file_(std::move(file)) {}
+  CacheWriter(ByteFile file, const std::filesystem::path& path, const Groom& topology,
+              const CacheHeader& header)
+      : file_(std::move(file)), path_(path), firstPoint_(topology.firstPoint), header_(header) {}
   Status append(std::span<const std::byte> bytes);
 
   ByteFile file_;                          // PATH.partial

@@ -35,8 +35,32 @@ std::optional<T> parse(std::string_view text) {
 }  // namespace
 
 Result<UsdReader> UsdReader::open(const std::filesystem::path& path) {
+  auto reader = begin(path);
+  if (!reader || !reader->isPartial_) return reader;
+  if (Status counted = reader->countFrames(); !counted) return counted.error();
+  return reader;
+}
+
+// How many are whole, by reading them all: what a file of a killed run states may be of another moment than
+// its frames.
+Status UsdReader::countFrames() {
+  auto ahead = begin(path_);
+  if (!ahead) return ahead.error();
+  std::vector<Vec3f> points;
+  auto more = ahead->readFrame(points);
+  while (more && *more) more = ahead->readFrame(points);
+  frameCount_ = ahead->framesRead_;
+  isCounted_ = true;
+  if (!more)
+    warnings_.push_back(fmt::format("its end is torn and left out, after {} whole frames ({})", frameCount_,
+                                    more.error().message));
+  return {};
+}
+
+Result<UsdReader> UsdReader::begin(const std::filesystem::path& path) {
   UsdReader reader;
   reader.path_ = path;
+  reader.isPartial_ = path.extension() == ".partial";
   auto opened = openToRead(path);
   if (!opened) return opened.error();
   reader.file_ = std::move(*opened);
@@ -129,13 +153,9 @@ Status UsdReader::readExtents() {
 }
 
 Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
-  if (isFinished_) return false;
+  if (isFinished_ || (isCounted_ && framesRead_ == frameCount_)) return false;
   if (accept("}")) {
-    if (Status found = expect("}"); !found) return found.error();
-    skipSpace();
-    if (fill()) return wanted("the end of the file");
-    if (framesRead_ != frameCount_)
-      return wanted(fmt::format("{} frames, as endTimeCode says, after {}", frameCount_, framesRead_));
+    if (Status ended = readEnd(); !ended) return ended.error();
     isFinished_ = true;
     return false;
   }
@@ -158,6 +178,19 @@ Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
   }
   ++framesRead_;
   return true;
+}
+
+// Behind the last frame: what closes all; of a `.partial` perhaps the frame that was being written, as a
+// comment.
+Status UsdReader::readEnd() {
+  accept(";");
+  if (Status found = expect("}"); !found) return found;
+  skipSpace();
+  if (isPartial_) return peek() == '#' || !fill() ? Status{} : wanted("the end of the file");
+  if (fill()) return wanted("the end of the file");
+  if (framesRead_ != frameCount_)
+    return wanted(fmt::format("{} frames, as endTimeCode says, after {}", frameCount_, framesRead_));
+  return {};
 }
 
 Result<Vec3f> UsdReader::readTuple() {

@@ -24,11 +24,15 @@ class UsdReader {
   /// Reads everything before the first frame. Errors: no such file, or text that UsdWriter does not write.
   static Result<UsdReader> open(const std::filesystem::path& path);
 
+  /// Sentences for a person: what is lost of the end of a `.partial`.
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// The next frame, in groom order and the file's unit; false after the last. Errors: as open(), a frame out
   /// of order, of the wrong number of points or with one that is not finite, a file cut short.
   Result<bool> readFrame(std::vector<Vec3f>& points);
 
-  int frameCount() const { return frameCount_; }  // as the file states it
+  int frameCount() const {
+    return frameCount_;
+  }  // as the file states it; of a `.partial` those that are whole
   double framesPerSecond() const { return framesPerSecond_; }
   double metresPerUnit() const { return metresPerUnit_; }
   UpAxis up() const { return up_; }
@@ -37,7 +41,10 @@ class UsdReader {
 
  private:
   UsdReader() = default;
+  static Result<UsdReader> begin(const std::filesystem::path& path);
   Status readHeader();
+  Status countFrames();
+  Status readEnd();
   Status readExtents();
   Result<Vec3f> readTuple();
 
@@ -60,7 +67,8 @@ class UsdReader {
   double framesPerSecond_ = 0, metresPerUnit_ = 0;
   UpAxis up_ = UpAxis::y;
   float diameter_ = 0;
-  bool isFinished_ = false;
+  bool isPartial_ = false, isCounted_ = false, isFinished_ = false;
+  std::vector<std::string> warnings_;
   std::vector<std::uint32_t> particleCounts_;
   std::size_t particleCount_ = 0;
 };

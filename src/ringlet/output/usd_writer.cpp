@@ -4,11 +4,17 @@
 //   def BasisCurves "Hair" {
 //     counts, type, widths, wrap                      constant
 //     extent.timeSamples = { 1: ... 2: ... ________ } <- a line of fixed width is reserved for each frame
-//     points.timeSamples = { 1: [...], 2: [...],      <- grows
-//     }                                               <- the closing braces: the next frame overwrites them
-//   }
+//     points.timeSamples = {
+//       1: [...],____                                 <- a line a frame; behind the last stands what closes
+//       all 2: [...], };}
+//   #   3: [...], };}                                 <- the frame that is being written: a comment
 //
 // USD text allows no attribute to be continued later, hence the reserved lines: both attributes grow at once.
+// A frame is behind the end, as a comment, until it is whole. Then one write of five bytes makes `};}`, the
+// line's end and `#` before it
+// `___`, the line's end and a blank: the old end is gone, the frame and its own end hold. Lines are laid out
+// so that these five bytes, and any extent's line, are within a page: a kill leaves such a write whole or
+// undone (ByteFile).
 #include "ringlet/output/usd_writer.h"
 
 #include <fmt/format.h>
@@ -21,10 +27,11 @@
 namespace ringlet {
 namespace {
 
-constexpr std::string_view kClosing = "    }\n}\n";
+constexpr std::string_view kEnd = "};}\n", kNext = "#";  // of all; of a line that does not hold yet
+constexpr std::string_view kEndAndNext = "};}\n#", kOpened = "   \n ";
 constexpr std::size_t kTimeCodeWidth = 10;  // digits of the largest int
-constexpr std::size_t kExtentWidth =
-    128;  // bytes a reserved line: key, 6 floats of at most 15 bytes, brackets
+// Of a reserved line, its end included: key, 6 floats of at most 15 bytes, brackets. A page holds whole ones.
+constexpr std::size_t kExtentWidth = 128;
 constexpr std::size_t kFlushBytes = 4 << 20;  // text collected before a write: few calls, little memory
 constexpr std::size_t kFloatBytes = 15;       // most bytes of a float: -1.17549435e-38
 constexpr std::size_t kTupleBytes = 3 * kFloatBytes + 5;  // of "(x,y,z),"
@@ -55,49 +62,126 @@ std::string padded(std::string text, std::size_t width) {
   return text;
 }
 
+// What closes all, where the text will stand at `offset` of the file: it and the next line's first byte
+// within a page.
+void appendEnd(std::string& text, std::uint64_t offset) {
+  const std::uint64_t at = (offset + text.size()) % ByteFile::kPage;
+  if (at + kEndAndNext.size() > ByteFile::kPage) text.append(ByteFile::kPage - at, ' ');
+  text += kEnd;
+}
+
+// Where the line that begins there ends, its end included; `begin` where the file ends before.
+Result<std::uint64_t> lineEnd(const ByteFile& file, std::uint64_t begin) {
+  for (std::uint64_t at = begin;;) {
+    const auto piece = file.readAt(at, kFlushBytes);
+    if (!piece) return piece.error();
+    if (piece->empty()) return begin;
+    if (const std::size_t end = piece->find('\n'); end != std::string::npos) return at + end + 1;
+    at += piece->size();
+  }
+}
+
 }  // namespace
+
+UsdWriter::UsdWriter(ByteFile file, const std::filesystem::path& path, const Groom& topology,
+                     const UsdOptions& options)
+    : file_(std::move(file)), path_(path), firstPoint_(topology.firstPoint), options_(options) {
+  RINGLET_ASSERT(options.frameCount >= 1, "at least one frame will come");
+}
 
 Result<UsdWriter> UsdWriter::create(const std::filesystem::path& path, const Groom& topology,
                                     const UsdOptions& options) {
-  RINGLET_ASSERT(options.frameCount >= 1, "at least one frame will come");
   auto file = ByteFile::create(path.string() + ".partial");
   if (!file) return file.error();
-  UsdWriter writer(std::move(*file));
-  writer.path_ = path;
-  writer.firstPoint_ = topology.firstPoint;
-  writer.options_ = options;
+  UsdWriter writer(std::move(*file), path, topology, options);
+  if (Status written = writer.file_.writeAt(0, writer.headerText()); !written) return written.error();
+  return writer;
+}
 
+// All that stands before the first frame; notes where that is, and what will be patched.
+std::string UsdWriter::headerText() {
   // What the file is measured in.
-  std::string& text = writer.buffer_;
-  text = "#usda 1.0\n(\n    defaultPrim = \"Hair\"\n    endTimeCode = ";
-  writer.endTimeCodeAt_ = text.size();
+  std::string text = "#usda 1.0\n(\n    defaultPrim = \"Hair\"\n    endTimeCode = ";
+  endTimeCodeAt_ = text.size();
   text += padded("0", kTimeCodeWidth);
   text += fmt::format(
       "\n    metersPerUnit = {}\n    startTimeCode = 1\n    timeCodesPerSecond = {}\n    upAxis = "
       "\"{}\"\n)\n\n",
-      options.metresPerUnit, options.framesPerSecond, options.up == UpAxis::y ? 'Y' : 'Z');
+      options_.metresPerUnit, options_.framesPerSecond, options_.up == UpAxis::y ? 'Y' : 'Z');
 
   // What holds for all frames. "linear" must be said: the default is cubic.
   text += "def BasisCurves \"Hair\"\n{\n    int[] curveVertexCounts = [";
-  for (std::size_t strand = 0; strand < topology.strandCount(); ++strand) {
+  for (std::size_t strand = 0; strand + 1 < firstPoint_.size(); ++strand) {
     if (strand != 0) text += strand % 25 == 0 ? ",\n        " : ", ";
-    fmt::format_to(std::back_inserter(text), "{}",
-                   topology.firstPoint[strand + 1] - topology.firstPoint[strand]);
+    fmt::format_to(std::back_inserter(text), "{}", firstPoint_[strand + 1] - firstPoint_[strand]);
   }
   text += "]\n    uniform token type = \"linear\"\n";
   text += fmt::format("    float[] widths = [{}] (\n        interpolation = \"constant\"\n    )\n",
-                      options.diameter);
+                      options_.diameter);
   text += "    uniform token wrap = \"nonperiodic\"\n";
 
   // Room for the extents, and the points opened.
-  text += "    float3[] extent.timeSamples = {\n";
-  writer.extentsAt_ = text.size();
-  for (int frame = 0; frame < options.frameCount; ++frame) text.append(kExtentWidth, ' ').append("\n");
+  text += "    float3[] extent.timeSamples = {";
+  text.append(kExtentWidth - 1 - text.size() % kExtentWidth, ' ').append("\n");
+  extentsAt_ = text.size();
+  for (int frame = 0; frame < options_.frameCount; ++frame) text.append(kExtentWidth - 1, ' ').append("\n");
   text += "    }\n    point3f[] points.timeSamples = {\n";
-  writer.end_ = text.size();
-  text += kClosing;
-  if (Status written = writer.file_.writeAt(0, text); !written) return written.error();
+  appendEnd(text, 0);
+  end_ = text.size();
+  return text;
+}
+
+Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Groom& topology,
+                                    const UsdOptions& options, int frameCount) {
+  if (frameCount == 0) return create(path, topology, options);
+  auto file = openPartial(path);
+  if (!file) return file.error();
+  UsdWriter writer(std::move(*file), path, topology, options);
+
+  writer.frameCount_ = frameCount;
+
+  // The header as it would be, but for what was patched since.
+  const std::string header = writer.headerText();
+  const auto found = writer.file_.readAt(0, header.size());
+  if (!found) return found.error();
+  std::string blank = *found;
+  const auto forget = [&](std::uint64_t at, std::size_t count) {
+    if (at + count <= blank.size()) blank.replace(at, count, header, at, count);
+  };
+  forget(writer.endTimeCodeAt_, kTimeCodeWidth);
+  for (int frame = 0; frame < options.frameCount; ++frame)
+    forget(writer.extentsAt_ + frame * kExtentWidth, kExtentWidth - 1);
+  forget(header.size() - kEnd.size(), kEnd.size());
+  std::uint64_t begin = header.size(), end = header.size();
+  bool isWhole = blank == header;
+  for (int frame = 1; frame <= frameCount && isWhole; ++frame) {
+    const auto next = lineEnd(writer.file_, end);
+    if (!next) return next.error();
+    isWhole = *next > end;
+    begin = end;
+    end = *next;
+  }
+  if (!isWhole) {
+    return Error{
+        fmt::format("cannot go on with {}: expected {} whole frames of this animation, found another file or "
+                    "fewer",
+                    writer.file_.path().string(), frameCount),
+        Fault::input};
+  }
+  if (Status cut = writer.cutAfter(begin, end); !cut) return cut.error();
   return writer;
+}
+
+// The last frame's line is [lineBegin, lineEnd): what follows goes, and it closes all again.
+Status UsdWriter::cutAfter(std::uint64_t lineBegin, std::uint64_t lineEnd) {
+  end_ = lineEnd;
+  if (Status cut = file_.truncate(end_); !cut) return cut;
+  if (Status closed = file_.writeAt(end_ - kEnd.size(), kEnd); !closed) return closed;
+  if (Status opened = file_.writeAt(lineBegin - kEnd.size(), kOpened); !opened) return opened;
+  for (int frame = frameCount_ + 1; frame <= options_.frameCount; ++frame) {
+    if (Status cleared = writeExtent(frame, ""); !cleared) return cleared;
+  }
+  return writeEndTimeCode();
 }
 
 UsdWriter::~UsdWriter() {
@@ -114,18 +198,36 @@ Status UsdWriter::addFrame(std::span<const Vec3f> points) {
 }
 
 Status UsdWriter::writeFrame(std::span<const Vec3f> points) {
-  const int timeCode = frameCount_ + 1;
   const float infinity = std::numeric_limits<float>::infinity();
   Vec3f low{infinity, infinity, infinity}, high = -low;
+  const std::uint64_t begin = end_;
+  if (Status written = writeLine(points, low, high); !written) return written;
 
-  // The points, a line a strand, over the closing braces.
+  // Its extent: a strand is as thick as it is wide, so half a diameter more on every side.
+  const int timeCode = frameCount_ + 1;
+  const float radius = options_.diameter / 2;
+  const Vec3f margin{radius, radius, radius};
+  if (Status written = writeExtent(timeCode, fmt::format("        {}: [{}, {}],", timeCode,
+                                                         tuple(low - margin), tuple(high + margin)));
+      !written)
+    return written;
+
+  // From now on it holds.
+  if (Status opened = file_.writeAt(begin - kEnd.size(), kOpened); !opened) return opened;
+  end_ = begin + lineBytes_;
+  ++frameCount_;
+  return writeEndTimeCode();
+}
+
+// Behind the end, as a comment.
+Status UsdWriter::writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& high) {
   std::uint64_t offset = end_;
   buffer_.clear();  // and keeps its memory
-  fmt::format_to(std::back_inserter(buffer_), "        {}: [\n", timeCode);
+  fmt::format_to(std::back_inserter(buffer_), "{}       {}: [", kNext, frameCount_ + 1);
   for (std::size_t strand = 0; strand + 1 < firstPoint_.size(); ++strand) {
     auto particles = points.subspan(firstPoint_[strand], firstPoint_[strand + 1] - firstPoint_[strand]);
     std::size_t used = buffer_.size();
-    buffer_.resize(used + particles.size() * kTupleBytes + 1);
+    buffer_.resize(used + particles.size() * kTupleBytes);
     char* at = buffer_.data() + used;
     for (Vec3f p : particles) {
       at = putTuple(at, p);
@@ -133,34 +235,24 @@ Status UsdWriter::writeFrame(std::span<const Vec3f> points) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    *at++ = '\n';
     buffer_.resize(at - buffer_.data());
     if (buffer_.size() >= kFlushBytes) {
       if (Status written = flush(offset); !written) return written;
     }
   }
-  buffer_ += "        ],\n";
-  const std::uint64_t end = offset + buffer_.size();
-  buffer_ += kClosing;
+  buffer_ += "], ";
+  appendEnd(buffer_, offset);
   if (Status written = flush(offset); !written) return written;
-
-  // Its extent: a strand is as thick as it is wide, so half a diameter more on every side.
-  const float radius = options_.diameter / 2;
-  const Vec3f margin{radius, radius, radius};
-  std::string extent =
-      fmt::format("        {}: [{}, {}],", timeCode, tuple(low - margin), tuple(high + margin));
-  if (Status written =
-          file_.writeAt(extentsAt_ + frameCount_ * (kExtentWidth + 1), padded(extent, kExtentWidth));
-      !written) {
-    return written;
-  }
-  if (Status written = file_.writeAt(endTimeCodeAt_, padded(fmt::format("{}", timeCode), kTimeCodeWidth));
-      !written) {
-    return written;
-  }
-  end_ = end;
-  ++frameCount_;
+  lineBytes_ = offset - end_;
   return {};
+}
+
+Status UsdWriter::writeExtent(int frame, std::string text) {
+  return file_.writeAt(extentsAt_ + (frame - 1) * kExtentWidth, padded(std::move(text), kExtentWidth - 1));
+}
+
+Status UsdWriter::writeEndTimeCode() {
+  return file_.writeAt(endTimeCodeAt_, padded(fmt::format("{}", frameCount_), kTimeCodeWidth));
 }
 
 Status UsdWriter::flush(std::uint64_t& offset) {
@@ -171,14 +263,12 @@ Status UsdWriter::flush(std::uint64_t& offset) {
 }
 
 Error UsdWriter::keepFinishedFrames(const Error& cause) {
+  // Behind the end there is only a comment; where it cannot be cut off it does not matter.
+  const Status ignored = file_.truncate(end_);
   if (frameCount_ == 0) return cause;
-  // The braces go where they were before this frame; that part of the file exists, so a full disk does not
-  // matter.
-  Status restored = file_.writeAt(end_, kClosing);
-  if (restored) restored = file_.truncate(end_ + kClosing.size());
-  if (!restored) return cause;
-  return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount_,
-                           file_.path().string())};
+  return {fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount_,
+                      file_.path().string()),
+          cause.fault};
 }
 
 Status UsdWriter::finish() {

@@ -25,21 +25,21 @@ struct UsdOptions {
 };
 
 /// Frame k (1 for the first) becomes the sample at time code k. While frames come, the file is
-/// `PATH.partial`, and it is a whole, valid USD file after every frame: a killed program leaves all finished
-/// frames in it. finish() renames it to PATH, so a PATH that is there is finished. A frame that fails (full
-/// disk) leaves the frames before it.
+/// `PATH.partial`, and it is a whole, valid USD file at every moment, also in the middle of a frame: a killed
+/// program leaves all finished frames in it. finish() renames it to PATH, so a PATH that is there is
+/// finished. A frame that fails (full disk) leaves the frames before it.
 class UsdWriter {
  public:
   /// Creates the file and writes everything but the samples. Only the groom's strand lengths are used.
   static Result<UsdWriter> create(const std::filesystem::path& path, const Groom& topology,
                                   const UsdOptions& options);
 
-  static Result<UsdWriter> resume(const std::filesystem::path& path, const Groom& t, const UsdOptions& o,
-                                  int frames) {
-    RINGLET_ASSERT(frames == 0, "stub");
-    return create(path, t, o);
-  }
-  Status sync() { return {}; }
+  /// Goes on with PATH.partial after its first `frameCount` frames, dropping what follows, to the bytes of a
+  /// file written in one go; with 0 it begins anew. Errors: the file is not that of such an animation, or has
+  /// fewer whole frames.
+  static Result<UsdWriter> resume(const std::filesystem::path& path, const Groom& topology,
+                                  const UsdOptions& options, int frameCount);
+
   UsdWriter(UsdWriter&&) = default;
   UsdWriter& operator=(UsdWriter&&) = delete;
   /// Without finish(): leaves the partial file if it holds a frame, else removes it.
@@ -47,6 +47,8 @@ class UsdWriter {
 
   /// Adds a frame; points in the file's unit, in groom order, finite (see finite_points.h).
   Status addFrame(std::span<const Vec3f> points);
+  /// What was added is on the disk.
+  Status sync() { return file_.sync(); }
   /// Closes the file with the frames so far (at least one) and gives it its name.
   Status finish();
 
@@ -54,8 +56,14 @@ class UsdWriter {
   std::uint64_t byteCount() const { return end_; }
 
  private:
-  explicit UsdWriter(ByteFile file) : file_(std::move(file)) {}
+  UsdWriter(ByteFile file, const std::filesystem::path& path, const Groom& topology,
+            const UsdOptions& options);
+  std::string headerText();
   Status writeFrame(std::span<const Vec3f> points);
+  Status writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& high);
+  Status writeExtent(int frame, std::string text);
+  Status writeEndTimeCode();
+  Status cutAfter(std::uint64_t lineBegin, std::uint64_t lineEnd);
   Status flush(std::uint64_t& offset);
   Error keepFinishedFrames(const Error& cause);
 
@@ -66,7 +74,8 @@ class UsdWriter {
   std::string buffer_;               // text on its way to the file
   std::uint64_t endTimeCodeAt_ = 0;  // where the header's reserved last time code stands [byte]
   std::uint64_t extentsAt_ = 0;      // where the reserved lines for the extents begin [byte]
-  std::uint64_t end_ = 0;            // where the next sample goes: over the closing braces [byte]
+  std::uint64_t end_ = 0;            // of what is valid: where the next frame's line begins [byte]
+  std::uint64_t lineBytes_ = 0;      // of the line written last
   int frameCount_ = 0;
 };
 

@@ -1,0 +1,289 @@
+// Animations whose writer was killed, at every byte: USD text is whole all the time, every whole frame is
+// read back from whatever a file was cut to, and a writer goes on with it to the bytes of a file written in
+// one go.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include "ringlet/output/cache_reader.h"
+#include "ringlet/output/cache_writer.h"
+#include "ringlet/output/usd_reader.h"
+#include "ringlet/output/usd_writer.h"
+#include "tests/support/strict_usd.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::readUsd;
+using test::scratchFolder;
+
+constexpr int kFrames = 4;
+
+std::string textOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+void putText(const fs::path& path, std::string_view text) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
+}
+
+Groom groomOf(int frame, int pointCount = 3) {
+  Groom groom;
+  for (int s = 0; s < 2; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < pointCount; ++i)
+      strand.push_back({0.1f * static_cast<float>(i + s), -1.5f * static_cast<float>(i),
+                        0.37f * static_cast<float>(frame)});
+    groom.addStrand(strand);
+  }
+  return groom;
+}
+
+UsdOptions options(int frames) { return {.diameter = 0.05f, .frameCount = frames}; }
+
+// Bytes [begin, end) that differ between two states of a file, within the shorter; places closer than `gap`
+// are one.
+struct Change {
+  std::size_t begin, end;
+};
+std::vector<Change> changesOf(const std::string& before, const std::string& after, std::size_t gap = 64) {
+  std::vector<Change> changes;
+  for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
+    if (before[i] == after[i]) continue;
+    if (changes.empty() || i > changes.back().end + gap) changes.push_back({i, i});
+    changes.back().end = i + 1;
+  }
+  return changes;
+}
+
+// Every frame changes three places of what was there, the last of them with the first byte that is appended;
+// each place is within a page of the file, so that a kill leaves it as it was or as it is.
+TEST(TornFiles, WhatIsPatchedIsWithinAPage) {
+  const fs::path path = scratchFolder("torn_pages") / "hair.usda";
+  constexpr int kMany = 300;
+  auto writer = UsdWriter::create(path, groomOf(0), options(kMany));
+  ASSERT_TRUE(writer);
+  for (int frame = 1; frame <= kMany; ++frame) {
+    const std::string before = textOf(path.string() + ".partial");
+    ASSERT_TRUE(writer->addFrame(groomOf(frame, 3).points));
+    const auto changes = changesOf(before, textOf(path.string() + ".partial"));
+    ASSERT_EQ(changes.size(), 3u) << "time code, extent, end";
+    for (const Change& change : changes) {
+      const bool isEnd = change.end + 1 >= before.size();
+      const std::size_t last = isEnd ? before.size() : change.end - 1;  // and the next line's first byte
+      EXPECT_EQ(change.begin / ByteFile::kPage, last / ByteFile::kPage)
+          << "frame " << frame << " byte " << change.begin;
+    }
+  }
+}
+
+// The states a file goes through while frame 2 is added, but for those within one small write.
+TEST(TornFiles, UsdTextIsWholeAllTheTime) {
+  const fs::path path = scratchFolder("torn_usd") / "hair.usda", partial = path.string() + ".partial";
+  auto writer = UsdWriter::create(path, groomOf(0), options(kFrames));
+  ASSERT_TRUE(writer);
+  ASSERT_TRUE(writer->addFrame(groomOf(1).points));
+  const std::string before = textOf(partial);
+  ASSERT_TRUE(writer->addFrame(groomOf(2).points));
+  const std::string after = textOf(partial);
+  const auto changes = changesOf(before, after);
+  ASSERT_EQ(changes.size(), 3u);
+  const fs::path state = path.parent_path() / "state.usda.partial";
+  const auto expectFrames = [&](const std::string& text, std::size_t frames, const std::string& where) {
+    putText(state, text);
+    try {
+      EXPECT_EQ(readUsd(state).points.size(), frames) << where;
+    } catch (const std::exception& fault) {
+      ADD_FAILURE() << where << ": " << fault.what();
+    }
+    const auto reader = UsdReader::open(state);
+    ASSERT_TRUE(reader) << where << ": " << reader.error().message;
+    EXPECT_EQ(reader->frameCount(), static_cast<int>(frames)) << where;
+    EXPECT_TRUE(reader->warnings().empty()) << where;
+  };
+
+  // The line grows behind the end.
+  std::string line = after.substr(before.size());
+  line[0] = '#';
+  for (std::size_t size = 0; size <= line.size(); ++size)
+    expectFrames(before + line.substr(0, size), 1, std::to_string(size) + " bytes of the line");
+  // Then the patches: extent, end, time code.
+  std::string text = before + line;
+  const auto patch = [&](const Change& change) {
+    text.replace(change.begin, change.end - change.begin, after, change.begin, change.end - change.begin);
+  };
+  patch(changes[1]);
+  expectFrames(text, 1, "with its extent");
+  patch(changes[2]);
+  text[before.size()] = after[before.size()];
+  expectFrames(text, 2, "made to hold");
+  patch(changes[0]);
+  expectFrames(text, 2, "with its time code");
+  EXPECT_EQ(text, after);
+}
+
+// The same from outside: the system ends the writer at every byte that a file may not grow beyond.
+TEST(TornFiles, AWriterMayBeKilledAtEveryByte) {
+  const fs::path path = scratchFolder("torn_kill") / "hair.usda", partial = path.string() + ".partial";
+  const auto write = [&](int frames) {
+    auto writer = UsdWriter::create(path, groomOf(0), options(kFrames));
+    for (int frame = 1; frame <= frames; ++frame) (void)writer->addFrame(groomOf(frame).points);
+    return fs::file_size(partial);
+  };
+  const auto one = write(1), two = write(2);
+  for (auto limit = one; limit <= two; ++limit) {
+    const pid_t child = fork();
+    if (child == 0) {
+      std::signal(SIGXFSZ, SIG_DFL);
+      const struct rlimit most { limit, limit };
+      const struct rlimit noCore { 0, 0 };
+      setrlimit(RLIMIT_CORE, &noCore);
+      setrlimit(RLIMIT_FSIZE, &most);
+      write(2);
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_EQ(WIFSIGNALED(status), limit < two) << limit;
+    ASSERT_EQ(fs::file_size(partial), limit);
+    const std::size_t expected = limit < two ? 1 : 2;
+    EXPECT_EQ(readUsd(partial).points.size(), expected) << limit;
+    const auto reader = UsdReader::open(partial);
+    ASSERT_TRUE(reader) << limit << ": " << reader.error().message;
+    EXPECT_EQ(reader->frameCount(), static_cast<int>(expected)) << limit;
+  }
+}
+
+// A format with what tests need of it.
+struct Format {
+  const char* name;
+  std::function<void(const fs::path&, int frames, bool finishes)> write;  // from the beginning
+  std::function<Status(const fs::path&, int from)> resume;                // to the end
+  std::function<int(const fs::path&, std::string& warning)> wholeFrames;  // read back, each checked
+};
+
+template <class Writer, class Header>
+Format formatOf(const char* name, const Header& header,
+                std::function<int(const fs::path&, std::string&)> wholeFrames) {
+  const auto add = [](Writer& writer, int frame) { return writer.addFrame(groomOf(frame).points); };
+  return {name,
+          [=](const fs::path& path, int frames, bool finishes) {
+            auto writer = Writer::create(path, groomOf(0), header);
+            for (int frame = 1; frame <= frames; ++frame) EXPECT_TRUE(add(*writer, frame));
+            if (finishes) {
+              EXPECT_TRUE(writer->finish());
+            }
+          },
+          [=](const fs::path& path, int from) -> Status {
+            auto writer = Writer::resume(path, groomOf(0), header, from);
+            if (!writer) return writer.error();
+            for (int frame = from + 1; frame <= kFrames; ++frame) EXPECT_TRUE(add(*writer, frame));
+            return writer->finish();
+          },
+          std::move(wholeFrames)};
+}
+
+std::vector<Format> formats() {
+  const auto usdFrames = [](const fs::path& path, std::string& warning) {
+    auto reader = UsdReader::open(path);
+    if (!reader) return -1;
+    std::vector<Vec3f> points;
+    int frames = 0;
+    for (auto more = reader->readFrame(points); more && *more; more = reader->readFrame(points))
+      EXPECT_EQ(points, groomOf(++frames).points);
+    EXPECT_EQ(frames, reader->frameCount());
+    if (!reader->warnings().empty()) warning = reader->warnings().front();
+    return frames;
+  };
+  const auto cacheFrames = [](const fs::path& path, std::string& warning) {
+    auto reader = CacheReader::open(path);
+    if (!reader) return -1;
+    std::vector<Vec3f> points;
+    for (int frame = 1; frame <= reader->frameCount(); ++frame) {
+      EXPECT_TRUE(reader->readFrame(frame, points));
+      EXPECT_EQ(points, groomOf(frame).points);
+    }
+    if (!reader->warnings().empty()) warning = reader->warnings().front();
+    return reader->frameCount();
+  };
+  return {formatOf<UsdWriter>("hair.usda", options(kFrames), usdFrames),
+          formatOf<CacheWriter>("hair.rgc", CacheHeader{}, cacheFrames)};
+}
+
+TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
+  for (const Format& format : formats()) {
+    SCOPED_TRACE(format.name);
+    const fs::path folder = scratchFolder(std::string("torn_") + format.name);
+    const fs::path path = folder / format.name, partial = path.string() + ".partial";
+    format.write(path, kFrames, true);
+    const std::string finished = textOf(path);
+    fs::remove(path);
+    format.write(path, 2, false);
+    const std::size_t two = fs::file_size(partial);
+    format.write(path, kFrames, false);
+    const std::string whole = textOf(partial);
+    ASSERT_GT(whole.size(), two + 100);
+
+    int most = 0;
+    for (std::size_t size = two; size <= whole.size(); ++size) {
+      putText(partial, std::string_view(whole).substr(0, size));
+      std::string warning;
+      const int frames = format.wholeFrames(partial, warning);
+      EXPECT_GE(frames, 2) << size;
+      EXPECT_GE(frames, most) << size << ": more bytes and fewer frames";
+      most = std::max(most, frames);
+      if (size == whole.size()) {
+        EXPECT_EQ(warning, "");
+      }
+      const Status resumed = format.resume(path, 2);
+      ASSERT_TRUE(resumed) << size << ": " << resumed.error().message;
+      EXPECT_TRUE(textOf(path) == finished) << size;
+      fs::remove(path);
+    }
+    EXPECT_EQ(most, kFrames);
+
+    // From every frame on, also from none; and where the run was ended while it gave files their names.
+    for (int from = 0; from <= kFrames; ++from) {
+      putText(partial, whole);
+      ASSERT_TRUE(format.resume(path, from)) << from;
+      EXPECT_TRUE(textOf(path) == finished) << from;
+      ASSERT_TRUE(format.resume(path, std::max(from, 1))) << "of a finished file, from " << from;
+      EXPECT_TRUE(textOf(path) == finished) << from;
+      fs::remove(path);
+    }
+    // Not from fewer, nor from another animation's.
+    putText(partial, std::string_view(whole).substr(0, two));
+    const Status fewer = format.resume(path, 3);
+    ASSERT_FALSE(fewer);
+    EXPECT_NE(fewer.error().message.find("cannot go on with"), std::string::npos) << fewer.error().message;
+    EXPECT_EQ(textOf(partial), whole.substr(0, two)) << "what was refused was changed";
+    std::string other = whole;
+    other[40] ^= 1;
+    putText(partial, other);
+    EXPECT_FALSE(format.resume(path, 2));
+    EXPECT_EQ(textOf(partial), other);
+  }
+}
+
+TEST(TornFiles, AFileHasOneWriter) {
+  const fs::path path = scratchFolder("torn_two") / "hair.usda";
+  const auto first = UsdWriter::create(path, groomOf(0), options(2));
+  ASSERT_TRUE(first);
+  const std::string before = textOf(path.string() + ".partial");
+  const auto second = UsdWriter::create(path, groomOf(0, 5), options(7));
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().fault, Fault::busy);
+  EXPECT_EQ(textOf(path.string() + ".partial"), before);
+}
+
+}  // namespace
+}  // namespace ringlet

@@ -1,0 +1,132 @@
+// What the world does to a run: nobody hears it, memory ends, signals come, folders vanish. Each has its
+// message and its exit status. Full disks and lost devices: resume_test.cpp.
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::readText;
+using test::RunningProgram;
+using test::runProgram;
+using test::scratchFolder;
+
+class Fault : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(runProgram(folder_, {"make", "curl", "--particles", "32", "-o", "curl.obj"}).exitCode, 0);
+  }
+  // With a shell's redirections.
+  int shell(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder_.string() + "' && '" RINGLET_BUILD_DIR "/ringlet' " + arguments;
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  fs::path folder_ = scratchFolder("fault");
+  const std::string small_ = "simulate curl.obj --backend reference --frames 2 --steps-per-frame 1 ";
+};
+
+// With one step a frame there is a warning to be said.
+TEST_F(Fault, ARunIsDoneThoughNobodyHearsOfIt) {
+  for (const char* deaf : {"2>/dev/full", "2>&-"}) {
+    fs::remove_all(folder_ / "out");
+    EXPECT_EQ(shell(small_ + "--json -o out >json.txt " + deaf), 0) << deaf;
+    const json report = json::parse(readText(folder_ / "json.txt"), nullptr, false);
+    ASSERT_TRUE(report.is_object()) << deaf;
+    EXPECT_FALSE(report["warnings"].empty());
+    EXPECT_EQ(shell(std::string("simulate none.obj -o out ") + deaf), 4) << deaf;
+    EXPECT_EQ(shell(std::string("simulate --nosuch ") + deaf), 2) << deaf;
+  }
+}
+
+TEST_F(Fault, OutputThatCannotBePrintedIsAFailure) {
+  for (const char* command : {"--help", "--version", "material --list", "scene --list", "devices"})
+    EXPECT_EQ(shell(std::string(command) + " >/dev/full 2>/dev/null"), 5) << command;
+  EXPECT_EQ(shell(small_ + "--json -o out >/dev/full 2>/dev/null"), 5);
+  EXPECT_TRUE(fs::exists(folder_ / "out/hair.usda")) << "its files are whole all the same";
+}
+
+// A reader of --json-progress that goes away ends nothing.
+TEST_F(Fault, AClosedPipeEndsNoRun) {
+  EXPECT_EQ(shell("simulate curl.obj --backend reference --frames 40 --json-progress --quiet -o out | head "
+                  "-c 1 >/dev/null; "
+                  "sleep 0; true"),
+            0);
+  EXPECT_TRUE(RunningProgram::waitUntil([&] { return fs::exists(folder_ / "out/sheet.png"); }));
+}
+
+TEST_F(Fault, MemoryThatEndsIsSaid) {
+  ASSERT_EQ(runProgram(folder_, {"make", "head", "--strands", "4000", "--particles", "64", "-o", "head.hair"})
+                .exitCode,
+            0);
+  struct rlimit before {};
+  ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
+  int refusals = 0;
+  for (const rlim_t mebibytes : {60, 90, 130, 180}) {
+    fs::remove_all(folder_ / "out");
+    RunningProgram* program = nullptr;
+    struct rlimit small = before;
+    small.rlim_cur = mebibytes << 20;
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &small), 0);
+    RunningProgram running(folder_, {"simulate", "head.hair", "--backend", "reference", "--frames", "1",
+                                     "--contacts", "on", "-o", "out"});
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &before), 0);
+    program = &running;
+    const auto result = program->wait();
+    if (result.exitCode == 0) continue;
+    ++refusals;
+    EXPECT_EQ(result.exitCode, 8) << mebibytes << " MiB: " << result.err;
+    EXPECT_NE(result.err.find("not enough memory"), std::string::npos) << result.err;
+  }
+  EXPECT_GE(refusals, 1);
+}
+
+TEST_F(Fault, EverySignalThatEndsARunKeepsItsFrames) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+    fs::remove_all(folder_ / "out");
+    RunningProgram program(folder_, {"simulate", "curl.obj", "--backend", "reference", "--frames", "100000",
+                                     "--quiet", "--json-progress", "-o", "out"});
+    EXPECT_TRUE(RunningProgram::waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
+    program.send(signal);
+    const auto result = program.wait();
+    EXPECT_EQ(result.exitCode, 130) << signal;
+    EXPECT_TRUE(fs::exists(folder_ / "out/hair.usda")) << signal;
+    EXPECT_FALSE(fs::exists(folder_ / "out/.ringlet.lock")) << signal;
+  }
+}
+
+TEST_F(Fault, AFolderThatVanishesIsSaid) {
+  RunningProgram program(folder_, {"simulate", "curl.obj", "--backend", "reference", "--frames", "200",
+                                   "--quiet", "--json-progress", "-o", "out"});
+  EXPECT_TRUE(RunningProgram::waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
+  fs::remove_all(folder_ / "out");
+  const auto result = program.wait();
+  EXPECT_EQ(result.exitCode, 5) << result.err;
+  EXPECT_EQ(result.err.find("are kept"), std::string::npos) << "nothing is: " << result.err;
+}
+
+TEST_F(Fault, NothingWaitsForAFifo) {
+  fs::create_directory(folder_ / "out");
+  ASSERT_EQ(mkfifo((folder_ / "out/hair.usda.partial").c_str(), 0644), 0);
+  ASSERT_EQ(mkfifo((folder_ / "hair.usda").c_str(), 0644), 0);
+  for (const char* how : {"", "--overwrite"})
+    EXPECT_EQ(shell(small_ + "-o out 2>/dev/null " + how), 5) << how;
+  EXPECT_NE(shell("convert hair.usda hair.rgc 2>/dev/null"), 0);
+}
+
+}  // namespace
+}  // namespace ringlet
