@@ -329,6 +329,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
   outcome.report.nonfinite = std::max<std::uint64_t>(report->nonfinite, sink.mostReplaced());
   if (measuresResidual(input, options)) outcome.velocityResidual = report->velocityResidual;
   outcome.positionsHash = positionsHash(sink.lastPositions());
+  outcome.rigidStrandCount = (*backend)->rigidStrandCount();
   outcome.device = (*backend)->device();
   outcome.driver = (*backend)->driver();
   outcome.kernel = (*backend)->kernel();
