@@ -22,6 +22,7 @@ layout::vec4 packed(Quatd q) {
 Status checkScope(const RestState& rest, const Settings& settings) {
   if (settings.integrator != Integrator::jacobi || settings.contacts.on || settings.air.on)
     return Error{"the hand-vectorised loop knows the integrator jacobi alone, without contacts and air"};
+  if (!rest.rigid.empty()) return Error{"the hand-vectorised loop carries no strands rigidly"};
   const auto bendVaries = [&](const layout::StrandRest& strand) {
     const auto edges = std::span(rest.particles).subspan(strand.firstParticle, strand.particleCount - 1);
     return std::ranges::any_of(edges, [](const layout::ParticleRest& p) { return p.bendFactor != 1; });

@@ -29,10 +29,26 @@ Simulation<Real>::Simulation(const Groom& groom, const Material& material, const
   previousRootPoses_ = rootPoses_;
   systems_.resize(groom.strandCount());
   taps_.resize(groom.strandCount());
-  if (settings.contacts.on) {
-    RINGLET_ASSERT(settings.integrator == Integrator::jacobi, "contacts need the integrator jacobi");
-    contacts_ = makeContacts(rest_, firstPoint_, settings.contacts);
-  }
+  isRigid_.assign(groom.strandCount(), false);
+  findContacts();
+  placeAtRest();
+}
+
+template <class Real>
+void Simulation<Real>::findContacts() {
+  if (!settings_.contacts.on) return;
+  RINGLET_ASSERT(settings_.integrator == Integrator::jacobi, "contacts need the integrator jacobi");
+  std::vector<RestStrand<Real>> touching = rest_;  // of rigid ones no point
+  for (std::size_t s = 0; s < rest_.size(); ++s)
+    if (isRigid_[s]) touching[s].points.clear();
+  contacts_ = makeContacts(touching, firstPoint_, settings_.contacts);
+}
+
+template <class Real>
+void Simulation<Real>::carryRigidly(std::span<const std::uint32_t> strands) {
+  if (strands.empty()) return;
+  for (std::uint32_t s : strands) isRigid_[s] = true;
+  findContacts();
   placeAtRest();
 }
 
@@ -51,6 +67,7 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
     if (!rootPoses.empty())
       rootPoses_.assign(rootPoses.end() - static_cast<std::ptrdiff_t>(rest_.size()), rootPoses.end());
     previousRootPoses_ = rootPoses_;
+    for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
     report_.steps += stepPoses.size();
     return;
   }
@@ -79,6 +96,7 @@ void Simulation<Real>::setState(const Field<Real>& positions, const Field<Real>&
   RINGLET_ASSERT(velocities.size() == velocities_.size(), "setState needs a velocity for every particle");
   positions_ = positions;
   velocities_ = velocities;
+  for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
   contacts_.live.clear();
   contacts_.changes.clear();
 }
@@ -114,6 +132,20 @@ void Simulation<Real>::placeAtRest() {
       velocities_.push_back(((here - before.origin - before.rotation * x) / T).template cast<Real>());
     }
   }
+  for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
+}
+
+template <class Real>
+void Simulation<Real>::placeRigid(std::size_t s) {
+  if (!isRigid_[s]) return;
+  const Carried now = carried(head_, rootPoses_[s]), before = carried(previousHead_, previousRootPoses_[s]);
+  for (std::size_t i = 0; i < rest_[s].points.size(); ++i) {
+    const Vector3<double> x = rest_[s].points[i].template cast<double>(), shift = rootShifts_[s];
+    const Vector3<double> here = now.origin + now.rotation * (x + head_.shift * shift);
+    const Vector3<double> there = before.origin + before.rotation * (x + previousHead_.shift * shift);
+    positions_[firstPoint_[s] + i] = here.template cast<Real>();
+    velocities_[firstPoint_[s] + i] = ((here - there) / settings_.stepSeconds()).template cast<Real>();
+  }
 }
 
 template <class Real>
@@ -145,6 +177,7 @@ void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> 
   const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
   const AirStep<Real> air = airStep(next);
   for (std::size_t s = 0; s < rest_.size(); ++s) {
+    if (isRigid_[s]) continue;
     const HeadStep<Real> head = headStep(next, s, roots[s]);
     const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
     prepareStrand(rest_[s], settings_, head, air, positions, velocities, scratch_, taps_[s], systems_[s]);
@@ -155,11 +188,13 @@ void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> 
     updateContacts(settings_.contacts, static_cast<Real>(settings_.stepSeconds()), positions_, velocities_,
                    contacts_);
     const auto solveOne = [&](std::size_t s, std::span<Vector3<double>> velocities) {
+      if (isRigid_[s]) return;
       solveAmongBodies<Real>(rest_[s], bodies, strandOf(positions_, s), systems_[s], scratch_, velocities);
     };
     solveContacts(settings_.contacts.iterations, firstPoint_, systems_, solveOne, contacts_, velocities_);
   }
   for (std::size_t s = 0; s < rest_.size(); ++s) {
+    if (isRigid_[s]) continue;
     moveStrand(rest_[s], settings_, headStep(next, s, roots[s]), bodies, strandOf(positions_, s),
                strandOf(velocities_, s), scratch_, taps_[s]);
     record(rest_[s], taps_[s]);
@@ -170,6 +205,7 @@ void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> 
   head_ = next;
   previousRootPoses_ = rootPoses_;
   rootPoses_ = roots;
+  for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
   bodyPoses_.assign(bodyPoses.begin(), bodyPoses.end());
 }
 

@@ -63,6 +63,10 @@ class Simulation {
   /// axes [m]. Before the first frame.
   void setRootShifts(std::span<const Vec3d> shifts);
 
+  /// These strands are carried by their roots in their rest shape, and take no part in anything. The list is
+  /// the caller's (RestState::rigid). Before all else; puts the hair at rest.
+  void carryRigidly(std::span<const std::uint32_t> strands);
+
   const HeadPose& head() const { return head_; }
   const Settings& settings() const { return settings_; }
   const std::vector<RestStrand<Real>>& restStrands() const { return rest_; }
@@ -78,6 +82,9 @@ class Simulation {
 
  private:
   void placeAtRest();
+  void findContacts();
+  // A rigid strand, where its root is and was one step earlier.
+  void placeRigid(std::size_t s);
 
   // A strand, by the head and its own pose: x = origin + rotation x_groom, relative to the head's origin.
   struct Carried {
@@ -111,6 +118,7 @@ class Simulation {
   Field<double> rootShifts_;                             // at HeadPose::shift 1 [m]
   std::vector<BodyPose> previousRootPoses_, rootPoses_;  // of strands in the head's frame, n - 1 and n
   std::vector<std::uint32_t> firstPoint_;                // as in Groom
+  std::vector<bool> isRigid_;                            // of each strand
   std::vector<Body> bodies_;
   std::vector<WindMode> windModes_;
   std::vector<BodyPose> bodyPoses_;  // at pose n, in the world

@@ -55,6 +55,8 @@ class Backend {
   virtual Result<ContactReport> contactReport() = 0;
   /// By stage of computing, summed over all frames waited for [ms].
   virtual std::map<std::string, double> stageMilliseconds() const = 0;
+  /// Of the groom's strands, those that are carried rigidly (rest/rigid_strands.h).
+  virtual std::size_t rigidStrandCount() const = 0;
   /// Of the hair and its settings; and of the device: its own watchers', its tuned shapes where they cannot
   /// be read.
   virtual std::vector<std::string> warnings() const = 0;

@@ -327,6 +327,7 @@ Status HairRun::tellReports() {
   outcome_.driver = backend_->driver();
   outcome_.kernel = backend_->kernel();
   outcome_.isTuned = backend_->isTuned();
+  outcome_.rigidStrandCount = backend_->rigidStrandCount();
   outcome_.deviceBytes = backend_->deviceBytes();
   if (bodyWatch_) outcome_.bodyNumbers = bodyWatch_->numbers();
   return stepper_->tell(outcome_);

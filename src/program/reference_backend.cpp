@@ -15,11 +15,14 @@ namespace {
 
 class ReferenceBackend : public Backend {
  public:
-  ReferenceBackend(const BackendInput& input, const ContactReport& atRest, std::vector<std::string> warnings)
+  ReferenceBackend(const BackendInput& input, const ContactReport& atRest, std::vector<std::string> warnings,
+                   std::span<const std::uint32_t> rigidStrands)
       : warnings_(std::move(warnings)),
+        rigidStrandCount_(rigidStrands.size()),
         contactsAtRest_(atRest),
         simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier, {},
                     input.bodies) {
+    simulation_.carryRigidly(rigidStrands);
     if (!input.rootStarts.empty()) simulation_.placeRoots(input.rootStarts, input.rootsEarlier);
     simulation_.placeBodies(input.bodyStarts);
     if (!input.rootShifts.empty()) simulation_.setRootShifts(input.rootShifts);
@@ -77,6 +80,7 @@ class ReferenceBackend : public Backend {
   std::map<std::string, double> stageMilliseconds() const override {
     return {{"strand_step", milliseconds_}};
   }
+  std::size_t rigidStrandCount() const override { return rigidStrandCount_; }
   std::vector<std::string> warnings() const override { return warnings_; }
   std::vector<std::string> deviceMessages() const override { return {}; }
   std::optional<std::uint64_t> deviceBytes() const override { return std::nullopt; }
@@ -95,6 +99,7 @@ class ReferenceBackend : public Backend {
   std::deque<std::vector<Vec3f>> inFlight_;  // computed, and not waited for
   std::vector<Vec3f> waited_;
   std::vector<std::string> warnings_;
+  std::size_t rigidStrandCount_;
   ContactReport contactsAtRest_;
   reference::Simulation<double> simulation_;
   double milliseconds_ = 0;
@@ -111,7 +116,7 @@ Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input)
   auto rest = buildRestState(input.groom, input.material, input.settings);
   if (!rest) return rest.error();
   ContactReport contacts;
-  if (const ContactSettings& settings = input.settings.contacts; settings.on) {
+  if (const ContactSettings& settings = input.settings.contacts; settings.on && !rest->strands.empty()) {
     // The reference derives its own; these counts and warnings are those the solver gives.
     const RestContacts atRest = buildRestContacts(*rest, settings);
     contacts = {.contactParticles = atRest.particles.particles.size(),
@@ -119,8 +124,10 @@ Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input)
                 .pairs = atRest.graph.pairs};
     std::ranges::copy(atRest.warnings(), std::back_inserter(rest->warnings));
   }
+  std::vector<std::uint32_t> rigid;
+  for (const RigidStrand& strand : rest->rigid) rigid.push_back(strand.strandInGroom);
   return std::unique_ptr<Backend>(
-      std::make_unique<ReferenceBackend>(input, contacts, std::move(rest->warnings)));
+      std::make_unique<ReferenceBackend>(input, contacts, std::move(rest->warnings), rigid));
 }
 
 }  // namespace ringlet::program

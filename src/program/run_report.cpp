@@ -73,6 +73,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["frames"] = outcome.frameCount;
   json["strands"] = outcome.strandCount;
   json["particles"] = outcome.particleCount;
+  json["rigid_strands"] = outcome.rigidStrandCount;
   json["ms_per_frame"] = outcome.millisecondsPerFrame;
   json["stages_ms"] = outcome.stages;
   json["wall_s"] = {

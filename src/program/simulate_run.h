@@ -76,6 +76,7 @@ struct RunSeconds {
 struct SimulateOutcome {
   int frameCount = 0;  // finished
   std::size_t strandCount = 0, particleCount = 0;
+  std::size_t rigidStrandCount = 0;      // of these strands, carried rigidly (rest/rigid_strands.h)
   double millisecondsPerFrame = 0;       // stepping only, by the device's own clock where it has one
   std::map<std::string, double> stages;  // that, in parts; all others by the wall, while others go on
   RunSeconds wall;

@@ -61,6 +61,8 @@ std::vector<Case> allCases() {
   cases.back().settings.contacts.radius = 0.006;
   cases.back().settings.air = {.on = true, .wind = {1, 0, 2}, .gust = 0.5, .turbulence = 1};
   cases.push_back({.name = "moving roots", .kernel = {.movingRoots = true}});
+  cases.push_back({.name = "moving roots of rigid strands", .kernel = {.movingRoots = true}});
+  cases.back().groom.addStrand(std::vector<Vec3f>{{1, 0, 0}, {1, 1e-7f, 0}, {1, 2e-7f, 1e-5f}});
   cases.push_back({.name = "chunks", .kernel = {.mostBufferBytes = 60000}});
   cases.push_back({.name = "a jump", .jumps = true});
   for (Case& one : cases) one.settings.stepsPerFrame = 4;

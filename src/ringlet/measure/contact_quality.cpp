@@ -13,7 +13,7 @@ ContactQuality measureContacts(const RestState& rest, const RestContacts& contac
                                std::span<const Vec3f> positions) {
   const auto& particles = contacts.particles;  // names, since Clang 14 captures no structured binding
   const auto& graph = contacts.graph;
-  RINGLET_ASSERT(positions.size() == rest.points.size(), "one position per particle");
+  RINGLET_ASSERT(positions.size() == rest.groomParticleCount, "one position per particle");
   std::vector<Box> boxes;
   std::vector<Vec3d> restPoints;
   for (std::size_t i = 0; i < particles.particles.size(); ++i) {

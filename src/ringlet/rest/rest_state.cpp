@@ -12,14 +12,14 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_curve.h"
+#include "ringlet/rest/rigid_strands.h"
 #include "ringlet/rest/strand_constants.h"
 
 namespace ringlet {
 namespace {
 
-// An edge's constants and limit take it for no shorter than this share of the mean: a file's coincident
-// points would otherwise be springs of infinite stiffness.
-constexpr double kShortestEdge = 0.01;
+// Further away [m] nothing is: squares of such numbers, and of speeds between them, are still floats.
+constexpr double kFarthest = 1e9;
 
 layout::vec4 packed(Vec3d v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
@@ -31,6 +31,7 @@ struct Extremes {
   double smallestCoreShare = 1;
   std::size_t feedingStrands = 0;  // the step is too long for their bending
   double longestCalmStep = 1;      // [s]
+  std::vector<double> calmSteps;   // that of each strand, in groom order; 0: it is carried rigidly [s]
   std::size_t overloadedStrands = 0;
   double largestLoad = 0;
   std::size_t largestLoadStrand = 0;
@@ -174,15 +175,26 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
   const double stiffest = *std::max_element(cut.bendFactors.begin(), cut.bendFactors.end());
   const double longestBendStep = c.longestBendStep / std::sqrt(stiffest);
   if (settings.stepSeconds() > longestBendStep) ++extremes.feedingStrands;
-  extremes.longestCalmStep = std::min({extremes.longestCalmStep, c.longestCoreStep, longestBendStep});
+  extremes.calmSteps[groomIndex] = std::min(c.longestCoreStep, longestBendStep);
+  extremes.longestCalmStep = std::min(extremes.longestCalmStep, extremes.calmSteps[groomIndex]);
   if (load > 0.5) ++extremes.overloadedStrands;
   if (load > extremes.largestLoad) extremes.largestLoad = load, extremes.largestLoadStrand = groomIndex;
 }
 
+// Steps a frame that are no longer than this [s].
+int stepsOf(double longestStep, const Settings& settings) {
+  const double steps = std::ceil(1 / (std::max(settings.framesPerSecond, 1e-3) * longestStep) - 1e-6);
+  return static_cast<int>(std::min(steps, 1e9));
+}
+
+// What the motion needs [s].
+double longestMotionStep(const Settings& settings) {
+  return settings.integrator == Integrator::paper ? 1.0 / 720 : 1.0 / 192;
+}
+
 void addWarnings(RestState& state, const Extremes& extremes, const Material& material,
                  const Settings& settings) {
-  const int needed =
-      static_cast<int>(std::ceil(1 / (settings.framesPerSecond * extremes.longestCalmStep) - 1e-6));
+  const int needed = stepsOf(extremes.longestCalmStep, settings);
   if (extremes.cappedStrands > 0) {
     state.warnings.push_back(
         fmt::format("the core spring of {} of {} strands is weakened (to {:.0f} % at least) to stay stable "
@@ -235,29 +247,7 @@ std::vector<Vec3f> inMetres(std::span<const Vec3f> strand, double metresPerUnit)
   return points;
 }
 
-Status checkStrand(std::span<const Vec3f> strand, std::size_t index) {
-  if (strand.size() < 2)
-    return Error{fmt::format("strand {} has {} particle; a strand needs at least 2", index, strand.size())};
-  double total = 0;
-  for (std::size_t i = 0; i < strand.size(); ++i) {
-    if (!std::isfinite(strand[i].x) || !std::isfinite(strand[i].y) || !std::isfinite(strand[i].z)) {
-      return Error{fmt::format("strand {} particle {} is not finite: ({}, {}, {})", index, i, strand[i].x,
-                               strand[i].y, strand[i].z)};
-    }
-    if (i > 0) total += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
-  }
-  if (!(total > 1e-6))
-    return Error{
-        fmt::format("strand {} is {} m long; a strand needs a length of at least 1e-6 m (is the unit right?)",
-                    index, total)};
-  return {};
-}
-
-}  // namespace
-
-Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
-                                 std::span<const std::uint32_t> order) {
-  if (Status status = checkSettings(settings, material); !status) return status.error();
+Status checkGroom(const Groom& groom) {
   if (groom.strandCount() == 0) return Error{"the groom has no strands; simulating needs at least one"};
   if (groom.points.size() > std::numeric_limits<std::uint32_t>::max()) {
     return Error{fmt::format("the groom has {} particles; {} are the most", groom.points.size(),
@@ -266,37 +256,108 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   if (!(groom.metresPerUnit > 0) || !std::isfinite(groom.metresPerUnit)) {
     return Error{fmt::format("metresPerUnit is {}; it must be a positive number", groom.metresPerUnit)};
   }
+  return {};
+}
+
+Status checkStrand(std::span<const Vec3f> strand, std::size_t index, double metresPerUnit) {
+  if (strand.size() < 2)
+    return Error{fmt::format("strand {} has {} particle; a strand needs at least 2", index, strand.size())};
+  for (std::size_t i = 0; i < strand.size(); ++i) {
+    const Vec3f p = strand[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      return Error{fmt::format("strand {} particle {} is not finite: ({}, {}, {})", index, i, p.x, p.y, p.z)};
+    }
+    const double away = length(static_cast<Vec3d>(p)) * metresPerUnit;
+    if (away > kFarthest) {
+      return Error{fmt::format(
+          "strand {} particle {} is at ({}, {}, {}), {:.3g} m from the origin; {:.0e} m is the farthest (is "
+          "the unit right, or the file broken?)",
+          index, i, p.x, p.y, p.z, away, kFarthest)};
+    }
+  }
+  return {};
+}
+
+// Checked, in groom order.
+Result<std::vector<StrandSize>> sizesOf(const Groom& groom) {
+  std::vector<StrandSize> sizes;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    if (Status status = checkStrand(groom.strand(s), s, groom.metresPerUnit); !status) return status.error();
+    sizes.push_back(sizeOfStrand(inMetres(groom.strand(s), groom.metresPerUnit)));
+  }
+  if (medianLength(sizes) > kLeastStrandLength) return sizes;
+  const auto tooShort =
+      std::ranges::find_if(sizes, [](const StrandSize& size) { return !(size.length > kLeastStrandLength); });
+  return Error{fmt::format(
+      "strand {} is {} m long, and so short are half the strands or more; a strand needs a length of more "
+      "than {} m (is the unit right?)",
+      tooShort - sizes.begin(), tooShort->length, kLeastStrandLength)};
+}
+
+// All strands but those carried rigidly.
+RestState assemble(const Groom& groom, const Material& material, const Settings& settings,
+                   std::span<const std::uint32_t> order, const std::vector<bool>& isRigid,
+                   Extremes& extremes) {
   RestState state;
-  Extremes extremes;
-  std::vector<std::uint32_t> groomOrder;
-  if (order.empty()) order = groomOrder = deviceOrder(groom);
-  RINGLET_ASSERT(isDeviceOrder(order, groom), "the order names every strand once, by rising particle count");
+  extremes = {};
+  extremes.calmSteps.resize(groom.strandCount());
   // Doubling as they grow would take up to half as much again.
   state.strands.reserve(groom.strandCount());
   state.particles.reserve(groom.points.size());
   state.points.reserve(groom.points.size());
   for (std::uint32_t index : order) {
+    if (isRigid[index]) continue;
     const auto strand = inMetres(groom.strand(index), groom.metresPerUnit);
-    if (Status status = checkStrand(strand, index); !status) return status.error();
     appendStrand(state, extremes, strand, index, materialOfStrand(material, index), settings);
     state.firstInGroom.push_back(groom.firstPoint[index]);
   }
+  for (std::uint32_t s = 0; s < isRigid.size(); ++s) {
+    if (isRigid[s])
+      state.rigid.push_back({s, groom.firstPoint[s], inMetres(groom.strand(s), groom.metresPerUnit)});
+  }
+  state.groomStrandCount = groom.strandCount();
+  state.groomParticleCount = groom.points.size();
   state.longestCalmStep = extremes.longestCalmStep;
+  return state;
+}
+
+}  // namespace
+
+Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
+                                 std::span<const std::uint32_t> order) {
+  if (Status status = checkSettings(settings, material); !status) return status.error();
+  if (Status status = checkGroom(groom); !status) return status.error();
+  const auto sizes = sizesOf(groom);
+  if (!sizes) return sizes.error();
+  std::vector<std::uint32_t> groomOrder;
+  if (order.empty()) order = groomOrder = deviceOrder(groom);
+  RINGLET_ASSERT(isDeviceOrder(order, groom), "the order names every strand once, by rising particle count");
+
+  std::vector<bool> isRigid(groom.strandCount());
+  const auto tooFine = tooFineStrands(*sizes, settings.maxStretch);
+  for (std::uint32_t s : tooFine) isRigid[s] = true;
+  Extremes extremes;
+  RestState state = assemble(groom, material, settings, order, isRigid, extremes);
+  std::vector<double> longestSteps = extremes.calmSteps;
+  for (double& step : longestSteps) step = std::min(step, longestMotionStep(settings));
+  const auto tooQuick = tooQuickStrands(*sizes, longestSteps, settings.stepSeconds());
+  for (std::uint32_t s : tooQuick) isRigid[s] = true;
+  if (!tooQuick.empty()) state = assemble(groom, material, settings, order, isRigid, extremes);
+
   addWarnings(state, extremes, material, settings);
+  for (const auto& warnings : {roundingWarnings(*sizes, tooFine), tooFineWarnings(*sizes, tooFine),
+                               tooQuickWarnings(*sizes, tooQuick, longestSteps, settings)})
+    state.warnings.insert(state.warnings.end(), warnings.begin(), warnings.end());
   return state;
 }
 
 Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings) {
-  const double longestStep = settings.integrator == Integrator::paper ? 1.0 / 720 : 1.0 / 192;
-  const auto stepsOf = [&](double step) {
-    return static_cast<int>(std::ceil(1 / (std::max(settings.framesPerSecond, 1e-3) * step) - 1e-6));
-  };
-  const int fewest = std::clamp(stepsOf(longestStep), 1, static_cast<int>(layout::kMaxStepPoses - 1));
+  const int most = static_cast<int>(layout::kMaxStepPoses - 1);
+  const int fewest = std::clamp(stepsOf(longestMotionStep(settings), settings), 1, most);
   settings.stepsPerFrame = fewest;
   const auto rest = buildRestState(groom, material, settings);
   if (!rest) return rest.error();
-  const int most = std::min(4 * fewest, static_cast<int>(layout::kMaxStepPoses - 1));
-  return std::clamp(stepsOf(rest->longestCalmStep), fewest, most);
+  return std::clamp(stepsOf(rest->longestCalmStep, settings), fewest, std::min(4 * fewest, most));
 }
 
 Status checkSettings(const Settings& s, const Material& material) {

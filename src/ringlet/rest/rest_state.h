@@ -16,26 +16,37 @@
 
 namespace ringlet {
 
-/// Arrays in device order: strands by rising particle count, so that strands of one length class lie together
-/// and short ones do not pay for long ones; among equals groom order, or that asked for.
+/// A strand that is carried by its root in its rest shape (rest/rigid_strands.h).
+struct RigidStrand {
+  std::uint32_t strandInGroom = 0, firstInGroom = 0;
+  std::vector<Vec3f> points;  // rest positions [m]
+};
+
+/// Arrays in device order, of the strands that are simulated: strands by rising particle count, so that
+/// strands of one length class lie together and short ones do not pay for long ones; among equals groom
+/// order, or that asked for.
 struct RestState {
   std::vector<layout::StrandRest> strands;
   std::vector<layout::ParticleRest> particles;
   std::vector<Vec3f> points;                 // rest positions [m]
   std::vector<std::uint32_t> strandInGroom;  // groom's index of each strand
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle
-  double longestCalmStep = 0;                // longest outer step that needs no warning [s]
-  std::vector<std::string> warnings;         // for the user: what the step or the load changed, with numbers
+  std::vector<RigidStrand> rigid;            // all other strands, in groom order
+  std::size_t groomStrandCount = 0, groomParticleCount = 0;
+  double longestCalmStep = 0;         // longest outer step that needs no warning [s]
+  std::vector<std::string> warnings;  // for the user: what the step or the load changed, with numbers
 };
 
-/// Fails on settings out of range, an empty groom, points that are not finite, strands of no length.
-/// Cost: one pass over the groom, in double. `order`: the groom's index of each strand, by rising particle
+/// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and
+/// where half the strands have no length. Cost: two passes over the groom, in double, three where strands are
+/// carried rigidly for their steps. `order`: the groom's index of each strand, by rising particle
 /// count (rest/strand_order.h makes some); empty: groom order among equals.
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const std::uint32_t> order = {});
 
 /// The fewest outer steps per frame that resolve the motion (1/192 s each; `paper` 1/720 s, its own) and need
-/// no warning: the core spring in full, bending calm. At most four times what the motion needs; a groom that
+/// no warning: the core spring in full, bending calm, of all strands but those too quick to be simulated
+/// (rest/rigid_strands.h). At most four times what the motion needs; a groom that
 /// wants more is warned of. Fails as buildRestState does, whose cost it has.
 Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings);
 

@@ -26,6 +26,10 @@ struct StrandConstants {
   double longestBendStep = 0;     // longest outer step at which targets held over it cannot feed bending [s]
 };
 
+/// An edge's constants and limit take it for no shorter than this share of the mean: a file's coincident
+/// points would otherwise be springs of infinite stiffness.
+inline constexpr double kShortestEdge = 0.01;
+
 /// The smoothing length below which the bending of one helix may feed on itself [unit of the shape].
 double smoothingLengthOf(const CurlShape& shape, double arcLength);
 

@@ -17,7 +17,7 @@ Result<DeviceRoots> DeviceRoots::create(gpu::Device& device, const RestState& re
                                         bool areMoving, std::span<const GroomChunk> chunks,
                                         std::size_t slots) {
   const std::uint64_t strands = areMoving ? rest.strands.size() : 0;
-  DeviceRoots roots(settings.stepSeconds());
+  DeviceRoots roots(settings.stepSeconds(), areMoving, rest.groomStrandCount);
   roots.chunks_.assign(chunks.begin(), chunks.end());
   for (const GroomChunk& chunk : chunks) {
     const std::uint64_t poses =
@@ -50,9 +50,9 @@ std::uint64_t DeviceRoots::writtenBytes() const {
 
 std::vector<BodyPose> DeviceRoots::inOrder(std::span<const BodyPose> poses) const {
   RINGLET_ASSERT(areMoving(), "strands have poses of their own only with KernelChoice::movingRoots");
-  RINGLET_ASSERT(poses.size() == strandInGroom_.size(), "every strand has a pose in every step");
+  RINGLET_ASSERT(poses.size() == groomStrandCount_, "every strand has a pose in every step");
   std::vector<BodyPose> ordered;
-  ordered.reserve(poses.size());
+  ordered.reserve(strandInGroom_.size());
   for (const std::uint32_t strand : strandInGroom_)
     ordered.push_back({poses[strand].position, normalized(poses[strand].rotation)});
   return ordered;
@@ -66,14 +66,15 @@ void DeviceRoots::place(std::span<const BodyPose> now, std::span<const BodyPose>
 void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
                              std::span<const BodyPose> poses) {
   const std::size_t count = now_.size();
-  RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 2) * count,
+  RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 2) * groomStrandCount_,
                  "every strand has a pose in every step");
   if (count == 0) return;
   std::vector<BodyPose> before(count);  // what carried the strand one pose earlier
   for (std::size_t s = 0; s < count; ++s) before[s] = carriedBy(heads[0].rotation, oneStepEarlier_[s]);
   for (std::size_t pose = 0; pose + 1 < heads.size(); ++pose) {
     if (pose > 0) {
-      std::vector<BodyPose> next = poses.empty() ? now_ : inOrder(poses.subspan((pose - 1) * count, count));
+      const std::size_t first = (pose - 1) * groomStrandCount_;
+      std::vector<BodyPose> next = poses.empty() ? now_ : inOrder(poses.subspan(first, groomStrandCount_));
       oneStepEarlier_ = std::exchange(now_, std::move(next));
     }
     const Quatd head = normalized(heads[pose + 1].rotation);
@@ -91,7 +92,7 @@ void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
 }
 
 void DeviceRoots::endFrame(std::span<const BodyPose> poses) {
-  if (!poses.empty()) now_ = inOrder(poses.last(strandInGroom_.size()));
+  if (!poses.empty()) now_ = inOrder(poses.last(groomStrandCount_));
   oneStepEarlier_ = now_;
 }
 

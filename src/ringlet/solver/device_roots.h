@@ -31,7 +31,7 @@ class DeviceRoots {
   static Result<DeviceRoots> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                     bool areMoving, std::span<const GroomChunk> chunks, std::size_t slots);
 
-  bool areMoving() const { return !now_.empty(); }
+  bool areMoving() const { return areMoving_; }
 
   /// Of a chunk, as strand kernels bind them.
   gpu::BufferTable bufferTable(std::size_t chunk) const {
@@ -66,13 +66,16 @@ class DeviceRoots {
   void endFrame(std::span<const BodyPose> poses);
 
  private:
-  explicit DeviceRoots(double stepSeconds) : stepSeconds_(stepSeconds) {}
-  // Of one step, groom order, to device order.
+  DeviceRoots(double stepSeconds, bool areMoving, std::size_t groomStrandCount)
+      : stepSeconds_(stepSeconds), areMoving_(areMoving), groomStrandCount_(groomStrandCount) {}
+  // Of one step, all strands in groom order, to device order.
   std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
 
   std::vector<GroomChunk> chunks_;
   std::vector<FrameInput> poses_;  // of each chunk: RootPose[step][strand]
   double stepSeconds_;
+  bool areMoving_;
+  std::size_t groomStrandCount_;
   std::vector<std::uint32_t> strandInGroom_;
   std::vector<BodyPose> now_, oneStepEarlier_;  // in the head's frame, device order
 };

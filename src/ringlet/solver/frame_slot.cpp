@@ -17,7 +17,7 @@ Result<FrameSlot> FrameSlot::create(gpu::Device& device, const DeviceGroom& groo
     if (!buffer) return buffer.error();
     positions.push_back(std::move(*buffer));
   }
-  return FrameSlot{std::move(positions), std::move(*recorder)};
+  return FrameSlot{.positions = std::move(positions), .recorder = std::move(*recorder)};
 }
 
 void FrameSlot::recordPositions(const DeviceGroom& groom) {
@@ -33,8 +33,9 @@ Status FrameSlot::downloadPositions(const DeviceGroom& groom) {
   return {};
 }
 
-std::vector<Vec3f> FrameSlot::inGroomOrder(const RestState& rest, const DeviceGroom& groom) const {
-  std::vector<Vec3f> values(rest.points.size());
+std::vector<Vec3f> FrameSlot::inGroomOrder(const RestState& rest, const DeviceGroom& groom,
+                                           const RigidHair& rigidHair) const {
+  std::vector<Vec3f> values(rest.groomParticleCount);
   for (std::size_t c = 0; c < positions.size(); ++c) {
     const GroomChunk& part = groom.chunks[c].part;
     const auto* read = reinterpret_cast<const layout::vec4*>(positions[c].mapped().data());
@@ -44,6 +45,7 @@ std::vector<Vec3f> FrameSlot::inGroomOrder(const RestState& rest, const DeviceGr
         values[to + i] = unpacked(read[from + i]);
     }
   }
+  rigidHair.scatter(rigid, values);
   return values;
 }
 

@@ -11,11 +11,13 @@
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/rigid_hair.h"
 
 namespace ringlet {
 
 struct FrameSlot {
   std::vector<gpu::Buffer> positions;  // of each chunk, as the frame left them, in the host's memory
+  std::vector<Vec3f> rigid{};          // positions of rigid strands then, as RigidHair gives them
   gpu::Recorder recorder;              // goes first, waiting for what it writes
   bool isRecorded = false;             // as a whole frame
   double particleSteps = 0;            // of strands, in what is recorded
@@ -27,7 +29,8 @@ struct FrameSlot {
   void recordPositions(const DeviceGroom& groom);
   /// Brings them back now, after a frame that is not recorded.
   Status downloadPositions(const DeviceGroom& groom);
-  std::vector<Vec3f> inGroomOrder(const RestState& rest, const DeviceGroom& groom) const;
+  std::vector<Vec3f> inGroomOrder(const RestState& rest, const DeviceGroom& groom,
+                                  const RigidHair& rigidHair) const;
   std::uint64_t bytes() const;
 };
 

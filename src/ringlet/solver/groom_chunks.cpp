@@ -65,6 +65,7 @@ Result<std::vector<GroomChunk>> cutGroom(std::span<const std::uint32_t> particle
     chunks.back().strandEnd = s + 1;
     chunks.back().particleEnd = particles;
   }
+  if (chunks.empty()) chunks.push_back({});
   if (chunks.size() > 1 && !wholeFor.empty()) {
     return Error{fmt::format(
         "{} need the whole groom in one piece: its {} strands of {} particles need buffers of up to {}, and "

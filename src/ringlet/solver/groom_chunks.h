@@ -45,7 +45,7 @@ struct GroomChunk {
 
 /// The fewest chunks of whole strands, in device order, of which no buffer has more than `mostBytes`. Fails,
 /// with the numbers, where one strand has more; and where there is more than one chunk and `wholeFor`, which
-/// needs all strands in one, is not empty.
+/// needs all strands in one, is not empty. No strands are one chunk of nothing.
 Result<std::vector<GroomChunk>> cutGroom(std::span<const std::uint32_t> particleCounts,
                                          const GroomRecords& records, std::uint64_t mostBytes,
                                          const std::string& wholeFor = "");

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "ringlet/base/assert.h"
 #include "ringlet/rest/rest_contacts.h"
@@ -86,7 +87,9 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const DeviceLimits& limits = *chosenLimits;
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
-  auto ranges = planRanges(counts, limits, choice, strandWork(settings, material, !bodies.empty()));
+  auto ranges = counts.empty()
+                    ? Result<std::vector<StrandRange>>(std::vector<StrandRange>{})
+                    : planRanges(counts, limits, choice, strandWork(settings, material, !bodies.empty()));
   if (!ranges) return ranges.error();
   const bool anySerial =
       std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
@@ -104,6 +107,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   auto roots =
       DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots, *chunks, kFramesInFlight);
   if (!roots) return roots.error();
+  RigidHair rigidHair(std::exchange(rest->rigid, {}), rest->groomStrandCount);
 
   std::unique_ptr<Implementation> self(new Implementation{device,
                                                           std::move(*rest),
@@ -114,10 +118,11 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           std::move(*buffers),
                                                           std::move(*world),
                                                           std::move(*roots),
+                                                          std::move(rigidHair),
                                                           std::move(*ranges),
                                                           SubmissionPace(longestSubmission(choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
-  if (settings.contacts.on) {
+  if (settings.contacts.on && !counts.empty()) {
     if (Status status = self->addContacts(); !status) return status.error();
   }
   self->rest.particles = {};  // the device has them
@@ -134,6 +139,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
 // Made, several at a time, and compiled by a dispatch of nothing: some drivers compile only then. Kernels
 // that a simulation before has made on this device are ready.
 Status Simulation::Implementation::makeKernels(bool hasBodies) {
+  if (ranges.empty()) return {};
   const auto start = std::chrono::steady_clock::now();
   const std::vector<StrandShape> shapes = shapesOf(ranges);
   const bool oneSmoothing = std::all_of(rest.strands.begin(), rest.strands.end(),
@@ -256,7 +262,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom::Field field) const {
-  std::vector<Vec3f> values(rest.points.size());
+  std::vector<Vec3f> values(rest.groomParticleCount);
   GroomPlaces place(rest);
   const auto take = [&](std::size_t i, layout::vec4 value) { values[place(i)] = unpacked(value); };
   if (Status status = buffers.downloadEach(field, take); !status) return status.error();
@@ -265,8 +271,12 @@ Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom:
 
 Result<std::vector<Vec3f>> Simulation::positions() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
-  if (self_->isReadBack) return self_->slotOf(self_->submitted - 1).inGroomOrder(self_->rest, self_->buffers);
-  return self_->inGroomOrder(&DeviceChunk::positions);
+  const RigidHair& rigid = self_->rigidHair;
+  if (self_->isReadBack)
+    return self_->slotOf(self_->submitted - 1).inGroomOrder(self_->rest, self_->buffers, rigid);
+  auto values = self_->inGroomOrder(&DeviceChunk::positions);
+  if (values) rigid.scatter(rigid.positions(self_->head.now), *values);
+  return values;
 }
 
 Result<HairState> Simulation::state() const {
@@ -274,11 +284,14 @@ Result<HairState> Simulation::state() const {
   if (!p) return p.error();
   auto v = self_->inGroomOrder(&DeviceChunk::velocities);
   if (!v) return v.error();
+  const HeadHistory& head = self_->head;
+  self_->rigidHair.scatter(
+      self_->rigidHair.velocities(head.now, head.oneStepEarlier, self_->settings.stepSeconds()), *v);
   return HairState{std::move(*p), std::move(*v)};
 }
 
 Status Simulation::setState(const HairState& state) {
-  const std::size_t count = self_->rest.points.size();
+  const std::size_t count = self_->rest.groomParticleCount;
   RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count,
                  "a state has one position and velocity a particle");
   if (Status status = self_->finishFrames(); !status) return status;
@@ -299,6 +312,7 @@ Status Simulation::Implementation::archive(Archive& archive) {
   archive.value(stepsDone);
   world.archive(archive);
   roots.archive(archive);
+  rigidHair.archive(archive);
   for (DeviceChunk& chunk : buffers.chunks) {
     for (gpu::Buffer* buffer : {&chunk.positions, &chunk.velocities, &chunk.reports}) {
       if (Status status = archiveBuffer(archive, *buffer); !status) return status;
@@ -330,6 +344,7 @@ void Simulation::placeBodies(std::span<const BodyPose> poses) {
 Status Simulation::placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
   if (Status status = self_->finishFrames(); !status) return status;
   self_->roots.place(now, oneStepEarlier);
+  self_->rigidHair.placeRoots(now, oneStepEarlier);
   if (self_->contacts) {
     if (Status status = self_->contacts->forget(); !status) return status;
   }
@@ -338,8 +353,9 @@ Status Simulation::placeRoots(std::span<const BodyPose> now, std::span<const Bod
 
 Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {
   std::vector<layout::StrandRest>& strands = self_->rest.strands;
-  RINGLET_ASSERT(shifts.size() == strands.size(), "every strand has a root shift");
+  RINGLET_ASSERT(shifts.size() == self_->rest.groomStrandCount, "every strand has a root shift");
   if (Status status = self_->finishFrames(); !status) return status;
+  self_->rigidHair.setRootShifts(shifts);
   for (std::size_t s = 0; s < strands.size(); ++s) {
     const Vec3f shift = static_cast<Vec3f>(shifts[self_->rest.strandInGroom[s]]);
     strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
@@ -397,6 +413,7 @@ Result<std::vector<ListedContact>> Simulation::listedContacts() const {
   return self_->contacts->listed(self_->rest);
 }
 
+std::size_t Simulation::rigidStrandCount() const { return self_->rigidHair.strandCount(); }
 const std::vector<std::string>& Simulation::warnings() const { return self_->rest.warnings; }
 std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }
 
@@ -404,7 +421,7 @@ Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) c
   RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount,
                  "taps are written only with KernelChoice::taps");
   if (Status status = self_->finishFrames(); !status) return status.error();
-  std::vector<std::array<float, 4>> values(self_->rest.points.size());
+  std::vector<std::array<float, 4>> values(self_->rest.groomParticleCount);
   GroomPlaces place(self_->rest);
   const auto take = [&](std::size_t i, layout::vec4 v) { values[place(i)] = {v.x, v.y, v.z, v.w}; };
   if (Status status = self_->buffers.downloadEach(&DeviceChunk::scratch, take, field); !status)
@@ -432,6 +449,7 @@ std::vector<std::string> Simulation::recordedFrame() const {
 double Simulation::compileMilliseconds() const { return self_->compileMilliseconds; }
 
 std::string Simulation::kernelDescription() const {
+  if (self_->ranges.empty()) return "none: all strands are carried rigidly";
   const auto width = static_cast<std::uint32_t>(self_->choice.subgroupSize);
   return describe(shapesOf(self_->ranges), width ? width : self_->device.gpu().properties().subgroupSize);
 }

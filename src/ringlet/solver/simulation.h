@@ -113,6 +113,11 @@ struct KernelChoice {
   std::uint64_t mostDeviceBytes = 0;  // of all
 };
 
+/// Strands that float32 cannot hold, and a few that would need far more steps than the others, are carried
+/// rigidly by their roots, in their rest shape (rest/rigid_strands.h); warnings() name them. They have
+/// positions and velocities as all others do, with roots' poses and shifts, and keep their numbers in groom
+/// order; nothing moves them beside their roots: no body, no contact, not setState. SimulationReport counts
+/// none of their edges, ContactReport and listedContacts none of their particles, and their taps are 0.
 class Simulation {
  public:
   /// Uploads a groom, and the bodies it stays out of (Integrator::jacobi only). The head starts at `start`,
@@ -158,7 +163,7 @@ class Simulation {
   /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
   /// p.
   Result<std::vector<Vec3f>> positions() const;
-  /// Positions and velocities; setState puts them back, at rest with each other: contacts are found anew.
+  /// Positions and velocities; setState puts them back, of strands that are not rigid, and finds contacts anew.
   Result<HairState> state() const;
   Status setState(const HairState& state);
 
@@ -189,8 +194,10 @@ class Simulation {
   /// The pairs of particles (groom order, a < b, sorted) the lists hold now, for tests. Empty without
   /// contacts.
   Result<std::vector<ListedContact>> listedContacts() const;
-  /// Things the user should know of (a core spring capped for this step, gravity preload too large), a
-  /// sentence each.
+  /// Of the groom's strands.
+  std::size_t rigidStrandCount() const;
+  /// Things the user should know of (a core spring capped for this step, gravity preload too large, strands
+  /// carried rigidly), a sentence each.
   const std::vector<std::string>& warnings() const;
   /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
   /// the device has them.

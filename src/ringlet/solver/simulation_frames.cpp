@@ -40,6 +40,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
 
 // One stage, or in several submissions one in each.
 void Simulation::Implementation::dispatchAll(FrameSlot& slot, std::span<const PlannedDispatch> dispatches) {
+  if (dispatches.empty()) return;  // all strands are rigid
   gpu::Recorder& recorder = slot.recorder;
   for (std::size_t d = 0; d < dispatches.size(); ++d) {
     const PlannedDispatch& now = dispatches[d];
@@ -141,11 +142,13 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
     ++finished;
   } else {
     writePoses(slot, stepPoses, bodyPoses, rootPoses);
+    rigidHair.endFrame(rootPoses);
     if (!slots[slot].isRecorded) {
       if (Status status = recordFrame(slot); !status) return status;
     }
     if (Status status = slots[slot].recorder.submit(); !status) return status;
   }
+  slots[slot].rigid = rigidHair.positions(head.now);
   ++submitted;
   stepsDone += stepPoses.size();
   isReadBack = true;
@@ -210,6 +213,7 @@ Status Simulation::Implementation::jumpTo(const HeadPose& end, std::span<const B
                                           std::span<const BodyPose> rootPoses) {
   world.endFrame(end, bodyPoses);
   roots.endFrame(rootPoses);
+  rigidHair.jump(rootPoses);
   if (Status status = carryTo(end); !status) return status;
   return slotOf(submitted).downloadPositions(buffers);
 }
@@ -237,7 +241,7 @@ Status Simulation::waitFrame() {
 std::vector<Vec3f> Simulation::framePositions() const {
   RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
                  "framePositions before waitFrame, or after its place was taken");
-  return self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers);
+  return self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers, self_->rigidHair);
 }
 
 Status Simulation::stepFrame(const HeadPose& end) {

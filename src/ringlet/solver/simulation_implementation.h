@@ -19,6 +19,7 @@
 #include "ringlet/solver/device_world.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/frame_slot.h"
+#include "ringlet/solver/rigid_hair.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/submission_pace.h"
 #include "shared/layout.h"
@@ -43,7 +44,7 @@ struct HeadHistory {
 
 struct Simulation::Implementation {
   ComputeDevice device;
-  RestState rest;
+  RestState rest;  // its rigid strands are in rigidHair
   Settings settings;
   Material material;
   KernelChoice choice;
@@ -52,6 +53,7 @@ struct Simulation::Implementation {
   DeviceGroom buffers;
   DeviceWorld world;
   DeviceRoots roots;
+  RigidHair rigidHair;
   std::vector<StrandRange> ranges;
   SubmissionPace pace;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape

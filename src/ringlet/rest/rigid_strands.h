@@ -1,0 +1,63 @@
+// Which strands are not simulated but carried rigidly by their roots, in their rest shape: those that float32
+// cannot hold, and a few short ones for which the whole groom would take far more steps.
+//
+//   short      less than a tenth as long as the groom's median strand
+//   too fine   rounding of positions is more than 1/1000 of an edge at the stretch limit, and the strand is
+//              short or rounding is more than a tenth of its mean edge; or it is at most 1e-6 m long
+//   too quick  short, at most one strand in a hundred, needs more than twice the steps a frame that the other
+//              99 need, and more than the run takes
+//
+// A strand that is not short is never carried rigidly for its steps, and for its edges only where floats
+// leave nothing of its shape: where a groom is far from its origin it is simulated, and warned of.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/vec3.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet {
+
+/// A strand at rest, relative to the head's origin [m]. Roots that poses of their own carry further away (a
+/// scalp's) lose digits there that nobody has counted.
+struct StrandSize {
+  double length = 0;
+  double meanEdge = 0, shortestEdge = 0;  // the shortest as the stretch limit takes it (kShortestEdge)
+  double distance = 0;                    // of its furthest particle from the origin
+};
+StrandSize sizeOfStrand(std::span<const Vec3f> points);
+
+/// The most by which rounding changes an edge at a distance [m] from the origin, in a step. A step rounds
+/// either end twice (p + T v, and the limit's shift), each time by half a spacing of float32 numbers at most:
+/// two spacings together, and one is at most 2^-23 of the number.
+inline double edgeRounding(double distance) { return distance * 0x1p-22; }
+
+/// A strand this long [m] has a shape that is simulated.
+inline constexpr double kLeastStrandLength = 1e-6;
+
+/// Of all strands; `sizes` is not empty.
+double medianLength(std::span<const StrandSize> sizes);
+
+/// The strands of `sizes` that are too fine, ascending.
+std::vector<std::uint32_t> tooFineStrands(std::span<const StrandSize> sizes, double maxStretch);
+
+/// The strands that are too quick for steps of stepSeconds, ascending. longestSteps: each one's longest calm
+/// step, no longer than the motion asks for; 0: it is carried anyway [s].
+std::vector<std::uint32_t> tooQuickStrands(std::span<const StrandSize> sizes,
+                                           std::span<const double> longestSteps, double stepSeconds);
+
+/// A sentence each, with strands and figures; none where there is nothing to say.
+std::vector<std::string> tooFineWarnings(std::span<const StrandSize> sizes,
+                                         std::span<const std::uint32_t> tooFine);
+std::vector<std::string> tooQuickWarnings(std::span<const StrandSize> sizes,
+                                          std::span<const std::uint32_t> tooQuick,
+                                          std::span<const double> longestSteps, const Settings& settings);
+/// Of a groom that is far from its origin for its edges; else of strands that are simulated although rounding
+/// is more than a hundredth of an edge of theirs.
+std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,
+                                          std::span<const std::uint32_t> tooFine);
+
+}  // namespace ringlet
