@@ -58,8 +58,10 @@ int main(int argumentCount, char** arguments) {
     say("ringlet: not enough memory for this groom\n");
     return kExitHostMemory;
   } catch (const std::exception& error) {
-    say("ringlet: {}\n", error.what());
-    return kExitFailed;
+    if (std::ferror(stdout) == 0) {
+      say("ringlet: {}\n", error.what());
+      return kExitFailed;
+    }  // else it is of what could not be printed
   }
   // A full disk or a closed pipe behind standard output is a failure too: someone waits for that text.
   const bool isWritten = std::fflush(stdout) == 0 && std::cout.good();
