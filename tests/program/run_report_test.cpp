@@ -25,6 +25,7 @@ SimulateOutcome outcome() {
   outcome.frameCount = 7;
   outcome.strandCount = 11;
   outcome.particleCount = 88;
+  outcome.rigidStrandCount = 2;
   outcome.millisecondsPerFrame = 2.5;
   outcome.stages = {{"strand_step", 2.25}, {"readback", 0.5}, {"write", 0.75}};
   outcome.wall = {.start = 3.5, .frames = 4.5, .finish = 5.5};
@@ -76,6 +77,7 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"frames", 7},
       {"strands", 11},
       {"particles", 88},
+      {"rigid_strands", 2},
       {"ms_per_frame", 2.5},
       {"stages_ms", {{"strand_step", 2.25}, {"readback", 0.5}, {"write", 0.75}}},
       {"wall_s", {{"start", 3.5}, {"frames", 4.5}, {"finish", 5.5}}},

@@ -64,6 +64,32 @@ TEST_P(Backends, PreRollBeginsEarlier) {
   }
 }
 
+// Two strands of 1e-4 and 1e-7 m among four of 5 cm, a metre from the origin: they keep their shape in the
+// file.
+TEST_P(Backends, StrandsThatFloatCannotHoldAreCarriedAndToldOf) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (float length : {0.05f, 1e-4f, 0.05f, 0.05f, 1e-7f, 0.05f}) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 8; ++i) strand.push_back({0, 1 - length * static_cast<float>(i) / 7, 0.25f * length});
+    groom.addStrand(strand);
+  }
+  ASSERT_TRUE(writeGroom(folder_ / "fine.hair", groom));
+  const json out = simulate(folder_, {"fine.hair", "--unit", "1", "--frames", "2", "--backend", GetParam()});
+  EXPECT_EQ(out["strands"], 6);
+  EXPECT_EQ(out["rigid_strands"], 2);
+  EXPECT_EQ(out["warnings"].size(), 1u);
+  EXPECT_EQ(out["warnings"].dump().find("2 of 6 strands are carried rigidly by the root"), 2u);
+  EXPECT_NE(out["warnings"].dump().find("strands 1 and 4"), std::string::npos);
+  EXPECT_LE(out["max_edge_stretch"].get<double>(), 1.1 * (1 + 1e-3));
+  const auto last = readGroom(folder_ / "out/last.obj");
+  ASSERT_TRUE(last);
+  for (std::size_t s : {1u, 4u}) {  // the head only moves
+    for (std::size_t i = 0; i < 8; ++i)
+      EXPECT_LE(length(last->groom.strand(s)[i] - groom.strand(s)[i]), 1e-7f) << "strand " << s;
+  }
+}
+
 TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   const json out = simulate(folder_, {"groom.obj", "--frames", "7", "--fps", "30", "--backend", GetParam()});
   ASSERT_TRUE(out.is_object());
