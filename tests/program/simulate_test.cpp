@@ -84,9 +84,10 @@ TEST_P(Backends, StrandsThatFloatCannotHoldAreCarriedAndToldOf) {
   EXPECT_LE(out["max_edge_stretch"].get<double>(), 1.1 * (1 + 1e-3));
   const auto last = readGroom(folder_ / "out/last.obj");
   ASSERT_TRUE(last);
-  for (std::size_t s : {1u, 4u}) {  // the head only moves
+  for (std::size_t s : {1u, 4u}) {  // the head only moves, by what the root does
+    const auto found = last->groom.strand(s), rest = groom.strand(s);
     for (std::size_t i = 0; i < 8; ++i)
-      EXPECT_LE(length(last->groom.strand(s)[i] - groom.strand(s)[i]), 1e-7f) << "strand " << s;
+      EXPECT_LE(length((found[i] - found[0]) - (rest[i] - rest[0])), 2.5e-7f) << "strand " << s;
   }
 }
 
