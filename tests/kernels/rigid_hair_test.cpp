@@ -1,5 +1,6 @@
 // Strands carried rigidly, on a device: they are where their roots' poses say, in every way positions leave a
 // simulation; all others have the bits of a groom without them; and the reference does the same.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -229,6 +230,8 @@ TEST_F(RigidHairTest, LetsTheStretchLimitHold) {
     for (int k = 1; k <= settings_.stepsPerFrame; ++k) heads.push_back(motion.poseAt(timeOf(frame, k)));
     ASSERT_TRUE(simulation.stepFrame(heads));
   }
+  fmt::print("{} of {} strands rigid; longest edge {:.5f} of a limit of {}\n", simulation.rigidStrandCount(),
+             groom.strandCount(), simulation.report()->maxEdgeStretch, settings_.maxStretch);
   EXPECT_GT(simulation.report()->limitedShare, 0);
   EXPECT_LE(simulation.report()->maxEdgeStretch, settings_.maxStretch * (1 + 1e-3));
   EXPECT_GE(simulation.rigidStrandCount(), 2u);

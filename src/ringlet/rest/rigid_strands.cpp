@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ringlet/rest/strand_constants.h"
+#include "shared/layout.h"
 
 namespace ringlet {
 namespace {
@@ -118,11 +119,13 @@ std::vector<std::string> tooQuickWarnings(std::span<const StrandSize> sizes,
   if (tooQuick.empty()) return {};
   const std::uint32_t worst =
       *std::ranges::min_element(tooQuick, [&](auto a, auto b) { return longestSteps[a] < longestSteps[b]; });
+  const double needed = std::ceil(1 / (settings.framesPerSecond * longestSteps[worst]) - 1e-6);
+  const bool mayBeTaken = needed < layout::kMaxStepPoses;
   return {fmt::format(
       "{} carried rigidly by the root, as so short strands need far more than {} steps per frame: {}. Strand "
-      "{}, {:.2g} m long, needs the most, {:.0f}: with as many steps per frame all of them move",
+      "{}, {:.2g} m long, needs the most, {:.0f}{}",
       counted(tooQuick.size(), sizes.size()), settings.stepsPerFrame, named(tooQuick), worst,
-      sizes[worst].length, std::ceil(1 / (settings.framesPerSecond * longestSteps[worst]) - 1e-6))};
+      sizes[worst].length, needed, mayBeTaken ? "; with so many all of them move" : "")};
 }
 
 std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,

@@ -21,7 +21,8 @@
 
 namespace ringlet {
 
-/// A strand at rest, relative to the head's origin [m].
+/// A strand at rest, relative to the head's origin [m]. Roots that poses of their own carry further away (a
+/// scalp's) lose digits there that nobody has counted.
 struct StrandSize {
   double length = 0;
   double meanEdge = 0, shortestEdge = 0;  // the shortest as the stretch limit takes it (kShortestEdge)
