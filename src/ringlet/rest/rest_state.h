@@ -38,7 +38,7 @@ struct RestState {
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and
-/// where half the strands have no length. Cost: one pass over the groom, in double, two where strands are
+/// where half the strands have no length. Cost: two passes over the groom, in double, three where strands are
 /// carried rigidly for their steps. `order`: the groom's index of each strand, by rising particle
 /// count (rest/strand_order.h makes some); empty: groom order among equals.
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
