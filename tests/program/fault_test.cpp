@@ -117,6 +117,22 @@ TEST_F(Fault, AFolderThatVanishesIsSaid) {
   EXPECT_EQ(result.err.find("are kept"), std::string::npos) << "nothing is: " << result.err;
 }
 
+// A file system of 300 KiB, of which the run needs some 450.
+TEST_F(Fault, AFullFileSystemKeepsItsFrames) {
+  if (std::system("unshare -m true 2>/dev/null") != 0) GTEST_SKIP() << "SKIPPED: may not mount a file system";
+  std::ofstream(folder_ / "full.sh")
+      << "mkdir -p out && mount -t tmpfs -o size=300k none out || exit 77\n'" RINGLET_BUILD_DIR
+         "/ringlet' simulate curl.obj --backend reference --frames 400 --quiet -o out\n"
+         "echo $? >status.txt\ncp out/hair.usda.partial kept.usda.partial\n";
+  const std::string command = "cd '" + folder_.string() + "' && unshare -m sh full.sh 2>err.txt";
+  ASSERT_EQ(std::system(command.c_str()), 0) << readText(folder_ / "err.txt");
+  EXPECT_EQ(readText(folder_ / "status.txt"), "6\n") << readText(folder_ / "err.txt");
+  EXPECT_NE(readText(folder_ / "err.txt").find("free some space"), std::string::npos);
+  const auto kept = runProgram(folder_, {"convert", "kept.usda.partial", "kept.rgc"});
+  EXPECT_EQ(kept.exitCode, 0) << kept.err;
+  EXPECT_EQ(kept.err.find("torn"), std::string::npos) << kept.err;
+}
+
 TEST_F(Fault, NothingWaitsForAFifo) {
   fs::create_directory(folder_ / "out");
   ASSERT_EQ(mkfifo((folder_ / "out/hair.usda.partial").c_str(), 0644), 0);

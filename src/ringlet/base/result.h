@@ -10,7 +10,8 @@
 
 namespace ringlet {
 
-/// Whose fault a failure is, for a program that decides what to do next: `ringlet` has an exit status for each.
+/// Whose fault a failure is, for a program that decides what to do next: `ringlet` has an exit status for
+/// each.
 enum class Fault {
   other,
   input,         // a file that cannot be read: missing, no permission, changed meanwhile

@@ -1,6 +1,7 @@
 // Implements base/whole_file.h.
 #include "ringlet/base/whole_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -36,6 +37,14 @@ std::filesystem::path temporaryBeside(const std::filesystem::path& path) {
   std::filesystem::path temporary = path;
   temporary += fmt::format(".{:x}-{:x}.partial", static_cast<std::uint64_t>(now), count.fetch_add(1));
   return temporary;
+}
+
+// So that its names are on the disk as well; where that cannot be done the file is there all the same.
+void syncFolder(const std::filesystem::path& folder) {
+  const int file = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  (void)fsync(file);
+  close(file);
 }
 
 }  // namespace
@@ -104,6 +113,7 @@ Status writeWholeFile(const std::filesystem::path& path, std::span<const std::by
     return Error{fmt::format("{}: cannot put the finished file in place: {}", name, code.message()),
                  writeFault(code.value())};
   }
+  syncFolder(path.parent_path());
   return {};
 }
 

@@ -56,7 +56,9 @@ Result<OpenFile> openToRead(const fs::path& path) {
     close(file);
     return cannotRead(path, "it is not a regular file");
   }
-  return OpenFile(fdopen(file, "rb"));
+  OpenFile opened(fdopen(file, "rb"));
+  if (!opened) close(file);
+  return opened ? Result<OpenFile>(std::move(opened)) : cannotRead(path, "not enough memory");
 }
 
 Result<ByteFile> ByteFile::create(const fs::path& path) {
@@ -115,40 +117,46 @@ Result<std::string> ByteFile::readAt(std::uint64_t offset, std::size_t count) co
 }
 
 Status ByteFile::truncate(std::uint64_t size) {
-  if (ftruncate(descriptor(), static_cast<off_t>(size)) != 0) return failure("shorten", errno);
+  while (ftruncate(descriptor(), static_cast<off_t>(size)) != 0) {
+    if (errno != EINTR) return failure("shorten", errno);
+  }
+  return {};
+}
+
+bool ByteFile::isThere() const { return isNamed(path_, descriptor()); }
+
+Status ByteFile::rename(const fs::path& name) {
+  std::error_code code;
+  if (isThere()) fs::rename(path_, name, code);
+  if (code || !isNamed(name, descriptor())) {
+    const std::string why = code ? code.message() + "; what was written is kept under the first name"
+                                 : "it is no longer there; somebody removed or moved it";
+    return Error{fmt::format("cannot name {} as {}: {}", path_.string(), name.string(), why), Fault::output};
+  }
+  path_ = name;
   return {};
 }
 
 Status ByteFile::sync() {
-  if (fdatasync(descriptor()) != 0) return failure("write", errno);
+  while (fdatasync(descriptor()) != 0) {
+    if (errno != EINTR) return failure("write", errno);
+  }
   return {};
 }
 
-Status ByteFile::close() {
-  errno = 0;
+// Renamed while it is open and locked, so that no other process takes it for an unfinished one in between;
+// and once all of it is on the disk, so that what has the name is whole.
+Status ByteFile::closeAs(const fs::path& finished) {
+  if (Status synced = sync(); !synced) return synced;
+  if (Status renamed = rename(finished); !renamed) return renamed;
   if (std::fclose(file_.release()) != 0) return failure("finish writing", errno);
   return {};
-}
-
-// Renamed while it is open and locked, so that no other process takes it for an unfinished one in between.
-Status ByteFile::closeAs(const fs::path& finished) {
-  std::error_code code;
-  const bool isThere = isNamed(path_, descriptor());
-  if (isThere) fs::rename(path_, finished, code);
-  if (!isThere || code) {
-    const std::string why = isThere ? code.message() + "; all frames are kept under the first name"
-                                    : "it is no longer there; somebody removed or moved it";
-    return Error{fmt::format("cannot name {} as {}: {}", path_.string(), finished.string(), why),
-                 Fault::output};
-  }
-  return close();
 }
 
 Result<ByteFile> openPartial(const fs::path& path) {
   const fs::path partial = path.string() + ".partial";
   std::error_code code;
-  if (!fs::exists(partial, code) && fs::exists(path, code)) fs::rename(path, partial, code);
-  return ByteFile::open(partial);
+  return ByteFile::open(!fs::exists(partial, code) && fs::exists(path, code) ? path : partial);
 }
 
 }  // namespace ringlet

@@ -39,11 +39,14 @@ class ByteFile {
   Result<std::string> readAt(std::uint64_t offset, std::size_t count) const;
   /// Cuts the file to its first `size` bytes.
   Status truncate(std::uint64_t size);
+  /// Whether the file of its name is still this one: somebody may have moved or removed it.
+  bool isThere() const;
+  /// Gives it another name, in the same folder.
+  Status rename(const std::filesystem::path& name);
   /// What was written is on the disk.
   Status sync();
-  /// Some file systems tell only here that the disk is full.
-  Status close();
-  /// Closes it and gives it the name of a finished file. Where it cannot have that, it keeps its own.
+  /// Closes it, all of it on the disk, and gives it the name of a finished file. Where it cannot have that,
+  /// it keeps its own. Some file systems tell only here that the disk is full.
   Status closeAs(const std::filesystem::path& finished);
 
   /// False once closed, or moved from.
@@ -59,8 +62,8 @@ class ByteFile {
   std::filesystem::path path_;
 };
 
-/// Where one run of `ringlet` goes on with what another left: PATH.partial, or, where that one was ended
-/// while it gave its files their names, PATH, which becomes PATH.partial again.
+/// Where one run goes on with what another left: PATH.partial, or, where that one was ended while it gave its
+/// files their names, PATH; nothing is changed yet.
 Result<ByteFile> openPartial(const std::filesystem::path& path);
 
 }  // namespace ringlet

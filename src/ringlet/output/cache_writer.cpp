@@ -61,12 +61,13 @@ Result<CacheWriter> CacheWriter::resume(const std::filesystem::path& path, const
   for (int frame = 1; frame <= frameCount; ++frame)
     writer.index_.push_back({before->frameOffset(frame), before->errorBound(frame)});
   writer.end_ = before->endOf(frameCount);
+  if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();
   if (Status cut = writer.file_.truncate(writer.end_); !cut) return cut.error();
   return writer;
 }
 
 CacheWriter::~CacheWriter() {
-  if (!file_.isOpen() || !index_.empty()) return;
+  if (!file_.isOpen() || !index_.empty() || !file_.isThere()) return;
   std::error_code ignored;
   std::filesystem::remove(file_.path(), ignored);
 }
@@ -79,7 +80,7 @@ Status CacheWriter::append(std::span<const std::byte> bytes) {
   }
   // What there was before is whole, also where this fails: a reader drops the torn end.
   const Status ignored = file_.truncate(end_);
-  if (index_.empty()) return written;
+  if (index_.empty() || !file_.isThere()) return written;
   return Error{fmt::format("{} (the first {} frames are kept in {})", written.error().message, index_.size(),
                            file_.path().string()),
                written.error().fault};

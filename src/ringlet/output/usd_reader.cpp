@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -15,7 +16,8 @@ namespace ringlet {
 namespace {
 
 constexpr std::size_t kReadBytes = 1 << 16;
-constexpr std::size_t kLongestToken = 128;  // of what we write; more is not ours
+constexpr std::size_t kMostReserved = 1 << 20;  // points, on the word of a file that may have fewer
+constexpr std::size_t kLongestToken = 128;      // of what we write; more is not ours
 
 bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 bool isOfNumber(char c) {
@@ -135,8 +137,13 @@ Status UsdReader::readHeader() {
   return {};
 }
 
-// They are not needed, only read over. The last frame's may be there before its points are.
+// They are not needed, only read over. The last frame's may be there before its points are; of a killed run
+// it may be torn.
 Status UsdReader::readExtents() {
+  if (isPartial_) {
+    while (peek() != '}' && at_ < buffer_.size()) ++at_;
+    return expect("}");
+  }
   while (!accept("}")) {
     auto timeCode = number();
     if (!timeCode) return timeCode.error();
@@ -166,7 +173,7 @@ Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
     if (Status found = expect(token); !found) return found.error();
   }
   points.clear();
-  points.reserve(particleCount_);
+  points.reserve(std::min(particleCount_, kMostReserved));
   while (points.size() < particleCount_) {
     auto point = readTuple();
     if (!point) return point.error();

@@ -1,20 +1,20 @@
 // Implements output/usd_writer.h.
 //
-//   #usda 1.0 ( ... endTimeCode = 48______ ... )      <- patched after every frame
+//   #usda 1.0 ( ... endTimeCode = 2_________ ... )   <- patched after every frame
 //   def BasisCurves "Hair" {
 //     counts, type, widths, wrap                      constant
 //     extent.timeSamples = { 1: ... 2: ... ________ } <- a line of fixed width is reserved for each frame
 //     points.timeSamples = {
-//       1: [...],____                                 <- a line a frame; behind the last stands what closes
-//       all 2: [...], };}
+//       1: [...],____
+//       2: [...], };}                                 <- a line a frame; the last ends with what closes
+//       everything
 //   #   3: [...], };}                                 <- the frame that is being written: a comment
 //
 // USD text allows no attribute to be continued later, hence the reserved lines: both attributes grow at once.
-// A frame is behind the end, as a comment, until it is whole. Then one write of five bytes makes `};}`, the
-// line's end and `#` before it
-// `___`, the line's end and a blank: the old end is gone, the frame and its own end hold. Lines are laid out
-// so that these five bytes, and any extent's line, are within a page: a kill leaves such a write whole or
-// undone (ByteFile).
+// A new frame stands behind the end, as a comment, until it is whole. Then one write of five bytes replaces
+// `};}`, the line break and `#` by three blanks, a line break and a blank: the old end is gone, and the frame
+// and its own end hold. Lines are laid out so that these five bytes, and every extent's line, are within a
+// page: a kill leaves such a write whole or undone (ByteFile).
 #include "ringlet/output/usd_writer.h"
 
 #include <fmt/format.h>
@@ -71,7 +71,7 @@ void appendEnd(std::string& text, std::uint64_t offset) {
 }
 
 // Where the line that begins there ends, its end included; `begin` where the file ends before.
-Result<std::uint64_t> lineEnd(const ByteFile& file, std::uint64_t begin) {
+Result<std::uint64_t> lineEndAfter(const ByteFile& file, std::uint64_t begin) {
   for (std::uint64_t at = begin;;) {
     const auto piece = file.readAt(at, kFlushBytes);
     if (!piece) return piece.error();
@@ -155,7 +155,7 @@ Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Gro
   std::uint64_t begin = header.size(), end = header.size();
   bool isWhole = blank == header;
   for (int frame = 1; frame <= frameCount && isWhole; ++frame) {
-    const auto next = lineEnd(writer.file_, end);
+    const auto next = lineEndAfter(writer.file_, end);
     if (!next) return next.error();
     isWhole = *next > end;
     begin = end;
@@ -168,12 +168,25 @@ Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Gro
                     writer.file_.path().string(), frameCount),
         Fault::input};
   }
+  if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();
   if (Status cut = writer.cutAfter(begin, end); !cut) return cut.error();
   return writer;
 }
 
-// The last frame's line is [lineBegin, lineEnd): what follows goes, and it closes all again.
+// The last frame's line is [lineBegin, lineEnd): what follows goes, and it closes all again. From the last
+// line on each becomes a comment behind the end of the line before it, so that the file is whole meanwhile.
 Status UsdWriter::cutAfter(std::uint64_t lineBegin, std::uint64_t lineEnd) {
+  std::vector<std::uint64_t> later;
+  for (std::uint64_t begin = lineEnd;;) {
+    const auto next = lineEndAfter(file_, begin);
+    if (!next) return next.error();
+    if (*next == begin) break;
+    later.push_back(begin);
+    begin = *next;
+  }
+  for (; !later.empty(); later.pop_back()) {
+    if (Status closed = file_.writeAt(later.back() - kEnd.size(), kEndAndNext); !closed) return closed;
+  }
   end_ = lineEnd;
   if (Status cut = file_.truncate(end_); !cut) return cut;
   if (Status closed = file_.writeAt(end_ - kEnd.size(), kEnd); !closed) return closed;
@@ -185,7 +198,7 @@ Status UsdWriter::cutAfter(std::uint64_t lineBegin, std::uint64_t lineEnd) {
 }
 
 UsdWriter::~UsdWriter() {
-  if (!file_.isOpen() || frameCount_ > 0) return;
+  if (!file_.isOpen() || frameCount_ > 0 || !file_.isThere()) return;
   std::error_code ignored;
   std::filesystem::remove(file_.path(), ignored);
 }
@@ -264,8 +277,9 @@ Status UsdWriter::flush(std::uint64_t& offset) {
 
 Error UsdWriter::keepFinishedFrames(const Error& cause) {
   // Behind the end there is only a comment; where it cannot be cut off it does not matter.
-  const Status ignored = file_.truncate(end_);
-  if (frameCount_ == 0) return cause;
+  (void)file_.truncate(end_);
+  (void)writeExtent(frameCount_ + 1, "");
+  if (frameCount_ == 0 || !file_.isThere()) return cause;
   return {fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount_,
                       file_.path().string()),
           cause.fault};
