@@ -13,7 +13,7 @@ const MemoryBound kMemory{.base = 64 << 20, .perByte = 4096};
 namespace {
 
 constexpr std::size_t kMostParticles = 256, kMostBodies = 4;
-constexpr int kMostStrands = 16, kMostSteps = 8, kMostCells = 8, kMostIterations = 20;
+constexpr int kMostStrands = 16, kMostSteps = 8, kMostCells = 8, kMostIterations = 100;
 constexpr int kFrames = 2;
 
 // Before anything of its size is made. Files that a scene names have fuzzers of their own.

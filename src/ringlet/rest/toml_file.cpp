@@ -60,37 +60,6 @@ std::size_t nestingOf(std::string_view text) {
   return withValues + heading;
 }
 
-// Where the first byte stands that is no ASCII, and neither in quotes nor in a comment; else the text's size.
-// TOML 1.0 has none there, but toml++ 3.3 has undefined behaviour on some before it refuses them.
-std::size_t strayByteOf(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  std::string_view quotes;  // that end the value the byte is in; none: in no value
-  std::size_t at = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
-  while (at < text.size()) {
-    const std::string_view rest = text.substr(at);
-    const char c = rest.front();
-    if (quotes.empty()) {
-      if (static_cast<unsigned char>(c) >= 0x80) return at;
-      if (c == '#') {
-        at = std::min(text.find('\n', at), text.size());
-        continue;
-      }
-      if (c == '"' || c == '\'') quotes = rest.substr(0, rest.starts_with(std::string(3, c)) ? 3 : 1);
-      at += std::max<std::size_t>(quotes.size(), 1);
-    } else if (rest.starts_with(quotes)) {
-      // The last three of up to five end it.
-      std::size_t count = quotes.size();
-      while (quotes.size() == 3 && count < 5 && count < rest.size() && rest[count] == c) ++count;
-      at += count;
-      quotes = {};
-    } else {
-      if (c == '\n' && quotes.size() == 1) quotes = {};  // which is refused
-      at += c == '\\' && quotes.starts_with('"') ? 2 : 1;
-    }
-  }
-  return text.size();
-}
-
 Error tooLarge(const std::string& name, std::uintmax_t size, const char* what) {
   return {fmt::format("{}: found {} bytes; expected {}, which has {} at most", name, size, what,
                       kLargestTomlFile)};
@@ -119,11 +88,6 @@ Result<toml::table> parseToml(std::string_view text, const std::string& name, co
   if (const std::size_t dotCount = nestingOf(text); dotCount > kMostDots) {
     return Error{
         fmt::format("{}: found {} dots; expected {}, which has {} at most", name, dotCount, what, kMostDots)};
-  }
-  if (const std::size_t stray = strayByteOf(text); stray < text.size()) {
-    return Error{fmt::format("{}: line {}: found no TOML: {} is not in quotes, and no ASCII", name,
-                             1 + std::ranges::count(text.substr(0, stray), '\n'),
-                             ringlet::quoted(text.substr(stray, 1)))};
   }
   toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
