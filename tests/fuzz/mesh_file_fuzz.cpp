@@ -6,7 +6,7 @@
 
 namespace ringlet::fuzz {
 
-// The grid of 8 cells with its padding of 16 cells at most, and the mesh with its tree.
+// The grid of 8 cells, and the mesh with its tree.
 const MemoryBound kMemory{.base = 16 << 20, .perByte = 1024};
 
 void tryBytes(std::span<const std::byte> bytes) {

@@ -1,4 +1,4 @@
-// Measured costs of strand shapes: what is read is written, and what is written is read as the same.
+// Measured costs of strand shapes.
 #include "ringlet/solver/shape_cost_file.h"
 
 #include "tests/fuzz/memory_file.h"

@@ -146,7 +146,6 @@ Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
     if (Status found = expect(token); !found) return found.error();
   }
   points.clear();
-  points.reserve(particleCount_);
   while (points.size() < particleCount_) {
     auto point = readTuple();
     if (!point) return point.error();
