@@ -162,6 +162,8 @@ std::string dictionary(const Words& words) {
 }
 
 void writeDictionaries(const fs::path& folder) {
+  write(folder / "usd_reader.dict",
+        dictionary(std::vector<std::string>{"000000000", "(0, 0, 0),", "]", "1e38"}));
   std::vector<std::string> keys;
   for (const auto& parameter : materialParameters()) keys.push_back(parameter.key);
   for (const auto& parameter : dialParameters()) keys.push_back(parameter.key);
