@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the readers: builds the fuzzers, makes their seeds, and runs each for so many seconds.
 #   scripts/fuzz.sh SECONDS [FUZZER...]    hair_file, scene_run, ...; without names all of tests/fuzz
-# Ends with 1 where a fuzzer found something (its input is in build/fuzz/findings), with 77 where Clang has no libFuzzer.
+# Ends with 1 where a fuzzer found something (its input is in build/fuzz/findings), with 77 without Clang's libFuzzer.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:?usage: scripts/fuzz.sh SECONDS [FUZZER...]}
