@@ -9,6 +9,7 @@
 #include <random>
 
 #include "ringlet/output/usd_writer.h"
+#include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
@@ -140,6 +141,19 @@ TEST(UsdReader, RefusesAnythingElse) {
   EXPECT_NE(errorOfText(whole + "def Mesh {}"), "");
   EXPECT_NE(errorOf(folder / "missing.usda"), "");
   EXPECT_NE(errorOf(folder), "");
+}
+
+// A file of some kilobytes that speaks of a thousand million particles.
+TEST(UsdReader, MemoryIsTakenForPointsThatAreThere) {
+  const auto path = scratchFolder("usd_reader_memory") / "hair.usda";
+  write(path, 1, 1, true);
+  std::string text = textOf(path);
+  const std::string counts = "[2, 3, 31]";
+  const std::size_t at = text.find(counts);
+  ASSERT_NE(at, std::string::npos);
+  std::ofstream(path, std::ios::binary) << text.replace(at, counts.size(), "[2, 3, 1000000000]");
+  const test::MemoryLimit limit(256u << 20);
+  EXPECT_NE(errorOf(path).find("expected '(', found ']"), std::string::npos) << errorOf(path);
 }
 
 }  // namespace

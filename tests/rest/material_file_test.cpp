@@ -9,6 +9,7 @@
 #include <random>
 
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/toml_file.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
@@ -155,11 +156,18 @@ TEST(MaterialFile, MistakesAreNamedWithLineAndRemedy) {
   }
 }
 
+// Where toml++ takes one for impossible, this does not compile.
+constexpr bool isTold(char32_t letter) {
+  return toml::impl::is_non_ascii_horizontal_whitespace(letter) == (letter == U'\xa0' || letter == U'\ufeff');
+}
+static_assert(isTold(U'\u01a0') && isTold(U'\u3042') && isTold(U'\ufeef') && isTold(U'\ufeff'));
+
 TEST(MaterialFile, WhatIsNoTomlIsNamedWithItsLine) {
   for (const char* text :
        {"\n\nbend_stiffness = ", "\n\nbend_stiffness 5", "\n\n= 5", "\n\n[dials", "\n\n[", "\n\n[[[",
         "\n\n[,]", "\n\nbend_stiffness = 5 6", "\n\npreset = 'ringlet", "\n\nhold = 1\nhold = 2",
-        "\n\n\x01 = 1", "\n\nx = '\xff'", "\n\nx = 0x", "\n\nx = \"\\q\"", "\n\n[dials]\n[dials]"}) {
+        "\n\n\x01 = 1", "\n\nx = '\xff'", "\n\nx = 0x", "\n\nx = \"\\q\"", "\n\n[dials]\n[dials]",
+        "\n\n\xc6\xa0", "\n\n\xef\xbb\xaf", "\n\nx = 0\"\xef\xb9\xbf"}) {
     const std::string error = errorOf(text);
     EXPECT_EQ(error.rfind("hair.toml: line ", 0), 0u) << text << " -> " << error;
     EXPECT_GE(std::stoi(error.substr(16)), 3) << text << " -> " << error;

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -16,7 +15,6 @@ namespace ringlet {
 namespace {
 
 constexpr std::size_t kReadBytes = 1 << 16;
-constexpr std::size_t kMostReserved = 1 << 20;  // points, on the word of a file that may have fewer
 constexpr std::size_t kLongestToken = 128;      // of what we write; more is not ours
 
 bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
@@ -173,7 +171,6 @@ Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
     if (Status found = expect(token); !found) return found.error();
   }
   points.clear();
-  points.reserve(std::min(particleCount_, kMostReserved));
   while (points.size() < particleCount_) {
     auto point = readTuple();
     if (!point) return point.error();

@@ -1,0 +1,220 @@
+// make_seeds FOLDER: small files for the fuzzers to begin with, FOLDER/FUZZER/NAME, as Ringlet itself writes
+// them and as other programs would, and words to build files of, FOLDER/FUZZER.dict.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+
+#include "ringlet/bodies/icosphere.h"
+#include "ringlet/gpu/pipeline_cache_file.h"
+#include "ringlet/groom/generate.h"
+#include "ringlet/groom/hair_file.h"
+#include "ringlet/groom/obj_file.h"
+#include "ringlet/output/cache_writer.h"
+#include "ringlet/output/checkpoint_file.h"
+#include "ringlet/output/usd_writer.h"
+#include "ringlet/rest/material_file.h"
+#include "ringlet/rest/material_parameters.h"
+#include "ringlet/scenes/builtin_scene.h"
+#include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_parts.h"
+#include "ringlet/solver/shape_cost_file.h"
+#include "tests/groom/tfx_bytes.h"
+#include "tests/motion/gltf_samples.h"
+
+namespace ringlet::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where a seed goes; its folder is made.
+fs::path seed(const fs::path& folder, const std::string& fuzzer, const std::string& name) {
+  fs::create_directories(folder / fuzzer);
+  return folder / fuzzer / name;
+}
+void write(const fs::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+
+// Two curls of six points.
+Groom smallGroom() {
+  const auto groom = makeSwatch({.curl = {.particleCount = 6}, .columnCount = 2, .rowCount = 1});
+  return groom ? *groom : Groom{};
+}
+
+Status writeGrooms(const fs::path& folder) {
+  const Groom groom = smallGroom();
+  write(seed(folder, "tfx_file", "three"), test::TfxBytes{}.bytes());
+  write(seed(folder, "tfx_file", "two"), test::TfxBytes::uniform(2, 8).bytes());
+  write(seed(folder, "obj_file", "edges"), "v 0 0 0\nv 0 -1 0\nv 0 -2 0.5\nl 2 3\nl -3 -2\n");
+  if (Status status = writeHair(seed(folder, "hair_file", "curls"), groom); !status) return status;
+  return writeObj(seed(folder, "obj_file", "curls"), groom);
+}
+
+void writeMeshes(const fs::path& folder) {
+  const TriangleMesh mesh = makeIcosphere(1);
+  std::string text;
+  for (const Vec3d& p : mesh.points) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+  for (const auto& t : mesh.triangles) text += fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  write(seed(folder, "mesh_file", "ball"), text);
+  write(seed(folder, "mesh_file", "pyramid"),
+        "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 0.5 1 0.5\nf 1 2 3 4\nf 1//1 5/2 -4/1/1\nf 2 5 3\nf 3 5 4\nf "
+        "4 5 1\n");
+}
+
+void writeMotions(const fs::path& folder) {
+  write(seed(folder, "bvh_file", "neck"),
+        "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 0 0\n\tCHANNELS 6 Xposition Yposition Zposition Zrotation "
+        "Xrotation "
+        "Yrotation\n\tJOINT Head\n\t{\n\t\tOFFSET 0 10 0\n\t\tCHANNELS 3 Zrotation Xrotation Yrotation\n"
+        "\t\tEnd Site\n\t\t{\n\t\t\tOFFSET 0 2 0\n\t\t}\n\t}\n}\nMOTION\nFrames: 2\nFrame Time: 0.04\n"
+        "1 2 3 0 0 0 0 0 0\n1 2 4 5 6 7 8 9 -1.5e1\n");
+  const test::GltfBuilder strip = test::bendingStrip(1, 5121, 5126);
+  write(seed(folder, "gltf_file", "strip.gltf"), strip.text());
+  write(seed(folder, "gltf_file", "strip.glb"), strip.glb());
+}
+
+// Built-in scenes name a groom's file; those that run have a generator.
+void writeScenes(const fs::path& folder) {
+  for (const std::string& name : sceneNames()) {
+    auto scene = makeScene(name, {.particles = 8});
+    if (scene) write(seed(folder, "scene_file", name), sceneText(sceneFileOf(*scene, "groom.obj")));
+  }
+  const std::string groom = "[groom]\ngenerate = \"swatch\"\ncolumns = 2\nrows = 2\nparticles = 8\n";
+  const std::string simulation = "[simulation]\nsteps_per_frame = 2\nframes = 2\n";
+  const std::pair<const char*, const char*> parts[] = {
+      {"still", ""},
+      {"shake", "[motion]\nkind = \"shake\"\namplitude = 0.2\n"},
+      {"keys",
+       "[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 0.1\nposition = [0, 0.1, 0]\n"
+       "rotate_degrees = [0, 30, 0]\n"},
+      {"contacts", "[contacts]\non = true\n"},
+      {"sphere", "[[body]]\nshape = \"sphere\"\nradius = 0.05\n"},
+      {"head", "[[body]]\nshape = \"mesh\"\ngenerate = \"head\"\ncells = 8\nscale = 0.5\n"},
+      {"boxes",
+       "[[body]]\nshape = \"box\"\n[[body]]\nshape = \"plane\"\nposition = [0, -0.2, 0]\nmoves = "
+       "\"still\"\n"},
+      {"material",
+       "[material]\npreset = \"coil\"\n[material.dials]\nhold = 2\n[material.profile]\n"
+       "bend_stiffness = [[0, 1], [1, 0.5]]\n"}};
+  for (const auto& [name, text] : parts) {
+    write(seed(folder, "scene_run", name), groom + simulation + text);
+    write(seed(folder, "scene_file", std::string("run_") + name), groom + simulation + text);
+  }
+  for (const char* integrator : {"paper", "point_jacobi"})
+    write(seed(folder, "scene_run", integrator),
+          fmt::format("{}{}integrator = \"{}\"\n", groom, simulation, integrator));
+}
+
+Status writeTables(const fs::path& folder) {
+  for (const std::string& name : presetNames())
+    write(seed(folder, "material_file", name), materialText(*materialPreset(name), {.hold = 1.5}));
+  const std::string digits =
+      "bend_stiffness = 8.123456789012345\n[profile]\nbend_stiffness = [[0, 0.1234567890123], [1, 1]]\n";
+  write(seed(folder, "material_file", "digits"), digits);
+  const DeviceCosts device{"a GPU", "driver 1", "9c0f3a51e2d47b68", {{{4, 16}, 612.5}, {{}, 46}}, 8};
+  if (Status status = writeShapeCosts(seed(folder, "shape_cost_file", "two"), {device, device}); !status)
+    return status;
+  // Vulkan's own header: its size, version 1, vendor, device, an id of 16 bytes; and what the driver likes.
+  std::string driver(48, '\0');
+  const std::uint32_t words[] = {32, 1, 0x10005, 0};
+  std::memcpy(driver.data(), words, sizeof words);
+  gpu::writePipelineCache(seed(folder, "pipeline_cache_file", "two"),
+                          {.vendor = 0x10005, .device = 0, .driverVersion = 1},
+                          std::as_bytes(std::span(driver)));
+  return {};
+}
+
+template <class Writer>
+Status writeFrames(Result<Writer> writer, const Groom& groom, bool isFinished) {
+  if (!writer) return writer.error();
+  for (int frame = 0; frame < 2; ++frame) {
+    if (Status added = writer->addFrame(groom.points); !added) return added;
+  }
+  return isFinished ? writer->finish() : Status{};
+}
+
+// Finished, and left by a killed run.
+Status writeAnimations(const fs::path& folder) {
+  const Groom groom = smallGroom();
+  for (const bool isFinished : {true, false}) {
+    const std::string name = isFinished ? "finished" : "killed";
+    for (const auto precision : {CachePrecision::float32, CachePrecision::bits16}) {
+      const fs::path path =
+          seed(folder, "cache_reader", name + std::to_string(static_cast<std::uint32_t>(precision)));
+      if (Status done =
+              writeFrames(CacheWriter::create(path, groom, {.precision = precision}), groom, isFinished);
+          !done)
+        return done;
+    }
+    const fs::path path = seed(folder, "usd_reader", name);
+    if (Status done = writeFrames(UsdWriter::create(path, groom, {.frameCount = 2}), groom, isFinished);
+        !done)
+      return done;
+  }
+  return {};
+}
+
+Status writeCheckpoints(const fs::path& folder) {
+  const Checkpoint empty{.everyFrames = 10};
+  const Checkpoint full{.facts = {{"frames", "24"}, {"kernel", "lanes 4 x 16"}},
+                        .everyFrames = 5,
+                        .frame = 20,
+                        .computed = std::vector<std::byte>(40),
+                        .written = std::vector<std::byte>(9)};
+  for (const auto& [name, checkpoint] : {std::pair{"empty", empty}, {"full", full}}) {
+    if (Status done = writeCheckpoint(seed(folder, "checkpoint_file", name), checkpoint); !done) return done;
+  }
+  return {};
+}
+
+// A quoted word a line.
+template <class Words>
+std::string dictionary(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text += fmt::format("\"{}\"\n", word);
+  return text;
+}
+
+void writeDictionaries(const fs::path& folder) {
+  write(folder / "usd_reader.dict",
+        dictionary(std::vector<std::string>{"000000000", "(0, 0, 0),", "]", "1e38"}));
+  std::vector<std::string> keys;
+  for (const auto& parameter : materialParameters()) keys.push_back(parameter.key);
+  for (const auto& parameter : dialParameters()) keys.push_back(parameter.key);
+  for (const auto& parameter : variationParameters()) keys.push_back(parameter.key);
+  for (const char* table : {"[dials]", "[variation]", "[profile]", "[[0, 1], [1, 2]]"}) keys.push_back(table);
+  write(folder / "material_file.dict", dictionary(keys));
+  for (const SceneKey& key : sceneKeys()) keys.push_back(key.key + " = ");
+  for (const char* table : {"[groom]", "[motion]", "[simulation]", "[contacts]", "[air]", "[[body]]",
+                            "[material]", "[[motion.key]]", "[output]", "[scalp]", "[0, 0, 0]"})
+    keys.push_back(table);
+  for (const char* fuzzer : {"scene_file", "scene_run"})
+    write(folder / (std::string(fuzzer) + ".dict"), dictionary(keys));
+}
+
+Status writeAll(const fs::path& folder) {
+  writeMeshes(folder);
+  writeMotions(folder);
+  writeScenes(folder);
+  writeDictionaries(folder);
+  for (const auto part : {writeGrooms, writeTables, writeAnimations, writeCheckpoints}) {
+    if (Status status = part(folder); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace ringlet::fuzz
+
+int main(int count, char** words) {
+  if (count != 2) {
+    std::fprintf(stderr, "usage: make_seeds FOLDER\n");
+    return 2;
+  }
+  const ringlet::Status status = ringlet::fuzz::writeAll(words[1]);
+  if (!status) std::fprintf(stderr, "%s\n", status.error().message.c_str());
+  return status ? 0 : 1;
+}

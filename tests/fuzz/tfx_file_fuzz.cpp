@@ -1,0 +1,15 @@
+// .tfx files: what is read is a usable groom.
+#include "ringlet/groom/tfx_file.h"
+
+#include "tests/fuzz/fuzz_target.h"
+
+namespace ringlet::fuzz {
+
+const MemoryBound kMemory{.base = 1 << 20, .perByte = 64};
+
+void tryBytes(std::span<const std::byte> bytes) {
+  const auto loaded = readTfx(bytes, "fuzz.tfx");
+  if (loaded) demandUsable(loaded->groom);
+}
+
+}  // namespace ringlet::fuzz
