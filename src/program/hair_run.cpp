@@ -98,6 +98,7 @@ std::vector<RunFact> factsOf(const RunInput& input, const RunOptions& options, c
   add("strands", input.groom.strandCount());
   add("frames", options.frameCount);
   add("steps a frame", input.settings.stepsPerFrame);
+  add("max_stretch", input.settings.maxStretch);
   add("pre-roll", options.preRollSeconds);
   add("hair.usda", options.writesUsd);
   add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);

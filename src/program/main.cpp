@@ -64,7 +64,7 @@ int main(int argumentCount, char** arguments) {
     }  // else it is of what could not be printed
   }
   // A full disk or a closed pipe behind standard output is a failure too: someone waits for that text.
-  const bool isWritten = std::fflush(stdout) == 0 && std::cout.good();
+  const bool isWritten = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
   if (!isWritten && exitCode == kExitFine) {
     say("ringlet: cannot write to standard output\n");
     return kExitOutput;

@@ -83,8 +83,7 @@ struct Typed {
   std::string core = "on", framesOn = "smoothed";
   std::filesystem::path file;  // to write the scene to
   std::optional<int> subgroup;
-  bool list = false, keys = false, untuned = false, json = false, quiet = false,
-       overwrite = false;
+  bool list = false, keys = false, untuned = false, json = false, quiet = false, overwrite = false;
 };
 
 // What a scene measures beside the run's own numbers.

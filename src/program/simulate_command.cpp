@@ -69,7 +69,8 @@ constexpr const char* kExample =
     "particles;\n"
     "null without) compile_ms (making the kernels, once) backend positions_hash integrator\n"
     "material steps_per_frame fps\n"
-    "resumed_from (frames that a run before had done) interrupted warnings outputs. Times are of this run's frames.\n";
+    "resumed_from (frames that a run before had done) interrupted warnings outputs. Times are of this run's "
+    "frames.\n";
 constexpr const char* kExitHelp =
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 done but some particles have no position, 130 Ctrl-C; of "

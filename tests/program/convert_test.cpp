@@ -240,7 +240,7 @@ TEST_F(Convert, AKilledRunLeavesItsFrames) {
   EXPECT_FALSE(reader->isFinished());
 }
 
-TEST_F(Convert, FailuresAreOneSentenceAndExit1) {
+TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
   std::ofstream(folder_ / "wrong.rgc") << "hello";
   std::ofstream(folder_ / "file") << "x";
   std::string damaged = readText(folder_ / "out/hair.rgc");
@@ -254,9 +254,10 @@ TEST_F(Convert, FailuresAreOneSentenceAndExit1) {
   struct Case {
     std::vector<std::string> arguments;
     std::string message;
+    int exitCode = 1;
   };
   for (const Case& c :
-       {Case{{"none.rgc", "a.usda"}, "none.rgc"}, Case{{"wrong.rgc", "a.usda"}, "5 bytes"},
+       {Case{{"none.rgc", "a.usda"}, "none.rgc", 4}, Case{{"wrong.rgc", "a.usda"}, "5 bytes"},
         Case{{"groom.obj", "a.usda"}, "must end in .usda or .rgc"},
         Case{{"damaged.rgc", "a.usda"}, "frame 1 is damaged"},
         Case{{"later.rgc", "b.usda"}, "frames before it are kept in b.usda.partial"},
@@ -264,11 +265,11 @@ TEST_F(Convert, FailuresAreOneSentenceAndExit1) {
         Case{{"out/hair.usda", "a.obj", "--frame", "6"}, "there is no frame 6"},
         Case{{"out/hair.rgc", "out/hair.rgc"}, "choose another name"},
         Case{{"here/hair.rgc.partial", "here/hair.rgc"}, "choose another name"},
-        Case{{"out/hair.rgc", "none/a.usda"}, "none/a.usda"}, Case{{"out/hair.rgc", "file"}, "file"}}) {
+        Case{{"out/hair.rgc", "none/a.usda"}, "none/a.usda", 5}, Case{{"out/hair.rgc", "file"}, "file"}}) {
     std::vector<std::string> arguments{"convert"};
     arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
     const auto result = run(arguments);
-    EXPECT_EQ(result.exitCode, 1) << c.message;
+    EXPECT_EQ(result.exitCode, c.exitCode) << c.message;
     EXPECT_EQ(result.out, "");
     EXPECT_NE(result.err.find("ringlet convert: "), std::string::npos);
     EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;

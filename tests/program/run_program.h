@@ -53,7 +53,8 @@ class RunningProgram {
     for (std::string& argument : all) pointers.push_back(argument.data());
     pointers.push_back(nullptr);
     const std::string out = (folder_ / "stdout.txt").string(), err = (folder_ / "stderr.txt").string();
-    for (const std::string& before : {out, err}) std::filesystem::remove(before);  // no test waits for another's words
+    for (const std::string& before : {out, err})
+      std::filesystem::remove(before);  // no test waits for another's words
     process_ = fork();
     if (process_ != 0) return;
     if (chdir(folder_.c_str()) != 0) _exit(120);

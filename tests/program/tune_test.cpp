@@ -188,7 +188,7 @@ TEST_F(Tune, TakesLengthsFromAGroom) {
 TEST_F(Tune, TableIsShownWhereItCannotBeKept) {
   std::ofstream(folder_ / "cache") << "no folder";
   const auto result = runProgram(folder_, {"tune", "--particles", "5", "--strands", "2", "--seconds", "0.1"});
-  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.exitCode, 5);
   EXPECT_NE(result.out.find("lanes 1 x 5"), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("remembered"), std::string::npos) << result.out;
   EXPECT_NE(result.err.find("strand_shapes.toml"), std::string::npos) << result.err;
@@ -220,7 +220,7 @@ TEST_F(Tune, WrongCommandLinesAndHairAreRefused) {
            Case{{"--strands", "0"}, 2, "--strands: must be a whole number from 1"},
            Case{{"groom.obj", "--particles", "5"}, 2, "excludes"},
            Case{{"--particle", "5"}, 2, "did you mean --particles?"},
-           Case{{"none.obj"}, 1, "none.obj: cannot read it"},
+           Case{{"none.obj"}, 4, "none.obj: cannot read it"},
            Case{{"--device", "Voodoo 2"}, 1, "Voodoo 2"},
            Case{{"--particles", "3000", "--strands", "1"}, 1, "nothing to choose"},
        }) {

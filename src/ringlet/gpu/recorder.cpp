@@ -48,8 +48,9 @@ struct Recorder::State {
   std::vector<std::pair<std::string, double>> stageMilliseconds;
 
   ~State() {
-    // Nothing may be destroyed under the device's hands; a lost device answers at once.
-    if (phase == Phase::submitted) (void)waitForFence();
+    // Nothing may be destroyed under the device's hands; a lost device answers at once. Where the fence tells
+    // nothing, work may still go on.
+    if (phase == Phase::submitted && !waitForFence()) (void)vk().vkDeviceWaitIdle(device->handle());
   }
 
   const VolkDeviceTable& vk() const { return device->vk(); }
@@ -316,8 +317,8 @@ Status Recorder::submit() {
 
 Status Recorder::wait() {
   RINGLET_ASSERT(self_->phase == State::Phase::submitted, "wait without submit");
+  if (Status status = self_->waitForFence(); !status) return status;  // its end is still to come
   self_->phase = State::Phase::recorded;
-  if (Status status = self_->waitForFence(); !status) return status;
   using Milliseconds = std::chrono::duration<double, std::milli>;
   const Clock::time_point now = Clock::now(), before = self_->device->noteWait(now);
   self_->submissionMilliseconds = Milliseconds(now - self_->submitted).count();

@@ -178,7 +178,7 @@ std::uint64_t CacheReader::endOf(int frame) const {
 }
 
 Error CacheReader::damaged(std::string_view what) const {
-  return {fmt::format("{}: {}", path_.string(), what), Fault::input};
+  return Error{fmt::format("{}: {}", path_.string(), what)};
 }
 
 }  // namespace ringlet

@@ -15,7 +15,7 @@ namespace ringlet {
 namespace {
 
 constexpr std::size_t kReadBytes = 1 << 16;
-constexpr std::size_t kLongestToken = 128;      // of what we write; more is not ours
+constexpr std::size_t kLongestToken = 128;  // of what we write; more is not ours
 
 bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
 bool isOfNumber(char c) {

@@ -163,7 +163,8 @@ class Simulation {
   /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
   /// p.
   Result<std::vector<Vec3f>> positions() const;
-  /// Positions and velocities; setState puts them back, of strands that are not rigid, and finds contacts anew.
+  /// Positions and velocities; setState puts them back, of strands that are not rigid, and finds contacts
+  /// anew.
   Result<HairState> state() const;
   Status setState(const HairState& state);
 
