@@ -49,7 +49,7 @@ struct Typed {
   std::string frames;
   std::optional<int> frame;
   std::string precision;
-  bool info = false, json = false, quiet = false;
+  bool info = false, json = false, quiet = false, overwrite = false;
 };
 
 struct FrameRange {
@@ -128,6 +128,13 @@ Status checkOutput(const Typed& typed) {
     if (std::filesystem::equivalent(taken, typed.input, code))
       return Error{fmt::format("writing {} would overwrite {} while it is read; choose another name",
                                typed.output.string(), typed.input.string())};
+  }
+  const std::filesystem::path partial = typed.output.string() + ".partial";
+  if (!typed.overwrite && std::filesystem::exists(partial, code)) {
+    return Error{fmt::format("{} holds frames that something left which did not end; choose another name, or "
+                             "begin anew with --overwrite",
+                             partial.string()),
+                 Fault::output};
   }
   return {};
 }
@@ -265,6 +272,8 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
                    "Of an .rgc: float32 (every bit) or 16bit (default: that of IN; of USD float32)")
       ->check(oneOf(precisionNames()))
       ->type_name("PRECISION");
+  command->add_flag("--overwrite", typed->overwrite,
+                    "Begin anew where OUT.partial holds frames of something that did not end");
   command->add_flag("--info", typed->info, "Say what is in IN, and write nothing");
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");
   command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");

@@ -251,6 +251,7 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
   std::ofstream(folder_ / "later.rgc", std::ios::binary) << later;
   fs::create_directories(folder_ / "here");
   fs::copy(folder_ / "out/hair.rgc", folder_ / "here/hair.rgc.partial");
+  std::ofstream(folder_ / "left.usda.partial") << "frames of another";
   struct Case {
     std::vector<std::string> arguments;
     std::string message;
@@ -265,6 +266,7 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
         Case{{"out/hair.usda", "a.obj", "--frame", "6"}, "there is no frame 6"},
         Case{{"out/hair.rgc", "out/hair.rgc"}, "choose another name"},
         Case{{"here/hair.rgc.partial", "here/hair.rgc"}, "choose another name"},
+        Case{{"out/hair.rgc", "left.usda"}, "left.usda.partial holds frames", 5},
         Case{{"out/hair.rgc", "none/a.usda"}, "none/a.usda", 5}, Case{{"out/hair.rgc", "file"}, "file"}}) {
     std::vector<std::string> arguments{"convert"};
     arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
@@ -276,6 +278,8 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
   }
   EXPECT_EQ(readText(folder_ / "here/hair.rgc.partial"), readText(folder_ / "out/hair.rgc")) << "untouched";
   EXPECT_EQ(convert({"damaged.rgc", "rest.usda", "--frames", "2:5"})["frames"], 4) << "the others can be had";
+  EXPECT_EQ(readText(folder_ / "left.usda.partial"), "frames of another");
+  EXPECT_EQ(run({"convert", "out/hair.rgc", "left.usda", "--overwrite"}).exitCode, 0);
 }
 
 TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
