@@ -34,7 +34,6 @@ void FrameSink::archive(Archive& archive) {
   archive.value(frameCount);
   frameCount_ = frameCount;
   archive.value(mostReplaced_);
-  archive.list(last_.positions);
   if (readers_.bodies) readers_.bodies->archive(archive);
 }
 

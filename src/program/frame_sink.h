@@ -45,7 +45,8 @@ class FrameSink {
   /// After the frames handed over so far, as one of them.
   Status handJob(WriterThread::Job job) { return thread_.hand(std::move(job)); }
 
-  /// What is known of the frames so far, for a checkpoint: in a job, or before the first frame.
+  /// What is known of the frames so far, for a checkpoint: in a job, or before the first frame. Not their
+  /// positions: at least one frame follows.
   void archive(Archive& archive);
 
   /// Frames done so far, at any time.

@@ -62,7 +62,6 @@ Status Writers::sync() {
 
 void Writers::archive(Archive& archive) {
   if (sheet_) sheet_->archive(archive);
-  archive.list(lastPoints_);
 }
 
 Result<std::vector<std::filesystem::path>> Writers::finish() {

@@ -27,7 +27,8 @@ class Writers {
   Status addFrame(int frame, std::vector<Vec3f> points);
   /// What was added is on the disk.
   Status sync();
-  /// What is kept beside the files, for a checkpoint.
+  /// What is kept beside the files, for a checkpoint; but not the last frame's points, since at least one
+  /// follows.
   void archive(Archive& archive);
   /// Closes the files, after at least one frame, and says which there are.
   Result<std::vector<std::filesystem::path>> finish();

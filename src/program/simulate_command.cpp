@@ -37,6 +37,7 @@ constexpr const char* kExample =
     "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
     "  ringlet simulate head.obj --motion walk.bvh --skip-frames 1 -o out\n"
     "  ringlet simulate scene.toml --frames 24 -o out\n"
+    "  ringlet simulate scene.toml -o out --checkpoint 10 --resume      again and again, until it ends\n"
     "  ringlet simulate head.obj --cache 16bit --no-usd -o out && ringlet convert out/hair.rgc --info\n"
     "\n"
     "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "

@@ -69,21 +69,26 @@ std::vector<Change> changesOf(const std::string& before, const std::string& afte
 // each place is within a page of the file, so that a kill leaves it as it was or as it is.
 TEST(TornFiles, WhatIsPatchedIsWithinAPage) {
   const fs::path path = scratchFolder("torn_pages") / "hair.usda";
-  constexpr int kMany = 300;
+  constexpr int kMany = 3000;
   auto writer = UsdWriter::create(path, groomOf(0), options(kMany));
   ASSERT_TRUE(writer);
+  int moved = 0;
   for (int frame = 1; frame <= kMany; ++frame) {
-    const std::string before = textOf(path.string() + ".partial");
-    ASSERT_TRUE(writer->addFrame(groomOf(frame, 3).points));
+    const std::string before = frame % 100 == 1 ? textOf(path.string() + ".partial") : "";
+    const std::uint64_t end =
+        writer->byteCount();  // of "};}", its line break; then the next line's first byte
+    EXPECT_EQ((end - 4) / ByteFile::kPage, end / ByteFile::kPage) << "frame " << frame;
+    moved += (end - 4) % ByteFile::kPage == 0;
+    ASSERT_TRUE(writer->addFrame(groomOf(frame).points));
+    if (before.empty()) continue;
+    ASSERT_EQ(before.size(), end);
     const auto changes = changesOf(before, textOf(path.string() + ".partial"));
     ASSERT_EQ(changes.size(), 3u) << "time code, extent, end";
-    for (const Change& change : changes) {
-      const bool isEnd = change.end + 1 >= before.size();
-      const std::size_t last = isEnd ? before.size() : change.end - 1;  // and the next line's first byte
-      EXPECT_EQ(change.begin / ByteFile::kPage, last / ByteFile::kPage)
-          << "frame " << frame << " byte " << change.begin;
-    }
+    EXPECT_EQ(changes[0].begin / ByteFile::kPage, (changes[0].end - 1) / ByteFile::kPage);
+    EXPECT_EQ(changes[1].begin / ByteFile::kPage, (changes[1].end - 1) / ByteFile::kPage);
+    EXPECT_GE(changes[2].begin, end - 4);
   }
+  EXPECT_GT(moved, 0) << "no end came near a page's, and nothing was tested";
 }
 
 // The states a file goes through while frame 2 is added, but for those within one small write.
@@ -167,7 +172,7 @@ TEST(TornFiles, AWriterMayBeKilledAtEveryByte) {
 struct Format {
   const char* name;
   std::function<void(const fs::path&, int frames, bool finishes)> write;  // from the beginning
-  std::function<Status(const fs::path&, int from)> resume;                // to the end
+  std::function<Status(const fs::path&, int from, int to)> resume;        // and finish
   std::function<int(const fs::path&, std::string& warning)> wholeFrames;  // read back, each checked
 };
 
@@ -183,10 +188,10 @@ Format formatOf(const char* name, const Header& header,
               EXPECT_TRUE(writer->finish());
             }
           },
-          [=](const fs::path& path, int from) -> Status {
+          [=](const fs::path& path, int from, int to) -> Status {
             auto writer = Writer::resume(path, groomOf(0), header, from);
             if (!writer) return writer.error();
-            for (int frame = from + 1; frame <= kFrames; ++frame) EXPECT_TRUE(add(*writer, frame));
+            for (int frame = from + 1; frame <= to; ++frame) EXPECT_TRUE(add(*writer, frame));
             return writer->finish();
           },
           std::move(wholeFrames)};
@@ -244,7 +249,7 @@ TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
       if (size == whole.size()) {
         EXPECT_EQ(warning, "");
       }
-      const Status resumed = format.resume(path, 2);
+      const Status resumed = format.resume(path, 2, kFrames);
       ASSERT_TRUE(resumed) << size << ": " << resumed.error().message;
       EXPECT_TRUE(textOf(path) == finished) << size;
       fs::remove(path);
@@ -254,22 +259,30 @@ TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
     // From every frame on, also from none; and where the run was ended while it gave files their names.
     for (int from = 0; from <= kFrames; ++from) {
       putText(partial, whole);
-      ASSERT_TRUE(format.resume(path, from)) << from;
+      ASSERT_TRUE(format.resume(path, from, kFrames)) << from;
       EXPECT_TRUE(textOf(path) == finished) << from;
-      ASSERT_TRUE(format.resume(path, std::max(from, 1))) << "of a finished file, from " << from;
+      ASSERT_TRUE(format.resume(path, std::max(from, 1), kFrames)) << "of a finished file, from " << from;
       EXPECT_TRUE(textOf(path) == finished) << from;
       fs::remove(path);
     }
+    // And no further: nothing of what came after is left.
+    format.write(path, 2, true);
+    const std::string shorter = textOf(path);
+    fs::remove(path);
+    putText(partial, whole);
+    ASSERT_TRUE(format.resume(path, 2, 2));
+    EXPECT_TRUE(textOf(path) == shorter);
+    fs::remove(path);
     // Not from fewer, nor from another animation's.
     putText(partial, std::string_view(whole).substr(0, two));
-    const Status fewer = format.resume(path, 3);
+    const Status fewer = format.resume(path, 3, kFrames);
     ASSERT_FALSE(fewer);
     EXPECT_NE(fewer.error().message.find("cannot go on with"), std::string::npos) << fewer.error().message;
     EXPECT_EQ(textOf(partial), whole.substr(0, two)) << "what was refused was changed";
     std::string other = whole;
     other[40] ^= 1;
     putText(partial, other);
-    EXPECT_FALSE(format.resume(path, 2));
+    EXPECT_FALSE(format.resume(path, 2, kFrames));
     EXPECT_EQ(textOf(partial), other);
   }
 }
