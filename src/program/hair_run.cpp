@@ -21,6 +21,7 @@
 #include "program/simulate_run.h"
 #include "program/stepper.h"
 #include "program/stopwatch.h"
+#include "program/writer_thread.h"
 #include "ringlet/output/positions_hash.h"
 
 namespace ringlet::program {
@@ -136,7 +137,7 @@ class HairRun {
   Status stepAll();
   Status takeUnderWay();
   Status saveAt(int frame);
-  Status writeCheckpoint(int frame, std::vector<std::byte> computed);
+  Status finishWriting();
   Error afterWritten(const Error& cause);
   Status finishFiles();
   Status tellReports();
@@ -160,6 +161,7 @@ class HairRun {
   Clock::time_point firstFrame_{}, lastFrame_{};
   std::map<std::string, double> stagesBefore_;
   double posesTime_ = 0, readbackTime_ = 0, waitedForWriter_ = 0;  // [ms]
+  std::optional<WriterThread> disk_;                               // waits for the disk
   std::optional<FrameSink> sink_;                                  // goes first: it works on the rest
 };
 
@@ -215,6 +217,7 @@ Status HairRun::makeSink() {
       return {};
     };
   }
+  disk_.emplace(1);
   sink_.emplace(input_.groom, std::move(readers));
   return done > 0 ? restore() : Status{};
 }
@@ -258,7 +261,7 @@ Status HairRun::stepAll() {
   if (frame < options_.frameCount && checkpoints_.areWanted()) {
     if (Status saved = saveAt(frame); !saved) return saved;
   }
-  const Status written = sink_->finish();
+  const Status written = finishWriting();
   progress.show(sink_->frameCount());
   lastFrame_ = Clock::now();
   return written;
@@ -277,26 +280,31 @@ Status HairRun::takeUnderWay() {
   return sink_->hand(std::move(frame));
 }
 
-// A checkpoint after `frame` frames: the hair's state now; what was written joins it on the writers' thread.
+// A checkpoint after `frame` frames: the hair's state now; what is known of those frames joins it on the sink's
+// thread; and frames go on while the disk takes both.
 Status HairRun::saveAt(int frame) {
   if (Status taken = takeUnderWay(); !taken) return taken;
   Archive archive = Archive::writing();
   if (Status kept = stepper_->archive(archive); !kept) return afterWritten(kept.error());
   return sink_->handJob([this, frame, computed = archive.take()]() mutable {
-    return writeCheckpoint(frame, std::move(computed));
+    Archive written = Archive::writing();
+    sink_->archive(written);
+    writers_->archive(written);
+    return disk_->hand([this, frame, computed = std::move(computed), written = written.take()]() mutable {
+      if (Status synced = writers_->sync(); !synced) return synced;
+      return checkpoints_.write(frame, std::move(computed), std::move(written));
+    });
   });
 }
 
-Status HairRun::writeCheckpoint(int frame, std::vector<std::byte> computed) {
-  Archive written = Archive::writing();
-  sink_->archive(written);
-  writers_->archive(written);
-  if (Status synced = writers_->sync(); !synced) return synced;
-  return checkpoints_.write(frame, std::move(computed), written.take());
+Status HairRun::finishWriting() {
+  const Status written = sink_->finish();
+  const Status saved = disk_->finish();
+  return written ? saved : written;
 }
 
 Error HairRun::afterWritten(const Error& cause) {
-  (void)sink_->finish();
+  (void)finishWriting();
   return afterFrames(sink_->frameCount(), cause, options_);
 }
 
