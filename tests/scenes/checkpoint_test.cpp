@@ -3,6 +3,9 @@
 // a head that jumps; and the reference.
 #include <gtest/gtest.h>
 
+#include <tuple>
+#include <vector>
+
 #include "reference/step.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/scene/motion.h"
@@ -96,6 +99,15 @@ std::vector<BodyPose> rootsOf(const Case& one, int frame) {
   return roots;
 }
 
+// Of its lists: both particles, and what share of its spring and damper acts.
+std::vector<std::tuple<std::uint32_t, std::uint32_t, float, float>> pairsOf(const Simulation& simulation) {
+  const auto listed = simulation.listedContacts();
+  EXPECT_TRUE(listed && !listed->empty()) << "no pair is in a list, and lists are not tested";
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, float, float>> pairs;
+  for (const ListedContact& c : *listed) pairs.emplace_back(c.a, c.b, c.stiffnessShare, c.dampingShare);
+  return pairs;
+}
+
 class CheckpointTest : public GpuTest {
  protected:
   Simulation make(const Case& one) {
@@ -121,6 +133,9 @@ TEST_F(Checkpoint, GoesOnWithTheSameBits) {
     ASSERT_TRUE(restored) << restored.error().message;
     EXPECT_EQ(*second.positions(), *whole.positions());
     EXPECT_EQ(second.contactReport()->momentumError, whole.contactReport()->momentumError);
+    if (one.settings.contacts.on) {
+      EXPECT_EQ(pairsOf(second), pairsOf(whole));
+    }
     const std::uint64_t rebuildsBefore = whole.contactReport()->rebuilds;
     for (int frame = kBefore; frame < kBefore + kAfter; ++frame) {
       step(whole, frame);
