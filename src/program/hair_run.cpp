@@ -280,8 +280,8 @@ Status HairRun::takeUnderWay() {
   return sink_->hand(std::move(frame));
 }
 
-// A checkpoint after `frame` frames: the hair's state now; what is known of those frames joins it on the sink's
-// thread; and frames go on while the disk takes both.
+// A checkpoint after `frame` frames: the hair's state now; what is known of those frames joins it on the
+// sink's thread; and frames go on while the disk takes both.
 Status HairRun::saveAt(int frame) {
   if (Status taken = takeUnderWay(); !taken) return taken;
   Archive archive = Archive::writing();
