@@ -23,11 +23,11 @@ using namespace ringlet;
 using bench::median;
 using bench::processCpuSeconds;
 
-constexpr int kParticles = 16;                // of a strand
-constexpr double kRadius = 0.003;             // [m]
-constexpr double kSpacing = 0.005;            // along a strand, so that all are contact particles [m]
-constexpr double kNear = 6;                   // particles within 2 radii and the skin of one, in the mean
-constexpr double kSkin = 0.15 * 2 * kRadius;  // of lists (solver/contact_stage.cpp)
+constexpr int kParticles = 16;      // of a strand
+constexpr double kRadius = 0.003;   // [m]
+constexpr double kSpacing = 0.005;  // along a strand, so that all are contact particles [m]
+constexpr double kNear = 6;         // particles within 2 radii and the skin of one, in the mean
+constexpr double kSkin = kContactMargin * 2 * kRadius;
 
 const ComputeDevice* device = nullptr;
 
@@ -80,7 +80,8 @@ Near nearPairs(const std::vector<Vec3f>& rest, const std::vector<Vec3f>& points)
 Near nearPairs(const std::vector<Vec3f>& rest, const std::vector<Vec3f>& points) {
   const double R = 2 * kRadius, start = processCpuSeconds();
   std::vector<Box> boxes;
-  for (const Vec3f& p : points) boxes.push_back({static_cast<Vec3d>(p), Vec3d{1, 1, 1} * ((R + kSkin) / 2)});
+  for (const Vec3f& p : points)
+    boxes.push_back({static_cast<Vec3d>(p), Vec3d{1, 1, 1} * ((kContactTaperEnd * R + kSkin) / 2)});
   const BoxPairs grid(boxes);
   Near near;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -88,7 +89,7 @@ Near nearPairs(const std::vector<Vec3f>& rest, const std::vector<Vec3f>& points)
       if (i / kParticles == j / kParticles || (i % kParticles == 0 && j % kParticles == 0)) return;
       const double apart = length(static_cast<Vec3d>(points[i]) - static_cast<Vec3d>(points[j]));
       const double restApart = length(static_cast<Vec3d>(rest[i]) - static_cast<Vec3d>(rest[j]));
-      const double reach = std::min(R, restApart - 1e-4 * R) + kSkin;
+      const double reach = kContactTaperEnd * std::min(R, restApart - 1e-4 * R) + kSkin;
       if (std::abs(apart - reach) < 2e-5 * R)
         ++near.onEdge;
       else if (apart < reach)
@@ -134,7 +135,7 @@ void contacts(benchmark::State& state) {
   }
   const double build = median(samples["contact_grid"]), query = median(samples["contact_query"]);
   const double force = median(samples["contact_motion"]) + median(samples["contact_touch"]) +
-                       median(samples["contact_life"]) + median(samples["contact_gather"]);
+                       median(samples["contact_system"]);
   state.counters["build_ms"] = build;
   state.counters["query_ms"] = query;
   state.counters["force_ms"] = force;

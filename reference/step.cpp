@@ -110,8 +110,11 @@ void Simulation<Real>::setRootShifts(std::span<const Vec3d> shifts) {
 template <class Real>
 Report Simulation<Real>::report() const {
   Report report = report_;
-  report.contacts = contacts_.live.size();
+  report.contacts = static_cast<std::size_t>(std::ranges::count_if(contacts_.live, [&](const auto& contact) {
+    return settings_.contacts.taper == ContactTaper::time || contact.weights.spring > 0;
+  }));
   report.momentumError = contacts_.momentumError;
+  report.freeMomentumError = contacts_.freeMomentumError;
   for (std::size_t i = 0; i < positions_.size(); ++i) {
     if (!positions_[i].allFinite() || !velocities_[i].allFinite()) ++report.nonfinite;
   }

@@ -26,6 +26,7 @@ struct Report {
   std::uint64_t steps = 0;            // outer steps
   std::uint64_t contacts = 0;         // pairs that touch or have not yet broken, now
   double momentumError = 0;           // of the last step's contacts: |sum| over sum of magnitudes [1]
+  double freeMomentumError = 0;       // without what particles that follow the head got, as a device tells it
 
   double limitedShare() const {
     return edgeSteps > 0 ? static_cast<double>(limitedEdges) / static_cast<double>(edgeSteps) : 0;

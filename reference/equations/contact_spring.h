@@ -4,6 +4,9 @@
 //     d = |x_a - x_b|,   n = (x_a - x_b) / d,   u_n = n . (v_a - v_b)        v: of the step without contacts
 //     touching:  d < r0, or seen ahead: d < 2 r0 and d + T u_n < r0       before the end of the step
 //
+// With the distance taper kappa is 1 while touching, and delta is 1 at d <= r0 and falls to 0 at 1.05 r0: no
+// memory. With the time taper:
+//
 //     kappa (stiffness)   0 __/--------\____ 0          engaging: kappa grows, delta is 1 at once
 //     delta (damping)     0 |------------\__ 0          breaking: kappa falls to 0, then delta
 //                           touching | breaking         gone: beyond the break distance, or delta is 0
@@ -83,7 +86,7 @@ bool isTouching(const ContactPlace<Real>& place, Real restLength, Real stepSecon
          place.distance + stepSeconds * place.separation < restLength;
 }
 
-/// What a pair remembers from step to step.
+/// Shares of spring and damper that act; with the time taper, what a pair remembers from step to step.
 template <class Real>
 struct ContactLife {
   Real stiffnessShare = 0;  // kappa [1]
@@ -92,7 +95,16 @@ struct ContactLife {
   bool isOver() const { return !(stiffnessShare > 0 || dampingShare > 0); }
 };
 
-/// The life after a step of T [s] that begins at `place`.
+/// The distance taper.
+template <class Real>
+ContactLife<Real> lifeAt(bool touching, Real distance, Real restLength) {
+  const Real end = static_cast<Real>(kContactTaperEnd);
+  if (!(touching || distance < end * restLength)) return {};
+  const Real fading = (end * restLength - distance) / ((end - 1) * restLength);
+  return {touching ? Real(1) : Real(0), std::clamp(fading, Real(0), Real(1))};
+}
+
+/// The time taper: the life after a step of T [s] that begins at `place`.
 template <class Real>
 ContactLife<Real> nextLife(const ContactSettings& settings, ContactLife<Real> life, bool touching,
                            Real distance, Real restLength, Real stepSeconds) {
@@ -124,7 +136,8 @@ struct ContactWeights {
   bool isMet(Real separation) const { return !(push < spring * separation); }
 };
 
-/// `lived`: the contact was there before this step, which left it `life`.
+/// `lived`: the contact was there before this step, which left it `life`; always true with the distance
+/// taper.
 template <class Real>
 ContactWeights<Real> contactWeights(const ContactSettings& settings, const ContactConstants<Real>& constants,
                                     const ContactLife<Real>& life, bool lived, bool touching, Real distance,

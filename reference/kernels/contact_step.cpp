@@ -24,13 +24,16 @@ void gatherContacts(std::size_t particleCount, Contacts<Real>& contacts) {
 }
 
 // J = sum push n + sum Q (w_a + w_b) - 2 D v of each particle, w the iterate before v: the momentum contacts
-// gave it. Pairs cancel once w = v. Returns |sum J| / sum |J|.
+// gave it. Pairs cancel once w = v. Returns |sum J| / sum |J|; freeOnly: without what particles that follow
+// the head got, which a device does not know.
 template <class Real>
 double contactMomentumError(const Contacts<Real>& contacts, const Field<double>& momenta,
-                            const Field<double>& velocities) {
+                            const Field<double>& velocities, bool freeOnly) {
   Vector3<double> sum = Vector3<double>::Zero();
   double size = 0;
-  for (std::size_t i = 0; i < velocities.size(); ++i) {
+  for (const ContactParticle& particle : contacts.particles) {
+    if (freeOnly && particle.isPinned) continue;
+    const std::uint32_t i = particle.index;
     const Vector3<double> given = momenta[i] - 2 * contacts.weights[i] * velocities[i];
     sum += given;
     size += given.norm();
@@ -80,7 +83,7 @@ void updateContacts(const ContactSettings& settings, Real stepSeconds, const Fie
   Scalars<double> reaches;
   for (const ContactParticle& particle : contacts.particles) {
     places.push_back(positions[particle.index].template cast<double>());
-    reaches.push_back(settings.breakFactor * particle.radius +
+    reaches.push_back(settings.reach() * particle.radius +
                       static_cast<double>(stepSeconds * velocities[particle.index].norm()));
   }
 
@@ -100,12 +103,15 @@ void updateContacts(const ContactSettings& settings, Real stepSeconds, const Fie
 
     while (before != contacts.live.end() && before->pair < pair) ++before;
     const bool isKnown = before != contacts.live.end() && before->pair == pair;
-    const ContactLife<Real> life = nextLife(settings, isKnown ? before->life : ContactLife<Real>{}, touching,
-                                            place.distance, constants.restLength, stepSeconds);
+    const bool hasMemory = settings.taper == ContactTaper::time;
+    const ContactLife<Real> life = hasMemory
+                                       ? nextLife(settings, isKnown ? before->life : ContactLife<Real>{},
+                                                  touching, place.distance, constants.restLength, stepSeconds)
+                                       : lifeAt(touching, place.distance, constants.restLength);
     if (life.isOver()) continue;
-    live.push_back(
-        {pair, life, place.normal,
-         contactWeights(settings, constants, life, isKnown, touching, place.distance, stepSeconds)});
+    live.push_back({pair, life, place.normal,
+                    contactWeights(settings, constants, life, isKnown || !hasMemory, touching, place.distance,
+                                   stepSeconds)});
   }
   contacts.live = std::move(live);
 }
@@ -151,7 +157,7 @@ void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint
                    Field<Real>& velocities) {
   contacts.freeVelocities = velocities;
   gatherContacts(velocities.size(), contacts);
-  contacts.momentumError = 0;
+  contacts.momentumError = contacts.freeMomentumError = 0;
   if (contacts.live.empty()) return;
   setContactWeights(firstPoint, contacts, systems);
 
@@ -169,7 +175,8 @@ void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint
       solve(s, std::span(solved).subspan(first, count));
     }
   }
-  contacts.momentumError = contactMomentumError(contacts, momenta, solved);
+  contacts.momentumError = contactMomentumError(contacts, momenta, solved, false);
+  contacts.freeMomentumError = contactMomentumError(contacts, momenta, solved, true);
   for (std::size_t i = 0; i < solved.size(); ++i) velocities[i] = solved[i].template cast<Real>();
 }
 
@@ -196,6 +203,7 @@ void archiveContacts(Archive& archive, Contacts<Real>& contacts) {
   archive.value(contacts.nearCount);
   archive.value(contacts.pairTests);
   archive.value(contacts.momentumError);
+  archive.value(contacts.freeMomentumError);
 }
 
 #define RINGLET_INSTANTIATE(Real)                                                                      \

@@ -46,6 +46,7 @@ struct Contacts {
   Field<double> pushes;        // sum of push n [kg m/s]
   std::vector<Matrix3<double>> weights;  // D [kg]
   double momentumError = 0;              // |sum J| over sum |J|, J the momentum a particle got [1]
+  double freeMomentumError = 0;          // without those that follow the head
 };
 
 template <class Real>

@@ -1,5 +1,6 @@
-// The spring between two contact particles of different strands, and its life. Iben et al. 2012, section 4, describe
-// it; the formulas are ours. Mirrored by reference/equations/contact_spring.h, where they are drawn and explained.
+// The spring between two contact particles of different strands, and how it comes and goes. Iben et al. 2012, section
+// 4, describe it; the formulas are ours. Mirrored by reference/equations/contact_spring.h, where they are drawn and
+// explained.
 //
 //   d = |x_a - x_b|, n = (x_a - x_b) / d, u_n = n . (v_a - v_b)
 //   touching: d < r0, or seen ahead: d + T u_n < r0
@@ -9,6 +10,12 @@
 
 /// r0: R, or a little less than the distance at rest, so that rounding does not decide what touches there.
 float contactRestLength(float R, float restDistance) { return max(0.0, min(R, restDistance - 1e-4 * R)); }
+
+/// (k [N/m], c [N s/m]) of two whose mean mass is m_c [kg]; stiffness: k R / m_c [m/s^2].
+vec2 contactConstants(float mass, float R, float stiffness, float dampingRatio) {
+  float k = stiffness * mass / R;
+  return vec2(k, 2.0 * dampingRatio * k * sqrt(R / max(stiffness, 1e-30)));
+}
 
 struct ContactMeeting {
   vec3 normal;       // n, from b to a
@@ -30,7 +37,12 @@ bool isTouching(ContactMeeting meeting, float restLength, float T, float seenAhe
                                            meeting.distance + T * meeting.separation < restLength);
 }
 
-/// (kappa, delta) of a life and back (layout.h).
+/// The distance taper: a contact without memory. delta at distance d; r0 is above 0.
+float dampingAt(float d, float restLength, float end) {
+  return clamp((end * restLength - d) / ((end - 1.0) * restLength), 0.0, 1.0);
+}
+
+/// The time taper: (kappa, delta) of a life and back (layout.h).
 vec2 sharesOf(float life) { return life < 0.0 ? vec2(-life, 1.0) : vec2(0.0, life); }
 float lifeOfShares(vec2 shares) { return shares.x > 0.0 ? -shares.x : shares.y; }
 

@@ -1,6 +1,6 @@
-// The contacts of a step: every one's life goes on by one step, from positions at its start and from v^0, and its
-// weights are set for the solve's iterations; the first of them is prepared here, from guessed velocities. Both sides
-// of a contact reckon alike, so momentum is kept. Mirrored by reference/kernels/contact_step.h.
+// The contacts of a step with the time taper: every one's life goes on by one step, from positions at its start and
+// from v^0, and its weights are set for the solve's iterations; the first of them is prepared here, from guessed
+// velocities. Both sides of a contact reckon alike, so momentum is kept. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -57,12 +57,6 @@ void liveOn(ContactLife before) {
          ContactLife(before.particle, lifeOfShares(shares), r0, before.stiffness));
 }
 
-ContactLife newLife(uint particle, float restLength) {
-  ContactRest other = contactOf(contactAt(particle));
-  float mass = 0.5 * (rest.mass + other.mass);
-  return ContactLife(particle, 0.0, restLength, parameters.stiffness * mass / (rest.point.w + other.point.w));
-}
-
 // Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one
 // must; and loops ask after their body, or it does one turn more.
 void main() {
@@ -91,15 +85,14 @@ void main() {
   uint b = 0;
   if (blockCount > 0) do {
     uint first = lists[listedBlock(neighbourList, b)] * kListBlock;
-    uint touching = lists[touchingBits(neighbourList, b)];
+    uint touching = lists[pairBits(neighbourList, b)] >> kListBlock;
     uint fresh = touching;
     wanted += bitCount(touching);
     if (touching != 0) do {
       uint k = findLSB(touching);
       touching &= touching - 1;
       ++made;
-      uvec4 two = twoPairsAt(first + (k & ~1u));
-      uint particle = (k & 1) == 0 ? two.x : two.z;
+      uint particle = pairAt(first + k).particle;
       bool isKnown = false;
       uint looked = 0;
       if (countBefore > 0) do {
@@ -115,9 +108,8 @@ void main() {
       uint k = findLSB(fresh);
       fresh &= fresh - 1;
       ++made;
-      uvec4 two = twoPairsAt(first + (k & ~1u));
-      uvec2 pair = (k & 1) == 0 ? two.xy : two.zw;
-      liveOn(newLife(pair.x, uintBitsToFloat(pair.y)));
+      ContactPair pair = pairAt(first + k);
+      liveOn(ContactLife(pair.particle, 0.0, pair.restLength, pair.stiffness));
     } while (fresh != 0);
     ++made;
   } while (++b < blockCount);

@@ -1,5 +1,5 @@
-// Which neighbours touch, as bits beside each list's blocks, and which contact particles have contacts or had some: the
-// kernels after this one run for those only, and most only stand near others. Mirrored by
+// What the neighbours of each contact particle do, as bits beside each list's blocks, and which contact particles have
+// contacts or had some: the kernels after this one run for those only, and most only stand near others. Mirrored by
 // reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -10,10 +10,19 @@ uint particle;  // this invocation's
 vec3 x;
 vec3 v;
 
-bool touches(uint other, float restLength) {
-  ContactMeeting meeting = contactMeeting(x - positionOf(other), v - velocityOf(other), particle < other);
-  return isTouching(meeting, restLength, parameters.seconds, parameters.seenAhead);
+// Whether a contact particle had contacts in the step before; from now on it has some, or none.
+#ifdef RINGLET_TAPER_TIME
+const uint kMeeting = ~((1u << kListBlock) - 1);  // of the bits
+bool metBefore(uint c) {
+  liveLists[liveListOf(c, control.parity)] = 0;
+  return liveLists[liveListOf(c, control.parity ^ 1)] > 0;
 }
+void setMeets(uint c, bool meets) {}
+#else
+const uint kMeeting = (1u << kListBlock) - 1;
+bool metBefore(uint c) { return lists[meetsPlace(c)] != 0; }
+void setMeets(uint c, bool meets) { lists[meetsPlace(c)] = uint(meets); }
+#endif
 
 void main() {
   if (control.isHalted != 0 || !listsHadRoom()) return;
@@ -24,7 +33,7 @@ void main() {
   v = velocityOf(particle);
   uint list = listOf(c);
   uint count = lists[list];
-  bool meets = liveLists[liveListOf(c, control.parity ^ 1)] > 0;
+  bool meets = false;
   uint made = 0;
   uint begin = 0;
   if (count > 0) do {
@@ -33,20 +42,22 @@ void main() {
     uint bits = 0;
     uint k = 0;
     do {
-      uvec4 two = twoPairsAt(first + k);
-      if (touches(two.x, uintBitsToFloat(two.y))) bits |= 1u << k;
-      if (touches(two.z, uintBitsToFloat(two.w))) bits |= 2u << k;
-      k += 2;
-    } while (k < inBlock);
-    if (inBlock < 32) bits &= (1u << inBlock) - 1;
-    lists[touchingBits(list, begin / kListBlock)] = bits;
-    meets = meets || bits != 0;
-    made += inBlock;
+      ContactPair pair = pairAt(first + k);
+      ContactMeeting meeting =
+          contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle), particle < pair.particle);
+      bool touching = isTouching(meeting, pair.restLength, parameters.seconds, parameters.seenAhead);
+      if (touching) bits |= 1u << kListBlock + k;
+      if (touching || meeting.distance < parameters.breakFactor * pair.restLength) bits |= 1u << k;
+    } while (++k < inBlock);
+    lists[pairBits(list, begin / kListBlock)] = bits;
+    meets = meets || (bits & kMeeting) != 0;
+    made += k;
     begin += kListBlock;
   } while (begin < count);
   if (made != count) control.isHalted = kHaltedByTurns;
-  liveLists[liveListOf(c, control.parity)] = 0;
-  if (!meets) return;
+  bool met = metBefore(c);
+  setMeets(c, meets);
+  if (!meets && !met) return;
   uint i = atomicAdd(control.meetingCount, 1);
   lists[meetingPlace(i)] = c;
   if (i % gl_WorkGroupSize.x == 0) atomicAdd(control.indirectMeeting[0], 1);

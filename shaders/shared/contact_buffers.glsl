@@ -64,11 +64,10 @@ vec3 predictedBefore(uint c) {
 }
 /// xyz: guessed velocity; w: radius.
 vec4 guessOf(uint particle) { return kTexels ? vectorAt(guessTexels, particle) : guesses[particle]; }
-/// Two pairs that follow each other, the first of an even index: (particle, restLength as bits) of each.
-uvec4 twoPairsAt(uint entry) {
-  if (kTexels) return recordAt(pairTexels, entry / 2);
-  ContactPair a = pairs[entry], b = pairs[entry + 1];
-  return uvec4(a.particle, floatBitsToUint(a.restLength), b.particle, floatBitsToUint(b.restLength));
+ContactPair pairAt(uint entry) {
+  if (!kTexels) return pairs[entry];
+  uvec4 pair = recordAt(pairTexels, entry);
+  return ContactPair(pair.x, uintBitsToFloat(pair.y), uintBitsToFloat(pair.z), uintBitsToFloat(pair.w));
 }
 ContactLife lifeAt(uint entry) {
   if (!kTexels) return lives[entry];
@@ -107,12 +106,14 @@ uint bucketOf(ivec3 cell) {
 }
 
 // The lists' buffer. Where a contact particle's list starts; there its length stands, then, of each of its blocks,
-// which it is and which of its pairs touch, as bits.
+// which it is and what its pairs do, as bits: the lower half which of them act on each other, the upper half which
+// touch, or, between iterations, whose springs push.
 uint listOf(uint c) { return c * (1 + 2 * parameters.mostBlocks); }
 uint listedBlock(uint list, uint b) { return list + 1 + 2 * b; }
-uint touchingBits(uint list, uint b) { return list + 2 + 2 * b; }
-/// After the lists: contact particles that have contacts or had some, in any order.
+uint pairBits(uint list, uint b) { return list + 2 + 2 * b; }
+/// After the lists: contact particles that have contacts or had some, in any order; then whether each has any.
 uint meetingPlace(uint i) { return listOf(parameters.contactCount) + i; }
+uint meetsPlace(uint c) { return meetingPlace(parameters.contactCount) + c; }
 /// Where the list of its contacts starts, that of the step or that of the step before: their number, and blocks.
 uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostLiveBlocks); }
 /// Where its contact j is, among forces; and among lives.

@@ -238,14 +238,14 @@ RINGLET_CONSTANT uint kBindIndexTexels = 22;
 RINGLET_CONSTANT uint kBindPlaceTexels = 23;    // 2 a contact particle
 RINGLET_CONSTANT uint kBindHistoryTexels = 24;  // 4 a contact particle
 RINGLET_CONSTANT uint kBindGuessTexels = 25;
-RINGLET_CONSTANT uint kBindPairTexels = 26;     // of 2 pairs
+RINGLET_CONSTANT uint kBindPairTexels = 26;
 RINGLET_CONSTANT uint kBindLifeTexels = 27;
 RINGLET_CONSTANT uint kBindForceTexels = 28;    // 2 a contact
 RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 
 // Lists are as long as they must be, in blocks of this many pairs that are given out as they are asked for. Which block
 // went where depends on threads; what is in a list, and its order, does not.
-RINGLET_CONSTANT uint kListBlock = 16;          // at most as many as an integer has bits (contact_touch.comp)
+RINGLET_CONSTANT uint kListBlock = 16;          // two bits of an integer for each (contact_touch.comp)
 RINGLET_CONSTANT uint kLiveBlock = 4;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for
@@ -265,6 +265,8 @@ struct ContactRest {
 struct ContactPair {
   uint particle;     // the other, device order
   float restLength;  // r0 [m]
+  float stiffness;   // k [N/m]
+  float damping;     // c [N s/m]
 };
 
 // What a contact remembers from step to step, in two rows, that of the step and that of the step before. The shares are
@@ -314,6 +316,10 @@ struct ContactControl {
   uint parity;               // which of the two rows is in use
   uint indirectOne[3];       // one workgroup
   uint isHalted;             // 0, kHaltedForRoom or kHaltedByTurns
+  uint indirectSample[3];    // over the contact particles that are looked at to see whether lists may stay, or none
+  uint isDue;                // the step makes new lists
+  uint indirectQuery[3];     // over contact particles, or none
+  uint sampled;              // pairs that touch, of those looked at
   uint indirectMeeting[3];   // over contact particles that have contacts, or had
   uint meetingCount;         // how many they are
   uint motion;       // how far a contact particle may have come since its list was made, T |dv| included [m], as bits
@@ -324,12 +330,17 @@ struct ContactControl {
   uint blocks;       // that lists have asked for
   uint longestLive;  // contacts of the particle that has most
   uint liveBlocks;   // that contacts have asked for in this step
+  uint missed;       // of the sample's pairs that touch, those that the lists lack
   uint step;         // of the frame, that the lists are for
   uint steps;        // since hair was last put somewhere
   uint rebuilds;     // since the simulation began
   uint listed;       // pairs in all lists, both sides counted
   uint pairTests;    // pairs looked at since the simulation began, modulo 2^32
 };
+
+// In dense hair lists are kept as long as, in a sample, no more than one in so many of the pairs that touch is missing
+// from them: among many neighbours one is not missed. Elsewhere lists hold all.
+RINGLET_CONSTANT uint kMissedOneIn = 100;
 
 // Why everything stands still: lists have no room until the host has made some; or more particles are near one than the
 // device's loops can look at (lavapipe ends an invocation's loops at 65,535 turns, without a word).
@@ -354,8 +365,11 @@ struct ContactParameters {
   float ramp;           // what a share changes by in a step
   float stiffnessRelease;
   float dampingRelease;
-  float breakFactor;
+  float reachFactor;    // lists hold what is nearer than this times r0, by place alone
+  float breakFactor;    // beyond this times r0 a contact is over
   float seenAhead;      // a contact is seen ahead from this times r0
+  float listedAhead;    // and in lists from this times r0 on, no more than seenAhead
+  uint sampleStride;    // in dense hair: one contact particle in so many is in the sample; 0: there is none
   float warmth;         // share of a step's change by contacts that the next one is guessed to have
 };
 

@@ -71,7 +71,8 @@ Result<ListComparison> compareLists(const ComputeDevice& device, const std::vect
   ListComparison lists{.extra = found.size(), .repeated = contacts->size() - found.size()};
   if (report->listed != found.size()) ++lists.repeated;
   const Groom rest = farApart(points.size() / 2);
-  const float reach = static_cast<float>(kListedR + kListedSkin), bound = reach * reach;
+  const float reach = static_cast<float>(settings.contacts.listedReach() * kListedR + kListedSkin),
+              bound = reach * reach;
   for (std::uint32_t a = 0; a < points.size(); ++a) {
     for (std::uint32_t b = a + 1; b < points.size(); ++b) {
       if (a / 2 == b / 2 || (a % 2 == 0 && b % 2 == 0)) continue;
@@ -114,9 +115,13 @@ Result<double> shakenSwatchError(
   if (!simulation) return simulation.error();
   reference::Simulation<double> reference(groom, {}, settings);
   HeadPose before;
+  // Ones at which no pair is within rounding of touching or not in any step: from there on float and double
+  // would go different ways.
+  const double amplitude = settings.contacts.taper == ContactTaper::time ? 0.032 : 0.031;
   double worst = 0;
   for (int frame = 1; frame <= frameCount; ++frame) {
-    const HeadPose next{{0, 0, 0.032 * std::sin(0.5 * frame)}, fromRotationVector(Vec3d{0, 0.05 * frame, 0})};
+    const HeadPose next{{0, 0, amplitude * std::sin(0.5 * frame)},
+                        fromRotationVector(Vec3d{0, 0.05 * frame, 0})};
     if (Status stepped = simulation->stepFrame(next); !stepped) return stepped.error();
     std::vector<HeadPose> poses;
     for (int k = 1; k <= settings.stepsPerFrame; ++k)

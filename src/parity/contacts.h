@@ -16,8 +16,8 @@ class Simulation;
 
 namespace ringlet::parity {
 
-// Of shortSteps(): two particles are listed within R and the skin (solver/contact_stage.cpp) [m].
-inline constexpr double kListedR = 0.01, kListedSkin = 0.15 * kListedR;
+// Of shortSteps() [m].
+inline constexpr double kListedR = 0.01, kListedSkin = kContactMargin * kListedR;
 
 /// Strands of two particles, far from each other at rest.
 Groom farApart(std::size_t strandCount);
@@ -39,7 +39,8 @@ struct ListComparison {
 };
 
 /// Strands at `points` as stepAt has them. A pair must be listed if its particles belong to different
-/// strands, are not both roots (roots follow the head), and are nearer than R and the skin.
+/// strands, are not both roots (roots follow the head), and are nearer than what acts on each other and the
+/// skin.
 Result<ListComparison> compareLists(const ComputeDevice& device, const std::vector<Vec3f>& points,
                                     const Settings& settings = shortSteps());
 

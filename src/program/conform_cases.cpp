@@ -191,10 +191,13 @@ void checkContacts(const ConformCases& cases, const Tell& tell) {
   if (cases.quick) return;
   checkSameBits(cases.device, cases.withoutTexels, parity::denseSwatch(32), {}, settings, {},
                 "contacts: the same bits without texels", tell);
-  Settings atOnce = settings;
-  atOnce.contacts.rampSeconds = 0;  // in full in the first step
-  checkStep(cases.device, {parity::randomGroom({64, 31, 64, 17, 2, 64, 33, 64, 3}, 3), {}, atOnce, {}, 5},
-            "contacts", parity::kOneStep, tell);
+  for (const ContactTaper taper : {ContactTaper::distance, ContactTaper::time}) {
+    Settings atOnce = settings;
+    atOnce.contacts.taper = taper;
+    atOnce.contacts.rampSeconds = 0;  // in full in the first step
+    checkStep(cases.device, {parity::randomGroom({64, 31, 64, 17, 2, 64, 33, 64, 3}, 3), {}, atOnce, {}, 5},
+              taper == ContactTaper::time ? "contacts, time taper" : "contacts", parity::kOneStep, tell);
+  }
   constexpr int kFrames = 3;
   CompileClock clock;
   KernelChoice kernel;

@@ -88,6 +88,14 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
       ->check(between(0, 1))
       ->type_name("X")
       ->group(group);
+  command
+      ->add_option(
+          "--contact-taper", choice.taper,
+          "How a contact comes and goes, with the distance of the two, or in time as in the paper, which "
+          "is slower: distance or time (default distance)")
+      ->check(oneOf({std::begin(kContactTaperNames), std::end(kContactTaperNames)}))
+      ->type_name("TAPER")
+      ->group(group);
 }
 
 void checkContactOptions(const ContactChoice& choice) {
@@ -106,6 +114,7 @@ void refuseContactOptions(const ContactChoice& choice, const std::string& reason
                        : choice.dropShare     ? "--drop-share"
                        : choice.iterations    ? "--contact-iterations"
                        : choice.friction      ? "--contact-friction"
+                       : choice.taper         ? "--contact-taper"
                                               : nullptr;
   if (option) throw CLI::ValidationError(option, reason);
 }
@@ -121,6 +130,7 @@ void applyContactOptions(const ContactChoice& choice, ContactSettings& settings)
   settings.dropShare = choice.dropShare.value_or(settings.dropShare);
   settings.iterations = choice.iterations.value_or(settings.iterations);
   settings.friction = choice.friction.value_or(settings.friction);
+  if (choice.taper) settings.taper = *choice.taper == "time" ? ContactTaper::time : ContactTaper::distance;
 }
 
 }  // namespace ringlet::program

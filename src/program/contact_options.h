@@ -19,14 +19,15 @@ struct ContactChoice {
   std::optional<double> dropShare;
   std::optional<int> iterations;
   std::optional<double> friction;
+  std::optional<std::string> taper;  // of kContactTaperNames
 
   /// Switched on or off; nothing: neither.
   std::optional<bool> on() const { return state ? std::optional(*state == "on") : std::nullopt; }
 };
 
 /// Adds --contacts, --contact-radius, --fill-gaps, --prune, --max-neighbours, --drop-share,
-/// --contact-iterations and --contact-friction. defaultState: what --help says where --contacts is left out.
-/// `choice` must outlive the command.
+/// --contact-iterations, --contact-friction and --contact-taper. defaultState: what --help says where
+/// --contacts is left out. `choice` must outlive the command.
 void addContactOptions(CLI::App* command, ContactChoice& choice, const std::string& defaultState);
 
 /// Throws CLI11's error for what makes no sense together.

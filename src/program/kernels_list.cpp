@@ -32,10 +32,6 @@ std::vector<Work> strandWorks() {
           {"paper", StrandWork::plain, {.integrator = Integrator::paper, .oneSmoothing = true}}};
 }
 
-const char* const kContactNames[kContactKernelCount] = {"motion", "decide",  "count", "scan",
-                                                        "sum",    "scatter", "order", "query",
-                                                        "touch",  "life",    "check", "gather"};
-
 }  // namespace
 
 std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
@@ -49,9 +45,17 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
       kernels.push_back({fmt::format("strand_step, {}, {}", work.name, shape.describe()),
                          describeStrandKernel(shape, work.options)});
   }
-  for (std::size_t k = 0; k < kContactKernelCount; ++k)
-    kernels.push_back({fmt::format("contact_{}", kContactNames[k]),
-                       describeContactKernel(static_cast<ContactKernel>(k), kContactGroupSize, texels)});
+  const auto add = [&](ContactKernel which, ContactTaper taper, const char* what) {
+    const auto description = describeContactKernel(which, taper, kContactGroupSize, texels);
+    kernels.push_back({description.name + std::string(what), description});
+  };
+  using enum ContactKernel;
+  for (std::size_t k = 0; k < kContactKernelCount; ++k) {
+    const auto which = static_cast<ContactKernel>(k);
+    add(which, ContactTaper::distance, which == first ? ", first iteration" : which == next ? ", later" : "");
+  }
+  for (const ContactKernel which : {touch, first, next})
+    add(which, ContactTaper::time, which == touch ? ", time taper" : "");
   return kernels;
 }
 

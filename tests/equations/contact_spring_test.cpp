@@ -172,6 +172,23 @@ TEST(ContactSpring, EngagesBreaksAndEngagesAgain) {
   EXPECT_TRUE(life.isOver());
 }
 
+// Damping fades from the rest length to its end; the spring acts while the two touch, and nothing is
+// remembered.
+TEST(ContactSpring, TheDistanceTaperFollowsThePlace) {
+  const double r0 = kRadiusSum, end = kContactTaperEnd * r0;
+  for (const double inside : {0.0, 0.5 * r0, r0}) EXPECT_EQ(lifeAt(true, inside, r0).dampingShare, 1);
+  EXPECT_EQ(lifeAt(true, 0.5 * r0, r0).stiffnessShare, 1);
+  EXPECT_EQ(lifeAt(false, 0.5 * (r0 + end), r0).stiffnessShare, 0);
+  EXPECT_NEAR(lifeAt(false, 0.5 * (r0 + end), r0).dampingShare, 0.5, 1e-12);
+  EXPECT_NEAR(lifeAt(false, 0.25 * r0 + 0.75 * end, r0).dampingShare, 0.25, 1e-12);
+  EXPECT_TRUE(lifeAt(false, end, r0).isOver());
+  EXPECT_TRUE(lifeAt(false, 2 * r0, r0).isOver());
+  // Seen ahead from beyond its end: the spring alone.
+  EXPECT_EQ(lifeAt(true, 1.5 * r0, r0).stiffnessShare, 1);
+  EXPECT_EQ(lifeAt(true, 1.5 * r0, r0).dampingShare, 0);
+  EXPECT_TRUE(lifeAt(false, 0.0, 0.0).isOver()) << "two that were in one place at rest never touch";
+}
+
 TEST(ContactSpring, IsGoneBeyondTheBreakDistanceUnlessItComesBack) {
   const ContactSettings settings;
   const double beyond = 1.21 * kRadiusSum;

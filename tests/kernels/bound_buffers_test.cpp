@@ -29,8 +29,10 @@ std::uint32_t storageCount(const gpu::KernelDescription& description) {
 
 std::uint32_t mostOfContacts() {
   std::uint32_t most = 0;
-  for (std::size_t k = 0; k < kContactKernelCount; ++k)
-    most = std::max(most, storageCount(describeContactKernel(static_cast<ContactKernel>(k), 64, true)));
+  for (std::size_t k = 0; k < kContactKernelCount; ++k) {
+    const auto which = static_cast<ContactKernel>(k);
+    most = std::max(most, storageCount(describeContactKernel(which, ContactTaper::distance, 64, true)));
+  }
   return most;
 }
 

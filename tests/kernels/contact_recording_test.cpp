@@ -1,10 +1,12 @@
 // How a frame with contacts is recorded. Contact kernels share buffers that several of them write, so that
 // each must see what the one before it wrote; the validation layer does not notice a barrier left out there,
 // and lavapipe runs dispatches in order. Mirrors solver/contact_stage.h.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ringlet/gpu/recorder.h"
@@ -16,10 +18,17 @@ namespace {
 
 using Commands = std::vector<std::string>;
 
-// In the order of a step; contact_gather, between its solves, is counted apart.
-const Commands kOfAStep{"contact_motion", "contact_decide",  "contact_count", "contact_scan",
-                        "contact_sum",    "contact_scatter", "contact_order", "contact_query",
-                        "contact_touch",  "contact_life",    "contact_check"};
+// In the order of a step, up to its first solve; and before each of the others.
+Commands ofAStep(ContactTaper taper) {
+  return {"contact_motion", "contact_decide", "contact_count",
+          "contact_scan",   "contact_sum",    "contact_scatter",
+          "contact_order",  "contact_sample", "contact_judge",
+          "contact_query",  "contact_touch",  taper == ContactTaper::time ? "contact_life" : "contact_system",
+          "contact_check"};
+}
+const char* betweenSolves(ContactTaper taper) {
+  return taper == ContactTaper::time ? "contact_gather" : "contact_system";
+}
 
 bool isContactKernel(const std::string& command) { return command.starts_with("contact_"); }
 
@@ -40,11 +49,14 @@ void expectBarriers(const Commands& commands, const std::string& label) {
 }
 
 // The contact kernels of `steps` whole steps, in order.
-void expectSteps(const Commands& commands, int steps, int iterations, const std::string& label) {
+void expectSteps(const Commands& commands, int steps, const ContactSettings& contacts,
+                 const std::string& label) {
   Commands expected, found;
+  const Commands one = ofAStep(contacts.taper);
   for (int step = 0; step < steps; ++step) {
-    expected.insert(expected.end(), kOfAStep.begin(), kOfAStep.end());
-    expected.insert(expected.end(), static_cast<std::size_t>(iterations - 1), "contact_gather");
+    expected.insert(expected.end(), one.begin(), one.end());
+    expected.insert(expected.end(), static_cast<std::size_t>(contacts.iterations - 1),
+                    betweenSolves(contacts.taper));
   }
   std::ranges::copy_if(commands, std::back_inserter(found), isContactKernel);
   EXPECT_EQ(found, expected) << label;
@@ -70,8 +82,10 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
   constexpr int kSteps = 2;
   const Groom groom = besideEachOther(60, 3);
   for (const KernelChoice::Form form : {KernelChoice::Form::automatic, KernelChoice::Form::serial}) {
-    for (const int iterations : {1, 3}) {
+    for (const auto& [iterations, taper] :
+         {std::pair{1, ContactTaper::distance}, {3, ContactTaper::distance}, {3, ContactTaper::time}}) {
       Settings settings;
+      settings.contacts.taper = taper;
       settings.stepsPerFrame = kSteps;
       settings.contacts.on = true;
       settings.contacts.radius = 0.002;
@@ -79,10 +93,11 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
       settings.contacts.iterations = iterations;
       auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {form});
       ASSERT_TRUE(simulation) << simulation.error().message;
-      const std::string label = simulation->kernelDescription() + ", " + std::to_string(iterations);
+      const std::string label =
+          fmt::format("{}, {}, {}", simulation->kernelDescription(), iterations, nameOf(taper));
       const Commands whole = simulation->recordedFrame();
       expectBarriers(whole, label);
-      expectSteps(whole, kSteps, iterations, label);
+      expectSteps(whole, kSteps, settings.contacts, label);
 
       HairState state{*simulation->positions(), std::vector<Vec3f>(groom.points.size())};
       for (std::size_t i = 0; i < groom.points.size(); ++i) state.positions[i] = state.positions[i] * 0.1f;
@@ -93,7 +108,7 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
       expectBarriers(again, label + ", with more room");
       const auto steps = std::ranges::count(again, "contact_motion");
       EXPECT_TRUE(steps == 1 || steps == kSteps) << label;
-      expectSteps(again, static_cast<int>(steps), iterations, label + ", with more room");
+      expectSteps(again, static_cast<int>(steps), settings.contacts, label + ", with more room");
     }
   }
 }

@@ -1,6 +1,7 @@
 // The contacts of a step on the device against the float reference: which pairs are live, what they remember,
 // and the velocities and positions that follow; one step from a wild state, and frame after frame, with lists
-// that are made anew, kept, and outgrown. Mirrors shaders/kernels/contact_life.comp and contact_gather.comp.
+// that are made anew, kept, and outgrown; with both tapers. Mirrors shaders/kernels/contact_touch.comp,
+// contact_system.comp, contact_life.comp and contact_gather.comp.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,16 +30,20 @@ reference::Field<Real> toField(const std::vector<Vec3f>& values) {
 
 class ContactStep : public GpuTest {
  protected:
-  // Live pairs of both: the same, with the same shares.
+  // Live pairs of both: the same, with the same shares; with the distance taper, which of their springs and
+  // dampers act.
   template <class Real>
   void expectSameContacts(const Simulation& simulation, const reference::Simulation<Real>& reference,
-                          double tolerance, const std::string& label) {
+                          const ContactSettings& settings, double tolerance, const std::string& label) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<double, double>> expected;
     const auto& contacts = reference.contacts();
     for (const auto& live : contacts.live) {
       const std::uint32_t a = contacts.particles[live.pair.a].index,
                           b = contacts.particles[live.pair.b].index;
-      expected[{std::min(a, b), std::max(a, b)}] = {live.life.stiffnessShare, live.life.dampingShare};
+      expected[{std::min(a, b), std::max(a, b)}] =
+          settings.taper == ContactTaper::time
+              ? std::pair<double, double>(live.life.stiffnessShare, live.life.dampingShare)
+              : std::pair<double, double>(live.weights.spring > 0 ? 1 : 0, 1);
     }
     const auto listed = simulation.listedContacts();
     ASSERT_TRUE(listed) << listed.error().message;
@@ -59,18 +64,20 @@ class ContactStep : public GpuTest {
 TEST_F(ContactStep, AStepFromAWildStateAgrees) {
   for (const KernelChoice& kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::automatic, 4},
                                      KernelChoice{KernelChoice::Form::serial}}) {
-    for (const double friction : {0.0, 0.5}) {
+    for (const auto& [friction, taper] :
+         {std::pair{0.0, ContactTaper::distance}, {0.5, ContactTaper::distance}, {0.5, ContactTaper::time}}) {
       for (const int iterations : {1, 2, 5}) {
         Settings settings = meetingSettings();
+        settings.contacts.taper = taper;
         settings.contacts.friction = friction;
         settings.contacts.iterations = iterations;
         settings.contacts.rampSeconds = 0;  // at once in full
         ParityCase c{
             randomGroom({64, 31, 64, 100, 17, 2, 64, 33, 128, 64, 3, 31}, 3), {}, settings, kernel, 5};
         const auto errors = oneStepErrors(device(), c);
-        const std::string label =
-            fmt::format("{}, friction {}, {} iterations",
-                        kernel.form == KernelChoice::Form::serial ? "serial" : "lanes", friction, iterations);
+        const std::string label = fmt::format("{}, {}, friction {}, {} iterations",
+                                              kernel.form == KernelChoice::Form::serial ? "serial" : "lanes",
+                                              nameOf(taper), friction, iterations);
         fmt::print("{:<36} {}\n", label, toText(errors));
         for (const FieldError& e : errors)
           EXPECT_LE(e.error, kOneStep) << label << ": " << e.field << "\n" << e.where;
@@ -79,31 +86,32 @@ TEST_F(ContactStep, AStepFromAWildStateAgrees) {
   }
 }
 
-// In both forms. (By 3 cm instead of 3.2 one pair of the pruned swatch stops touching within rounding of a
-// step: runs of 4 and 8 agree with double there, of 16 not.) A shaken swatch: lists live for some steps, are
-// made anew, and grow. Every pair the reference finds by its own grid in every step is found, and remembers
-// the same.
+// In both forms. A shaken swatch: lists live for some steps, are made anew, and grow. Every pair the
+// reference finds by its own grid in every step is found, and remembers the same.
 TEST_F(ContactStep, FramesAgreeWithDouble) {
   struct Case {
     bool prune;
     KernelChoice kernel;
+    ContactTaper taper = ContactTaper::distance;
   };
   const KernelChoice serial{KernelChoice::Form::serial};
-  for (const auto& [prune, kernel] : {Case{false, {}}, Case{true, {}}, Case{true, {.particlesPerLane = 8}},
-                                      Case{true, serial}, Case{false, serial}}) {
+  for (const auto& [prune, kernel, taper] :
+       {Case{false, {}}, Case{true, {}}, Case{true, {.particlesPerLane = 8}}, Case{true, serial},
+        Case{false, serial}, Case{false, {}, ContactTaper::time}, Case{true, serial, ContactTaper::time}}) {
     Settings settings = meetingSettings();
+    settings.contacts.taper = taper;
     settings.contacts.prunePairs = prune;
     settings.contacts.minOverlaps = 20;
-    const std::string label = prune ? "pruned" : "all pairs";
+    const std::string label = fmt::format("{}, {}", prune ? "pruned" : "all pairs", nameOf(taper));
     const int frames = 12;
     ContactReport report;
     double momentumError = 0;
     const auto worst =
         shakenSwatchError(device(), settings, kernel, frames,
                           [&](const Simulation& simulation, const reference::Simulation<double>& reference) {
-                            expectSameContacts(simulation, reference, 1e-5, label);
+                            expectSameContacts(simulation, reference, settings.contacts, 1e-5, label);
                             report = *simulation.contactReport();
-                            momentumError = reference.report().momentumError;
+                            momentumError = reference.report().freeMomentumError;
                           });
     ASSERT_TRUE(worst) << worst.error().message;
     fmt::print(
@@ -122,6 +130,7 @@ TEST_F(ContactStep, FramesAgreeWithDouble) {
 TEST_F(ContactStep, FramesOfMovingRootsAgreeWithDouble) {
   const Groom groom = denseSwatch(32);
   Settings settings = meetingSettings();
+  settings.contacts.taper = ContactTaper::time;
   settings.contacts.stiffnessReleaseSeconds = settings.contacts.dampingReleaseSeconds = 10;
   auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {.movingRoots = true});
   ASSERT_TRUE(simulation) << simulation.error().message;
@@ -143,7 +152,7 @@ TEST_F(ContactStep, FramesOfMovingRootsAgreeWithDouble) {
     const auto positions = *simulation->positions();
     for (std::size_t i = 0; i < positions.size(); ++i)
       worst = std::max(worst, (reference::toEigen<double>(positions[i]) - reference.positions()[i]).norm());
-    expectSameContacts(*simulation, reference, 1e-5, "moving roots");
+    expectSameContacts(*simulation, reference, settings.contacts, 1e-5, "moving roots");
   }
   const auto report = simulation->contactReport();
   ASSERT_TRUE(report) << report.error().message;
@@ -182,6 +191,50 @@ TEST_F(ContactStep, RepeatsBitwiseWithAnyNumberOfThreads) {
     EXPECT_TRUE(same(first, run(*other))) << threads << " threads";
   }
   ::unsetenv("LP_NUM_THREADS");
+}
+
+// How much room lists begin with decides when a frame stops to make some, and nothing else.
+TEST_F(ContactStep, RoomDecidesNothing) {
+  Groom groom;  // strands so close that their lists outgrow their first room
+  groom.metresPerUnit = 1;
+  for (int s = 0; s < 80; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 16; ++i) {
+      const double turn = 0.9 * i + s;
+      strand.push_back(Vec3f(Vec3d{0.003 * (s % 9) + 0.004 * std::cos(turn), -0.006 * i,
+                                   0.003 * (s / 9) + 0.004 * std::sin(turn)}));
+    }
+    groom.addStrand(strand);
+  }
+  for (const ContactTaper taper : {ContactTaper::distance, ContactTaper::time}) {
+    struct Outcome {
+      std::vector<Vec3f> positions;
+      ContactReport report;
+      std::uint64_t bytesBefore, bytesAfter;
+    };
+    const auto run = [&](int room) {
+      Settings settings = meetingSettings();
+      settings.contacts.taper = taper;
+      auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {.contactRoom = room});
+      EXPECT_TRUE(simulation) << simulation.error().message;
+      const std::uint64_t before = simulation->memory().contactLists;
+      for (int frame = 1; frame <= 8; ++frame)
+        EXPECT_TRUE(simulation->stepFrame(HeadPose{{0.05 * std::sin(0.7 * frame), 0, 0}, {}}));
+      return Outcome{*simulation->positions(), *simulation->contactReport(), before,
+                     simulation->memory().contactLists};
+    };
+    const Outcome one = run(1);
+    EXPECT_GT(one.bytesAfter, one.bytesBefore) << nameOf(taper) << ": all had room, and nothing is tested";
+    for (const int room : {2, 4, 16}) {
+      const Outcome other = run(room);
+      const std::string label = fmt::format("{}, room x {}", nameOf(taper), room);
+      EXPECT_EQ(one.positions, other.positions) << label;
+      EXPECT_EQ(one.report.contacts, other.report.contacts) << label;
+      EXPECT_EQ(one.report.listed, other.report.listed) << label;
+      EXPECT_EQ(one.report.rebuilds, other.report.rebuilds) << label;
+      EXPECT_EQ(one.report.pairTests, other.report.pairTests) << label;
+    }
+  }
 }
 
 // Spheres may overlap at rest, in balance with gravity: nothing moves.

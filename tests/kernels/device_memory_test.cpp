@@ -65,13 +65,16 @@ TEST_F(Memory, OfContacts) {
   const std::uint64_t pairs = simulation->contactReport()->pairs;
   EXPECT_GE(memory.contacts, least);
   EXPECT_LE(memory.contacts, least + 16 * 2 * pairs + 16 * strandCount_ + buckets / 256 + 8);
-  // Lists begin with a block of 16 pairs of 8 bytes and one contact of 64 a contact particle, and 80 to find
-  // them.
-  EXPECT_EQ(memory.contactLists, contacts * (16 * 8 + 80) + (contacts / 4 + 1) * 4 * 64);
+  // Lists begin with a block of 16 pairs of 16 bytes a contact particle, and 44 to find them; with the time
+  // taper with one contact of 64 more, and 40.
+  EXPECT_EQ(memory.contactLists, contacts * (16 * 16 + 44));
+  settings.contacts.taper = ContactTaper::time;
+  auto timed = make(settings);
+  ASSERT_TRUE(timed);
+  EXPECT_EQ(timed->memory().contactLists, contacts * (16 * 16 + 44 + 40) + (contacts / 4 + 1) * 4 * 64);
 }
 
-// Lists as long as hair that lies in itself makes them: 8 bytes a pair and side, 64 a contact and side, and a
-// part that is empty.
+// Lists as long as hair that lies in itself makes them: 16 bytes a pair and side, and a part that is empty.
 TEST_F(Memory, OfListedContacts) {
   Groom groom;
   groom.metresPerUnit = 1;
@@ -92,7 +95,7 @@ TEST_F(Memory, OfListedContacts) {
   ASSERT_TRUE(report);
   const std::uint64_t after = simulation->memory().contactLists;
   EXPECT_GT(after, before) << "lists had to grow";
-  const std::uint64_t filled = 2 * (8 * report->listed + 64 * report->contacts);
+  const std::uint64_t filled = 2 * 16 * report->listed;
   EXPECT_GE(after, filled);
   EXPECT_LE(after, 2 * filled + 600 * report->contactParticles);
   RecordProperty("bytes", std::to_string(after));

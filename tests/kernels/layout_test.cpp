@@ -124,7 +124,10 @@ const std::vector<CppStruct> kCppStructs = {
     }(),
     [] {
       using S = layout::ContactPair;
-      return CppStruct{"ContactPair", sizeof(S), {RINGLET_MEMBER(particle), RINGLET_MEMBER(restLength)}};
+      return CppStruct{"ContactPair",
+                       sizeof(S),
+                       {RINGLET_MEMBER(particle), RINGLET_MEMBER(restLength), RINGLET_MEMBER(stiffness),
+                        RINGLET_MEMBER(damping)}};
     }(),
     [] {
       using S = layout::ContactLife;
@@ -166,6 +169,10 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(parity),
                         RINGLET_MEMBER(indirectOne),
                         RINGLET_MEMBER(isHalted),
+                        RINGLET_MEMBER(indirectSample),
+                        RINGLET_MEMBER(isDue),
+                        RINGLET_MEMBER(indirectQuery),
+                        RINGLET_MEMBER(sampled),
                         RINGLET_MEMBER(indirectMeeting),
                         RINGLET_MEMBER(meetingCount),
                         RINGLET_MEMBER(motion),
@@ -176,6 +183,7 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(blocks),
                         RINGLET_MEMBER(longestLive),
                         RINGLET_MEMBER(liveBlocks),
+                        RINGLET_MEMBER(missed),
                         RINGLET_MEMBER(step),
                         RINGLET_MEMBER(steps),
                         RINGLET_MEMBER(rebuilds),
@@ -193,8 +201,10 @@ const std::vector<CppStruct> kCppStructs = {
                                            RINGLET_MEMBER(largestRadius),  RINGLET_MEMBER(stiffness),
                                            RINGLET_MEMBER(dampingRatio),   RINGLET_MEMBER(friction),
                                            RINGLET_MEMBER(ramp),           RINGLET_MEMBER(stiffnessRelease),
-                                           RINGLET_MEMBER(dampingRelease), RINGLET_MEMBER(breakFactor),
-                                           RINGLET_MEMBER(seenAhead),      RINGLET_MEMBER(warmth)}};
+                                           RINGLET_MEMBER(dampingRelease), RINGLET_MEMBER(reachFactor),
+                                           RINGLET_MEMBER(breakFactor),    RINGLET_MEMBER(seenAhead),
+                                           RINGLET_MEMBER(listedAhead),    RINGLET_MEMBER(sampleStride),
+                                           RINGLET_MEMBER(warmth)}};
     }(),
 };
 
@@ -245,11 +255,10 @@ TEST(Layout, PushConstantsFitEveryDevice) {
 
 // They are read as texels of 16 bytes (shared/texels.glsl).
 TEST(Layout, TexelRecordsAreWholeTexels) {
-  for (const char* name :
-       {"ParticleRest", "StrandRest", "RootPose", "BodyRest", "BodyPose", "StepAir", "WindWave",
-        "ContactRest", "ContactLife", "ContactForce", "ContactSystem", "ContactPlace", "ContactHistory"})
+  for (const char* name : {"ParticleRest", "StrandRest", "RootPose", "BodyRest", "BodyPose", "StepAir",
+                           "WindWave", "ContactRest", "ContactPair", "ContactLife", "ContactForce",
+                           "ContactSystem", "ContactPlace", "ContactHistory"})
     EXPECT_EQ(cppStruct(name)->size % sizeof(layout::vec4), 0u) << name;
-  EXPECT_EQ(2 * sizeof(layout::ContactPair), sizeof(layout::vec4));
 }
 
 }  // namespace

@@ -54,7 +54,10 @@ std::vector<Case> allCases() {
   cases.push_back({.name = "contacts", .groom = tuft()});
   cases.back().settings.contacts.on = true;
   cases.back().settings.contacts.radius = 0.006;
-  cases.push_back(cases.back());  // whose lists are kept from step to step
+  cases.push_back(cases.back());
+  cases.back().name = "contacts of the time taper";
+  cases.back().settings.contacts.taper = ContactTaper::time;
+  cases.push_back(cases[cases.size() - 2]);  // whose lists are kept from step to step
   cases.back().name = "contacts at rest";
   cases.back().isStill = true;
   cases.push_back({.name = "bodies and air", .bodies = sampleBodies()});

@@ -44,7 +44,8 @@ const std::string kEverythingElse =
     "[contacts]\nradius = 0.004\nfill_gaps = true\nspacing = 0.5\nprune_pairs = false\nenlargement = 2\n"
     "min_overlaps = 4\nmax_neighbours = 9\ndrop_share = 0.25\nseed = 11\nstiffness = 500\ndamping_ratio = "
     "0.5\n"
-    "friction = 0.75\nramp_seconds = 0.01\nstiffness_release_seconds = 0.03\ndamping_release_seconds = 0.04\n"
+    "friction = 0.75\ntaper = 'time'\nramp_seconds = 0.01\nstiffness_release_seconds = "
+    "0.03\ndamping_release_seconds = 0.04\n"
     "break_factor = 1.5\niterations = 3\n"
     "[air]\nfall_speed = 3\nalong_share = 0.2\nwind = [1, -2, 3.5]\ngust = 0.5\ngust_seconds = 4\n"
     "turbulence = 0.75\neddy_size = 0.1\nseed = 12\n"
@@ -138,6 +139,7 @@ TEST(SceneFile, EverythingIsRead) {
   EXPECT_EQ(s.contacts.stiffness, 500);
   EXPECT_EQ(s.contacts.dampingRatio, 0.5);
   EXPECT_EQ(s.contacts.friction, 0.75);
+  EXPECT_EQ(s.contacts.taper, ContactTaper::time);
   EXPECT_EQ(s.contacts.rampSeconds, 0.01);
   EXPECT_EQ(s.contacts.stiffnessReleaseSeconds, 0.03);
   EXPECT_EQ(s.contacts.dampingReleaseSeconds, 0.04);

@@ -117,6 +117,7 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "contacts")) {
       scene.contacts.on = true;
       readFields(*table, "contacts", contactFields(), scene.contacts);
+      refuseForeign(*table, "contacts", contactFields(), nameOf(scene.contacts.taper), "the taper");
     }
     if (const toml::table* table = tableOf(file, "", "air")) {
       scene.air.on = true;
@@ -186,7 +187,8 @@ class SceneReader {
               return;
             }
             const auto* text = node->as_string();
-            const bool mayBeNear = text && !field.choices.empty() && std::is_same_v<Value, std::string>;
+            const bool mayBeNear =
+                text && !field.choices.empty() && !std::is_same_v<Value, std::vector<std::string>>;
             problems_.addFound(*node, key, mayBeNear ? oneOf(field.choices, text->get()) : expectedOf(field));
           },
           field.member);
@@ -221,6 +223,11 @@ class SceneReader {
       const auto numbers = numbersOf<4>(node, allowed);
       if (!numbers) return std::nullopt;
       return Quatd{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+    } else if constexpr (std::is_same_v<Value, ContactTaper>) {
+      const auto name = node.value_exact<std::string>();
+      const auto* at = std::ranges::find(kContactTaperNames, name.value_or(""));
+      if (at == std::end(kContactTaperNames)) return std::nullopt;
+      return static_cast<ContactTaper>(at - kContactTaperNames);
     } else {
       static_assert(std::is_same_v<Value, std::vector<std::string>>);
       const toml::array* list = node.as_array();

@@ -5,10 +5,13 @@
 #include <cstdint>
 
 #include "ringlet/gpu/kernel.h"
+#include "ringlet/scene/contact_settings.h"
 
 namespace ringlet {
 
-/// In the order of a step: contact_motion.comp and so on.
+/// In the order of a step: contact_motion.comp and so on. What prepares the first iteration of a step's solve
+/// and those after it is contact_system.comp with the distance taper, contact_life.comp and
+/// contact_gather.comp with the time taper.
 enum class ContactKernel {
   motion,
   decide,
@@ -17,18 +20,21 @@ enum class ContactKernel {
   sum,
   scatter,
   order,
+  sample,
+  judge,
   query,
   touch,
-  life,
+  first,
   check,
-  gather
+  next
 };
-inline constexpr std::size_t kContactKernelCount = 12;
+inline constexpr std::size_t kContactKernelCount = 14;
 
 /// Invocations of a workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
 /// texels: records are read as texels (gpu::BindingKind).
-gpu::KernelDescription describeContactKernel(ContactKernel which, std::uint32_t groupSize, bool texels);
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, std::uint32_t groupSize,
+                                             bool texels);
 
 }  // namespace ringlet

@@ -21,12 +21,13 @@ namespace {
 constexpr std::uint32_t kGroupSize = kContactGroupSize;
 // Blocks of a contact particle's lists at most, to begin with.
 constexpr std::uint32_t kFirstMostBlocks = 4;
-constexpr double kSkinShare = 0.15;  // of R: what may come closer before lists are made anew
 
 // Where the device writes how many workgroups run.
 constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectContacts),
                         kPerBlock = offsetof(layout::ContactControl, indirectBuckets),
                         kOne = offsetof(layout::ContactControl, indirectOne),
+                        kSample = offsetof(layout::ContactControl, indirectSample),
+                        kQuery = offsetof(layout::ContactControl, indirectQuery),
                         kMeeting = offsetof(layout::ContactControl, indirectMeeting);
 
 // What a share of a contact changes by in a step.
@@ -51,6 +52,23 @@ std::vector<layout::ContactRest> contactRests(const RestState& rest, const Setti
   return rests;
 }
 
+// In hair whose contact particles have more neighbours than this at rest, nearer than 1.5 R, lists are kept
+// as long as a sample says that they may be.
+constexpr double kDenseNeighbours = 16;
+// Of r0: how far ahead lists look there. What comes faster is found one step later; looking costs its cube.
+constexpr double kDenseAhead = 1.3;
+
+// One contact particle in so many; 0 where hair is not dense. Overlaps are counted with enlarged radii.
+std::uint32_t sampleStride(const RestContacts& contacts, const ContactSettings& settings) {
+  const ContactGraph& graph = contacts.graph;
+  const auto overlaps = static_cast<double>(graph.everyPair ? graph.overlapsUnpruned : graph.overlaps);
+  const double neighbours = 2 * overlaps / static_cast<double>(contacts.particles.particles.size()) *
+                            std::pow(1.5 / settings.enlargement, 3);
+  constexpr double kMostStride = 32;
+  return neighbours > kDenseNeighbours ? static_cast<std::uint32_t>(std::min(neighbours / 2, kMostStride))
+                                       : 0;
+}
+
 // The contact particle of each particle; 0 where there is none.
 std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactParticles& particles) {
   std::vector<std::uint32_t> indices((rest.points.size() + 3) / 4 * 4);
@@ -63,7 +81,7 @@ std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactPa
 
 Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& rest,
                                           const Settings& settings, const RestContacts& contacts,
-                                          DeviceGroom& groom) {
+                                          DeviceGroom& groom, int room) {
   const ContactParticles& particles = contacts.particles;
   ContactStage self;
   self.device_ = &device;
@@ -72,6 +90,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.stepSeconds_ = settings.stepSeconds();
   self.particles_ = particles.particles;
   self.everyPair_ = contacts.graph.everyPair;
+  self.sampleStride_ = sampleStride(contacts, settings.contacts);
   self.largestRadius_ = *std::max_element(particles.radii.begin(), particles.radii.end());
   const std::uint64_t count = self.particles_.size();
   if (self.contactGroups() > device.properties().maxGroupCount) {
@@ -89,7 +108,8 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
     self.largestList_ = std::min(self.largestList_, seen);
   }
   for (std::size_t k = 0; k < kContactKernelCount; ++k) {
-    const auto description = describeContactKernel(static_cast<ContactKernel>(k), kGroupSize, texels);
+    const auto description =
+        describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper, kGroupSize, texels);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
@@ -128,9 +148,14 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
                                 std::move(*guesses), std::move(*controlRead)});
-  self.near_ = {static_cast<std::uint32_t>(count), kFirstMostBlocks};
-  self.live_ = {static_cast<std::uint32_t>(count / 4 + 1), kFirstMostBlocks};
+  self.near_ = ListRoom{static_cast<std::uint32_t>(count), kFirstMostBlocks}.times(room);
+  if (self.settings_.taper == ContactTaper::time) {
+    auto lives = ContactLives::create(self.listMaker(), room);
+    if (!lives) return lives.error();
+    self.lives_.emplace(std::move(*lives));
+  }
   if (Status status = self.createLists(); !status) return status.error();
+  if (Status status = self.bindLists(); !status) return status.error();
   return self;
 }
 
@@ -140,8 +165,7 @@ std::uint64_t ContactStage::bytes() const {
          b.histories.bytes() + b.guesses.bytes();
 }
 std::uint64_t ContactStage::listBytes() const {
-  const Lists& l = *lists_;
-  return l.heads.bytes() + l.pairs.bytes() + l.liveHeads.bytes() + l.lives.bytes() + l.forces.bytes();
+  return lists_[kHeads].bytes() + lists_[kPairs].bytes() + (lives_ ? lives_->bytes() : 0);
 }
 
 std::uint32_t ContactStage::contactGroups() const {
@@ -162,39 +186,20 @@ Status ContactStage::writeControl() {
   return groom_->contactControl.upload(std::as_bytes(std::span(&control_, 1)));
 }
 
-// As large as `near_` and `live_` say; and what the kernels see of them. Those there were are gone before the
-// new ones are made.
+// As large as `near_` says. Those there were are gone before the new ones are made.
 Status ContactStage::createLists() {
-  const std::uint64_t count = particles_.size();
-  const std::uint64_t liveCount = std::uint64_t{live_.blocks} * layout::kLiveBlock;
-  constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-  const std::pair<const char*, std::uint64_t> sizes[] = {
-      {"contact lists", count * (2 + 2 * near_.most) * kWord},
-      {"contact pairs", std::uint64_t{near_.blocks} * layout::kListBlock * sizeof(layout::ContactPair)},
-      {"live contacts' lists", 2 * count * (1 + live_.most) * kWord},
-      {"live contacts", 2 * liveCount * sizeof(layout::ContactLife)},
-      {"contact forces", liveCount * sizeof(layout::ContactForce)}};
-  lists_.reset();
-  std::uint64_t total = 0;
-  for (const auto& [name, bytes] : sizes) {
-    total += bytes;
-    if (bytes <= largestList_) continue;
-    return Error{fmt::format(
-        "the {} of {} contact particles, up to {} for one, need a buffer of {} MiB, and this device's are {} "
-        "MiB at most; use a smaller contact radius, or prune more",
-        name, count, near_.most * layout::kListBlock, bytes >> 20, largestList_ >> 20)};
-  }
-  const std::string what = fmt::format("the lists of {} contact particles", count);
-  if (Status status = checkMemory(what, total, gpu::availableStorageBytes(*device_)); !status) return status;
-  std::vector<gpu::Buffer> made;
-  for (const auto& [name, bytes] : sizes) {
-    auto list = createZero(*device_, bytes, name);
-    if (!list) return list.error();
-    made.push_back(std::move(*list));
-  }
-  lists_.emplace(Lists{std::move(made[0]), std::move(made[1]), std::move(made[2]), std::move(made[3]),
-                       std::move(made[4])});
+  lists_.clear();
+  const ListMaker::Part parts[] = {
+      {"contact lists", particles_.size() * (3 + 2 * near_.most) * sizeof(std::uint32_t)},
+      {"contact pairs", std::uint64_t{near_.blocks} * layout::kListBlock * sizeof(layout::ContactPair)}};
+  auto made = listMaker().make(parts, near_.most * layout::kListBlock);
+  if (!made) return made.error();
+  lists_ = std::move(*made);
+  return {};
+}
 
+// What the kernels see of the lists.
+Status ContactStage::bindLists() {
   bindings_.clear();
   for (const auto& kernel : kernels_) {
     auto bindings = gpu::Bindings::create(*kernel, bufferTable());
@@ -208,49 +213,46 @@ Status ContactStage::createLists() {
 gpu::BufferTable ContactStage::bufferTable() const {
   using namespace layout;
   const auto& [contacts, neighbours, indices, grid, places, histories, guesses, controlRead] = *buffers_;
-  const Lists& lists = *lists_;
-  return {{kBindContactPositions, hair().positions},
-          {kBindContactVelocities, hair().velocities},
-          {kBindContactSolved, hair().solved},
-          {kBindContacts, contacts},
-          {kBindNeighbours, neighbours},
-          {kBindIndices, indices},
-          {kBindGrid, grid},
-          {kBindPlaces, places},
-          {kBindHistories, histories},
-          {kBindGuesses, guesses},
-          {kBindLists, lists.heads},
-          {kBindPairs, lists.pairs},
-          {kBindLiveLists, lists.liveHeads},
-          {kBindLives, lists.lives},
-          {kBindForces, lists.forces},
-          {kBindSystems, hair().contactSystems},
-          {kBindControl, groom_->contactControl},
-          {kBindContactPositionTexels, hair().positions},
-          {kBindContactVelocityTexels, hair().velocities},
-          {kBindContactSolvedTexels, hair().solved},
-          {kBindContactTexels, contacts},
-          {kBindNeighbourTexels, neighbours},
-          {kBindIndexTexels, indices},
-          {kBindPlaceTexels, places},
-          {kBindHistoryTexels, histories},
-          {kBindGuessTexels, guesses},
-          {kBindPairTexels, lists.pairs},
-          {kBindLifeTexels, lists.lives},
-          {kBindForceTexels, lists.forces}};
+  gpu::BufferTable table{{kBindContactPositions, hair().positions},
+                         {kBindContactVelocities, hair().velocities},
+                         {kBindContactSolved, hair().solved},
+                         {kBindContacts, contacts},
+                         {kBindNeighbours, neighbours},
+                         {kBindIndices, indices},
+                         {kBindGrid, grid},
+                         {kBindPlaces, places},
+                         {kBindHistories, histories},
+                         {kBindGuesses, guesses},
+                         {kBindLists, lists_[kHeads]},
+                         {kBindPairs, lists_[kPairs]},
+                         {kBindSystems, hair().contactSystems},
+                         {kBindControl, groom_->contactControl},
+                         {kBindContactPositionTexels, hair().positions},
+                         {kBindContactVelocityTexels, hair().velocities},
+                         {kBindContactSolvedTexels, hair().solved},
+                         {kBindContactTexels, contacts},
+                         {kBindNeighbourTexels, neighbours},
+                         {kBindIndexTexels, indices},
+                         {kBindPlaceTexels, places},
+                         {kBindHistoryTexels, histories},
+                         {kBindGuessTexels, guesses},
+                         {kBindPairTexels, lists_[kPairs]}};
+  if (lives_) lives_->addTo(table);
+  return table;
 }
 
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
+  const ListRoom live = lives_ ? lives_->room() : ListRoom{};
   return {.contactCount = static_cast<std::uint32_t>(particles_.size()),
           .bucketCount = bucketCount_,
           .blockCount = near_.blocks,
           .mostBlocks = near_.most,
-          .liveBlockCount = live_.blocks,
-          .mostLiveBlocks = live_.most,
+          .liveBlockCount = live.blocks,
+          .mostLiveBlocks = live.most,
           .everyPair = everyPair_ ? 1u : 0u,
           .step = step,
           .seconds = static_cast<float>(stepSeconds_),
-          .skin = static_cast<float>(kSkinShare * 2 * largestRadius_),
+          .skin = static_cast<float>(kContactMargin * 2 * largestRadius_),
           .largestRadius = largestRadius_,
           .stiffness = static_cast<float>(settings_.stiffness * kStandardGravity),
           .dampingRatio = static_cast<float>(settings_.dampingRatio),
@@ -258,8 +260,11 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
           .ramp = changeIn(settings_.rampSeconds, stepSeconds_),
           .stiffnessRelease = changeIn(settings_.stiffnessReleaseSeconds, stepSeconds_),
           .dampingRelease = changeIn(settings_.dampingReleaseSeconds, stepSeconds_),
-          .breakFactor = static_cast<float>(settings_.breakFactor),
+          .reachFactor = static_cast<float>(settings_.listedReach()),
+          .breakFactor = static_cast<float>(settings_.reach()),
           .seenAhead = static_cast<float>(kContactSeenAhead),
+          .listedAhead = static_cast<float>(sampleStride_ > 0 ? kDenseAhead : kContactSeenAhead),
+          .sampleStride = sampleStride_,
           .warmth = static_cast<float>(kContactWarmth)};
 }
 
@@ -296,31 +301,39 @@ void ContactStage::recordLists(gpu::Recorder& recorder, SubmissionPace& pace, st
   }
   recorder.endStage();
 
+  pace.beginStage(recorder, "contact_sample");
+  dispatchIndirect(recorder, ContactKernel::sample, step, kSample);
+  recorder.barrier();
+  dispatch(recorder, ContactKernel::judge, step, 1);
+  recorder.barrier();
+  recorder.endStage();
+
   pace.beginStage(recorder, "contact_query");
-  dispatchIndirect(recorder, ContactKernel::query, step, kPerContact);
+  dispatchIndirect(recorder, ContactKernel::query, step, kQuery);
   recorder.endStage();
 }
 
-void ContactStage::recordLife(gpu::Recorder& recorder, SubmissionPace& pace) const {
+void ContactStage::recordFirst(gpu::Recorder& recorder, SubmissionPace& pace) const {
   pace.beginStage(recorder, "contact_touch");
   dispatch(recorder, ContactKernel::touch, 0, contactGroups());
   recorder.barrier();
   recorder.endStage();
 
-  pace.beginStage(recorder, "contact_life");
-  dispatchIndirect(recorder, ContactKernel::life, 0, kMeeting);
+  pace.beginStage(recorder, lives_ ? "contact_life" : "contact_system");
+  dispatchIndirect(recorder, ContactKernel::first, 0, kMeeting);
   recorder.barrier();
   dispatch(recorder, ContactKernel::check, 0, 1);
   recorder.endStage();
 }
 
-void ContactStage::recordGather(gpu::Recorder& recorder, SubmissionPace& pace) const {
-  pace.beginStage(recorder, "contact_gather");
-  dispatchIndirect(recorder, ContactKernel::gather, 0, kMeeting);
+void ContactStage::recordNext(gpu::Recorder& recorder, SubmissionPace& pace) const {
+  pace.beginStage(recorder, lives_ ? "contact_gather" : "contact_system");
+  dispatchIndirect(recorder, ContactKernel::next, 0, kMeeting);
   recorder.endStage();
 }
 
-// The step begins anew, from the contacts of the step before, in larger buffers; pairs are found anew.
+// The step begins anew, from the contacts of the step before, in larger buffers. Lists that had room are
+// kept: what they hold must not depend on how much room there was.
 Status ContactStage::makeRoom() {
   layout::ContactControl& c = control_;
   if (c.isHalted == layout::kHaltedByTurns) {
@@ -328,40 +341,20 @@ Status ContactStage::makeRoom() {
         "more contact particles are near one another than this device can look through; use a smaller "
         "contact radius, or fewer strands in one place"};
   }
-  const std::uint32_t before = c.parity ^ 1;
-  const Room old = live_;
-  const std::size_t count = particles_.size();
-  auto heads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * count * (1 + old.most));
-  if (!heads) return heads.error();
-  const std::size_t rowSize = std::size_t{old.blocks} * layout::kLiveBlock;
-  auto lives = downloadAll<layout::ContactLife>(lists_->lives, rowSize, before * rowSize);
-  if (!lives) return lives.error();
-
-  // What was wanted, and a quarter more. Each particle's last block is partly empty.
-  const auto enough = [](Room had, std::uint32_t blocks, std::uint32_t longest, std::uint32_t blockSize) {
-    const auto larger = [](std::uint32_t wanted, std::uint32_t now) {
-      return wanted > now ? wanted + wanted / 4 + 1 : now;
-    };
-    return Room{larger(blocks, had.blocks), larger((longest + blockSize - 1) / blockSize, had.most)};
-  };
-  near_ = enough(near_, c.blocks, c.longestList, layout::kListBlock);
-  live_ = enough(live_, c.liveBlocks, c.longestLive, layout::kLiveBlock);
-  if (Status status = createLists(); !status) return status;
-
-  std::vector<std::uint32_t> newHeads(2 * count * (1 + live_.most));
-  for (std::size_t list = before; list < 2 * count; list += 2) {
-    std::copy_n(heads->begin() + static_cast<std::ptrdiff_t>(list * (1 + old.most)), 1 + old.most,
-                newHeads.begin() + static_cast<std::ptrdiff_t>(list * (1 + live_.most)));
+  if (lives_) {
+    if (Status status = lives_->makeRoom(c); !status) return status;
   }
-  if (Status status = lists_->liveHeads.upload(std::as_bytes(std::span(newHeads))); !status) return status;
-  const std::uint64_t rowBegin =
-      before * std::uint64_t{live_.blocks} * layout::kLiveBlock * sizeof(layout::ContactLife);
-  if (Status status = lists_->lives.upload(std::as_bytes(std::span(*lives)), rowBegin); !status)
-    return status;
-
-  c.parity = before;
-  c.isHalted = c.isListed = c.listed = 0;
-  --c.rebuilds;
+  if (const ListRoom near = near_.grownTo(c.blocks, c.longestList, layout::kListBlock); near != near_) {
+    near_ = near;
+    c.isListed = c.listed = 0;
+    --c.rebuilds;
+    if (Status status = createLists(); !status) return status;
+    // Nobody is known to have met any more, so nobody's system would be cleared.
+    if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
+  }
+  if (Status status = bindLists(); !status) return status;
+  c.parity ^= 1;
+  c.isHalted = 0;
   --c.steps;
   return writeControl();
 }
@@ -370,69 +363,90 @@ Status ContactStage::forget() {
   control_.isListed = control_.steps = 0;
   if (Status status = writeControl(); !status) return status;
   if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
-  return lists_->liveHeads.fillZero();
+  if (Status status = lists_[kHeads].fillZero(); !status) return status;
+  return lives_ ? lives_->forget() : Status{};
 }
 
 Status ContactStage::archive(Archive& archive) {
   archive.value(control_);
   archive.value(pairTests_);
-  Room near = near_, live = live_;
+  ListRoom near = near_;
   archive.value(near);
-  archive.value(live);
   if (archive.isShort()) return {};
-  if (near != near_ || live != live_) {
-    near_ = near, live_ = live;
+  if (near != near_) {
+    near_ = near;
     if (Status status = createLists(); !status) return status;
   }
   DeviceChunk& chunk = groom_->chunks[0];
-  for (gpu::Buffer* buffer : {&lists_->heads, &lists_->pairs, &lists_->liveHeads, &lists_->lives,
-                              &buffers_->histories, &chunk.contactSystems, &chunk.solved}) {
+  for (gpu::Buffer* buffer :
+       {&lists_[kHeads], &lists_[kPairs], &buffers_->histories, &chunk.contactSystems, &chunk.solved}) {
     if (Status status = archiveBuffer(archive, *buffer); !status) return status;
   }
-  return archive.isReading() ? writeControl() : Status{};
+  if (lives_) {
+    if (Status status = lives_->archive(archive); !status) return status;
+  }
+  if (!archive.isReading()) return {};
+  if (Status status = bindLists(); !status) return status;
+  return writeControl();
+}
+
+// Of each block of each list: its contact particle, which block of pairs it is, how many of those are in it,
+// and what they do, as bits.
+Status ContactStage::eachBlock(const EachBlock& tell) const {
+  auto heads = downloadAll<std::uint32_t>(lists_[kHeads], particles_.size() * (1 + 2 * near_.most));
+  if (!heads) return heads.error();
+  for (std::size_t c = 0; c < particles_.size(); ++c) {
+    const std::uint32_t* list = heads->data() + c * (1 + 2 * near_.most);
+    for (std::uint32_t begin = 0; begin < list[0]; begin += layout::kListBlock) {
+      const std::uint32_t* block = list + 1 + 2 * (begin / layout::kListBlock);
+      tell(c, block[0], std::min(list[0] - begin, layout::kListBlock), block[1]);
+    }
+  }
+  return {};
 }
 
 Result<std::uint64_t> ContactStage::contactCount() const {
-  auto heads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * particles_.size() * (1 + live_.most));
-  if (!heads) return heads.error();
   std::uint64_t sides = 0;
-  for (std::size_t list = control_.parity; list < 2 * particles_.size(); list += 2)
-    sides += (*heads)[list * (1 + live_.most)];
+  if (lives_) {
+    auto counted = lives_->count(control_.parity);
+    if (!counted) return counted.error();
+    return *counted / 2;
+  }
+  const Status status = eachBlock([&](std::size_t, std::uint32_t, std::uint32_t, std::uint32_t bits) {
+    sides += static_cast<std::uint64_t>(std::popcount(bits >> layout::kListBlock));
+  });
+  if (!status) return status.error();
   return sides / 2;
 }
 
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {
-  const std::size_t count = particles_.size(), parity = control_.parity;
-  auto heads = downloadAll<std::uint32_t>(lists_->heads, count * (1 + 2 * near_.most));
-  if (!heads) return heads.error();
   auto pairs =
-      downloadAll<layout::ContactPair>(lists_->pairs, std::size_t{near_.blocks} * layout::kListBlock);
+      downloadAll<layout::ContactPair>(lists_[kPairs], std::size_t{near_.blocks} * layout::kListBlock);
   if (!pairs) return pairs.error();
-  auto liveHeads = downloadAll<std::uint32_t>(lists_->liveHeads, 2 * count * (1 + live_.most));
-  if (!liveHeads) return liveHeads.error();
-  const std::size_t rowSize = std::size_t{live_.blocks} * layout::kLiveBlock;
-  auto lives = downloadAll<layout::ContactLife>(lists_->lives, rowSize, parity * rowSize);
-  if (!lives) return lives.error();
 
   // Contacts first: of a pair that is in both lists, the contact stays.
   const std::vector<std::uint32_t> inGroom = groomIndices(rest);
   std::vector<ListedContact> contacts;
-  const auto add = [&](std::size_t c, std::uint32_t other, float shares) {
+  const auto add = [&](std::size_t c, std::uint32_t other, float stiffnessShare, float dampingShare) {
     const std::uint32_t a = inGroom[particles_[c]], b = inGroom[other];
-    if (a < b) contacts.push_back({a, b, std::max(0.0f, -shares), shares < 0 ? 1.0f : shares});
+    if (a < b) contacts.push_back({a, b, stiffnessShare, dampingShare});
   };
-  for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t live = (2 * c + parity) * (1 + live_.most), near = c * (1 + 2 * near_.most);
-    for (std::uint32_t j = 0; j < (*liveHeads)[live]; ++j) {
-      const std::size_t block = (*liveHeads)[live + 1 + j / layout::kLiveBlock];
-      const layout::ContactLife& life = (*lives)[block * layout::kLiveBlock + j % layout::kLiveBlock];
-      add(c, life.particle, life.shares);
-    }
-    for (std::uint32_t j = 0; j < (*heads)[near]; ++j) {
-      const std::size_t block = (*heads)[near + 1 + 2 * (j / layout::kListBlock)];
-      add(c, (*pairs)[block * layout::kListBlock + j % layout::kListBlock].particle, 0);
-    }
+  if (lives_) {
+    const Status told = lives_->each(control_.parity, [&](std::size_t c, const layout::ContactLife& life) {
+      const float shares = life.shares;
+      add(c, life.particle, std::max(0.0f, -shares), shares < 0 ? 1.0f : shares);
+    });
+    if (!told) return told.error();
   }
+  const Status told =
+      eachBlock([&](std::size_t c, std::uint32_t block, std::uint32_t count, std::uint32_t bits) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+          const bool acts = !lives_ && (bits >> k & 1) != 0;
+          const bool pushes = acts && (bits >> (layout::kListBlock + k) & 1) != 0;
+          add(c, (*pairs)[block * layout::kListBlock + k].particle, pushes ? 1.0f : 0.0f, acts ? 1.0f : 0.0f);
+        }
+      });
+  if (!told) return told.error();
   const auto place = [](const ListedContact& x) { return std::pair(x.a, x.b); };
   std::ranges::stable_sort(contacts, {}, place);
   const auto isSame = [&](const ListedContact& x, const ListedContact& y) { return place(x) == place(y); };

@@ -3,12 +3,16 @@
 // reference/kernels/contact_step.h.
 //
 //   v^0 of all strands ->  lists: moved too far? then grid and query          (the device decides)
-//                      ->  life: every pair one step on, weights, momentum    -> solve -> v^1
-//                      ->  gather: pair means of v^1                          -> solve -> v^2 ... -> move
+//                      ->  first: who touches; weights, momenta               -> solve -> v^1
+//                      ->  next: unmet springs dropped, pair means of v^1      -> solve -> v^2 ... -> move
+//
+// With the distance taper a contact is what two particles' places say; with the time taper it has a life
+// (contact_lives.h).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -22,6 +26,8 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/contact_kernels.h"
+#include "ringlet/solver/contact_lists.h"
+#include "ringlet/solver/contact_lives.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/submission_pace.h"
@@ -31,9 +37,9 @@ namespace ringlet {
 class ContactStage {
  public:
   /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` is of
-  /// one chunk, and must live as long, in one place.
+  /// one chunk, and must live as long, in one place. room: as KernelChoice::contactRoom.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                     const RestContacts& contacts, DeviceGroom& groom);
+                                     const RestContacts& contacts, DeviceGroom& groom, int room);
 
   /// Kernels that this stage was the first on its device to ask for.
   std::size_t newKernelCount() const { return newKernels_.size(); }
@@ -43,8 +49,8 @@ class ContactStage {
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say.
   void recordLists(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const;
-  void recordLife(gpu::Recorder& recorder, SubmissionPace& pace) const;
-  void recordGather(gpu::Recorder& recorder, SubmissionPace& pace) const;
+  void recordFirst(gpu::Recorder& recorder, SubmissionPace& pace) const;
+  void recordNext(gpu::Recorder& recorder, SubmissionPace& pace) const;
   /// A frame ends with it, after a barrier: what its control block says comes to the host.
   void recordControl(gpu::Recorder& recorder) const;
 
@@ -53,7 +59,7 @@ class ContactStage {
   /// Whether it stopped for want of room, and at which step.
   bool isHalted() const { return control_.isHalted != 0; }
   std::uint32_t haltedStep() const { return control_.step; }
-  /// Makes longer lists, keeping what pairs remember; recordings made before are no longer good.
+  /// Makes longer lists, keeping what contacts remember; recordings made before are no longer good.
   Status makeRoom();
 
   /// Of the buffers made once, and of the lists [bytes].
@@ -82,18 +88,14 @@ class ContactStage {
     gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses;
     gpu::Buffer controlRead;  // the control block as the last frame left it, in the host's memory
   };
-  struct Lists {
-    gpu::Buffer heads, pairs;              // of who is near
-    gpu::Buffer liveHeads, lives, forces;  // of contacts, of this step and the one before; forces of this one
-  };
-  struct Room {
-    std::uint32_t blocks = 0;  // there are, for all lists
-    std::uint32_t most = 0;    // of one list
-    bool operator==(const Room&) const = default;
-  };
-
   ContactStage() = default;
+  using EachBlock =
+      std::function<void(std::size_t c, std::uint32_t block, std::uint32_t count, std::uint32_t bits)>;
+  Status eachBlock(const EachBlock& tell) const;
+  ListMaker listMaker() const { return {device_, particles_.size(), largestList_}; }
+  enum ListPart { kHeads, kPairs };
   Status createLists();
+  Status bindLists();
   gpu::BufferTable bufferTable() const;
   layout::ContactParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
@@ -110,17 +112,19 @@ class ContactStage {
   std::vector<gpu::Bindings> bindings_;  // likewise
   DeviceGroom* groom_ = nullptr;
   std::optional<Buffers> buffers_;
-  std::optional<Lists> lists_;
-  std::uint64_t largestList_ = 0;     // [bytes] a buffer of the lists may have
-  layout::ContactControl control_{};  // as the device has it between frames
+  std::vector<gpu::Buffer> lists_;     // of who is near, by ListPart
+  std::optional<ContactLives> lives_;  // with the time taper
+  std::uint64_t largestList_ = 0;      // [bytes] a buffer of the lists may have
+  layout::ContactControl control_{};   // as the device has it between frames
   std::uint64_t pairTests_ = 0;
   ContactSettings settings_;
   std::vector<std::uint32_t> particles_;  // device index of each contact particle
   double stepSeconds_ = 0;
   std::uint32_t bucketCount_ = 0;
-  Room near_, live_;
+  ListRoom near_;
   float largestRadius_ = 0;
   bool everyPair_ = false;
+  std::uint32_t sampleStride_ = 0;
 };
 
 }  // namespace ringlet

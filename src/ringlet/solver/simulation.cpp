@@ -123,7 +123,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           SubmissionPace(longestSubmission(choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
   if (settings.contacts.on && !counts.empty()) {
-    if (Status status = self->addContacts(); !status) return status.error();
+    if (Status status = self->addContacts(choice.contactRoom); !status) return status.error();
   }
   self->rest.particles = {};  // the device has them
   if (Status status = self->makeKernels(!bodies.empty()); !status) return status.error();
@@ -195,10 +195,10 @@ Status Simulation::Implementation::dispatchNothing(std::span<const std::size_t> 
   return recorder->submitAndWait();
 }
 
-Status Simulation::Implementation::addContacts() {
+Status Simulation::Implementation::addContacts(int room) {
   const RestContacts atRest = buildRestContacts(rest, settings.contacts);
   std::ranges::copy(atRest.warnings(), std::back_inserter(rest.warnings));
-  auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers);
+  auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, room);
   if (!stage) return stage.error();
   contacts = std::move(*stage);
   contactReport = {.contactParticles = atRest.particles.particles.size(),

@@ -45,7 +45,8 @@ struct ContactReport {
   std::uint64_t pairsUnpruned = 0;  // of strands, that overlap at rest when enlarged
   std::uint64_t pairs = 0;          // of those, that may touch
   std::uint64_t listed = 0;         // pairs of particles in the lists now
-  std::uint64_t contacts = 0;       // and of these, that touch or have not quite parted
+  std::uint64_t contacts = 0;       // and of these, whose springs push; with the time taper, that touch or have
+                                    // not quite parted
   std::uint64_t pairTests = 0;      // pairs of particles looked at since the simulation began, in all steps
   std::uint64_t rebuilds = 0;       // of the lists
   double momentumError = 0;         // of the last step: |sum of contact momenta| over the sum of their sizes
@@ -77,7 +78,9 @@ struct HairState {
 inline constexpr const char* kForeignCheckpoint =
     "the checkpoint is not of this simulation: it holds another number of bytes";
 
-/// A pair of contact particles in a list, by groom order, and what it remembers (ContactSettings).
+/// A pair of contact particles in a list, by groom order. With the time taper: what it remembers
+/// (ContactSettings); with the distance taper: stiffness 1 where its spring acts in the last iterate, damping
+/// 1 where the pair is near enough for either.
 struct ListedContact {
   std::uint32_t a = 0, b = 0;  // a < b
   float stiffnessShare = 0, dampingShare = 0;
@@ -111,6 +114,7 @@ struct KernelChoice {
   // Less than the device has, for tests; 0: what it has [bytes].
   std::uint64_t mostBufferBytes = 0;  // of one buffer: more is cut into chunks
   std::uint64_t mostDeviceBytes = 0;  // of all
+  int contactRoom = 1;                // contact lists begin with so many times the room, for tests
 };
 
 /// Strands that float32 cannot hold, and a few that would need far more steps than the others, are carried

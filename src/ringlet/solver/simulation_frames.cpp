@@ -106,14 +106,14 @@ Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uin
   for (std::uint32_t step = firstStep; step < steps; ++step) {
     contacts->recordLists(recorder, pace, step);
     recorder.barrier();
-    contacts->recordLife(recorder, pace);
+    contacts->recordFirst(recorder, pace);
     recorder.barrier();
     for (int iteration = 1; iteration <= settings.contacts.iterations; ++iteration) {
       const bool isLast = iteration == settings.contacts.iterations;
       const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
       if (Status status = recordPass(slots[slot], pass); !status) return status;
       if (isLast) continue;
-      contacts->recordGather(recorder, pace);
+      contacts->recordNext(recorder, pace);
       recorder.barrier();
     }
   }

@@ -77,7 +77,7 @@ struct Simulation::Implementation {
   // simulation.cpp
   Status makeKernels(bool hasBodies);
   Status dispatchNothing(std::span<const std::size_t> newKernels) const;
-  Status addContacts();
+  Status addContacts(int room);
   Status placeAtRest();
   Status carryTo(const HeadPose& end);
   DeviceGroom& changed();

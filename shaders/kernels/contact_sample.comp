@@ -1,0 +1,31 @@
+// Whether lists still hold the pairs that touch, of one contact particle in so many, others in each step: those that
+// the grid finds, less those in its list. Mirrored by nothing: the reference finds all pairs in every step.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/contact_search.glsl"
+
+uint found = 0;
+
+bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0) {
+  ContactMeeting meeting = contactMeeting(x - otherPosition, v - otherVelocity, rest.particle < otherParticle);
+  return isTouching(meeting, r0, parameters.seconds, parameters.seenAhead);
+}
+
+void take(ContactRest other, float R, float r0) { ++found; }
+
+void main() {
+  uint place = gl_GlobalInvocationID.x * parameters.sampleStride + control.steps % parameters.sampleStride;
+  if (place >= parameters.contactCount) return;
+  if (!search(place, 0.0)) control.isHalted = kHaltedByTurns;
+  uint list = listOf(placedPosition(place).w);
+  uint count = lists[list];
+  uint listed = 0;
+  uint j = 0;
+  if (count > 0) do {
+    ContactPair pair = pairAt(lists[listedBlock(list, j / kListBlock)] * kListBlock + j % kListBlock);
+    if (isSought(positionOf(pair.particle), velocityOf(pair.particle), pair.particle, pair.restLength)) ++listed;
+  } while (++j < count);
+  if (j < count) control.isHalted = kHaltedByTurns;
+  if (found > 0) atomicAdd(control.sampled, found);
+  if (found > listed) atomicAdd(control.missed, found - listed);
+}

@@ -1,0 +1,110 @@
+// The search among the 27 cells about a contact particle, in the order of cells and of contact particles inside one,
+// for pairs of strands that may touch. What includes this says which of those near it is after, and what becomes of
+// them.
+#ifndef RINGLET_CONTACT_SEARCH
+#define RINGLET_CONTACT_SEARCH
+
+#include "equations/contact_spring.glsl"
+#include "shared/contact_buffers.glsl"
+
+ContactRest rest;  // this invocation's contact particle
+vec3 x;
+vec3 v;
+
+bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0);
+void take(ContactRest other, float R, float r0);
+
+uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
+
+// own: record of this invocation's strand. As solver/neighbour_table.h fills the table.
+bool mayTouch(uvec4 own, uint strand) {
+  uint bucket = strand * 2654435761u >> 16;
+  uint tried = 0;
+  do {
+    uvec4 four = neighbourRecord(own.x + (bucket & own.y));
+    if (any(equal(four, uvec4(strand)))) return true;
+    if (any(equal(four, uvec4(kNoStrand)))) return false;
+    ++bucket;
+  } while (++tried <= own.y);
+  return false;
+}
+
+// Of the contact particle in this place of the grid, which must be one. skin: how much further than what may touch
+// within the step isSought looks [m]. False where the device ends loops early.
+bool search(uint place, float skin) {
+  uvec4 self = placedPosition(place);
+  rest = contactOf(self.w);
+  uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
+  precise vec3 here = uintBitsToFloat(self.xyz);
+  x = here;
+  v = uintBitsToFloat(placedVelocity(place).xyz);
+  // No pair's reach is larger: by the radii, and by the fastest there is.
+  float mostR = rest.point.w + parameters.largestRadius;
+  precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);
+  ivec3 cell = cellOf(x);
+  uint wanted = 9;  // turns of the loops below; and how many they made
+  uint made = 0;
+  int row = 0;
+  do {
+    // Three cells along x: a range of entries, which may go on from the last bucket to the first.
+    ivec3 middle = cell + ivec3(0, row % 3 - 1, row / 3 - 1);
+    uint first = bucketOf(middle - ivec3(1, 0, 0));
+    uint entry = startOf(first);
+    uint entries = startOf(min(first + 3, parameters.bucketCount)) - entry;
+    if (first + 3 > parameters.bucketCount) entries += startOf(first + 3 - parameters.bucketCount);
+    if (entries > 0) do {
+      if (entry == parameters.contactCount) entry = 0;
+      uint looked = min(min(entries, 32), parameters.contactCount - entry);
+      // Three sieves, finer and dearer each, over what is left as bits: a driver that runs invocations in step does for
+      // all of them what a single one must. And it runs the body of a loop that asks before it once more than there
+      // are turns; hence if and do.
+      uint near = 0;
+      uint k = 0;
+      do {
+        precise vec3 apart = here - placedAt(entry + k);
+        precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
+        if (squared < farthest * farthest) near |= 1u << k;
+        ++made;
+      } while (++k < looked);
+      wanted += looked + bitCount(near);
+      uint meeting = 0;  // near enough for how fast the two near each other
+      if (near != 0) do {
+        uint k = findLSB(near);
+        near &= near - 1;
+        ++made;
+        vec3 apart = x - placedAt(entry + k);
+        uvec4 other = placedVelocity(entry + k);
+        float ahead = parameters.seconds * length(v - uintBitsToFloat(other.xyz));
+        float acting = max(mostR + ahead, parameters.reachFactor * mostR);
+        float reach = 1.0001 * (min(acting, parameters.listedAhead * mostR) + skin);
+        bool mayMeet = dot(apart, apart) < reach * reach && other.w != rest.strand;
+        if (mayMeet) meeting |= 1u << k;
+      } while (near != 0);
+      wanted += bitCount(meeting);
+      if (meeting != 0) do {
+        uint k = findLSB(meeting);
+        meeting &= meeting - 1;
+        ++made;
+        uvec4 found = placedPosition(entry + k);
+        vec3 foundAt = uintBitsToFloat(found.xyz);
+        vec3 otherVelocity = uintBitsToFloat(placedVelocity(entry + k).xyz);
+        ContactRest other = contactOf(found.w);
+        // Other cells may share a bucket, and a bucket may come by twice.
+        ivec3 away = cellOf(foundAt) - middle;
+        bool isCandidate = away.y == 0 && away.z == 0 && abs(away.x) <= 1 &&
+                           !(rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0);
+        float R = rest.point.w + other.point.w;
+        float r0 = contactRestLength(R, distance(rest.point.xyz, other.point.xyz));
+        if (!isCandidate || !isSought(foundAt, otherVelocity, other.particle, r0)) continue;
+        if (parameters.everyPair == 0 && !mayTouch(ownNeighbours, other.strand)) continue;
+        take(other, R, r0);
+      } while (meeting != 0);
+      entry += looked;
+      entries -= looked;
+    } while (entries > 0);
+    ++made;
+  } while (++row < 9);
+  return made == wanted;
+}
+
+#endif
