@@ -45,11 +45,11 @@ struct ContactReport {
   std::uint64_t pairsUnpruned = 0;  // of strands, that overlap at rest when enlarged
   std::uint64_t pairs = 0;          // of those, that may touch
   std::uint64_t listed = 0;         // pairs of particles in the lists now
-  std::uint64_t contacts = 0;       // and of these, whose springs push; with the time taper, that touch or have
-                                    // not quite parted
-  std::uint64_t pairTests = 0;      // pairs of particles looked at since the simulation began, in all steps
-  std::uint64_t rebuilds = 0;       // of the lists
-  double momentumError = 0;         // of the last step: |sum of contact momenta| over the sum of their sizes
+  std::uint64_t contacts = 0;   // and of these, whose springs push; with the time taper, that touch or have
+                                // not quite parted
+  std::uint64_t pairTests = 0;  // pairs of particles looked at since the simulation began, in all steps
+  std::uint64_t rebuilds = 0;   // of the lists
+  double momentumError = 0;     // of the last step: |sum of contact momenta| over the sum of their sizes
 };
 
 /// Bytes of a simulation's buffers, by what they grow with (README, "Memory").
