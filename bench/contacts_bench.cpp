@@ -64,6 +64,7 @@ Settings tangleSettings() {
   settings.stepsPerFrame = 1;
   settings.framesPerSecond = 1e6;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   settings.contacts.radius = kRadius;
   settings.contacts.prunePairs = false;
   return settings;

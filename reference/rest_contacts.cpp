@@ -2,8 +2,13 @@
 #include "reference/rest_contacts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "ringlet/groom/seeded_random.h"
 
@@ -112,6 +117,104 @@ std::vector<std::vector<std::uint32_t>> prunedNeighbours(const std::vector<std::
   return neighbours;
 }
 
+namespace {
+
+using Node = std::array<int, 3>;
+
+// Of a place in cells: the eight nodes about it, with their weights.
+std::vector<std::pair<Node, double>> nodesAbout(const Vector3<double>& x) {
+  std::vector<std::pair<Node, double>> nodes;
+  for (int corner = 0; corner < 8; ++corner) {
+    Node node{};
+    double weight = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = std::floor(x[axis]);
+      const int far = corner >> axis & 1;
+      node[static_cast<std::size_t>(axis)] = static_cast<int>(low) + far;
+      weight *= far ? x[axis] - low : 1 - (x[axis] - low);
+    }
+    nodes.emplace_back(node, weight);
+  }
+  return nodes;
+}
+void addMass(std::map<Node, double>& masses, const Vector3<double>& x, double mass) {
+  for (const auto& [node, weight] : nodesAbout(x)) masses[node] += weight * mass;
+}
+double massAt(const std::map<Node, double>& masses, const Vector3<double>& x) {
+  double sum = 0;
+  for (const auto& [node, weight] : nodesAbout(x)) {
+    if (const auto it = masses.find(node); it != masses.end()) sum += weight * it->second;
+  }
+  return sum;
+}
+
+template <class Real>
+double volumeCell(const std::vector<RestStrand<Real>>& strands, double radius) {
+  double arc = 0, edges = 0;
+  for (const RestStrand<Real>& strand : strands) {
+    if (strand.points.empty()) continue;  // rigid
+    for (const Real length : strand.edgeLengths) arc += static_cast<double>(length), ++edges;
+  }
+  return std::max(kVolumeCellRadii * radius, edges > 0 ? arc / edges / kVolumeSpacing : 0);
+}
+
+// Of each strand, by the densities of all strands and of its own. Each takes over the least group it shares a
+// cell with until none changes; and groups whose median is dense enough stay.
+template <class Real>
+std::vector<std::uint32_t> volumeGroups(const std::vector<RestStrand<Real>>& strands,
+                                        const std::vector<Field<double>>& points, double cell,
+                                        const ContactSettings& settings) {
+  const std::size_t n = strands.size();
+  if (settings.method == ContactMethod::volume) return std::vector<std::uint32_t>(n, 0);
+  std::vector<std::uint32_t> groups(n, RestContacts::kNoGroup);
+  if (!settings.mayBeVolume()) return groups;
+  std::map<Node, double> all;
+  const auto mass = [&](std::size_t s, std::size_t i) { return static_cast<double>(strands[s].masses[i]); };
+  for (std::size_t s = 0; s < n; ++s) {
+    for (std::size_t i = 0; i < points[s].size(); ++i) addMass(all, points[s][i] / cell, mass(s, i));
+  }
+  std::vector<std::set<Node>> cellsOf(n);
+  std::vector<double> densities(n);
+  for (std::size_t s = 0; s < n; ++s) {
+    std::map<Node, double> own;
+    for (std::size_t i = 0; i < points[s].size(); ++i) addMass(own, points[s][i] / cell, mass(s, i));
+    double shares = 0;
+    for (const Vector3<double>& x : points[s]) shares += massAt(own, x / cell) / massAt(all, x / cell);
+    densities[s] = points[s].empty() ? 0 : static_cast<double>(points[s].size()) / shares;
+    if (densities[s] < kVolumeStrands / 2) continue;
+    groups[s] = static_cast<std::uint32_t>(s);
+    for (const Vector3<double>& x : points[s]) cellsOf[s].insert(nodesAbout(x / cell).front().first);
+  }
+  for (bool changes = true; changes;) {
+    changes = false;
+    std::map<Node, std::uint32_t> least;
+    for (std::size_t s = 0; s < n; ++s) {
+      for (const Node& node : cellsOf[s]) {
+        std::uint32_t& group = least.try_emplace(node, groups[s]).first->second;
+        group = std::min(group, groups[s]);
+      }
+    }
+    for (std::size_t s = 0; s < n; ++s) {
+      for (const Node& node : cellsOf[s]) {
+        changes = changes || least[node] < groups[s];
+        groups[s] = std::min(groups[s], least[node]);
+      }
+    }
+  }
+  std::vector<std::uint32_t> kept = groups;
+  for (std::size_t s = 0; s < n; ++s) {
+    if (groups[s] == RestContacts::kNoGroup) continue;
+    std::vector<double> ofGroup;
+    for (std::size_t t = 0; t < n; ++t)
+      if (groups[t] == groups[s]) ofGroup.push_back(densities[t]);
+    std::ranges::sort(ofGroup);
+    if (ofGroup[ofGroup.size() / 2] < kVolumeStrands) kept[s] = RestContacts::kNoGroup;
+  }
+  return kept;
+}
+
+}  // namespace
+
 template <class Real>
 RestContacts makeRestContacts(const std::vector<RestStrand<Real>>& strands, const ContactSettings& settings) {
   std::vector<Field<double>> points;
@@ -127,6 +230,8 @@ RestContacts makeRestContacts(const std::vector<RestStrand<Real>>& strands, cons
     const double mass = std::accumulate(strands[s].masses.begin(), strands[s].masses.end(), 0.0);
     rest.masses.push_back(mass / static_cast<double>(std::max<std::size_t>(1, rest.particles[s].size())));
   }
+  rest.volumeCell = settings.volumeCell.value_or(volumeCell(strands, base));
+  rest.volumeGroups = volumeGroups(strands, points, volumeCell(strands, baseRadius(points, {})), settings);
   rest.prunesPairs = settings.prunePairs;
   if (rest.prunesPairs) {
     rest.neighbours = prunedNeighbours(overlapCounts(points, rest, settings.enlargement), settings);

@@ -21,7 +21,15 @@ struct RestContacts {
   bool prunesPairs = true;                               // false: every pair of strands may touch
   std::vector<std::vector<std::uint32_t>> neighbours{};  // strands it may touch, ascending; if prunesPairs
 
+  double volumeCell = 0;  // of the volume's grid [m]
+  // Of each strand: the first of those in the volume it hangs together with, or kNoGroup
+  // (rest/volume_strands.h).
+  static constexpr std::uint32_t kNoGroup = 0xffffffffu;
+  std::vector<std::uint32_t> volumeGroups{};
+
+  bool isInVolume(std::size_t s) const { return !volumeGroups.empty() && volumeGroups[s] != kNoGroup; }
   bool mayTouch(std::uint32_t s, std::uint32_t t) const {
+    if (isInVolume(s) && isInVolume(t) && volumeGroups[s] == volumeGroups[t]) return false;
     if (!prunesPairs) return s != t;
     return std::binary_search(neighbours[s].begin(), neighbours[s].end(), t);
   }

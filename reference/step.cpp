@@ -77,7 +77,8 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
             ? rootPoses_
             : std::vector<BodyPose>(rootPoses.begin() + static_cast<std::ptrdiff_t>(k * rest_.size()),
                                     rootPoses.begin() + static_cast<std::ptrdiff_t>((k + 1) * rest_.size()));
-    stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
+    stepOnce(k % kVolumeSortSteps == 0, stepPoses[k],
+             std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
   }
 }
 
@@ -99,6 +100,7 @@ void Simulation<Real>::setState(const Field<Real>& positions, const Field<Real>&
   for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
   contacts_.live.clear();
   contacts_.changes.clear();
+  contacts_.volume.forget();
 }
 
 template <class Real>
@@ -172,10 +174,11 @@ void Simulation<Real>::carryTo(const HeadPose& next) {
   head_ = next;
   contacts_.live.clear();
   contacts_.changes.clear();
+  if (turned.vec().norm() > 1e-12) contacts_.volume.forget();
 }
 
 template <class Real>
-void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses,
+void Simulation<Real>::stepOnce(bool sorts, const HeadPose& next, std::span<const BodyPose> bodyPoses,
                                 const std::vector<BodyPose>& roots) {
   const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
   const AirStep<Real> air = airStep(next);
@@ -194,7 +197,10 @@ void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> 
       if (isRigid_[s]) return;
       solveAmongBodies<Real>(rest_[s], bodies, strandOf(positions_, s), systems_[s], scratch_, velocities);
     };
-    solveContacts(settings_.contacts.iterations, firstPoint_, systems_, solveOne, contacts_, velocities_);
+    const VolumeFrame frame{toEigen<double>(head_.rotation), toEigen<double>(next.rotation),
+                            settings_.stepSeconds(), sorts};
+    solveContacts(settings_.contacts, frame, firstPoint_, systems_, solveOne, positions_, contacts_,
+                  velocities_);
   }
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     if (isRigid_[s]) continue;

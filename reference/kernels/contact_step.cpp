@@ -31,9 +31,8 @@ double contactMomentumError(const Contacts<Real>& contacts, const Field<double>&
                             const Field<double>& velocities, bool freeOnly) {
   Vector3<double> sum = Vector3<double>::Zero();
   double size = 0;
-  for (const ContactParticle& particle : contacts.particles) {
-    if (freeOnly && particle.isPinned) continue;
-    const std::uint32_t i = particle.index;
+  for (std::size_t i = 0; i < velocities.size(); ++i) {
+    if (freeOnly && contacts.isPinned[i]) continue;
     const Vector3<double> given = momenta[i] - 2 * contacts.weights[i] * velocities[i];
     sum += given;
     size += given.norm();
@@ -50,6 +49,15 @@ void setContactWeights(std::span<const std::uint32_t> firstPoint, const Contacts
     for (std::uint32_t i = firstPoint[s]; i < firstPoint[s + 1]; ++i) {
       systems[s].contactWeights.push_back(2 * contacts.weights[i]);
     }
+  }
+}
+
+// Beside what contacts give: D is half of what stands in the system.
+template <class Real>
+void addVolume(const VolumeSystem& volume, Contacts<Real>& contacts, Field<double>& momenta) {
+  for (std::size_t i = 0; i < momenta.size(); ++i) {
+    contacts.weights[i] += 0.5 * volume.weights[i] * Matrix3<double>::Identity();
+    momenta[i] += volume.momenta[i];
   }
 }
 
@@ -72,6 +80,16 @@ Contacts<Real> makeContacts(const std::vector<RestStrand<Real>>& strands,
   Contacts<Real> contacts;
   contacts.rest = makeRestContacts(strands, settings);
   contacts.particles = listContactParticles(contacts.rest, strands, firstPoint);
+  contacts.volume = makeVolume(strands, firstPoint, contacts.rest);
+  contacts.pairByPair = contacts.volume.isEmpty();
+  for (std::uint32_t s = 0; s < strands.size(); ++s) {
+    for (std::uint32_t t = 0; t < s; ++t)
+      contacts.pairByPair = contacts.pairByPair || contacts.rest.mayTouch(s, t);
+  }
+  contacts.isPinned.assign(firstPoint.back(), false);
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    for (std::size_t i = 0; i < strands[s].pinnedCount(); ++i) contacts.isPinned[firstPoint[s] + i] = true;
+  }
   return contacts;
 }
 
@@ -152,22 +170,26 @@ void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts) {
 }
 
 template <class Real>
-void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,
-                   std::vector<StrandSystem>& systems, const SolveStrand& solve, Contacts<Real>& contacts,
+void solveContacts(const ContactSettings& settings, const VolumeFrame& frame,
+                   std::span<const std::uint32_t> firstPoint, std::vector<StrandSystem>& systems,
+                   const SolveStrand& solve, const Field<Real>& positions, Contacts<Real>& contacts,
                    Field<Real>& velocities) {
   contacts.freeVelocities = velocities;
   gatherContacts(velocities.size(), contacts);
   contacts.momentumError = contacts.freeMomentumError = 0;
-  if (contacts.live.empty()) return;
-  setContactWeights(firstPoint, contacts, systems);
+  if (contacts.live.empty() && contacts.volume.isEmpty()) return;
+  Field<double> places;
+  for (const Vector3<Real>& x : positions) places.push_back(x.template cast<double>());
+  beginVolume(settings, frame, places, contacts.volume);
 
   Field<double> solved = guessVelocities(velocities, contacts), momenta;
-  for (int iteration = 0; iteration < iterationCount; ++iteration) {
-    if (iteration > 0 && dropUnmet(solved, contacts)) {
-      gatherContacts(velocities.size(), contacts);
-      setContactWeights(firstPoint, contacts, systems);
-    }
+  const int iterations = settings.iterationCount(contacts.pairByPair);
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    if (iteration > 0) dropUnmet(solved, contacts);
+    gatherContacts(velocities.size(), contacts);
     momenta = pairMomenta(contacts, solved);
+    addVolume(volumeMeans(settings, frame, places, solved, contacts.volume), contacts, momenta);
+    setContactWeights(firstPoint, contacts, systems);
     for (std::size_t s = 0; s < systems.size(); ++s) {
       const std::size_t first = firstPoint[s], count = firstPoint[s + 1] - first;
       const auto strandMomenta = std::span(momenta).subspan(first, count);
@@ -204,21 +226,23 @@ void archiveContacts(Archive& archive, Contacts<Real>& contacts) {
   archive.value(contacts.pairTests);
   archive.value(contacts.momentumError);
   archive.value(contacts.freeMomentumError);
+  contacts.volume.archive(archive);
 }
 
-#define RINGLET_INSTANTIATE(Real)                                                                      \
-  template Contacts<Real> makeContacts(const std::vector<RestStrand<Real>>& strands,                   \
-                                       std::span<const std::uint32_t> firstPoint,                      \
-                                       const ContactSettings& settings);                               \
-  template void updateContacts(const ContactSettings& settings, Real stepSeconds,                      \
-                               const Field<Real>& positions, const Field<Real>& velocities,            \
-                               Contacts<Real>& contacts);                                              \
-  template Field<double> pairMomenta(const Contacts<Real>& contacts, const Field<double>& velocities); \
-  template bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts);                  \
-  template void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts);              \
-  template void archiveContacts(Archive& archive, Contacts<Real>& contacts);                           \
-  template void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,           \
-                              std::vector<StrandSystem>& systems, const SolveStrand& solve,            \
+#define RINGLET_INSTANTIATE(Real)                                                                            \
+  template Contacts<Real> makeContacts(const std::vector<RestStrand<Real>>& strands,                         \
+                                       std::span<const std::uint32_t> firstPoint,                            \
+                                       const ContactSettings& settings);                                     \
+  template void updateContacts(const ContactSettings& settings, Real stepSeconds,                            \
+                               const Field<Real>& positions, const Field<Real>& velocities,                  \
+                               Contacts<Real>& contacts);                                                    \
+  template Field<double> pairMomenta(const Contacts<Real>& contacts, const Field<double>& velocities);       \
+  template bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts);                        \
+  template void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts);                    \
+  template void archiveContacts(Archive& archive, Contacts<Real>& contacts);                                 \
+  template void solveContacts(const ContactSettings& settings, const VolumeFrame& frame,                     \
+                              std::span<const std::uint32_t> firstPoint, std::vector<StrandSystem>& systems, \
+                              const SolveStrand& solve, const Field<Real>& positions,                        \
                               Contacts<Real>& contacts, Field<Real>& velocities)
 RINGLET_INSTANTIATE(float);
 RINGLET_INSTANTIATE(double);

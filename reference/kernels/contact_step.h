@@ -17,6 +17,7 @@
 
 #include "reference/equations/contact_spring.h"
 #include "reference/kernels/contact_pairs.h"
+#include "reference/kernels/volume_step.h"
 #include "reference/strand_solve.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/scene/contact_settings.h"
@@ -40,6 +41,10 @@ struct Contacts {
   std::vector<Contact<Real>> live;  // ascending by pair
   std::uint64_t nearCount = 0;      // pairs near enough to be asked, in the last step
   std::uint64_t pairTests = 0;      // pairs looked at for that, in all steps
+
+  Volume volume;               // of strands that meet as one
+  bool pairByPair = true;      // some strands may meet so
+  std::vector<bool> isPinned;  // of each particle: it follows the head
 
   Field<Real> freeVelocities;  // v^0 [m/s]
   Field<double> changes;       // of v^0 by contacts and stretch limit, in the step before; or none [m/s]
@@ -78,11 +83,13 @@ void archiveContacts(Archive& archive, Contacts<Real>& contacts);
 /// Solves strand s of the system with what contacts add to it; `velocities` are the strand's part [m/s].
 using SolveStrand = std::function<void(std::size_t s, std::span<Vector3<double>> velocities)>;
 
-/// Strand-block Jacobi from a guess. `systems` are those of the solve without contacts; what contacts add to
-/// them is written beside it. velocities [m/s]: v^0 in, the last iterate out.
+/// Strand-block Jacobi from a guess. `systems` are those of the solve without contacts; what contacts and the
+/// volume add to them is written beside it. positions [m]: at the step's start; velocities [m/s]: v^0 in, the
+/// last iterate out.
 template <class Real>
-void solveContacts(int iterationCount, std::span<const std::uint32_t> firstPoint,
-                   std::vector<StrandSystem>& systems, const SolveStrand& solve, Contacts<Real>& contacts,
+void solveContacts(const ContactSettings& settings, const VolumeFrame& frame,
+                   std::span<const std::uint32_t> firstPoint, std::vector<StrandSystem>& systems,
+                   const SolveStrand& solve, const Field<Real>& positions, Contacts<Real>& contacts,
                    Field<Real>& velocities);
 
 }  // namespace ringlet::reference

@@ -15,7 +15,7 @@ vec3 rightHandSide(int k, vec3 forceBefore) {
   return m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * (force[k] - forceBefore);
 }
 
-// What is added to particle k's mass, and to its right-hand side: by contacts, 2 D and a momentum, read where they are
+// What is added to particle k's mass, and to its right-hand side: by contacts, 2 D + g and a momentum, read where they are
 // used and not kept in registers; by the air; by bodies.
 bool withContacts = false;
 #ifdef RINGLET_CONTACTS
@@ -29,18 +29,14 @@ Symmetric massOf(int k) {
   if (kBodies) mass = add(mass, pushWeight[k]);
 #endif
 #ifdef RINGLET_CONTACTS
-  if (meetsContacts(k)) {
-    ContactSystem contact = contactSystemOf(strand.firstParticle + first + k);
-    mass.d += 2.0 * contact.diagonal.xyz;
-    mass.o += 2.0 * contact.offDiagonal.xyz;
-  }
+  if (meetsContacts(k)) mass = add(mass, contactMass(strand.firstParticle + first + k));
 #endif
   return mass;
 }
 vec3 addedMomentum(int k) {
   vec3 momentum = vec3(0);
 #ifdef RINGLET_CONTACTS
-  if (meetsContacts(k)) momentum = contactSystemOf(strand.firstParticle + first + k).momentum.xyz;
+  if (meetsContacts(k)) momentum = contactMomentum(strand.firstParticle + first + k);
 #endif
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) momentum += restEdge[k].x * multiply(drag[k], tangent[k], wind[k]);

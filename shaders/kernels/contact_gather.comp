@@ -35,7 +35,7 @@ void main() {
   ContactSystem system = systems[rest.particle];
   float unit = rest.inverseMassUnit;
   vec3 push = vec3(system.diagonal.w, system.offDiagonal.w, system.momentum.w) - unit * unmetPush;
-  systems[rest.particle] = ContactSystem(vec4(system.diagonal.xyz - unit * unmet.d, push.x),
-                                         vec4(system.offDiagonal.xyz - unit * unmet.o, push.y),
-                                         vec4(push + unit * momentum, push.z));
+  systems[rest.particle].diagonal = vec4(system.diagonal.xyz - unit * unmet.d, push.x);
+  systems[rest.particle].offDiagonal = vec4(system.offDiagonal.xyz - unit * unmet.o, push.y);
+  systems[rest.particle].momentum = vec4(push + unit * momentum, push.z);
 }

@@ -118,6 +118,7 @@ void main() {
   if (made != wanted) control.isHalted = kHaltedByTurns;
 
   float unit = rest.inverseMassUnit;
-  systems[rest.particle] = ContactSystem(vec4(unit * D.d, unit * push.x), vec4(unit * D.o, unit * push.y),
-                                         vec4(unit * (push + momentum), unit * push.z));
+  systems[rest.particle].diagonal = vec4(unit * D.d, unit * push.x);
+  systems[rest.particle].offDiagonal = vec4(unit * D.o, unit * push.y);
+  systems[rest.particle].momentum = vec4(unit * (push + momentum), unit * push.z);
 }

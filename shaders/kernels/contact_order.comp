@@ -19,5 +19,5 @@ void main() {
   if (other < end) control.isHalted = kHaltedByTurns;
   ContactRest rest = contactOf(c);
   places[start + before] = ContactPlace(uvec4(floatBitsToUint(positionOf(rest.particle)), c),
-                                        uvec4(floatBitsToUint(velocityOf(rest.particle)), rest.strand));
+                                        uvec4(floatBitsToUint(velocityOf(rest.particle)), groupOf(rest.strand)));
 }

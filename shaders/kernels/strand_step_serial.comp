@@ -179,7 +179,7 @@ vec3 rightHandSide(uint i) {
   float m = mass(i);
   vec3 sum = m * (velocity(i) - headChange) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
 #ifdef RINGLET_CONTACTS
-  if (withContacts()) sum += contactSystemOf(strand.firstParticle + i).momentum.xyz;
+  if (withContacts()) sum += contactMomentum(strand.firstParticle + i);
 #endif
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) {
@@ -191,7 +191,7 @@ vec3 rightHandSide(uint i) {
 #endif
   return sum;
 }
-// m and what contacts (2 D), the air and bodies add to it.
+// m and what contacts (2 D + g), the air and bodies add to it.
 Symmetric massOf(uint i) {
   Symmetric m = symmetricDiagonal(mass(i));
 #ifdef RINGLET_SURROUNDINGS
@@ -202,11 +202,7 @@ Symmetric massOf(uint i) {
   if (kBodies) m = add(m, Symmetric(scratchOf(i, kPushWeight), scratchOf(i, kPushWeight + 1)));
 #endif
 #ifdef RINGLET_CONTACTS
-  if (withContacts()) {
-    ContactSystem contact = contactSystemOf(strand.firstParticle + i);
-    m.d += 2.0 * contact.diagonal.xyz;
-    m.o += 2.0 * contact.offDiagonal.xyz;
-  }
+  if (withContacts()) m = add(m, contactMass(strand.firstParticle + i));
 #endif
   return m;
 }

@@ -38,6 +38,12 @@ layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
 layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
+layout(constant_id = 9) const bool kBesideVolume = false;  // some strands meet as a volume as well
+
+uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
+/// Strands of one group do not meet pair by pair (rest/volume_strands.h).
+uint groupOf(uint strand) { return kBesideVolume ? neighbourRecord(strand).z : strand; }
+
 // Records as they were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
 vec3 lastVelocityOf(uint particle) {

@@ -14,8 +14,6 @@ vec3 v;
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0);
 void take(ContactRest other, float R, float r0);
 
-uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
-
 // own: record of this invocation's strand. As solver/neighbour_table.h fills the table.
 bool mayTouch(uvec4 own, uint strand) {
   uint bucket = strand * 2654435761u >> 16;
@@ -35,6 +33,7 @@ bool search(uint place, float skin) {
   uvec4 self = placedPosition(place);
   rest = contactOf(self.w);
   uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
+  uint group = groupOf(rest.strand);
   precise vec3 here = uintBitsToFloat(self.xyz);
   x = here;
   v = uintBitsToFloat(placedVelocity(place).xyz);
@@ -77,7 +76,7 @@ bool search(uint place, float skin) {
         float ahead = parameters.seconds * length(v - uintBitsToFloat(other.xyz));
         float acting = max(mostR + ahead, parameters.reachFactor * mostR);
         float reach = 1.0001 * (min(acting, parameters.listedAhead * mostR) + skin);
-        bool mayMeet = dot(apart, apart) < reach * reach && other.w != rest.strand;
+        bool mayMeet = dot(apart, apart) < reach * reach && other.w != group;
         if (mayMeet) meeting |= 1u << k;
       } while (near != 0);
       wanted += bitCount(meeting);

@@ -249,8 +249,8 @@ RINGLET_CONSTANT uint kListBlock = 16;          // two bits of an integer for ea
 RINGLET_CONSTANT uint kLiveBlock = 4;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for
-                                                // each strand, (first of its buckets, how many less one, 0, 0), then
-                                                // the buckets of four strands; see solver/neighbour_table.h
+                                                // each strand, (first of its buckets, how many less one, its group, 0), then the
+                                                // buckets of four strands; see solver/neighbour_table.h
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
@@ -287,18 +287,20 @@ struct ContactForce {
   uint unused;
 };
 
-// What contacts add to a particle's velocity system, (L + 2 D) v = base + momentum, in the strand's mass units.
+// What contacts add to a particle's velocity system, (L + 2 D + g I) v = base + momentum + volume, in the strand's mass
+// units.
 struct ContactSystem {
   vec4 diagonal;     // xyz: of D xx, yy, zz; w: push x
   vec4 offDiagonal;  // xyz: of D yz, xz, xy; w: push y
   vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]; w: push z. The push is the sum of push n
+  vec4 volume;       // of hair as a volume, xyz: to the right-hand side [mass unit m/s]; w: to the mass, g [mass unit]
 };
 
 // A place of the grid: a contact particle as it was when lists were made. Numbers of both kinds are integers here: a
 // driver may flush an integer to 0 that it moves as a float, and none a float that it moves as an integer.
 struct ContactPlace {
   uvec4 position;  // xyz: [m], bits of floats; w: which contact particle
-  uvec4 velocity;  // xyz: v^0 [m/s], bits of floats; w: its strand
+  uvec4 velocity;  // xyz: v^0 [m/s], bits of floats; w: its strand's group, see groupOf in shared/contact_buffers.glsl
 };
 
 // What a contact particle was: when its list was made, and in the step before.
@@ -371,6 +373,85 @@ struct ContactParameters {
   float listedAhead;    // and in lists from this times r0 on, no more than seenAhead
   uint sampleStride;    // in dense hair: one contact particle in so many is in the sample; 0: there is none
   float warmth;         // share of a step's change by contacts that the next one is guessed to have
+};
+
+// Bindings of the volume's kernels, all in set 0.
+RINGLET_CONSTANT uint kBindVolumePositions = 0;   // vec4[particles]: as above
+RINGLET_CONSTANT uint kBindVolumeVelocities = 1;  // vec4[particles]: as above
+RINGLET_CONSTANT uint kBindVolumeSolved = 2;      // vec4[particles]: v^k
+RINGLET_CONSTANT uint kBindVolumePoses = 3;       // uniform: StepPose[kMaxStepPoses]
+RINGLET_CONSTANT uint kBindVolumeParticles = 4;   // VolumeParticle[volume particles]
+RINGLET_CONSTANT uint kBindVolumeStates = 5;      // VolumeState[volume particles]
+RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, of the first iterate
+RINGLET_CONSTANT uint kBindVolumeCells = 7;       // uint: see cellCount and its like in shared/volume_buffers.glsl
+RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], in cell order
+RINGLET_CONSTANT uint kBindVolumeNodes = 9;       // vec4[nodes]: xyz: mean of a [m/s]; w: density [kg/m^3]
+RINGLET_CONSTANT uint kBindVolumeSystems = 10;    // ContactSystem[particles]
+RINGLET_CONSTANT uint kBindVolumeControl = 11;    // VolumeControl
+RINGLET_CONSTANT uint kBindVolumeHalt = 12;       // ContactControl
+RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xyz: place in cells, bits of floats; w: its
+                                                  // parcel
+RINGLET_CONSTANT uint kVolumeBindingCount = 14;
+// And as texels (shared/texels.glsl):
+RINGLET_CONSTANT uint kBindVolumePositionTexels = 14;
+RINGLET_CONSTANT uint kBindVolumeVelocityTexels = 15;
+RINGLET_CONSTANT uint kBindVolumeSolvedTexels = 16;
+RINGLET_CONSTANT uint kBindVolumeParticleTexels = 17;
+RINGLET_CONSTANT uint kBindVolumeStateTexels = 18;  // 3 a volume particle
+RINGLET_CONSTANT uint kBindVolumeBroughtTexels = 19;
+RINGLET_CONSTANT uint kBindVolumeParcelTexels = 20;  // 2 a volume particle
+RINGLET_CONSTANT uint kBindVolumeNodeTexels = 21;
+RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 22;
+RINGLET_CONSTANT uint kVolumeTexelBindingCount = 9;
+
+// Constant per volume particle, in device order: one in so many of a strand that meets others as a volume, for as many.
+struct VolumeParticle {
+  uint particle;
+  float mass;             // of those it stands for [kg]
+  float ownDensity;       // of its own strand at its place at rest [kg/m^3]
+  float inverseMassUnit;  // 1 / the strand's mass unit [1/kg]; 0 for a particle that follows the head
+};
+
+// What it remembers from step to step.
+struct VolumeState {
+  vec4 memory;     // xyz: fading displacement s, in the head's frame [m]; w: density about it [kg/m^3]
+  vec4 place;      // xyz: in the head's frame at the step's start [m]; w: g of the step [kg]
+  vec4 predicted;  // xyz: v^0 [m/s]; w: 1 where all this is known, 0 where the hair was just put there
+};
+
+// What it brings to the grid in an iteration.
+struct VolumeParcel {
+  vec4 rate;   // xyz: g a [kg m/s]; w: g [kg]
+  vec4 place;  // xyz: in cells, from the box's first node; w: mass [kg]
+};
+
+// The box of cells about all such particles, and what kernels tell each other.
+struct VolumeControl {
+  uint indirectBlocks[3];  // workgroups over blocks of cells
+  uint cellCount;          // of the box, which has as many nodes
+  uint indirectNodes[3];   // over nodes
+  uint unused;
+  int least[3];            // of the cells particles are in, as found so far in this step
+  float cellsPerMetre;
+  int greatest[3];
+  float cell;              // [m]
+  int low[3];              // the box's first cell
+  uint unused2;
+  uint size[3];            // and how many there are along each axis
+  uint unused3;
+};
+
+struct VolumeParameters {
+  uint count;         // volume particles
+  uint cellCapacity;  // cells there is room for, a multiple of kBucketBlock
+  uint step;          // of the frame
+  float seconds;      // T
+  float cell;         // h [m]
+  float drag;         // lambda [1/s]
+  float stiffness;    // k [1/s^2]
+  float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
+  float warmth;       // as in ContactParameters
+  uint sorts;         // the step puts particles into cells; else they stay where the step before had them
 };
 
 #ifdef __cplusplus

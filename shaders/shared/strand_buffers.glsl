@@ -8,6 +8,7 @@
 #define RINGLET_CONTACTS
 #endif
 #include "maths/quaternion.glsl"
+#include "maths/symmetric.glsl"
 #include "shared/layout.h"
 #include "shared/texels.glsl"
 
@@ -18,6 +19,8 @@ layout(constant_id = 4) const bool kMeasureResidual = false;
 layout(constant_id = 5) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
 #ifdef RINGLET_CONTACTS
 layout(constant_id = 6) const bool kContacts = false;    // the solve is iterated with the contacts' systems
+layout(constant_id = 13) const bool kPairs = true;       // of which there are of pairs of contact particles
+layout(constant_id = 14) const bool kVolume = false;     // and of hair as a volume
 #else
 const bool kContacts = false;
 #endif
@@ -68,10 +71,21 @@ layout(set = 0, binding = kBindSolved) buffer Solved { vec4 solved[]; };
 layout(set = 0, binding = kBindContactSystems) readonly buffer ContactSystems { ContactSystem contactSystems[]; };
 layout(set = 0, binding = kBindContactControl) readonly buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindContactSystemTexels) uniform usamplerBuffer contactSystemTexels;
-ContactSystem contactSystemOf(uint i) {
-  if (!kTexels) return contactSystems[i];
-  return ContactSystem(vectorAt(contactSystemTexels, 3 * i), vectorAt(contactSystemTexels, 3 * i + 1),
-                       vectorAt(contactSystemTexels, 3 * i + 2));
+vec4 contactSystemPart(uint i, uint part) { return vectorAt(contactSystemTexels, 4 * i + part); }
+vec4 volumeSystemOf(uint i) { return kTexels ? contactSystemPart(i, 3) : contactSystems[i].volume; }
+/// What is added to particle i's mass, and to its right-hand side.
+Symmetric contactMass(uint i) {
+  Symmetric mass = symmetricDiagonal(kVolume ? volumeSystemOf(i).w : 0.0);
+  if (kPairs) {
+    mass.d += 2.0 * (kTexels ? contactSystemPart(i, 0) : contactSystems[i].diagonal).xyz;
+    mass.o += 2.0 * (kTexels ? contactSystemPart(i, 1) : contactSystems[i].offDiagonal).xyz;
+  }
+  return mass;
+}
+vec3 contactMomentum(uint i) {
+  vec3 momentum = kVolume ? volumeSystemOf(i).xyz : vec3(0);
+  if (kPairs) momentum += (kTexels ? contactSystemPart(i, 2) : contactSystems[i].momentum).xyz;
+  return momentum;
 }
 #endif
 #ifdef RINGLET_SURROUNDINGS

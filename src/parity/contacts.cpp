@@ -41,6 +41,7 @@ Settings shortSteps() {
   settings.framesPerSecond = 1e6;
   settings.stepsPerFrame = 1;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   settings.contacts.radius = kListedR / 2;
   settings.contacts.prunePairs = false;
   return settings;
@@ -102,6 +103,7 @@ Groom denseSwatch(int particles) {
 Settings meetingSettings() {
   Settings settings;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   settings.contacts.radius = 0.004;
   settings.contacts.prunePairs = false;
   return settings;

@@ -183,36 +183,47 @@ void checkLists(const ComputeDevice& device, const Tell& tell) {
                 0));
 }
 
+// Frames of a shaken swatch whose strands meet.
+void checkMeeting(const ConformCases& cases, const Settings& settings, const std::string& what,
+                  const Tell& tell) {
+  constexpr int kFrames = 3;
+  CompileClock clock;
+  KernelChoice kernel;
+  kernel.observer = &clock;
+  ContactReport report;
+  const auto apart =
+      parity::shakenSwatchError(cases.device, settings, kernel, kFrames,
+                                [&](const Simulation& simulation, const reference::Simulation<double>&) {
+                                  if (const auto now = simulation.contactReport()) report = *now;
+                                });
+  const std::string name = fmt::format("{}: {} frames [m]", what, kFrames);
+  if (!apart) return tell(failed(name, apart.error()));
+  const std::string done = report.volumeStrands > 0 ? fmt::format("{} strands", report.volumeStrands)
+                                                    : fmt::format("{} contacts", report.contacts);
+  tell(compared(name, *apart, parity::kMeetingMetres, done, "positions", clock.seconds()));
+}
+
 void checkContacts(const ConformCases& cases, const Tell& tell) {
   checkLists(cases.device, tell);
-  const Settings settings = parity::meetingSettings();
-  checkSameBits(cases.device, cases.device, parity::denseSwatch(32), {}, settings, {},
-                "contacts: the same bits again", tell);
+  const Settings pairs = parity::meetingSettings();
+  Settings volume = pairs;
+  volume.contacts.method = ContactMethod::volume;
+  for (const auto& [settings, what] : {std::pair{pairs, "contacts"}, std::pair{volume, "a volume"}}) {
+    checkSameBits(cases.device, cases.device, parity::denseSwatch(32), {}, settings, {},
+                  fmt::format("{}: the same bits again", what), tell);
+    if (cases.quick) continue;
+    checkSameBits(cases.device, cases.withoutTexels, parity::denseSwatch(32), {}, settings, {},
+                  fmt::format("{}: the same bits without texels", what), tell);
+    checkMeeting(cases, settings, what, tell);
+  }
   if (cases.quick) return;
-  checkSameBits(cases.device, cases.withoutTexels, parity::denseSwatch(32), {}, settings, {},
-                "contacts: the same bits without texels", tell);
   for (const ContactTaper taper : {ContactTaper::distance, ContactTaper::time}) {
-    Settings atOnce = settings;
+    Settings atOnce = pairs;
     atOnce.contacts.taper = taper;
     atOnce.contacts.rampSeconds = 0;  // in full in the first step
     checkStep(cases.device, {parity::randomGroom({64, 31, 64, 17, 2, 64, 33, 64, 3}, 3), {}, atOnce, {}, 5},
               taper == ContactTaper::time ? "contacts, time taper" : "contacts", parity::kOneStep, tell);
   }
-  constexpr int kFrames = 3;
-  CompileClock clock;
-  KernelChoice kernel;
-  kernel.observer = &clock;
-  std::uint64_t contacts = 0;
-  const auto apart =
-      parity::shakenSwatchError(cases.device, settings, kernel, kFrames,
-                                [&](const Simulation& simulation, const reference::Simulation<double>&) {
-                                  if (const auto report = simulation.contactReport())
-                                    contacts = report->contacts;
-                                });
-  const std::string name = fmt::format("contacts: {} frames [m]", kFrames);
-  if (!apart) return tell(failed(name, apart.error()));
-  tell(compared(name, *apart, parity::kMeetingMetres, fmt::format("{} contacts", contacts), "positions",
-                clock.seconds()));
 }
 
 // A sphere and a box that strands of 25 cm hang into.

@@ -1,7 +1,9 @@
 // Implements contact_options.h.
 #include "program/contact_options.h"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <string>
 
 #include "program/command_line.h"
@@ -36,8 +38,11 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
   command
       ->add_option(
           "--contacts", choice.state,
-          "Whether strands push each other away, on or off (default " + defaultState + "); jacobi only")
-      ->check(oneOf({"on", "off"}))
+          "How strands push each other away: off; explicit, pair by pair; volume, all as a volume, coarse "
+          "and fast; auto or on, as a volume where they are dense at rest and pair by pair elsewhere "
+          "(default " +
+              defaultState + "); jacobi only")
+      ->check(oneOf({"off", "on", "auto", "explicit", "volume"}))
       ->type_name("STATE")
       ->group(group);
   command
@@ -77,7 +82,7 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
   command
       ->add_option("--contact-iterations", choice.iterations,
                    "Solves of a step in which strands hear of each other, 1 to 1000: more is slower and "
-                   "loses less momentum (default 2)")
+                   "loses less momentum (default 2; 1 where all hair meets as a volume)")
       ->check(wholeBetween(1, 1000))
       ->type_name("N")
       ->group(group);
@@ -92,9 +97,17 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
       ->add_option(
           "--contact-taper", choice.taper,
           "How a contact comes and goes, with the distance of the two, or in time as in the paper, which "
-          "is slower: distance or time (default distance)")
+          "is slower and pair by pair: distance or time (default distance)")
       ->check(oneOf({std::begin(kContactTaperNames), std::end(kContactTaperNames)}))
       ->type_name("TAPER")
+      ->group(group);
+  command
+      ->add_option(
+          "--volume-cell", choice.volumeCell,
+          "Where hair meets as a volume: how far a strand feels what is about it, metres, 1e-5 to 10 "
+          "(default: four contact radii, or more where particles are further apart)")
+      ->check(between(1e-5, 10))
+      ->type_name("METRES")
       ->group(group);
 }
 
@@ -106,6 +119,13 @@ void checkContactOptions(const ContactChoice& choice) {
     throw CLI::ValidationError(pruning, "--prune none prunes nothing; leave one of the two out");
 }
 
+std::optional<ContactMethod> ContactChoice::method() const {
+  if (!state || *state == "off") return std::nullopt;
+  const auto* at = std::ranges::find(kContactMethodNames, *state);
+  return at == std::end(kContactMethodNames) ? ContactMethod::automatic
+                                             : static_cast<ContactMethod>(at - kContactMethodNames);
+}
+
 void refuseContactOptions(const ContactChoice& choice, const std::string& reason) {
   const char* option = choice.radius          ? "--contact-radius"
                        : choice.fillGaps      ? "--fill-gaps"
@@ -115,12 +135,14 @@ void refuseContactOptions(const ContactChoice& choice, const std::string& reason
                        : choice.iterations    ? "--contact-iterations"
                        : choice.friction      ? "--contact-friction"
                        : choice.taper         ? "--contact-taper"
+                       : choice.volumeCell    ? "--volume-cell"
                                               : nullptr;
   if (option) throw CLI::ValidationError(option, reason);
 }
 
 void applyContactOptions(const ContactChoice& choice, ContactSettings& settings) {
   settings.on = choice.on().value_or(settings.on);
+  if (const auto method = choice.method()) settings.method = *method;
   if (choice.radius) settings.radius = choice.radius;
   if (choice.fillGaps) settings.fillGaps = *choice.fillGaps == "on";
   // Any of the three asks for pruning, also in a scene that has none.
@@ -128,8 +150,9 @@ void applyContactOptions(const ContactChoice& choice, ContactSettings& settings)
   if (choice.prune && settings.prunePairs) settings.minOverlaps = wholeNumber(*choice.prune);
   settings.maxNeighbours = choice.maxNeighbours.value_or(settings.maxNeighbours);
   settings.dropShare = choice.dropShare.value_or(settings.dropShare);
-  settings.iterations = choice.iterations.value_or(settings.iterations);
+  if (choice.iterations) settings.iterations = choice.iterations;
   settings.friction = choice.friction.value_or(settings.friction);
+  if (choice.volumeCell) settings.volumeCell = choice.volumeCell;
   if (choice.taper) settings.taper = *choice.taper == "time" ? ContactTaper::time : ContactTaper::distance;
 }
 

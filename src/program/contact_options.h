@@ -11,7 +11,7 @@ namespace ringlet::program {
 
 /// Contacts as asked for on a command line; what was left out is the scene's, or ContactSettings' own.
 struct ContactChoice {
-  std::optional<std::string> state;  // on or off
+  std::optional<std::string> state;  // off, on, or one of kContactMethodNames
   std::optional<double> radius;      // [m]
   std::optional<std::string> fillGaps;
   std::optional<std::string> prune;  // a number of overlaps, or none
@@ -20,13 +20,17 @@ struct ContactChoice {
   std::optional<int> iterations;
   std::optional<double> friction;
   std::optional<std::string> taper;  // of kContactTaperNames
+  std::optional<double> volumeCell;  // [m]
 
   /// Switched on or off; nothing: neither.
-  std::optional<bool> on() const { return state ? std::optional(*state == "on") : std::nullopt; }
+  std::optional<bool> on() const { return state ? std::optional(*state != "off") : std::nullopt; }
+  /// How, where they are switched on.
+  std::optional<ContactMethod> method() const;
 };
 
 /// Adds --contacts, --contact-radius, --fill-gaps, --prune, --max-neighbours, --drop-share,
-/// --contact-iterations, --contact-friction and --contact-taper. defaultState: what --help says where
+/// --contact-iterations, --contact-friction, --contact-taper and --volume-cell. defaultState: what --help
+/// says where
 /// --contacts is left out. `choice` must outlive the command.
 void addContactOptions(CLI::App* command, ContactChoice& choice, const std::string& defaultState);
 

@@ -9,6 +9,7 @@
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/volume_kernels.h"
 
 namespace ringlet::program {
 namespace {
@@ -23,6 +24,9 @@ std::vector<Work> strandWorks() {
   return {{"hair alone", StrandWork::hairAlone, {.oneSmoothing = true}},
           {"stiffness that varies", StrandWork::plain, {.oneSmoothing = true, .bendVaries = true}},
           {"contacts", StrandWork::plain, {.oneSmoothing = true, .contacts = true}},
+          {"a volume",
+           StrandWork::plain,
+           {.oneSmoothing = true, .contacts = true, .pairs = false, .volume = true}},
           {"air", StrandWork::plain, {.oneSmoothing = true, .air = true, .turbulence = true}},
           {"bodies", StrandWork::bodies, {.oneSmoothing = true, .bodies = true}},
           {"bodies in air",
@@ -46,7 +50,7 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
                          describeStrandKernel(shape, work.options)});
   }
   const auto add = [&](ContactKernel which, ContactTaper taper, const char* what) {
-    const auto description = describeContactKernel(which, taper, kContactGroupSize, texels);
+    const auto description = describeContactKernel(which, taper, false, kContactGroupSize, texels);
     kernels.push_back({description.name + std::string(what), description});
   };
   using enum ContactKernel;
@@ -56,6 +60,10 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
   }
   for (const ContactKernel which : {touch, first, next})
     add(which, ContactTaper::time, which == touch ? ", time taper" : "");
+  for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
+    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels);
+    kernels.push_back({description.name, description});
+  }
   return kernels;
 }
 

@@ -121,7 +121,8 @@ Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input)
     const RestContacts atRest = buildRestContacts(*rest, settings);
     contacts = {.contactParticles = atRest.particles.particles.size(),
                 .pairsUnpruned = atRest.graph.pairsUnpruned,
-                .pairs = atRest.graph.pairs};
+                .pairs = atRest.graph.pairs,
+                .volumeStrands = atRest.volume.count};
     std::ranges::copy(atRest.warnings(), std::back_inserter(rest->warnings));
   }
   std::vector<std::uint32_t> rigid;

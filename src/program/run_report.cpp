@@ -21,6 +21,7 @@ void addContactKeys(nlohmann::ordered_json& json, const SimulateOutcome& outcome
   };
   const ContactReport report = known.value_or(ContactReport{});
   const ContactNumbers numbers = measured.value_or(ContactNumbers{});
+  json["volume_strands"] = orNull(known.has_value(), report.volumeStrands);
   json["contacts"] = orNull(known.has_value(), report.contacts);
   json["pairs_unpruned"] = orNull(known.has_value(), report.pairsUnpruned);
   json["pairs"] = orNull(known.has_value(), report.pairs);
@@ -45,6 +46,8 @@ std::string contactText(const SimulateOutcome& outcome, const ContactSettings& s
     text +=
         fmt::format("  pairs         {} of {} pairs of strands that are near at rest may touch{}\n",
                     report.pairs, report.pairsUnpruned, settings.prunePairs ? "" : ", and all that are not");
+    if (report.volumeStrands > 0)
+      text += fmt::format("  volume        {} strands meet as a volume\n", report.volumeStrands);
   }
   if (outcome.contactNumbers) {
     const ContactNumbers& numbers = *outcome.contactNumbers;

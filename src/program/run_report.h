@@ -23,7 +23,8 @@ Integrator integratorByName(const std::string& name);
 
 /// What the keys about contacts mean, for --help.
 inline constexpr const char* kContactKeysHelp =
-    "Keys about contacts, null without them: pairs_unpruned (pairs of strands that overlap at rest when "
+    "Keys about contacts, null without them: volume_strands (that meet as a volume) pairs_unpruned (pairs of "
+    "strands that overlap at rest when "
     "enlarged)\n"
     "pairs (of those, that may touch) pair_tests rebuilds (of lists; both over all steps) contacts (between "
     "particles)\n"

@@ -20,6 +20,7 @@ inline double ease(double t) {
 inline Settings meetingSettings(double radius) {
   Settings settings;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   settings.contacts.prunePairs = false;
   settings.contacts.radius = radius;
   return settings;

@@ -29,6 +29,7 @@ struct MetStrands {
       StrandSystem& system = systems.emplace_back();
       for (std::uint32_t i = firstPoint[s]; i < firstPoint[s + 1]; ++i) {
         contacts.particles.push_back({.index = i, .strand = s, .isPinned = i == firstPoint[s]});
+        contacts.isPinned.push_back(i == firstPoint[s]);
         system.masses.push_back(1 + randomVector(random, 0.5).x());
         system.momenta.push_back(randomVector(random, 1));
         if (i + 1 == firstPoint[s + 1]) break;
@@ -59,7 +60,10 @@ struct MetStrands {
     const auto solveOne = [&](std::size_t s, std::span<Vector3<double>> of) {
       solveStrand(systems[s], scratch, of);
     };
-    solveContacts(iterationCount, firstPoint, systems, solveOne, contacts, velocities);
+    ContactSettings settings;
+    settings.iterations = iterationCount;
+    const VolumeFrame still{Rotation<double>::Identity(), Rotation<double>::Identity(), 1};
+    solveContacts(settings, still, firstPoint, systems, solveOne, start, contacts, velocities);
     return velocities;
   }
 };
@@ -207,6 +211,7 @@ Groom swatch() {
 Settings swatchSettings() {
   Settings settings;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   settings.contacts.minOverlaps = 1;
   return settings;
 }
@@ -400,6 +405,7 @@ Meeting meetTwoCurls(const Settings& settings, double bendStiffness, double hand
   Simulation<double> simulation(groom, material, settings);
   Settings on = settings;
   on.contacts.on = true;
+  on.contacts.method = ContactMethod::explicitPairs;
   const auto particles = Simulation<double>(groom, material, on).contacts().particles;
 
   Meeting meeting;

@@ -29,7 +29,8 @@ bool isSmall(const SceneFile& scene) {
                  scene.motion.file.empty() && scene.scalp.file.empty() &&
                  scene.bodies.size() <= kMostBodies && simulation.stepsPerFrame.value_or(1) <= kMostSteps &&
                  simulation.iterations <= kMostIterations && simulation.forceLoops <= kMostIterations &&
-                 simulation.dampingLoops <= kMostIterations && scene.contacts.iterations <= kMostIterations;
+                 simulation.dampingLoops <= kMostIterations &&
+                 scene.contacts.iterations.value_or(2) <= kMostIterations;
   for (const SceneBody& body : scene.bodies)
     isSmall = isSmall && body.file.empty() && body.joint.empty() &&
               (!body.motion || body.motion->file.empty()) &&

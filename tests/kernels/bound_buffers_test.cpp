@@ -11,6 +11,7 @@
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/volume_kernels.h"
 #include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -31,8 +32,10 @@ std::uint32_t mostOfContacts() {
   std::uint32_t most = 0;
   for (std::size_t k = 0; k < kContactKernelCount; ++k) {
     const auto which = static_cast<ContactKernel>(k);
-    most = std::max(most, storageCount(describeContactKernel(which, ContactTaper::distance, 64, true)));
+    most = std::max(most, storageCount(describeContactKernel(which, ContactTaper::distance, true, 64, true)));
   }
+  for (std::size_t k = 0; k < kVolumeKernelCount; ++k)
+    most = std::max(most, storageCount(describeVolumeKernel(static_cast<VolumeKernel>(k), true)));
   return most;
 }
 

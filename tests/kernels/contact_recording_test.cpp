@@ -55,7 +55,7 @@ void expectSteps(const Commands& commands, int steps, const ContactSettings& con
   const Commands one = ofAStep(contacts.taper);
   for (int step = 0; step < steps; ++step) {
     expected.insert(expected.end(), one.begin(), one.end());
-    expected.insert(expected.end(), static_cast<std::size_t>(contacts.iterations - 1),
+    expected.insert(expected.end(), static_cast<std::size_t>(contacts.iterationCount(true) - 1),
                     betweenSolves(contacts.taper));
   }
   std::ranges::copy_if(commands, std::back_inserter(found), isContactKernel);
@@ -78,6 +78,42 @@ Groom besideEachOther(int strandCount, int particles) {
 
 class ContactRecording : public GpuTest {};
 
+// As a volume, and beside it pair by pair.
+TEST_F(ContactRecording, TheVolumeHasABarrierBeforeEveryDispatch) {
+  Groom groom = besideEachOther(60, 40);
+  for (int s = 0; s < 3; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 8; ++i) strand.push_back(Vec3f(Vec3d{0.3 + 0.01 * s, -0.005 * i, 0}));
+    groom.addStrand(strand);
+  }
+  for (const KernelChoice::Form form : {KernelChoice::Form::automatic, KernelChoice::Form::serial}) {
+    for (const int iterations : {1, 3}) {
+      for (const ContactMethod method : {ContactMethod::volume, ContactMethod::automatic}) {
+        Settings settings;
+        settings.stepsPerFrame = 3;
+        settings.contacts.on = true;
+        settings.contacts.radius = 0.02;
+        settings.contacts.prunePairs = false;
+        settings.contacts.method = method;
+        settings.contacts.iterations = iterations;
+        auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {form});
+        ASSERT_TRUE(simulation) << simulation.error().message;
+        EXPECT_EQ(simulation->contactReport()->volumeStrands, method == ContactMethod::volume ? 63u : 60u);
+        const std::string label =
+            fmt::format("{}, {}, {}", simulation->kernelDescription(), iterations, nameOf(method));
+        const Commands frame = simulation->recordedFrame();
+        expectBarriers(frame, label);
+        EXPECT_EQ(std::ranges::count(frame, "volume_begin"), 3) << label;
+        EXPECT_EQ(std::ranges::count(frame, "volume_order"), 2) << label << ": in every second step";
+        EXPECT_EQ(std::ranges::count(frame, "volume_spread"), 3 * iterations) << label;
+        EXPECT_EQ(std::ranges::count(frame, "contact_touch"), method == ContactMethod::volume ? 0 : 3)
+            << label;
+        ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+      }
+    }
+  }
+}
+
 TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
   constexpr int kSteps = 2;
   const Groom groom = besideEachOther(60, 3);
@@ -90,6 +126,7 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
       settings.contacts.on = true;
       settings.contacts.radius = 0.002;
       settings.contacts.prunePairs = false;
+      settings.contacts.method = ContactMethod::explicitPairs;
       settings.contacts.iterations = iterations;
       auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {form});
       ASSERT_TRUE(simulation) << simulation.error().message;

@@ -52,10 +52,11 @@ TEST_F(Memory, OfAParticleAndAStrand) {
 TEST_F(Memory, OfContacts) {
   Settings settings;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   auto simulation = make(settings);
   ASSERT_TRUE(simulation);
   const DeviceMemory memory = simulation->memory();
-  EXPECT_EQ(memory.particles, (64 + 64) * particleCount_);
+  EXPECT_EQ(memory.particles, (64 + 80) * particleCount_);
   const std::uint64_t contacts = simulation->contactReport()->contactParticles;
   ASSERT_GT(contacts, 0u);
   // A contact particle: 140 and two buckets of 8 or more, up to twice as many; a particle 20; a strand 16,
@@ -86,6 +87,7 @@ TEST_F(Memory, OfListedContacts) {
   }
   Settings settings;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   settings.contacts.radius = 0.001;
   auto simulation = Simulation::create(device(), groom, {}, settings);
   ASSERT_TRUE(simulation) << simulation.error().message;

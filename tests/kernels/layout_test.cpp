@@ -147,7 +147,44 @@ const std::vector<CppStruct> kCppStructs = {
       using S = layout::ContactSystem;
       return CppStruct{"ContactSystem",
                        sizeof(S),
-                       {RINGLET_MEMBER(diagonal), RINGLET_MEMBER(offDiagonal), RINGLET_MEMBER(momentum)}};
+                       {RINGLET_MEMBER(diagonal), RINGLET_MEMBER(offDiagonal), RINGLET_MEMBER(momentum),
+                        RINGLET_MEMBER(volume)}};
+    }(),
+    [] {
+      using S = layout::VolumeParticle;
+      return CppStruct{"VolumeParticle",
+                       sizeof(S),
+                       {RINGLET_MEMBER(particle), RINGLET_MEMBER(mass), RINGLET_MEMBER(ownDensity),
+                        RINGLET_MEMBER(inverseMassUnit)}};
+    }(),
+    [] {
+      using S = layout::VolumeState;
+      return CppStruct{"VolumeState",
+                       sizeof(S),
+                       {RINGLET_MEMBER(memory), RINGLET_MEMBER(place), RINGLET_MEMBER(predicted)}};
+    }(),
+    [] {
+      using S = layout::VolumeParcel;
+      return CppStruct{"VolumeParcel", sizeof(S), {RINGLET_MEMBER(rate), RINGLET_MEMBER(place)}};
+    }(),
+    [] {
+      using S = layout::VolumeControl;
+      return CppStruct{
+          "VolumeControl",
+          sizeof(S),
+          {RINGLET_MEMBER(indirectBlocks), RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectNodes),
+           RINGLET_MEMBER(unused), RINGLET_MEMBER(least), RINGLET_MEMBER(cellsPerMetre),
+           RINGLET_MEMBER(greatest), RINGLET_MEMBER(cell), RINGLET_MEMBER(low), RINGLET_MEMBER(unused2),
+           RINGLET_MEMBER(size), RINGLET_MEMBER(unused3)}};
+    }(),
+    [] {
+      using S = layout::VolumeParameters;
+      return CppStruct{
+          "VolumeParameters",
+          sizeof(S),
+          {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step), RINGLET_MEMBER(seconds),
+           RINGLET_MEMBER(cell), RINGLET_MEMBER(drag), RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept),
+           RINGLET_MEMBER(warmth), RINGLET_MEMBER(sorts)}};
     }(),
     [] {
       using S = layout::ContactPlace;
@@ -251,13 +288,15 @@ TEST(Layout, EmbeddedShadersAgreeWithCpp) {
 TEST(Layout, PushConstantsFitEveryDevice) {
   EXPECT_LE(sizeof(layout::StepParameters), 128u) << "Vulkan guarantees 128 bytes";
   EXPECT_LE(sizeof(layout::ContactParameters), 128u);
+  EXPECT_LE(sizeof(layout::VolumeParameters), 128u);
 }
 
 // They are read as texels of 16 bytes (shared/texels.glsl).
 TEST(Layout, TexelRecordsAreWholeTexels) {
-  for (const char* name : {"ParticleRest", "StrandRest", "RootPose", "BodyRest", "BodyPose", "StepAir",
-                           "WindWave", "ContactRest", "ContactPair", "ContactLife", "ContactForce",
-                           "ContactSystem", "ContactPlace", "ContactHistory"})
+  for (const char* name :
+       {"ParticleRest", "StrandRest", "RootPose", "BodyRest", "BodyPose", "StepAir", "WindWave",
+        "ContactRest", "ContactPair", "ContactLife", "ContactForce", "ContactSystem", "ContactPlace",
+        "ContactHistory", "VolumeParticle", "VolumeState", "VolumeParcel"})
     EXPECT_EQ(cppStruct(name)->size % sizeof(layout::vec4), 0u) << name;
 }
 

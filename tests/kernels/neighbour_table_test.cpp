@@ -39,6 +39,26 @@ ContactGraph graphOf(std::uint32_t strandCount,
   return graph;
 }
 
+// Each strand a group by itself, but the last: that is in the first one's.
+VolumeStrands alone(std::uint32_t strandCount) {
+  VolumeStrands volume;
+  for (std::uint32_t s = 0; s < strandCount; ++s) volume.groups.push_back(s);
+  volume.groups.back() = 0;
+  volume.isIn.assign(strandCount, false);
+  return volume;
+}
+
+TEST(NeighbourTable, HoldsGroups) {
+  for (const bool everyPair : {false, true}) {
+    ContactGraph graph = graphOf(5, {{0, 3}});
+    graph.everyPair = everyPair;
+    const Table table = neighbourTable(graph, alone(5));
+    for (std::uint32_t s = 0; s < 5; ++s) {
+      EXPECT_EQ(table[s][2], s == 4 ? 0 : s);
+    }
+  }
+}
+
 TEST(NeighbourTable, HoldsWhatTheGraphAllows) {
   std::mt19937 random(9);
   for (const double density : {0.0, 0.01, 0.3, 1.0}) {
@@ -50,7 +70,8 @@ TEST(NeighbourTable, HoldsWhatTheGraphAllows) {
       }
     }
     const ContactGraph graph = graphOf(kStrands, pairs);
-    const Table table = neighbourTable(graph);
+    const Table table =
+        neighbourTable(graph, alone(static_cast<std::uint32_t>(graph.firstNeighbour.size() - 1)));
     EXPECT_LE(table.size(), kStrands + 2 * kStrands + graph.neighbours.size());
     for (std::uint32_t a = 0; a < kStrands; ++a) {
       for (std::uint32_t b = 0; b < kStrands; ++b) {
@@ -69,7 +90,8 @@ TEST(NeighbourTable, StandsAlikeHashes) {
     if ((b * 2654435761u >> 16 & 31) == 7) graph.neighbours.push_back(b);
   }
   graph.firstNeighbour[1] = 64;
-  const Table table = neighbourTable(graph);
+  const Table table =
+      neighbourTable(graph, alone(static_cast<std::uint32_t>(graph.firstNeighbour.size() - 1)));
   for (const std::uint32_t b : graph.neighbours) EXPECT_TRUE(mayTouch(table, 0, b)) << b;
   EXPECT_FALSE(mayTouch(table, 0, graph.neighbours.back() + 1));
 }

@@ -133,6 +133,7 @@ TEST_F(RigidHairTest, LeavesTheBitsOfAllOtherHair) {
 TEST_F(RigidHairTest, IsWhereTheReferenceHasIt) {
   const std::vector<Body> bodies{{.name = "ball", .radius = 0.05, .place = {{0.6, 0.7, 0}, {}}}};
   settings_.contacts.on = true;
+  settings_.contacts.method = ContactMethod::explicitPairs;
   settings_.contacts.prunePairs = false;
   settings_.contacts.radius = 0.002;
   Simulation simulation = make(groom_, {.movingRoots = true}, bodies);
@@ -197,6 +198,7 @@ TEST_F(RigidHairTest, MayBeAllThereIs) {
   const Groom normal = randomGroom({31, 17, 24}, 3);
   for (std::size_t s = 0; s < 3; ++s) fine.addStrand(moved(normal.strand(s), 1e-5));
   settings_.contacts.on = true;
+  settings_.contacts.method = ContactMethod::explicitPairs;
   const std::vector<Body> bodies{{.name = "ball", .radius = 0.05}};
   Simulation simulation = make(fine, {}, bodies);
   EXPECT_EQ(simulation.rigidStrandCount(), 3u);

@@ -41,6 +41,7 @@ class StagedContacts : public GpuTest {
   static std::vector<Seen> run(const ComputeDevice& device) {
     Settings settings;
     settings.contacts.on = true;
+    settings.contacts.method = ContactMethod::explicitPairs;
     settings.contacts.radius = 0.001;
     auto simulation = Simulation::create(device, denseGroom(), {}, settings);
     EXPECT_TRUE(simulation) << simulation.error().message;
@@ -97,6 +98,7 @@ TEST_F(StagedContacts, SettingTheStateForgetsLists) {
   for (const ComputeDevice& on : {ComputeDevice::over(*opened), device()}) {
     Settings settings;
     settings.contacts.on = true;
+    settings.contacts.method = ContactMethod::explicitPairs;
     auto simulation = Simulation::create(on, denseGroom(), {}, settings);
     ASSERT_TRUE(simulation) << simulation.error().message;
     ASSERT_TRUE(simulation->stepFrame(HeadPose{}));

@@ -35,6 +35,7 @@ pre_roll = 0.1
 frames = 24
 steps_per_frame = 4
 [contacts]
+method = "explicit"
 on = true
 radius = 0.006
 [air]

@@ -58,7 +58,8 @@ TEST(Scene, ListsEveryScene) {
   }
 }
 
-const std::vector<std::string> kContactKeys = {"contacts",
+const std::vector<std::string> kContactKeys = {"volume_strands",
+                                               "contacts",
                                                "pairs_unpruned",
                                                "pairs",
                                                "pair_tests",
@@ -425,7 +426,9 @@ TEST(Scene, MistakesAreOneSentence) {
            Case{{"bounce", "--integrator", "paper", "--core", "off"}, 2, "--core: --integrator paper takes"},
            Case{{"bounce", "--integrator", "paper", "--frames-on", "raw"}, 2, "--frames-on: --integrator"},
            Case{{"bounce", "--integrator", "paper", "--preload", "1"}, 2, "--preload: --integrator paper"},
-           Case{{"two_curls", "--contacts", "yes"}, 2, "--contacts: there is no 'yes' (only on, off)"},
+           Case{{"two_curls", "--contacts", "yes"},
+                2,
+                "--contacts: there is no 'yes' (only off, on, auto, explicit, volume)"},
            Case{{"two_curls", "--contact-radius", "0"},
                 2,
                 "--contact-radius: must be a number from 1e-06 to 1"},

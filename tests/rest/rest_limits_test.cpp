@@ -199,7 +199,7 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
   whole(
       "contacts.maxNeighbours", [](S& s) -> int& { return s.contacts.maxNeighbours; }, 0, 1000000);
   whole(
-      "contacts.iterations", [](S& s) -> int& { return s.contacts.iterations; }, 1, 1000);
+      "contacts.iterations", [](S& s) -> int& { return s.contacts.iterations.emplace(); }, 1, 1000);
 }
 
 }  // namespace

@@ -127,6 +127,7 @@ TEST_F(Repeat, StateWithContactsCanBePutBackAndRoomMadeInBetween) {
   Settings settings;
   settings.stepsPerFrame = 1;
   settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
   settings.contacts.radius = 0.002;
   settings.contacts.prunePairs = false;
   auto simulation = Simulation::create(device(), groom, {}, settings);

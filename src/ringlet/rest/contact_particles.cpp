@@ -34,16 +34,6 @@ double meanEdgeLength(const RestState& rest) {
   return sum / static_cast<double>(edgeCount);
 }
 
-double chooseBaseRadius(const RestState& rest, const ContactSettings& settings) {
-  if (settings.radius) return *settings.radius;
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    roots.push_back(static_cast<Vec3d>(pointsOf(rest, s)[0]));
-  }
-  const double half = meanNearestDistance(roots) / 2;
-  return std::max(half >= kSmallestRadius ? half : meanEdgeLength(rest) / 2, kSmallestRadius);
-}
-
 // The particles that stay, and the largest distance of two of them in a row [m].
 struct Pruned {
   std::vector<std::uint32_t> kept;
@@ -85,9 +75,18 @@ double massOf(const RestState& rest, std::size_t strand) {
 
 }  // namespace
 
+double radiusOfRoots(const RestState& rest) {
+  std::vector<Vec3d> roots;
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    roots.push_back(static_cast<Vec3d>(pointsOf(rest, s)[0]));
+  }
+  const double half = meanNearestDistance(roots) / 2;
+  return std::max(half >= kSmallestRadius ? half : meanEdgeLength(rest) / 2, kSmallestRadius);
+}
+
 ContactParticles chooseContactParticles(const RestState& rest, const ContactSettings& settings) {
   ContactParticles contacts;
-  contacts.baseRadius = chooseBaseRadius(rest, settings);
+  contacts.baseRadius = settings.radius.value_or(radiusOfRoots(rest));
   contacts.firstOfStrand.push_back(0);
   std::size_t gappyCount = 0, coarsest = 0;
   double widestGap = 0;

@@ -28,6 +28,10 @@ struct ContactParticles {
   std::size_t strandCount() const { return radii.size(); }
 };
 
+/// The radius of all strands where no setting says it: half the mean distance from a root to its nearest
+/// other root; where that is nothing, half the mean edge [m].
+double radiusOfRoots(const RestState& rest);
+
 /// The radius of all strands: the setting; else half the mean distance from a root to its nearest other root;
 /// where that is nothing (one strand, or roots in one place) half the mean edge.
 ///

@@ -13,8 +13,9 @@ std::vector<std::string> RestContacts::warnings() const {
 
 RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings) {
   ContactParticles particles = chooseContactParticles(rest, settings);
+  VolumeStrands volume = chooseVolumeStrands(rest, particles, settings);
   ContactGraph graph = pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings);
-  return {std::move(particles), std::move(graph)};
+  return {std::move(particles), std::move(graph), std::move(volume)};
 }
 
 }  // namespace ringlet

@@ -8,6 +8,7 @@
 #include "ringlet/rest/contact_graph.h"
 #include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/rest/volume_strands.h"
 #include "ringlet/scene/contact_settings.h"
 
 namespace ringlet {
@@ -16,6 +17,7 @@ namespace ringlet {
 struct RestContacts {
   ContactParticles particles;
   ContactGraph graph;
+  VolumeStrands volume;
 
   /// For the user, a sentence each: of gaps or raised radii, and of pruning that leaves nothing.
   std::vector<std::string> warnings() const;

@@ -2,6 +2,7 @@
 // them may touch is decided once, in the rest pose. Part of scene/settings.h.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -29,10 +30,32 @@ constexpr const char* nameOf(ContactTaper taper) { return kContactTaperNames[sta
 /// With the distance taper damping fades from the rest length of a contact to this times it.
 inline constexpr double kContactTaperEnd = 1.05;
 
+/// By what means hair meets hair.
+enum class ContactMethod {
+  automatic,      // strands that are dense at rest among themselves as a volume, all others pair by pair
+  explicitPairs,  // pair by pair
+  volume          // all strands as a volume
+};
+inline constexpr const char* kContactMethodNames[] = {"auto", "explicit", "volume"};
+constexpr const char* nameOf(ContactMethod method) { return kContactMethodNames[static_cast<int>(method)]; }
+
+/// Strands that hang together are dense where the median of them has hair about it, at rest, as dense as so
+/// many of itself; those with less than half of it do not belong to them (rest/volume_strands.h).
+inline constexpr double kVolumeStrands = 9;
+
+/// A cell of the volume's grid, in radii of contact particles as they are chosen without a setting.
+inline constexpr double kVolumeCellRadii = 4;
+/// They go into the grid's cells every so many steps of a frame, from the first on: what is near moves with
+/// them.
+inline constexpr std::size_t kVolumeSortSteps = 2;
+/// Along a strand, particles that stand for it there are at most so many cells apart.
+inline constexpr double kVolumeSpacing = 1.6;
+
 /// checkSettings (rest/rest_state.h) holds the ranges. `w` below is what a contact particle weighs: its mass
 /// m_c, the strand's over its number of contact particles, times 9.81 m/s^2. R is the sum of two radii [m].
 struct ContactSettings {
   bool on = false;
+  ContactMethod method = ContactMethod::automatic;
 
   // Spheres.
   /// Of every particle [m], 1e-6 to 1; unset: half the mean distance from a root to its nearest other root.
@@ -68,8 +91,24 @@ struct ContactSettings {
   /// Lists hold all that is nearer than this times its rest length.
   double listedReach() const { return taper == ContactTaper::time ? 1 : kContactTaperEnd; }
 
+  // Hair as a volume (rest/volume_strands.h says which strands; equations/volume.glsl how).
+  std::optional<double> volumeCell;  // of the grid [m], 1e-5 to 10; unset: kVolumeCellRadii radii, or more
+                                     // where particles stand further apart
+  double volumeDrag = 600;           // towards the velocity of what is near [1/s], 0 to 1e5
+  double volumeStiffness = 1e5;      // towards its displacement [1/s^2], 0 to 1e9
+  double volumeMemorySeconds = 0.3;  // in which a displacement is forgotten [s], 0.001 to 1000
+
+  /// Whether any strand may go by volume. The paper's contacts, with a taper in time, are pairs.
+  bool mayBeVolume() const {
+    return method == ContactMethod::volume ||
+           (method == ContactMethod::automatic && taper == ContactTaper::distance);
+  }
+
   // How strands hear of each other within a step.
-  int iterations = 2;  // of the solve, 1 to 1000: more lose less momentum and creep less, at a solve each
+  /// Of the solve, 1 to 1000: more lose less momentum and creep less, at a solve each. Unset: 2 where any two
+  /// strands meet pair by pair, 1 where all meet as a volume.
+  std::optional<int> iterations;
+  int iterationCount(bool pairByPair) const { return iterations.value_or(pairByPair ? 2 : 1); }
 };
 
 }  // namespace ringlet

@@ -26,7 +26,7 @@ struct SceneField {
   std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
                std::uint32_t Owner::*, bool Owner::*, std::string Owner::*, std::filesystem::path Owner::*,
                Vec3d Owner::*, std::optional<Vec3d> Owner::*, std::optional<Quatd> Owner::*,
-               std::vector<std::string> Owner::*, ContactTaper Owner::*>
+               std::vector<std::string> Owner::*, ContactTaper Owner::*, ContactMethod Owner::*>
       member;
   NumberRange allowed{};   // of a number, or of each of several
   std::string choices{};   // of a text or a list of texts, separated by commas; "" for any

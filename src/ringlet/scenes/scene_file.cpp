@@ -195,6 +195,12 @@ class SceneReader {
     }
   }
 
+  template <class Value, std::size_t count>
+  static std::optional<Value> named(const char* const (&names)[count], const toml::node& node) {
+    const auto* at = std::ranges::find(names, node.value_exact<std::string>().value_or(""));
+    return at == std::end(names) ? std::nullopt : std::optional(static_cast<Value>(at - names));
+  }
+
   // What a node says, if it is of that type and range.
   template <class Value>
   std::optional<Value> valueOf(const toml::node& node, const NumberRange& allowed,
@@ -224,10 +230,9 @@ class SceneReader {
       if (!numbers) return std::nullopt;
       return Quatd{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
     } else if constexpr (std::is_same_v<Value, ContactTaper>) {
-      const auto name = node.value_exact<std::string>();
-      const auto* at = std::ranges::find(kContactTaperNames, name.value_or(""));
-      if (at == std::end(kContactTaperNames)) return std::nullopt;
-      return static_cast<ContactTaper>(at - kContactTaperNames);
+      return named<ContactTaper>(kContactTaperNames, node);
+    } else if constexpr (std::is_same_v<Value, ContactMethod>) {
+      return named<ContactMethod>(kContactMethodNames, node);
     } else {
       static_assert(std::is_same_v<Value, std::vector<std::string>>);
       const toml::array* list = node.as_array();

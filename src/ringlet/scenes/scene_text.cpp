@@ -20,6 +20,7 @@ std::string valueText(std::uint32_t value) { return fmt::format("{}", value); }
 std::string valueText(bool value) { return value ? "true" : "false"; }
 std::string valueText(const std::string& value) { return tomlText(value); }
 std::string valueText(ContactTaper value) { return tomlText(nameOf(value)); }
+std::string valueText(ContactMethod value) { return tomlText(nameOf(value)); }
 std::string valueText(const std::filesystem::path& value) { return tomlText(value.generic_string()); }
 std::string valueText(Vec3d v) {
   return fmt::format("[{}, {}, {}]", tomlNumber(v.x), tomlNumber(v.y), tomlNumber(v.z));

@@ -53,15 +53,15 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 
 }  // namespace
 
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, std::uint32_t groupSize,
-                                             bool texels) {
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool besideVolume,
+                                             std::uint32_t groupSize, bool texels) {
   const Compiled& compiled = compiledOf(which, taper);
   gpu::KernelDescription description;
   description.name = compiled.name;
   description.spirv = compiled.spirv;
   description.remedy = "take another device, or leave out contacts";
   description.pushConstantBytes = sizeof(layout::ContactParameters);
-  description.constants = {{0, groupSize}, {7, texels ? 1u : 0u}};
+  description.constants = {{0, groupSize}, {7, texels ? 1u : 0u}, {9, besideVolume ? 1u : 0u}};
   if (compiled.spirv.data() == k_contact_system_plain)
     description.constants.push_back({8, which == ContactKernel::first ? 1u : 0u});
   description.groupSize = groupSize;

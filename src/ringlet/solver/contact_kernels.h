@@ -33,8 +33,9 @@ inline constexpr std::size_t kContactKernelCount = 14;
 /// Invocations of a workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
-/// texels: records are read as texels (gpu::BindingKind).
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, std::uint32_t groupSize,
-                                             bool texels);
+/// besideVolume: some strands meet as a volume as well; texels: records are read as texels
+/// (gpu::BindingKind).
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool besideVolume,
+                                             std::uint32_t groupSize, bool texels);
 
 }  // namespace ringlet

@@ -90,7 +90,9 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.stepSeconds_ = settings.stepSeconds();
   self.particles_ = particles.particles;
   self.everyPair_ = contacts.graph.everyPair;
-  self.sampleStride_ = sampleStride(contacts, settings.contacts);
+  // Of hair that meets as a volume few touch others, and of those a sample may have none.
+  const bool besideVolume = contacts.volume.count > 0;
+  self.sampleStride_ = besideVolume ? 0 : sampleStride(contacts, settings.contacts);
   self.largestRadius_ = *std::max_element(particles.radii.begin(), particles.radii.end());
   const std::uint64_t count = self.particles_.size();
   if (self.contactGroups() > device.properties().maxGroupCount) {
@@ -108,15 +110,15 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
     self.largestList_ = std::min(self.largestList_, seen);
   }
   for (std::size_t k = 0; k < kContactKernelCount; ++k) {
-    const auto description =
-        describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper, kGroupSize, texels);
+    const auto description = describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper,
+                                                   besideVolume, kGroupSize, texels);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
   }
 
-  const auto table = neighbourTable(contacts.graph);
+  const auto table = neighbourTable(contacts.graph, contacts.volume);
   const std::uint64_t gridWords =
       2 * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
   const std::uint64_t needed =
@@ -452,30 +454,6 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
   const auto isSame = [&](const ListedContact& x, const ListedContact& y) { return place(x) == place(y); };
   contacts.erase(std::unique(contacts.begin(), contacts.end(), isSame), contacts.end());
   return contacts;
-}
-
-// J_a = momentum - 2 D v of the last iterate, in kg m/s. What a pinned particle received is not known, and
-// left out.
-Result<double> ContactStage::momentumError(const RestState& rest) const {
-  auto systems = downloadAll<layout::ContactSystem>(hair().contactSystems, rest.points.size());
-  if (!systems) return systems.error();
-  auto solved = downloadAll<layout::vec4>(hair().solved, rest.points.size());
-  if (!solved) return solved.error();
-  Vec3d sum{};
-  double sizes = 0;
-  for (const layout::StrandRest& strand : rest.strands) {
-    for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
-      const auto& [d, o, m] = (*systems)[i];
-      const layout::vec4 v = (*solved)[i];
-      const Vec3d Dv{double(d.x) * v.x + double(o.z) * v.y + double(o.y) * v.z,
-                     double(o.z) * v.x + double(d.y) * v.y + double(o.x) * v.z,
-                     double(o.y) * v.x + double(o.x) * v.y + double(d.z) * v.z};
-      const Vec3d J = (Vec3d{m.x, m.y, m.z} - Dv * 2.0) * double(strand.firstEdge.w);
-      sum = sum + J;
-      sizes += length(J);
-    }
-  }
-  return sizes > 0 ? length(sum) / sizes : 0;
 }
 
 }  // namespace ringlet

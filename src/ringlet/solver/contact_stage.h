@@ -80,8 +80,6 @@ class ContactStage {
 
   /// All pairs that are near or contacts, a < b, each once, sorted.
   Result<std::vector<ListedContact>> listed(const RestState& rest) const;
-  /// |sum of contact momenta| over the sum of their sizes, of the last step.
-  Result<double> momentumError(const RestState& rest) const;
 
  private:
   struct Buffers {

@@ -9,19 +9,22 @@
 
 namespace ringlet {
 
-std::vector<std::array<std::uint32_t, 4>> neighbourTable(const ContactGraph& graph) {
+std::vector<std::array<std::uint32_t, 4>> neighbourTable(const ContactGraph& graph,
+                                                         const VolumeStrands& volume) {
   constexpr std::array<std::uint32_t, 4> kEmpty{layout::kNoStrand, layout::kNoStrand, layout::kNoStrand,
                                                 layout::kNoStrand};
-  std::vector<std::array<std::uint32_t, 4>> table(graph.everyPair ? 1 : graph.firstNeighbour.size() - 1);
+  const std::size_t strandCount = volume.groups.size();
+  std::vector<std::array<std::uint32_t, 4>> table(strandCount);
+  for (std::size_t s = 0; s < strandCount; ++s) table[s] = {0, 0, volume.groups[s], 0};
   if (graph.everyPair) return table;
-  const std::size_t strandCount = table.size();
   for (std::size_t s = 0; s < strandCount; ++s) {
     const std::span neighbours(graph.neighbours.begin() + graph.firstNeighbour[s],
                                graph.neighbours.begin() + graph.firstNeighbour[s + 1]);
     const std::uint32_t buckets =
         std::bit_ceil(static_cast<std::uint32_t>(std::max<std::size_t>(1, (neighbours.size() + 1) / 2)));
     const std::size_t first = table.size();
-    table[s] = {static_cast<std::uint32_t>(first), buckets - 1, 0, 0};
+    table[s][0] = static_cast<std::uint32_t>(first);
+    table[s][1] = buckets - 1;
     table.resize(first + buckets, kEmpty);
     for (const std::uint32_t neighbour : neighbours) {
       std::uint32_t bucket = neighbour * 2654435761u >> 16;

@@ -13,6 +13,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/rest/rest_contacts.h"
+#include "ringlet/rest/rest_volume.h"
 #include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/groom_chunks.h"
@@ -68,6 +69,31 @@ class CompileNotice {
  private:
   CompileObserver* observer_;
 };
+
+// |sum J| over the sum of their sizes, of the last step; J_a = momentum - (2 D + g) v of the last iterate, in
+// kg m/s. What a pinned particle received is not known, and left out.
+Result<double> momentumError(const DeviceChunk& hair, const RestState& rest) {
+  auto systems = downloadAll<layout::ContactSystem>(hair.contactSystems, rest.points.size());
+  if (!systems) return systems.error();
+  auto solved = downloadAll<layout::vec4>(hair.solved, rest.points.size());
+  if (!solved) return solved.error();
+  Vec3d sum{};
+  double sizes = 0;
+  for (const layout::StrandRest& strand : rest.strands) {
+    for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
+      const auto& [d, o, m, g] = (*systems)[i];
+      const layout::vec4 v = (*solved)[i];
+      const Vec3d Dv{double(d.x) * v.x + double(o.z) * v.y + double(o.y) * v.z,
+                     double(o.z) * v.x + double(d.y) * v.y + double(o.x) * v.z,
+                     double(o.y) * v.x + double(o.x) * v.y + double(d.z) * v.z};
+      const Vec3d byVolume = Vec3d{g.x, g.y, g.z} - Vec3d{v.x, v.y, v.z} * double(g.w);
+      const Vec3d J = (Vec3d{m.x, m.y, m.z} - Dv * 2.0 + byVolume) * double(strand.firstEdge.w);
+      sum = sum + J;
+      sizes += length(J);
+    }
+  }
+  return sizes > 0 ? length(sum) / sizes : 0;
+}
 
 }  // namespace
 
@@ -148,18 +174,27 @@ Status Simulation::Implementation::makeKernels(bool hasBodies) {
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer()}));
-  const StrandKernelOptions options{settings.integrator,  oneSmoothing,
-                                    bendVaries,           choice.taps,
-                                    settings.contacts.on, fitsTexels,
-                                    choice.residual,      hasBodies,
-                                    settings.air.on,      world.isTurbulent(),
-                                    choice.movingRoots,   askedWidth(device.gpu().properties(), choice)};
+  const StrandKernelOptions options{.integrator = settings.integrator,
+                                    .oneSmoothing = oneSmoothing,
+                                    .bendVaries = bendVaries,
+                                    .taps = choice.taps,
+                                    .contacts = settings.contacts.on,
+                                    .pairs = contacts.has_value(),
+                                    .volume = volume.has_value(),
+                                    .texels = fitsTexels,
+                                    .residual = choice.residual,
+                                    .bodies = hasBodies,
+                                    .air = settings.air.on,
+                                    .turbulence = world.isTurbulent(),
+                                    .movingRoots = choice.movingRoots,
+                                    .subgroupSize = askedWidth(device.gpu().properties(), choice)};
   std::vector<std::size_t> newKernels;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     if (!gpu::Kernel::isCompiled(device.gpu(), describeStrandKernel(shapes[k], options)))
       newKernels.push_back(k);
   }
-  const std::size_t newCount = newKernels.size() + (contacts ? contacts->newKernelCount() : 0);
+  const std::size_t newCount = newKernels.size() + (contacts ? contacts->newKernelCount() : 0) +
+                               (volume ? volume->newKernelCount() : 0);
   const CompileNotice notice(choice.observer, newCount);
   auto made = createStrandKernels(device.gpu(), shapes, options);
   if (!made) return made.error();
@@ -192,19 +227,37 @@ Status Simulation::Implementation::dispatchNothing(std::span<const std::size_t> 
     recorder->dispatchNothing(*kernels[k], bindings[range]);
   }
   if (contacts) contacts->recordNothing(*recorder);
+  if (volume) volume->recordNothing(*recorder);
   return recorder->submitAndWait();
 }
 
 Status Simulation::Implementation::addContacts(int room) {
   const RestContacts atRest = buildRestContacts(rest, settings.contacts);
   std::ranges::copy(atRest.warnings(), std::back_inserter(rest.warnings));
-  auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, room);
-  if (!stage) return stage.error();
-  contacts = std::move(*stage);
   contactReport = {.contactParticles = atRest.particles.particles.size(),
                    .pairsUnpruned = atRest.graph.pairsUnpruned,
-                   .pairs = atRest.graph.pairs};
+                   .pairs = atRest.graph.pairs,
+                   .volumeStrands = atRest.volume.count};
+  if (meetPairByPair(atRest.volume, atRest.graph)) {
+    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, room);
+    if (!stage) return stage.error();
+    contacts = std::move(*stage);
+  }
+  if (atRest.volume.count > 0) {
+    const RestVolume volumeAtRest = buildRestVolume(rest, atRest);
+    auto stage = VolumeStage::create(device.gpu(), rest, settings, volumeAtRest, buffers);
+    if (!stage) return stage.error();
+    volume = std::move(*stage);
+  }
   return {};
+}
+
+// The hair was put somewhere else.
+Status Simulation::Implementation::forgetContacts() {
+  if (contacts) {
+    if (Status status = contacts->forget(); !status) return status;
+  }
+  return volume ? volume->forget() : Status{};
 }
 
 // To be changed by other than a frame: what was read back is then no longer so.
@@ -219,9 +272,7 @@ Status Simulation::Implementation::carryTo(const HeadPose& end) {
   const bool turns = length(Vec3d{turned.x, turned.y, turned.z}) > 1e-12;
   head.jump(end);
   if (!turns) return {};
-  if (contacts) {
-    if (Status status = contacts->forget(); !status) return status;
-  }
+  if (Status status = forgetContacts(); !status) return status;
   for (const DeviceGroom::Field field : {&DeviceChunk::positions, &DeviceChunk::velocities}) {
     const auto rotated = [&](layout::vec4 v) {
       return packed(rotate(turned, static_cast<Vec3d>(unpacked(v))));
@@ -295,9 +346,7 @@ Status Simulation::setState(const HairState& state) {
   RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count,
                  "a state has one position and velocity a particle");
   if (Status status = self_->finishFrames(); !status) return status;
-  if (self_->contacts) {
-    if (Status status = self_->contacts->forget(); !status) return status;
-  }
+  if (Status status = self_->forgetContacts(); !status) return status;
   const auto upload = [&](DeviceGroom::Field field, const std::vector<Vec3f>& values) {
     GroomPlaces place(self_->rest);
     return self_->changed().uploadEach(field, [&](std::size_t i) { return packed(values[place(i)]); });
@@ -317,6 +366,9 @@ Status Simulation::Implementation::archive(Archive& archive) {
     for (gpu::Buffer* buffer : {&chunk.positions, &chunk.velocities, &chunk.reports}) {
       if (Status status = archiveBuffer(archive, *buffer); !status) return status;
     }
+  }
+  if (volume) {
+    if (Status status = volume->archive(archive); !status) return status;
   }
   return contacts ? contacts->archive(archive) : Status{};
 }
@@ -345,9 +397,7 @@ Status Simulation::placeRoots(std::span<const BodyPose> now, std::span<const Bod
   if (Status status = self_->finishFrames(); !status) return status;
   self_->roots.place(now, oneStepEarlier);
   self_->rigidHair.placeRoots(now, oneStepEarlier);
-  if (self_->contacts) {
-    if (Status status = self_->contacts->forget(); !status) return status;
-  }
+  if (Status status = self_->forgetContacts(); !status) return status;
   return self_->placeAtRest();
 }
 
@@ -394,14 +444,16 @@ Result<SimulationReport> Simulation::report() const {
 Result<ContactReport> Simulation::contactReport() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
   ContactReport report = self_->contactReport;
-  if (!self_->contacts) return report;
-  report.listed = self_->contacts->listedCount();
-  const auto contacts = self_->contacts->contactCount();
-  if (!contacts) return contacts.error();
-  report.contacts = *contacts;
-  report.rebuilds = self_->contacts->rebuilds();
-  report.pairTests = self_->contacts->pairTests();
-  auto error = self_->contacts->momentumError(self_->rest);
+  if (!self_->contacts && !self_->volume) return report;
+  if (self_->contacts) {
+    report.listed = self_->contacts->listedCount();
+    const auto contacts = self_->contacts->contactCount();
+    if (!contacts) return contacts.error();
+    report.contacts = *contacts;
+    report.rebuilds = self_->contacts->rebuilds();
+    report.pairTests = self_->contacts->pairTests();
+  }
+  auto error = momentumError(self_->buffers.chunks[0], self_->rest);
   if (!error) return error.error();
   report.momentumError = *error;
   return report;
@@ -436,6 +488,7 @@ DeviceMemory Simulation::memory() const {
   memory.strands = s.buffers.strandBytes();
   memory.rootPoses = s.roots.bytes();
   if (s.contacts) memory.contacts = s.contacts->bytes(), memory.contactLists = s.contacts->listBytes();
+  if (s.volume) memory.volume = s.volume->bytes();
   memory.world = s.buffers.poses.bytes() + s.buffers.contactControl.bytes() + s.world.bytes();
   memory.frames = s.buffers.poses.writtenBytes() + s.world.writtenBytes() + s.roots.writtenBytes();
   for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();

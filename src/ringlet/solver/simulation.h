@@ -44,6 +44,7 @@ struct ContactReport {
   std::uint64_t contactParticles = 0;
   std::uint64_t pairsUnpruned = 0;  // of strands, that overlap at rest when enlarged
   std::uint64_t pairs = 0;          // of those, that may touch
+  std::uint64_t volumeStrands = 0;  // strands that meet as a volume
   std::uint64_t listed = 0;         // pairs of particles in the lists now
   std::uint64_t contacts = 0;   // and of these, whose springs push; with the time taper, that touch or have
                                 // not quite parted
@@ -59,11 +60,12 @@ struct DeviceMemory {
   std::uint64_t rootPoses = 0;     // of strands that have poses of their own
   std::uint64_t contacts = 0;      // contact particles, their grid, who may touch whom
   std::uint64_t contactLists = 0;  // as long as they have become
+  std::uint64_t volume = 0;        // of strands that meet as a volume: particles, grid
   std::uint64_t world = 0;         // the head's poses, bodies with their grids, air
   std::uint64_t frames = 0;        // in flight, in the host's memory: positions read back, poses, air
 
   std::uint64_t total() const {
-    return particles + strands + rootPoses + contacts + contactLists + world + frames;
+    return particles + strands + rootPoses + contacts + contactLists + volume + world + frames;
   }
 };
 

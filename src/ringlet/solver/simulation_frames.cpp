@@ -74,7 +74,7 @@ Status Simulation::Implementation::beginFrame(std::size_t slot) {
 
 // The whole frame, once: what changes from frame to frame is in its inputs.
 Status Simulation::Implementation::recordFrame(std::size_t slot) {
-  if (contacts) return recordContactFrame(slot, 0, true);
+  if (contacts || volume) return recordContactFrame(slot, 0, true);
   const auto plan = planFrame(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize,
                               pace.mostParticleSteps());
   if (!plan) return plan.error();
@@ -94,7 +94,35 @@ Status Simulation::Implementation::recordPass(FrameSlot& slot, const SolvePass& 
   return {};
 }
 
-// The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h).
+// What strands hear of each other before the first iteration of a step's solve, and before each later one.
+// Contacts come first: they may halt, and then the volume must not go on.
+void Simulation::Implementation::recordFirstMeeting(gpu::Recorder& recorder, std::uint32_t step) {
+  if (contacts) {
+    contacts->recordLists(recorder, pace, step);
+    recorder.barrier();
+    contacts->recordFirst(recorder, pace);
+    recorder.barrier();
+  }
+  if (volume) {
+    volume->recordBegin(recorder, pace, step);
+    recorder.barrier();
+    volume->recordMeans(recorder, pace, step, true);
+    recorder.barrier();
+  }
+}
+void Simulation::Implementation::recordNextMeeting(gpu::Recorder& recorder, std::uint32_t step) {
+  if (contacts) {
+    contacts->recordNext(recorder, pace);
+    recorder.barrier();
+  }
+  if (volume) {
+    volume->recordMeans(recorder, pace, step, false);
+    recorder.barrier();
+  }
+}
+
+// The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h,
+// volume_stage.h).
 Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uint32_t firstStep,
                                                       bool predictFirst) {
   if (Status status = beginFrame(slot); !status) return status;
@@ -103,22 +131,18 @@ Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uin
     if (Status status = recordPass(slots[slot], {.step = firstStep}); !status) return status;
   }
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
+  const int iterations = settings.contacts.iterationCount(contacts.has_value());
   for (std::uint32_t step = firstStep; step < steps; ++step) {
-    contacts->recordLists(recorder, pace, step);
-    recorder.barrier();
-    contacts->recordFirst(recorder, pace);
-    recorder.barrier();
-    for (int iteration = 1; iteration <= settings.contacts.iterations; ++iteration) {
-      const bool isLast = iteration == settings.contacts.iterations;
+    recordFirstMeeting(recorder, step);
+    for (int iteration = 1; iteration <= iterations; ++iteration) {
+      const bool isLast = iteration == iterations;
       const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
       if (Status status = recordPass(slots[slot], pass); !status) return status;
-      if (isLast) continue;
-      contacts->recordNext(recorder, pace);
-      recorder.barrier();
+      if (!isLast) recordNextMeeting(recorder, step);
     }
   }
   slots[slot].recordPositions(buffers);
-  contacts->recordControl(recorder);
+  if (contacts) contacts->recordControl(recorder);
   slots[slot].isRecorded = firstStep == 0 && predictFirst;
   return {};
 }

@@ -22,6 +22,7 @@
 #include "ringlet/solver/rigid_hair.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/submission_pace.h"
+#include "ringlet/solver/volume_stage.h"
 #include "shared/layout.h"
 
 namespace ringlet {
@@ -60,8 +61,9 @@ struct Simulation::Implementation {
   std::vector<std::size_t> kernelOf{};                        // each range's
   std::vector<gpu::Bindings> bindings{};                      // one a range
 
-  std::optional<ContactStage> contacts{};
-  ContactReport contactReport{};  // what is known of the rest pose
+  std::optional<ContactStage> contacts{};  // of strands that meet pair by pair
+  std::optional<VolumeStage> volume{};     // of strands that meet as a volume
+  ContactReport contactReport{};           // what is known of the rest pose
 
   std::uint64_t stepsDone = 0;
   std::map<std::string, double> stageMilliseconds{};
@@ -78,6 +80,7 @@ struct Simulation::Implementation {
   Status makeKernels(bool hasBodies);
   Status dispatchNothing(std::span<const std::size_t> newKernels) const;
   Status addContacts(int room);
+  Status forgetContacts();
   Status placeAtRest();
   Status carryTo(const HeadPose& end);
   DeviceGroom& changed();
@@ -89,6 +92,8 @@ struct Simulation::Implementation {
   FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
   Status beginFrame(std::size_t slot);
   Status recordFrame(std::size_t slot);
+  void recordFirstMeeting(gpu::Recorder& recorder, std::uint32_t step);
+  void recordNextMeeting(gpu::Recorder& recorder, std::uint32_t step);
   Status recordContactFrame(std::size_t slot, std::uint32_t firstStep, bool predictFirst);
   Status recordPass(FrameSlot& slot, const SolvePass& pass);
   void dispatchAll(FrameSlot& slot, std::span<const PlannedDispatch> dispatches);

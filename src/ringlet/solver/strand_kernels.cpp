@@ -82,6 +82,10 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {9, options.air ? 1u : 0u},
                            {10, options.turbulence ? 1u : 0u},
                            {11, options.movingRoots ? 1u : 0u}};
+  if (options.contacts) {
+    description.constants.push_back({13, options.pairs ? 1u : 0u});
+    description.constants.push_back({14, options.volume ? 1u : 0u});
+  }
   description.groupSize = kStrandGroupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});

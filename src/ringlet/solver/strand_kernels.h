@@ -24,6 +24,8 @@ struct StrandKernelOptions {
   bool bendVaries = false;    // along some strand
   bool taps = false;
   bool contacts = false;  // the solve is iterated with the contacts' systems
+  bool pairs = true;      // of which there are of pairs
+  bool volume = false;    // and of hair as a volume
   bool texels = false;    // records are read as texels (gpu::BindingKind)
   bool residual = false;  // measure the residual of the velocity solve
   bool bodies = false;    // there are some

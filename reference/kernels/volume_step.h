@@ -1,0 +1,73 @@
+// The strands that meet as a volume, in one outer step: displacements and guesses at its start, then, in each
+// iteration of the solve, the means of a grid in the head's frame. Mirrors the volume's kernels; in double,
+// over nodes in a map. The equations: equations/volume.h.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reference/fields.h"
+#include "reference/rest_contacts.h"
+#include "reference/rest_strand.h"
+#include "ringlet/base/archive.h"
+#include "ringlet/scene/contact_settings.h"
+
+namespace ringlet::reference {
+
+/// The head in a step.
+struct VolumeFrame {
+  Rotation<double> now, next;  // at its start and end
+  double seconds = 0;
+  bool sorts =
+      true;  // particles go to where they are on the grid; else they stay where the step before had them
+
+  /// Velocity of what the head carries rigidly, at x along world axes [m/s].
+  Vector3<double> carried(const Vector3<double>& x) const {
+    return (next * (now.conjugate() * x) - x) / seconds;
+  }
+};
+
+/// A particle of such a strand: one in so many, for as many.
+struct VolumeParticle {
+  std::uint32_t index = 0;             // groom order
+  double mass = 0, ownDensity = 0;     // [kg], at rest [kg/m^3]
+  double restDensity = 0;              // of all of them [kg/m^3]
+  double density = 0;                  // about it in the last step [kg/m^3]
+  double share = 0;                    // o of this step
+  bool isKnown = false;                // false: the hair was just put there
+  Vector3<double> memory{0, 0, 0};     // s [m]
+  Vector3<double> place{0, 0, 0};      // in the head's frame, at the start of the step [m]
+  Vector3<double> gridPlace{0, 0, 0};  // and on the grid [m]
+};
+
+struct Volume {
+  double cell = 0;  // h [m]
+  std::vector<VolumeParticle> particles;
+
+  bool isEmpty() const { return particles.empty(); }
+  void forget();
+  void archive(Archive& archive);
+};
+
+/// Of strands in groom order.
+template <class Real>
+Volume makeVolume(const std::vector<RestStrand<Real>>& strands, std::span<const std::uint32_t> firstPoint,
+                  const RestContacts& rest);
+
+/// The start of a step: positions [m], of the groom.
+void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, const Field<double>& positions,
+                 Volume& volume);
+
+/// Of each particle of the groom: what the volume adds to its mass [kg], g, and to its right-hand side [kg
+/// m/s].
+struct VolumeSystem {
+  Scalars<double> weights;
+  Field<double> momenta;
+};
+
+/// From the velocities of the last iterate [m/s]. Sets the density about each particle.
+VolumeSystem volumeMeans(const ContactSettings& settings, const VolumeFrame& frame,
+                         const Field<double>& positions, const Field<double>& velocities, Volume& volume);
+
+}  // namespace ringlet::reference

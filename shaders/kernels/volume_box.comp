@@ -1,0 +1,42 @@
+// The box of cells about all particles of the volume; one invocation. Hair that reaches further than there is room for
+// cells has larger ones, of which its own strand fills more: it feels others less.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/volume_buffers.glsl"
+
+void main() {
+  if (gl_GlobalInvocationID.x > 0) return;
+  if (halt.isHalted != 0) {
+    control.indirectBlocks[0] = 0;
+    control.indirectNodes[0] = 0;
+    return;
+  }
+  ivec3 least = ivec3(control.least[0], control.least[1], control.least[2]);
+  ivec3 greatest = ivec3(control.greatest[0], control.greatest[1], control.greatest[2]);
+  float cell = parameters.cell;
+  uvec3 size = uvec3(0);
+  bool fits = false;
+  do {
+    size = uvec3(greatest - least) + 2;  // a cell more: nodes
+    // One at least stays free: where the last cell ends, another begins.
+    fits = float(size.x) * float(size.y) * float(size.z) < 0.999 * float(parameters.cellCapacity);
+    if (!fits) {
+      least >>= 1;
+      greatest >>= 1;
+      cell *= 2.0;
+    }
+  } while (!fits);
+  control.cellCount = size.x * size.y * size.z;
+  control.cell = cell;
+  control.cellsPerMetre = 1.0 / cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    control.low[axis] = least[axis];
+    control.size[axis] = size[axis];
+    control.least[axis] = 0x7fffffff;
+    control.greatest[axis] = -0x7fffffff;
+    control.indirectBlocks[axis] = 1;
+    control.indirectNodes[axis] = 1;
+  }
+  control.indirectBlocks[0] = control.cellCount / kBucketBlock + 1;
+  control.indirectNodes[0] = groupsOf(control.cellCount + 1);
+}

@@ -1,0 +1,23 @@
+// Particles of the volume by cell, 6 of 6: where each one's parcel is, by index inside a cell, so that no sum depends on
+// which thread came first; and what stands there.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/volume_buffers.glsl"
+
+void main() {
+  if (halt.isHalted != 0) return;
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= parameters.count) return;
+  uint cell = cells[cellOf(i)];
+  uint start = startOf(cell);
+  uint end = startOf(cell + 1);
+  uint before = 0;
+  uint other = start;
+  do {  // itself is there
+    if (cells[cellEntry(other)] < i) ++before;
+  } while (++other < end);
+  if (other < end) halt.isHalted = kHaltedByTurns;
+  vec3 inCells = placeInCells(placeOf(i).xyz);
+  parcels[start + before] = VolumeParcel(broughtBy(i), vec4(inCells, volumeParticle(i).mass));
+  located[i] = uvec4(floatBitsToUint(inCells), start + before);
+}

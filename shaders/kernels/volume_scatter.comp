@@ -1,0 +1,11 @@
+// Particles of the volume by cell, 5 of 6: in any order inside a cell.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/volume_buffers.glsl"
+
+void main() {
+  if (halt.isHalted != 0) return;
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= parameters.count) return;
+  cells[cellEntry(startOf(cells[cellOf(i)]) + cells[cellRank(i)])] = i;
+}

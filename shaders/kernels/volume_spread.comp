@@ -1,0 +1,28 @@
+// What the volume adds to each particle's system in the next iteration of the solve (ContactSystem), from the nodes
+// about it; and the density there, for the next step. Mirrored by reference/kernels/volume_step.h.
+#version 450
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_GOOGLE_include_directive : require
+#include "shared/volume_buffers.glsl"
+
+void main() {
+  if (halt.isHalted != 0) return;
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= parameters.count) return;
+  VolumeParticle self = volumeParticle(i);
+  vec3 s = memoryOf(i).xyz;
+  float g = placeOf(i).w;
+  vec3 inCells = uintBitsToFloat(locatedAt(i).xyz);
+  uvec3 cell = cellInBox(inCells);
+  vec4 mean = vec4(0);
+  [[unroll]] for (uint corner = 0; corner < 8; ++corner) {
+    uvec3 node = cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    mean += nodeWeight(inCells - vec3(node)) * nodeAt(cellIndex(node));
+  }
+  states[i].memory = vec4(s, mean.w);
+
+  float others = g / volumeGain(parameters.drag, parameters.stiffness, parameters.seconds);
+  vec3 given = others * (mean.xyz - parameters.stiffness * parameters.seconds * s);
+  vec3 momentum = inWorld(given) + g * carriedVelocity(positionOf(self.particle));
+  systems[self.particle].volume = self.inverseMassUnit * vec4(momentum, g);
+}

@@ -1,0 +1,99 @@
+// The buffers and parameters of the volume's kernels (layout.h).
+#ifndef RINGLET_VOLUME_BUFFERS
+#define RINGLET_VOLUME_BUFFERS
+
+#include "equations/volume.glsl"
+#include "maths/quaternion.glsl"
+#include "shared/layout.h"
+#include "shared/texels.glsl"
+
+layout(local_size_x_id = 0) in;
+
+layout(set = 0, binding = kBindVolumePositions) readonly buffer Positions { vec4 positions[]; };
+layout(set = 0, binding = kBindVolumeVelocities) readonly buffer Velocities { vec4 velocities[]; };
+layout(set = 0, binding = kBindVolumeSolved) readonly buffer Solved { vec4 solved[]; };
+layout(set = 0, binding = kBindVolumePoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
+layout(set = 0, binding = kBindVolumeParticles) readonly buffer Particles { VolumeParticle particles[]; };
+layout(set = 0, binding = kBindVolumeStates) buffer States { VolumeState states[]; };
+layout(set = 0, binding = kBindVolumeBrought) buffer Brought { vec4 brought[]; };
+layout(set = 0, binding = kBindVolumeCells) buffer Cells { uint cells[]; };
+layout(set = 0, binding = kBindVolumeParcels) buffer Parcels { VolumeParcel parcels[]; };
+layout(set = 0, binding = kBindVolumeNodes) buffer Nodes { vec4 nodes[]; };
+layout(set = 0, binding = kBindVolumeSystems) buffer Systems { ContactSystem systems[]; };
+layout(set = 0, binding = kBindVolumeControl) buffer Control { VolumeControl control; };
+layout(set = 0, binding = kBindVolumeHalt) buffer Halt { ContactControl halt; };
+layout(set = 0, binding = kBindVolumeLocated) buffer Located { uvec4 located[]; };
+layout(set = 0, binding = kBindVolumePositionTexels) uniform usamplerBuffer positionTexels;
+layout(set = 0, binding = kBindVolumeVelocityTexels) uniform usamplerBuffer velocityTexels;
+layout(set = 0, binding = kBindVolumeSolvedTexels) uniform usamplerBuffer solvedTexels;
+layout(set = 0, binding = kBindVolumeParticleTexels) uniform usamplerBuffer particleTexels;
+layout(set = 0, binding = kBindVolumeStateTexels) uniform usamplerBuffer stateTexels;
+layout(set = 0, binding = kBindVolumeBroughtTexels) uniform usamplerBuffer broughtTexels;
+layout(set = 0, binding = kBindVolumeParcelTexels) uniform usamplerBuffer parcelTexels;
+layout(set = 0, binding = kBindVolumeNodeTexels) uniform usamplerBuffer nodeTexels;
+layout(set = 0, binding = kBindVolumeLocatedTexels) uniform usamplerBuffer locatedTexels;
+layout(push_constant) uniform Parameters { VolumeParameters parameters; };
+
+// Records as they were when the dispatch began.
+vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
+vec3 lastVelocityOf(uint particle) {
+  return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz;
+}
+vec3 velocityOf(uint particle) { return kTexels ? vectorAt(solvedTexels, particle).xyz : solved[particle].xyz; }
+vec4 broughtBy(uint i) { return kTexels ? vectorAt(broughtTexels, i) : brought[i]; }
+uvec4 locatedAt(uint i) { return kTexels ? recordAt(locatedTexels, i) : located[i]; }
+vec4 nodeAt(uint node) { return kTexels ? vectorAt(nodeTexels, node) : nodes[node]; }
+VolumeParticle volumeParticle(uint i) {
+  if (!kTexels) return particles[i];
+  uvec4 b = recordAt(particleTexels, i);
+  return VolumeParticle(b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), uintBitsToFloat(b.w));
+}
+VolumeParcel parcelAt(uint place) {
+  if (!kTexels) return parcels[place];
+  return VolumeParcel(vectorAt(parcelTexels, 2 * place), vectorAt(parcelTexels, 2 * place + 1));
+}
+vec4 memoryOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i) : states[i].memory; }
+vec4 placeOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1) : states[i].place; }
+vec4 predictedOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 2) : states[i].predicted; }
+
+// The head: pose 0 is the frame's start.
+vec3 inHeadFrame(vec3 x) { return rotate(conjugate(poses[parameters.step].rotation), x); }
+vec3 inWorld(vec3 x) { return rotate(poses[parameters.step].rotation, x); }
+/// Velocity of what the head carries rigidly, at x [m/s].
+vec3 carriedVelocity(vec3 x) { return displacement(poses[parameters.step + 1].turn, x) / parameters.seconds; }
+
+// The cells' buffer, one part after another.
+uint cellCount(uint cell) { return cell; }  // how many are in a cell; 0 between two uses
+uint cellStart(uint cell) { return parameters.cellCapacity + cell; }  // its first particle's place
+uint cellSum(uint block) { return 2 * parameters.cellCapacity + block; }  // before a block of cells
+uint cellOf(uint i) { return cellSum(parameters.cellCapacity / kBucketBlock) + i; }
+uint cellRank(uint i) { return cellOf(parameters.count) + i; }  // among its cell's, in any order
+uint cellEntry(uint place) { return cellRank(parameters.count) + place; }  // in any order inside a cell
+
+uint startOf(uint cell) { return cells[cellStart(cell)]; }
+
+const float kFarthestCell = 1e6;  // from the head; what is further, or no number, is taken for there
+ivec3 cellAt(vec3 place, float cellsPerMetre) {
+  return ivec3(clamp(floor(place * cellsPerMetre), vec3(-kFarthestCell), vec3(kFarthestCell)));
+}
+uvec3 boxSize() { return uvec3(control.size[0], control.size[1], control.size[2]); }
+vec3 placeInCells(vec3 place) {
+  return place * control.cellsPerMetre - vec3(control.low[0], control.low[1], control.low[2]);
+}
+/// The cell of a place in cells; the last along each axis has nodes only.
+uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(boxSize()) - 2.0)); }
+uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
+
+/// g [kg], and what goes to the nodes from velocity v at x, along world axes.
+float gainOf(VolumeParticle self, float density) {
+  float share = othersShare(self.ownDensity, density);
+  return self.mass * share * volumeGain(parameters.drag, parameters.stiffness, parameters.seconds);
+}
+vec4 rateFrom(float g, vec3 v, vec3 x, vec3 s) {
+  vec3 w = inHeadFrame(v - carriedVelocity(x));
+  return vec4(g * volumeRate(parameters.drag, parameters.stiffness, parameters.seconds, w, s), g);
+}
+
+uint groupsOf(uint invocations) { return (invocations + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
+
+#endif

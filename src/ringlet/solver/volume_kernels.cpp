@@ -1,0 +1,51 @@
+// Implements solver/volume_kernels.h.
+#include "ringlet/solver/volume_kernels.h"
+
+#include <span>
+
+#include "ringlet_shaders/volume_begin_plain.h"
+#include "ringlet_shaders/volume_box_plain.h"
+#include "ringlet_shaders/volume_bring_plain.h"
+#include "ringlet_shaders/volume_count_plain.h"
+#include "ringlet_shaders/volume_gather_plain.h"
+#include "ringlet_shaders/volume_order_plain.h"
+#include "ringlet_shaders/volume_scan_plain.h"
+#include "ringlet_shaders/volume_scatter_plain.h"
+#include "ringlet_shaders/volume_spread_plain.h"
+#include "ringlet_shaders/volume_start_plain.h"
+#include "ringlet_shaders/volume_sum_plain.h"
+#include "shared/layout.h"
+
+namespace ringlet {
+namespace {
+
+struct Compiled {
+  const char* name;
+  std::span<const std::uint32_t> spirv;
+};
+
+// As VolumeKernel counts them.
+const Compiled kCompiled[kVolumeKernelCount] = {
+    {"volume_begin", k_volume_begin_plain},     {"volume_box", k_volume_box_plain},
+    {"volume_count", k_volume_count_plain},     {"volume_scan", k_volume_scan_plain},
+    {"volume_sum", k_volume_sum_plain},         {"volume_start", k_volume_start_plain},
+    {"volume_scatter", k_volume_scatter_plain}, {"volume_order", k_volume_order_plain},
+    {"volume_bring", k_volume_bring_plain},     {"volume_gather", k_volume_gather_plain},
+    {"volume_spread", k_volume_spread_plain},
+};
+
+}  // namespace
+
+gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels) {
+  const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
+  gpu::KernelDescription description;
+  description.name = compiled.name;
+  description.spirv = compiled.spirv;
+  description.remedy = "take another device, or contacts by pairs (--contacts explicit)";
+  description.pushConstantBytes = sizeof(layout::VolumeParameters);
+  description.constants = {{0, kVolumeGroupSize}, {7, texels ? 1u : 0u}};
+  description.groupSize = kVolumeGroupSize;
+  return description;
+}
+
+}  // namespace ringlet

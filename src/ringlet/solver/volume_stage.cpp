@@ -1,0 +1,244 @@
+// Implements solver/volume_stage.h.
+#include "ringlet/solver/volume_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "ringlet/solver/device_buffers.h"
+
+namespace ringlet {
+namespace {
+
+// Of the grid; hair that reaches further than so many cells has larger ones.
+constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
+
+constexpr std::uint64_t kPerBlock = offsetof(layout::VolumeControl, indirectBlocks),
+                        kPerNode = offsetof(layout::VolumeControl, indirectNodes);
+
+std::uint32_t cellCapacity(std::uint64_t wanted) {
+  const std::uint64_t blocks = std::min(wanted + wanted / 500, kMostCells) / layout::kBucketBlock + 1;
+  return static_cast<std::uint32_t>(blocks * layout::kBucketBlock);
+}
+
+std::vector<layout::VolumeParticle> volumeParticles(const RestState& rest, const Settings& settings,
+                                                    const RestVolume& volume) {
+  std::vector<layout::VolumeParticle> particles;
+  for (std::size_t i = 0; i < volume.particles.size(); ++i) {
+    const layout::StrandRest& strand = rest.strands[volume.strands[i]];
+    const bool isPinned =
+        volume.particles[i] - strand.firstParticle < static_cast<std::uint32_t>(settings.rootCount);
+    particles.push_back({.particle = volume.particles[i],
+                         .mass = volume.masses[i],
+                         .ownDensity = volume.ownDensities[i],
+                         .inverseMassUnit = isPinned ? 0.0f : 1 / strand.firstEdge.w});
+  }
+  return particles;
+}
+
+// Of hair that was just put where it is.
+std::vector<layout::VolumeState> unknownStates(const std::vector<float>& densities) {
+  std::vector<layout::VolumeState> states(densities.size());
+  for (std::size_t i = 0; i < states.size(); ++i) states[i].memory.w = densities[i];
+  return states;
+}
+
+bool sorts(std::uint32_t step) { return step % kVolumeSortSteps == 0; }
+
+layout::VolumeControl emptyControl() {
+  layout::VolumeControl control{};
+  for (int axis = 0; axis < 3; ++axis) control.least[axis] = 0x7fffffff, control.greatest[axis] = -0x7fffffff;
+  return control;
+}
+
+}  // namespace
+
+Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                        const RestVolume& volume, DeviceGroom& groom) {
+  VolumeStage self;
+  self.groom_ = &groom;
+  self.densities_ = volume.densities;
+  const std::uint64_t count = volume.particles.size();
+  const std::uint32_t capacity = cellCapacity(volume.cells);
+  const double T = settings.stepSeconds();
+  self.parameters_ = {.count = static_cast<std::uint32_t>(count),
+                      .cellCapacity = capacity,
+                      .step = 0,
+                      .seconds = static_cast<float>(T),
+                      .cell = static_cast<float>(volume.cell),
+                      .drag = static_cast<float>(settings.contacts.volumeDrag),
+                      .stiffness = static_cast<float>(settings.contacts.volumeStiffness),
+                      .kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds)),
+                      .warmth = static_cast<float>(kContactWarmth),
+                      .sorts = 0};
+  if (self.particleGroups() > device.properties().maxGroupCount) {
+    return Error{
+        fmt::format("{} particles that meet as a volume are more than the {} this device takes at once; "
+                    "use --contacts off, or a smaller groom",
+                    count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
+  }
+  const std::uint64_t cellWords = 2 * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 3 * count;
+  const std::uint64_t perParticle = sizeof(layout::VolumeParticle) + sizeof(layout::VolumeState) +
+                                    2 * sizeof(layout::vec4) + sizeof(layout::VolumeParcel);
+  const std::uint64_t needed =
+      count * perParticle + cellWords * sizeof(std::uint32_t) + capacity * sizeof(layout::vec4);
+  if (Status status = checkMemory(fmt::format("{} particles as a volume", count), needed,
+                                  gpu::availableStorageBytes(device));
+      !status)
+    return status.error();
+
+  const std::uint64_t largest =
+      std::max({groom.largestTexels(), count * sizeof(layout::VolumeState), capacity * sizeof(layout::vec4)});
+  const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
+  for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
+    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels);
+    if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
+    auto kernel = gpu::Kernel::create(device, description);
+    if (!kernel) return kernel.error();
+    self.kernels_.push_back(std::move(*kernel));
+  }
+
+  auto particles = createFilled(device, volumeParticles(rest, settings, volume), "volume particles");
+  if (!particles) return particles.error();
+  auto states = createFilled(device, unknownStates(volume.densities), "volume states");
+  if (!states) return states.error();
+  auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
+  if (!brought) return brought.error();
+  auto located = createZero(device, count * sizeof(layout::vec4), "volume located");
+  if (!located) return located.error();
+  auto cells = createZero(device, cellWords * sizeof(std::uint32_t), "volume cells");
+  if (!cells) return cells.error();
+  auto parcels = createZero(device, count * sizeof(layout::VolumeParcel), "volume parcels");
+  if (!parcels) return parcels.error();
+  auto nodes = createZero(device, capacity * sizeof(layout::vec4), "volume nodes");
+  if (!nodes) return nodes.error();
+  auto control = createFilled(device, std::vector{emptyControl()}, "volume control");
+  if (!control) return control.error();
+  self.buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought),
+                                std::move(*cells), std::move(*parcels), std::move(*nodes),
+                                std::move(*control), std::move(*located)});
+  for (const auto& kernel : self.kernels_) {
+    auto bindings = gpu::Bindings::create(*kernel, self.bufferTable());
+    if (!bindings) return bindings.error();
+    self.bindings_.push_back(std::move(*bindings));
+  }
+  return self;
+}
+
+std::uint64_t VolumeStage::bytes() const {
+  const Buffers& b = *buffers_;
+  return b.particles.bytes() + b.states.bytes() + b.brought.bytes() + b.located.bytes() + b.cells.bytes() +
+         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes();
+}
+
+std::uint32_t VolumeStage::particleGroups() const {
+  return (parameters_.count + kVolumeGroupSize - 1) / kVolumeGroupSize;
+}
+
+gpu::BufferTable VolumeStage::bufferTable() const {
+  using namespace layout;
+  const auto& [particles, states, brought, cells, parcels, nodes, control, located] = *buffers_;
+  const DeviceChunk& hair = groom_->chunks[0];
+  return {{kBindVolumePositions, hair.positions},
+          {kBindVolumeVelocities, hair.velocities},
+          {kBindVolumeSolved, hair.solved},
+          {kBindVolumePoses, groom_->poses.seen()},
+          {kBindVolumeParticles, particles},
+          {kBindVolumeStates, states},
+          {kBindVolumeBrought, brought},
+          {kBindVolumeCells, cells},
+          {kBindVolumeParcels, parcels},
+          {kBindVolumeNodes, nodes},
+          {kBindVolumeSystems, hair.contactSystems},
+          {kBindVolumeControl, control},
+          {kBindVolumeHalt, groom_->contactControl},
+          {kBindVolumeLocated, located},
+          {kBindVolumeLocatedTexels, located},
+          {kBindVolumePositionTexels, hair.positions},
+          {kBindVolumeVelocityTexels, hair.velocities},
+          {kBindVolumeSolvedTexels, hair.solved},
+          {kBindVolumeParticleTexels, particles},
+          {kBindVolumeStateTexels, states},
+          {kBindVolumeBroughtTexels, brought},
+          {kBindVolumeParcelTexels, parcels},
+          {kBindVolumeNodeTexels, nodes}};
+}
+
+void VolumeStage::dispatch(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
+                           std::uint32_t groups) const {
+  const auto at = static_cast<std::size_t>(kernel);
+  layout::VolumeParameters parameters = parameters_;
+  parameters.step = step;
+  parameters.sorts = sorts(step) ? 1 : 0;
+  recorder.dispatch(*kernels_[at], bindings_[at], parameters, groups);
+}
+void VolumeStage::dispatchIndirect(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
+                                   std::uint64_t offset) const {
+  const auto at = static_cast<std::size_t>(kernel);
+  layout::VolumeParameters parameters = parameters_;
+  parameters.step = step;
+  parameters.sorts = sorts(step) ? 1 : 0;
+  recorder.dispatchIndirect(*kernels_[at], bindings_[at], parameters, buffers_->control, offset);
+}
+
+void VolumeStage::recordNothing(gpu::Recorder& recorder) const {
+  for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], bindings_[k]);
+}
+
+void VolumeStage::recordBegin(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const {
+  using enum VolumeKernel;
+  pace.beginStage(recorder, "volume_begin");
+  dispatch(recorder, begin, step, particleGroups());
+  recorder.endStage();
+  if (!sorts(step)) return;
+  recorder.barrier();
+
+  pace.beginStage(recorder, "volume_sort");
+  dispatch(recorder, box, step, 1);
+  recorder.barrier();
+  dispatch(recorder, count, step, particleGroups());
+  recorder.barrier();
+  dispatchIndirect(recorder, scan, step, kPerBlock);
+  recorder.barrier();
+  dispatch(recorder, sum, step, 1);
+  recorder.barrier();
+  dispatchIndirect(recorder, start, step, kPerNode);
+  recorder.barrier();
+  dispatch(recorder, scatter, step, particleGroups());
+  recorder.barrier();
+  dispatch(recorder, order, step, particleGroups());
+  recorder.endStage();
+}
+
+void VolumeStage::recordMeans(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step,
+                              bool isFirst) const {
+  using enum VolumeKernel;
+  pace.beginStage(recorder, "volume_mean");
+  if (!isFirst) {
+    dispatch(recorder, bring, step, particleGroups());
+    recorder.barrier();
+  }
+  dispatchIndirect(recorder, gather, step, kPerNode);
+  recorder.barrier();
+  dispatch(recorder, spread, step, particleGroups());
+  recorder.endStage();
+}
+
+Status VolumeStage::forget() {
+  const std::vector<layout::VolumeState> states = unknownStates(densities_);
+  return buffers_->states.upload(std::as_bytes(std::span(states)));
+}
+
+Status VolumeStage::archive(Archive& archive) {
+  DeviceChunk& chunk = groom_->chunks[0];
+  for (gpu::Buffer* buffer : {&buffers_->states, &chunk.contactSystems, &chunk.solved}) {
+    if (Status status = archiveBuffer(archive, *buffer); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace ringlet

@@ -1,0 +1,73 @@
+// VolumeStage: strands that meet as a volume, on one device, between the strand kernel's solves
+// (shaders/equations/volume.glsl). Which strands those are is decided in rest/volume_strands.h. Mirrored by
+// reference/kernels/volume_step.h.
+//
+//   v^0 of all strands ->  begin: displacements, guesses; particles by cell
+//                      ->  means: to the grid's nodes and back               -> solve -> v^1
+//                      ->  means of v^1                                      -> solve -> v^2 ... -> move
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "ringlet/base/archive.h"
+#include "ringlet/base/result.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/rest/rest_volume.h"
+#include "ringlet/scene/settings.h"
+#include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/submission_pace.h"
+#include "ringlet/solver/volume_kernels.h"
+
+namespace ringlet {
+
+class VolumeStage {
+ public:
+  /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk, and must
+  /// live as long, in one place.
+  static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
+                                    const RestVolume& volume, DeviceGroom& groom);
+
+  /// Kernels that this stage was the first on its device to ask for.
+  std::size_t newKernelCount() const { return newKernels_.size(); }
+  /// Those, without work: so that they are compiled before they are needed.
+  void recordNothing(gpu::Recorder& recorder) const;
+
+  /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
+  /// say. Nothing happens where contacts of pairs have halted.
+  void recordBegin(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const;
+  void recordMeans(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
+
+  /// Forgets displacements: the hair was put somewhere else.
+  Status forget();
+  /// All that the next step depends on beside positions and velocities.
+  Status archive(Archive& archive);
+
+  std::uint64_t bytes() const;
+
+ private:
+  struct Buffers {
+    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located;
+  };
+  VolumeStage() = default;
+  gpu::BufferTable bufferTable() const;
+  void dispatch(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
+  void dispatchIndirect(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
+                        std::uint64_t offset) const;
+  std::uint32_t particleGroups() const;
+
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by VolumeKernel
+  std::vector<std::size_t> newKernels_;
+  std::vector<gpu::Bindings> bindings_;  // likewise
+  DeviceGroom* groom_ = nullptr;
+  std::optional<Buffers> buffers_;
+  std::vector<float> densities_;  // at rest
+  layout::VolumeParameters parameters_{};
+};
+
+}  // namespace ringlet

@@ -1,0 +1,208 @@
+// Hair as a volume, the reference by itself: what particles give each other sums to nothing, what the head
+// carries rigidly feels nothing, the iteration converges whatever the stiffness, and the reference's own
+// groups and densities against the host's. Mirrors reference/equations/volume.h and
+// reference/kernels/volume_step.h.
+#include "reference/equations/volume.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "reference/kernels/contact_step.h"
+#include "reference/kernels/volume_step.h"
+#include "ringlet/groom/generate.h"
+#include "ringlet/rest/rest_volume.h"
+#include "tests/equations/strand_fixtures.h"
+
+namespace ringlet::reference::test {
+namespace {
+
+// 60 particles in a ball of 4 cm, of two strands; a head that turns.
+struct Ball {
+  ContactSettings settings;
+  Volume volume;
+  Field<double> positions, velocities;
+  VolumeFrame frame{Rotation<double>(Eigen::AngleAxisd(0.3, Vector3<double>::UnitX())),
+                    Rotation<double>(Eigen::AngleAxisd(0.5, Vector3<double>(1, 2, 3).normalized())), 0.005};
+
+  explicit Ball(double memory = 0.003) {
+    std::mt19937 random(5);
+    volume.cell = 0.01;
+    for (std::uint32_t i = 0; i < 60; ++i) {
+      positions.push_back(randomVector(random, 0.02));
+      velocities.push_back(randomVector(random, 1));
+      VolumeParticle p;
+      p.index = i;
+      p.mass = 1e-6 * (1 + 0.5 * randomVector(random, 1).x());
+      p.density = p.restDensity = 3;
+      p.ownDensity = 1 + 0.5 * randomVector(random, 1).y();
+      p.memory = randomVector(random, memory);
+      p.place = frame.now.conjugate() * positions[i];
+      p.isKnown = true;
+      volume.particles.push_back(p);
+    }
+    beginVolume(settings, frame, positions, volume);
+  }
+  VolumeSystem means() { return volumeMeans(settings, frame, positions, velocities, volume); }
+};
+
+TEST(Volume, MomentaSumToNothing) {
+  Ball ball;
+  const VolumeSystem system = ball.means();
+  Vector3<double> sum = Vector3<double>::Zero();
+  double size = 0;
+  for (std::size_t i = 0; i < ball.positions.size(); ++i) {
+    const Vector3<double> given = system.momenta[i] - system.weights[i] * ball.velocities[i];
+    sum += given;
+    size += given.norm();
+  }
+  EXPECT_GT(size, 1e-4);
+  EXPECT_LT(sum.norm(), 1e-12 * size);
+}
+
+TEST(Volume, WhatTheHeadCarriesFeelsNothing) {
+  Ball ball(0);
+  for (std::size_t i = 0; i < ball.positions.size(); ++i)
+    ball.velocities[i] = ball.frame.carried(ball.positions[i]);
+  const VolumeSystem system = ball.means();
+  for (std::size_t i = 0; i < ball.positions.size(); ++i) {
+    const Vector3<double> given = system.momenta[i] - system.weights[i] * ball.velocities[i];
+    EXPECT_LT(given.norm(), 1e-12 * system.weights[i]);
+    EXPECT_GT(system.weights[i], 0);
+  }
+}
+
+// All in one place but one, displaced by d: k m o times what is left of d pulls it back, and nothing the
+// others but what balances it.
+TEST(Volume, ADisplacementIsPulledBack) {
+  Ball ball(0);
+  std::fill(ball.velocities.begin(), ball.velocities.end(), Vector3<double>::Zero());
+  ball.frame.next = ball.frame.now;
+  for (VolumeParticle& p : ball.volume.particles) p.place.setZero(), p.mass = 1e-6, p.ownDensity = 0;
+  std::fill(ball.positions.begin(), ball.positions.end(), Vector3<double>::Zero());
+  beginVolume(ball.settings, ball.frame, ball.positions, ball.volume);
+  ball.volume.particles[7].memory = {0.002, 0, 0};
+  const VolumeSystem system = ball.means();
+  const double T = ball.frame.seconds, k = ball.settings.volumeStiffness;
+  const Vector3<double> wanted = ball.frame.now * Vector3<double>(-1e-6 * k * T * 0.002 * 59 / 60, 0, 0);
+  EXPECT_LT((system.momenta[7] - wanted).norm(), 1e-12);
+  EXPECT_LT((system.momenta[8] + wanted / 59).norm(), 1e-12);
+}
+
+TEST(Volume, AStrandByItselfFeelsNothing) {
+  EXPECT_EQ(othersShare(2, 2), 0);
+  EXPECT_EQ(othersShare(3, 2), 0);
+  EXPECT_EQ(othersShare(0, 2), 1);
+  EXPECT_DOUBLE_EQ(othersShare(0.5, 2), 0.75);
+  EXPECT_EQ(othersShare(0, 0), 0);
+}
+
+// (m + g) v' = m v0 + what the others' means give: each iterate nearer to the last, at any stiffness.
+TEST(Volume, IterationConvergesAtAnyStiffness) {
+  for (const double stiffness : {0.0, 1e5, 1e9}) {
+    Ball ball;
+    ball.settings.volumeStiffness = stiffness;
+    const Field<double> start = ball.velocities;
+    double change = 0, last = 0;
+    for (int iteration = 0; iteration < 400; ++iteration) {
+      const VolumeSystem system = ball.means();
+      change = 0;
+      for (std::size_t i = 0; i < start.size(); ++i) {
+        const double m = ball.volume.particles[i].mass;
+        const Vector3<double> next = (m * start[i] + system.momenta[i]) / (m + system.weights[i]);
+        change = std::max(change, (next - ball.velocities[i]).norm());
+        ball.velocities[i] = next;
+      }
+      if (iteration > 5) {
+        EXPECT_LT(change, 1.0001 * last + 1e-12) << stiffness;
+      }
+      last = change;
+    }
+    EXPECT_LT(change, 1e-2) << stiffness;
+  }
+}
+
+TEST(Volume, ADisplacementFades) {
+  ContactSettings settings;
+  Vector3<double> s(1, 0, 0);
+  for (int step = 0; step < 300; ++step) s = fadedDisplacement(settings, 0.001, s, Vector3<double>::Zero());
+  EXPECT_NEAR(s.x(), std::exp(-1.0), 1e-12);
+  EXPECT_NEAR(fadedDisplacement(settings, 1e-9, s, {0, 2, 0}).y(), 2, 1e-6);
+}
+
+// A head whose strands grow denser to one side, and a second one beside it: strands in the volume, their
+// groups and the densities of their particles are the host's.
+TEST(Volume, GroupsAndDensitiesAreTheHosts) {
+  HeadParameters head;
+  head.curl.particleCount = 24;
+  head.strandCount = 150;
+  Groom groom = *makeHead(head);
+  head.strandCount = 40;
+  const Groom other = *makeHead(head);
+  for (std::size_t s = 0; s < other.strandCount(); ++s) {
+    std::vector<Vec3f> points;
+    for (const Vec3f p : other.strand(s))
+      points.push_back(p + Vec3f{1.5f / static_cast<float>(groom.metresPerUnit), 0, 0});
+    groom.addStrand(points);
+  }
+  for (int k = 0; k < 6; ++k) {  // beside the first head: in its cells, but not dense
+    std::vector<Vec3f> points;
+    for (const Vec3f p : other.strand(0))
+      points.push_back(p + Vec3f{0.02f + 0.04f * float(k), 0.01f, 0} * float(1 / groom.metresPerUnit));
+    groom.addStrand(points);
+  }
+  for (const ContactMethod method :
+       {ContactMethod::automatic, ContactMethod::explicitPairs, ContactMethod::volume}) {
+    Settings settings;
+    settings.contacts.on = true;
+    settings.contacts.method = method;
+    settings.contacts.radius = 0.01;
+    settings.contacts.enlargement = 1.2;
+    const auto state = buildRestState(groom, {}, settings);
+    ASSERT_TRUE(state) << state.error().message;
+    const ringlet::RestContacts host = buildRestContacts(*state, settings.contacts);
+    std::vector<RestStrand<double>> strands;
+    for (std::size_t s = 0; s < groom.strandCount(); ++s)
+      strands.push_back(makeRestStrand<double>(groom.strand(s), groom.metresPerUnit, {}, {}, settings));
+    const auto contacts = makeContacts<double>(strands, groom.firstPoint, settings.contacts);
+
+    std::size_t count = 0;
+    const auto groupOf = [&](std::size_t s) {  // as the host names them
+      return contacts.rest.isInVolume(s) ? contacts.rest.volumeGroups[s] : static_cast<std::uint32_t>(s);
+    };
+    for (std::size_t a = 0; a < strands.size(); ++a) {
+      const std::size_t inGroomA = state->strandInGroom[a];
+      EXPECT_EQ(host.volume.isIn[a], contacts.rest.isInVolume(inGroomA)) << a;
+      count += host.volume.isIn[a];
+      for (std::size_t b = 0; b < a; ++b) {
+        EXPECT_EQ(host.volume.groups[a] == host.volume.groups[b],
+                  groupOf(inGroomA) == groupOf(state->strandInGroom[b]));
+      }
+    }
+    EXPECT_EQ(host.volume.count, count);
+    if (method == ContactMethod::automatic) {
+      EXPECT_GT(count, 20u);
+      EXPECT_LT(count, 196u);
+    } else {
+      EXPECT_EQ(count, method == ContactMethod::volume ? 196u : 0u);
+    }
+
+    const RestVolume volume = buildRestVolume(*state, host);
+    ASSERT_EQ(volume.particles.size(), contacts.volume.particles.size());
+    EXPECT_NEAR(volume.cell, contacts.volume.cell, 1e-6 * volume.cell);
+    std::vector<const VolumeParticle*> byIndex(groom.points.size());
+    for (const VolumeParticle& p : contacts.volume.particles) byIndex[p.index] = &p;
+    for (std::size_t i = 0; i < volume.particles.size(); ++i) {
+      const std::uint32_t strand = volume.strands[i];
+      const VolumeParticle* p =
+          byIndex[state->firstInGroom[strand] + volume.particles[i] - state->strands[strand].firstParticle];
+      ASSERT_NE(p, nullptr);
+      EXPECT_NEAR(volume.densities[i], p->restDensity, 1e-5 * p->restDensity);
+      EXPECT_NEAR(volume.ownDensities[i], p->ownDensity, 1e-5 * p->ownDensity);
+      EXPECT_NEAR(volume.masses[i], p->mass, 1e-5 * p->mass);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ringlet::reference::test

@@ -1,0 +1,237 @@
+// Hair that meets as a volume on the device against the double reference, by itself and beside contacts
+// between pairs; and that nothing is left to threads, to how much room lists have, or to what went before.
+// Mirrors shaders/kernels/volume_begin.comp to volume_spread.comp.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "parity/contacts.h"
+#include "reference/step.h"
+#include "ringlet/groom/generate.h"
+#include "tests/support/gpu_test.h"
+#include "tests/support/parity.h"
+#include "tests/support/tolerances.h"
+
+namespace ringlet::test {
+namespace {
+
+using namespace parity;
+
+Settings volumeSettings() {
+  Settings settings = meetingSettings();
+  settings.contacts.method = ContactMethod::volume;
+  return settings;
+}
+
+// A dense bunch and four strands that hang beside it; they meet when shaken.
+Groom bunchAndStrands() {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  const auto add = [&](double x, double z, int s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 16; ++i) {
+      const double turn = 0.9 * i + s;
+      strand.push_back(Vec3f(Vec3d{x + 0.004 * std::cos(turn), -0.006 * i, z + 0.004 * std::sin(turn)}));
+    }
+    groom.addStrand(strand);
+  };
+  for (int s = 0; s < 60; ++s) add(0.0012 * (s % 8), 0.0012 * (s / 8), s);
+  for (int s = 0; s < 4; ++s) add(-0.022, 0.006 * s - 0.006, s);
+  return groom;
+}
+Settings besideSettings() {
+  Settings settings = meetingSettings();
+  settings.contacts.method = ContactMethod::automatic;
+  return settings;
+}
+HeadPose shaken(int frame, double amplitude) {
+  return {{amplitude * std::sin(0.7 * frame), 0, 0}, fromRotationVector(Vec3d{0, 0.05 * frame, 0})};
+}
+
+using Hair = std::pair<std::vector<Vec3f>, std::vector<Vec3f>>;
+Hair hairOf(const Simulation& simulation) {
+  auto state = simulation.state();
+  EXPECT_TRUE(state) << state.error().message;
+  return {state->positions, state->velocities};
+}
+
+class VolumeStep : public GpuTest {
+ protected:
+  // Frames `begin` + 1 to `end` of the shaken head.
+  static void shake(Simulation& simulation, int begin, int end, double amplitude = 0.03) {
+    for (int frame = begin + 1; frame <= end; ++frame) {
+      const Status stepped = simulation.stepFrame(shaken(frame, amplitude));
+      EXPECT_TRUE(stepped) << stepped.error().message;
+    }
+  }
+};
+
+TEST_F(VolumeStep, FramesAgreeWithDouble) {
+  for (const KernelChoice& kernel :
+       {KernelChoice{}, KernelChoice{.particlesPerLane = 8}, KernelChoice{KernelChoice::Form::serial}}) {
+    for (const int iterations : {1, 2, 3}) {
+      Settings settings = volumeSettings();
+      settings.contacts.iterations = iterations;
+      double momentum = 0, expected = 0;
+      const auto worst = shakenSwatchError(
+          device(), settings, kernel, 12,
+          [&](const Simulation& simulation, const reference::Simulation<double>& reference) {
+            momentum = simulation.contactReport()->momentumError;
+            expected = reference.report().freeMomentumError;
+          });
+      ASSERT_TRUE(worst) << worst.error().message;
+      fmt::print("{} iterations: {:.1e} m apart, momentum error {:.4f}\n", iterations, *worst, momentum);
+      EXPECT_LE(*worst, kMeetingMetres);
+      EXPECT_NEAR(momentum, expected, 1e-4);
+    }
+  }
+}
+
+// As a volume strands that meet keep further from each other's ways than without: it does something.
+TEST_F(VolumeStep, HoldsStrandsTogether) {
+  const auto run = [&](bool on) {
+    Settings settings = volumeSettings();
+    settings.contacts.on = on;
+    auto simulation = Simulation::create(device(), denseSwatch(32), {}, settings);
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    shake(*simulation, 0, 12);
+    return hairOf(*simulation).first;
+  };
+  const auto with = run(true), without = run(false);
+  double apart = 0;
+  for (std::size_t i = 0; i < with.size(); ++i)
+    apart = std::max(apart, length(static_cast<Vec3d>(with[i]) - static_cast<Vec3d>(without[i])));
+  EXPECT_GT(apart, 0.001);
+}
+
+TEST_F(VolumeStep, BesideContactsAgreesWithDouble) {
+  const Groom groom = bunchAndStrands();
+  for (const KernelChoice& kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::serial}}) {
+    const Settings settings = besideSettings();
+    auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, kernel);
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    reference::Simulation<double> reference(groom, {}, settings);
+    HeadPose before;
+    double worst = 0;
+    std::uint64_t most = 0;
+    for (int frame = 1; frame <= 10; ++frame) {
+      const HeadPose next = shaken(frame, 0.03);
+      shake(*simulation, frame - 1, frame);
+      std::vector<HeadPose> poses;
+      for (int k = 1; k <= settings.stepsPerFrame; ++k)
+        poses.push_back(interpolate(before, next, double(k) / settings.stepsPerFrame));
+      reference.stepFrame(poses);
+      before = next;
+      const auto positions = hairOf(*simulation).first;
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        worst = std::max(worst, (reference::toEigen<double>(positions[i]) - reference.positions()[i]).norm());
+      const auto report = *simulation->contactReport();
+      EXPECT_EQ(report.contacts, reference.report().contacts) << frame;
+      EXPECT_EQ(report.volumeStrands, 60u);
+      most = std::max(most, report.contacts);
+    }
+    fmt::print("{:.1e} m apart; {} contacts at the most\n", worst, most);
+    EXPECT_LE(worst, kMeetingMetres);
+    EXPECT_GT(most, 10u) << "nothing meets pair by pair, and nothing is tested";
+  }
+}
+
+TEST_F(VolumeStep, RepeatsBitwiseWithAnyNumberOfThreads) {
+  const auto run = [](const ComputeDevice& on) {
+    auto simulation = Simulation::create(on, bunchAndStrands(), {}, besideSettings());
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    shake(*simulation, 0, 6);
+    return hairOf(*simulation);
+  };
+  const Hair first = run(device());
+  EXPECT_EQ(first, run(device()));
+  // lavapipe reads its number of threads when a device is opened; others take no notice.
+  for (const char* threads : {"1", "2"}) {
+    ::setenv("LP_NUM_THREADS", threads, 1);
+    const auto other = ComputeDevice::open();
+    ASSERT_TRUE(other) << other.error().message;
+    EXPECT_EQ(first, run(*other)) << threads << " threads";
+  }
+  ::unsetenv("LP_NUM_THREADS");
+}
+
+// A frame that stops because lists are too short begins its step once more, and the volume with it.
+TEST_F(VolumeStep, RoomOfListsDecidesNothing) {
+  const Groom groom = bunchAndStrands();
+  const auto run = [&](int room) {
+    auto simulation =
+        Simulation::create(device(), groom, {}, besideSettings(), {}, {}, {.contactRoom = room});
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    const std::uint64_t before = simulation->memory().contactLists;
+    HairState state = *simulation->state();
+    for (std::size_t s = 60; s < 64; ++s) {  // into the bunch, so fast that they may meet all of it
+      for (std::size_t i = groom.firstPoint[s] + 1; i < groom.firstPoint[s + 1]; ++i) {
+        state.positions[i] = state.positions[i] + Vec3f{0.03f, 0, 0};
+        state.velocities[i] = {5, 0, 0};
+      }
+    }
+    EXPECT_TRUE(simulation->setState(state));
+    shake(*simulation, 0, 4);
+    return std::tuple(hairOf(*simulation), simulation->memory().contactLists > before,
+                      simulation->contactReport()->rebuilds);
+  };
+  const auto [one, grew, rebuilds] = run(1);
+  EXPECT_TRUE(grew) << "all had room, and nothing is tested";
+  for (const int room : {2, 16}) {
+    const auto [other, otherGrew, otherRebuilds] = run(room);
+    EXPECT_EQ(one, other) << "room x " << room;
+    EXPECT_EQ(rebuilds, otherRebuilds) << "room x " << room;
+  }
+}
+
+// What is put somewhere begins anew: as hair that never was anywhere else.
+TEST_F(VolumeStep, StatesThatArePutForgetDisplacements) {
+  auto moved = Simulation::create(device(), denseSwatch(32), {}, volumeSettings());
+  ASSERT_TRUE(moved) << moved.error().message;
+  shake(*moved, 0, 5);
+  const auto state = moved->state();
+  ASSERT_TRUE(state) << state.error().message;
+  const HeadPose there = shaken(5, 0.03), step = interpolate(shaken(4, 0.03), there, 7.0 / 8);
+  auto anew = Simulation::create(device(), denseSwatch(32), {}, volumeSettings(), there, step);
+  ASSERT_TRUE(anew) << anew.error().message;
+  ASSERT_TRUE(anew->setState(*state));
+  auto kept = Simulation::create(device(), denseSwatch(32), {}, volumeSettings(), there, step);
+  ASSERT_TRUE(kept) << kept.error().message;
+  shake(*kept, 0, 3);  // somewhere else
+  shake(*kept, 3, 5);
+  ASSERT_TRUE(kept->setState(*state));
+  shake(*anew, 5, 7);
+  shake(*kept, 5, 7);
+  EXPECT_EQ(hairOf(*anew), hairOf(*kept));
+}
+
+// More cells than there is room for: they grow until they fit, and nothing is lost.
+TEST_F(VolumeStep, TooManyCellsBecomeLarger) {
+  Settings settings = volumeSettings();
+  settings.contacts.volumeCell = 1e-4;
+  auto simulation = Simulation::create(device(), denseSwatch(32), {}, settings);
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  shake(*simulation, 0, 4);
+  EXPECT_EQ(simulation->report()->nonfinite, 0u);
+  EXPECT_LT(simulation->memory().volume, 100u << 20);
+}
+
+// At rest nothing is displaced and nothing moves beside the head: not a bit of it changes.
+TEST_F(VolumeStep, TheRestPoseStaysPut) {
+  auto simulation = Simulation::create(device(), denseSwatch(48), {}, volumeSettings());
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  const auto rest = *simulation->positions();
+  for (int frame = 0; frame < 48; ++frame) ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
+  const auto now = *simulation->positions();
+  double moved = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    moved = std::max(moved, length(static_cast<Vec3d>(now[i]) - static_cast<Vec3d>(rest[i])));
+  fmt::print("moved {:.1e} m in 2 s\n", moved);
+  EXPECT_LE(moved, kAtRest * 0.56);  // of the arc length
+}
+
+}  // namespace
+}  // namespace ringlet::test
