@@ -15,8 +15,8 @@ vec3 rightHandSide(int k, vec3 forceBefore) {
   return m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * (force[k] - forceBefore);
 }
 
-// What is added to particle k's mass, and to its right-hand side: by contacts, 2 D + g and a momentum, read where they are
-// used and not kept in registers; by the air; by bodies.
+// What is added to particle k's mass, and to its right-hand side: by contacts, 2 D + g and a momentum, read where they
+// are used and not kept in registers; by the air; by bodies.
 bool withContacts = false;
 #ifdef RINGLET_CONTACTS
 bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }

@@ -1,5 +1,5 @@
-// The grid's nodes: the mean of what particles of the eight cells about a node bring, and the density there. Cells along
-// x follow each other, so that they are four ranges. Mirrored by reference/kernels/volume_step.h.
+// The grid's nodes: the mean of what particles of the eight cells about a node bring, and the density there. Cells
+// along x follow each other, so that they are four ranges. Mirrored by reference/kernels/volume_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

@@ -1,5 +1,5 @@
-// Particles of the volume by cell, 6 of 6: where each one's parcel is, by index inside a cell, so that no sum depends on
-// which thread came first; and what stands there.
+// Particles of the volume by cell, 6 of 6: where each one's parcel is, by index inside a cell, so that no sum depends
+// on which thread came first; and what stands there.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

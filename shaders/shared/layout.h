@@ -249,8 +249,8 @@ RINGLET_CONSTANT uint kListBlock = 16;          // two bits of an integer for ea
 RINGLET_CONSTANT uint kLiveBlock = 4;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for
-                                                // each strand, (first of its buckets, how many less one, its group, 0), then the
-                                                // buckets of four strands; see solver/neighbour_table.h
+                                                // each strand, (first of its buckets, how many less one, its group, 0),
+                                                // then the buckets of four strands; see solver/neighbour_table.h
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
@@ -382,15 +382,15 @@ RINGLET_CONSTANT uint kBindVolumeSolved = 2;      // vec4[particles]: v^k
 RINGLET_CONSTANT uint kBindVolumePoses = 3;       // uniform: StepPose[kMaxStepPoses]
 RINGLET_CONSTANT uint kBindVolumeParticles = 4;   // VolumeParticle[volume particles]
 RINGLET_CONSTANT uint kBindVolumeStates = 5;      // VolumeState[volume particles]
-RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, of the first iterate
+RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, first iterate
 RINGLET_CONSTANT uint kBindVolumeCells = 7;       // uint: see cellCount and its like in shared/volume_buffers.glsl
 RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], in cell order
 RINGLET_CONSTANT uint kBindVolumeNodes = 9;       // vec4[nodes]: xyz: mean of a [m/s]; w: density [kg/m^3]
 RINGLET_CONSTANT uint kBindVolumeSystems = 10;    // ContactSystem[particles]
 RINGLET_CONSTANT uint kBindVolumeControl = 11;    // VolumeControl
 RINGLET_CONSTANT uint kBindVolumeHalt = 12;       // ContactControl
-RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xyz: place in cells, bits of floats; w: its
-                                                  // parcel
+RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xyz: place in cells, bits of floats; w:
+                                                  // which parcel
 RINGLET_CONSTANT uint kVolumeBindingCount = 14;
 // And as texels (shared/texels.glsl):
 RINGLET_CONSTANT uint kBindVolumePositionTexels = 14;
