@@ -45,10 +45,10 @@ inline constexpr double kVolumeStrands = 9;
 
 /// A cell of the volume's grid, in radii of contact particles as they are chosen without a setting.
 inline constexpr double kVolumeCellRadii = 4;
-/// They go into the grid's cells every so many steps of a frame, from the first on: what is near moves with
-/// them.
+/// Particles are put into the grid's cells every so many steps of a frame, from the first on: between, what
+/// is near moves with them.
 inline constexpr std::size_t kVolumeSortSteps = 2;
-/// Along a strand, particles that stand for it there are at most so many cells apart.
+/// Particles of a strand that take part are at most so many cells apart along it, each for those between.
 inline constexpr double kVolumeSpacing = 1.6;
 
 /// checkSettings (rest/rest_state.h) holds the ranges. `w` below is what a contact particle weighs: its mass
