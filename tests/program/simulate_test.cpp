@@ -302,7 +302,9 @@ TEST(Simulate, ContactsAreForTheAsking) {
     std::string message;
   };
   for (const Case& c : {
-           Case{{"--contacts", "maybe"}, 2, "--contacts: there is no 'maybe' (only on, off)"},
+           Case{{"--contacts", "maybe"},
+                2,
+                "--contacts: there is no 'maybe' (only off, on, auto, explicit, volume)"},
            Case{{"--prune", "8"}, 2, "--prune: only with --contacts on or --measure-contacts"},
            Case{{"--contacts", "on", "--prune", "8.5"}, 2, "not '8.5', or none"},
            Case{{"--contacts", "on", "--prune", "none", "--max-neighbours", "4"},
