@@ -77,8 +77,7 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
             ? rootPoses_
             : std::vector<BodyPose>(rootPoses.begin() + static_cast<std::ptrdiff_t>(k * rest_.size()),
                                     rootPoses.begin() + static_cast<std::ptrdiff_t>((k + 1) * rest_.size()));
-    stepOnce(k % kVolumeSortSteps == 0, stepPoses[k],
-             std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
+    stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
   }
 }
 
@@ -178,7 +177,7 @@ void Simulation<Real>::carryTo(const HeadPose& next) {
 }
 
 template <class Real>
-void Simulation<Real>::stepOnce(bool sorts, const HeadPose& next, std::span<const BodyPose> bodyPoses,
+void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses,
                                 const std::vector<BodyPose>& roots) {
   const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
   const AirStep<Real> air = airStep(next);
@@ -198,7 +197,7 @@ void Simulation<Real>::stepOnce(bool sorts, const HeadPose& next, std::span<cons
       solveAmongBodies<Real>(rest_[s], bodies, strandOf(positions_, s), systems_[s], scratch_, velocities);
     };
     const VolumeFrame frame{toEigen<double>(head_.rotation), toEigen<double>(next.rotation),
-                            settings_.stepSeconds(), sorts};
+                            settings_.stepSeconds()};
     solveContacts(settings_.contacts, frame, firstPoint_, systems_, solveOne, positions_, contacts_,
                   velocities_);
   }

@@ -97,8 +97,7 @@ class Simulation {
   // Rigidly: seen from the head, hair and head go on as they were.
   void carryTo(const HeadPose& next);
 
-  // sorts: as VolumeFrame has it.
-  void stepOnce(bool sorts, const HeadPose& next, std::span<const BodyPose> bodyPoses,
+  void stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses,
                 const std::vector<BodyPose>& roots);
 
   AirStep<Real> airStep(const HeadPose& next) const;

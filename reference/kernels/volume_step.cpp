@@ -61,6 +61,7 @@ std::size_t volumeStride(const RestStrand<Real>& strand, double cell) {
 }  // namespace
 
 void Volume::forget() {
+  untilSort = 0;
   for (VolumeParticle& p : particles) {
     p.isKnown = false;
     p.density = p.restDensity;
@@ -68,11 +69,13 @@ void Volume::forget() {
 }
 
 void Volume::archive(Archive& archive) {
+  archive.value(untilSort);
   for (VolumeParticle& p : particles) {
     archive.value(p.density);
     archive.value(p.isKnown);
     archive.values(std::span(p.memory.data(), 3));
     archive.values(std::span(p.place.data(), 3));
+    archive.values(std::span(p.gridPlace.data(), 3));
   }
 }
 
@@ -114,10 +117,11 @@ void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, cons
     p.memory = p.isKnown ? fadedDisplacement(settings, frame.seconds, p.memory, place - p.place)
                          : Vector3<double>(Vector3<double>::Zero());
     p.place = place;
-    if (frame.sorts) p.gridPlace = place;
+    if (volume.untilSort == 0) p.gridPlace = place;
     p.share = othersShare(p.ownDensity, p.density);
     p.isKnown = true;
   }
+  volume.untilSort = (volume.untilSort > 0 ? volume.untilSort : kVolumeSortSteps) - 1;
 }
 
 VolumeSystem volumeMeans(const ContactSettings& settings, const VolumeFrame& frame,

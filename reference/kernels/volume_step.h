@@ -42,7 +42,8 @@ struct VolumeParticle {
 };
 
 struct Volume {
-  double cell = 0;  // h [m]
+  double cell = 0;              // h [m]
+  std::uint32_t untilSort = 0;  // steps until particles next go to where they are on the grid
   std::vector<VolumeParticle> particles;
 
   bool isEmpty() const { return particles.empty(); }

@@ -25,10 +25,10 @@ void main() {
   vec3 place = inHeadFrame(x);
   vec3 s = isKnown ? fadedDisplacement(memory.xyz, place - placeOf(i).xyz, parameters.kept) : vec3(0);
   vec3 change = isKnown ? lastVelocityOf(self.particle) - predicted.xyz : vec3(0);
-  float g = gainOf(self, memory.w);
-  vec4 rate = rateFrom(g, v + parameters.warmth * change, x, s);
-  states[i] = VolumeState(vec4(s, memory.w), vec4(place, g), vec4(v, 1));
-  if (parameters.sorts == 0) {
+  float mass = self.mass * othersShare(self.ownDensity, memory.w);
+  vec4 rate = rateFrom(mass, v + parameters.warmth * change, x, s);
+  states[i] = VolumeState(vec4(s, memory.w), vec4(place, mass), vec4(v, 1));
+  if (control.untilSort > 0) {
     parcels[locatedAt(i).w].rate = rate;
     return;
   }

@@ -1,4 +1,5 @@
-// The box of cells about all particles of the volume; one invocation. Hair that reaches further than there is room for
+// Whether this step puts particles into cells; and then the box of cells about all of them. One invocation decides:
+// every so many steps of the run, however that is cut into frames. Hair that reaches further than there is room for
 // cells has larger ones, of which its own strand fills more: it feels others less.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -6,11 +7,14 @@
 
 void main() {
   if (gl_GlobalInvocationID.x > 0) return;
-  if (halt.isHalted != 0) {
-    control.indirectBlocks[0] = 0;
-    control.indirectNodes[0] = 0;
+  control.indirectParticles[0] = 0;
+  control.indirectBlocks[0] = 0;
+  if (halt.isHalted != 0) return;
+  if (control.untilSort > 0) {
+    --control.untilSort;
     return;
   }
+  control.untilSort = parameters.sortSteps - 1;
   ivec3 least = ivec3(control.least[0], control.least[1], control.least[2]);
   ivec3 greatest = ivec3(control.greatest[0], control.greatest[1], control.greatest[2]);
   float cell = parameters.cell;
@@ -34,9 +38,11 @@ void main() {
     control.size[axis] = size[axis];
     control.least[axis] = 0x7fffffff;
     control.greatest[axis] = -0x7fffffff;
+    control.indirectParticles[axis] = 1;
     control.indirectBlocks[axis] = 1;
     control.indirectNodes[axis] = 1;
   }
+  control.indirectParticles[0] = groupsOf(parameters.count);
   control.indirectBlocks[0] = control.cellCount / kBucketBlock + 1;
-  control.indirectNodes[0] = groupsOf(control.cellCount + 1);
+  control.indirectNodes[0] = groupsOf(control.cellCount);
 }

@@ -11,7 +11,8 @@ void main() {
   if (i >= parameters.count) return;
   VolumeParticle self = volumeParticle(i);
   vec3 s = memoryOf(i).xyz;
-  float g = placeOf(i).w;
+  float mass = placeOf(i).w;
+  float g = mass * gain();
   vec3 inCells = uintBitsToFloat(locatedAt(i).xyz);
   uvec3 cell = cellInBox(inCells);
   vec4 mean = vec4(0);
@@ -21,8 +22,7 @@ void main() {
   }
   states[i].memory = vec4(s, mean.w);
 
-  float others = g / volumeGain(parameters.drag, parameters.stiffness, parameters.seconds);
-  vec3 given = others * (mean.xyz - parameters.stiffness * parameters.seconds * s);
+  vec3 given = mass * (mean.xyz - parameters.stiffness * parameters.seconds * s);
   vec3 momentum = inWorld(given) + g * carriedVelocity(positionOf(self.particle));
   systems[self.particle].volume = self.inverseMassUnit * vec4(momentum, g);
 }

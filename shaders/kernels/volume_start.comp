@@ -1,10 +1,11 @@
-// Particles of the volume by cell, 4 of 6: where each cell starts.
+// Particles of the volume by cell, 4 of 6: where each cell starts, a workgroup a block of cells.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
 
 void main() {
-  uint cell = gl_GlobalInvocationID.x;
-  if (cell > control.cellCount) return;
-  cells[cellStart(cell)] += cells[cellSum(cell / kBucketBlock)];
+  uint each = kBucketBlock / gl_WorkGroupSize.x;  // cells of an invocation
+  uint first = gl_WorkGroupID.x * kBucketBlock + gl_LocalInvocationID.x * each;
+  uint before = cells[cellSum(gl_WorkGroupID.x)];
+  for (uint k = 0; k < each; ++k) cells[cellStart(first + k)] += before;
 }

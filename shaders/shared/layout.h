@@ -415,7 +415,7 @@ struct VolumeParticle {
 // What it remembers from step to step.
 struct VolumeState {
   vec4 memory;     // xyz: fading displacement s, in the head's frame [m]; w: density about it [kg/m^3]
-  vec4 place;      // xyz: in the head's frame at the step's start [m]; w: g of the step [kg]
+  vec4 place;      // xyz: in the head's frame at the step's start [m]; w: what of its mass counts in the step, m o [kg]
   vec4 predicted;  // xyz: v^0 [m/s]; w: 1 where all this is known, 0 where the hair was just put there
 };
 
@@ -427,17 +427,19 @@ struct VolumeParcel {
 
 // The box of cells about all such particles, and what kernels tell each other.
 struct VolumeControl {
-  uint indirectBlocks[3];  // workgroups over blocks of cells
-  uint cellCount;          // of the box, which has as many nodes
-  uint indirectNodes[3];   // over nodes
+  uint indirectParticles[3];  // workgroups over particles of a sort, or none
+  uint untilSort;             // steps until particles are next put into cells; 0: this step does
+  uint indirectBlocks[3];     // over blocks of cells of a sort, or none
+  uint cellCount;             // of the box, which has as many nodes
+  uint indirectNodes[3];      // over nodes
   uint unused;
-  int least[3];            // of the cells particles are in, as found so far in this step
+  int least[3];               // of the cells particles are in, as found so far in this step
   float cellsPerMetre;
   int greatest[3];
-  float cell;              // [m]
-  int low[3];              // the box's first cell
+  float cell;                 // [m]
+  int low[3];                 // the box's first cell
   uint unused2;
-  uint size[3];            // and how many there are along each axis
+  uint size[3];               // and how many there are along each axis
   uint unused3;
 };
 
@@ -451,7 +453,7 @@ struct VolumeParameters {
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
   float warmth;       // as in ContactParameters
-  uint sorts;         // the step puts particles into cells; else they stay where the step before had them
+  uint sortSteps;     // particles are put into cells every so many steps; between they stay where they were
 };
 
 #ifdef __cplusplus

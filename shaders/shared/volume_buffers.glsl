@@ -84,13 +84,12 @@ vec3 placeInCells(vec3 place) {
 uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(boxSize()) - 2.0)); }
 uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
 
-/// g [kg], and what goes to the nodes from velocity v at x, along world axes.
-float gainOf(VolumeParticle self, float density) {
-  float share = othersShare(self.ownDensity, density);
-  return self.mass * share * volumeGain(parameters.drag, parameters.stiffness, parameters.seconds);
-}
-vec4 rateFrom(float g, vec3 v, vec3 x, vec3 s) {
+/// kappa; of a mass m o it makes g.
+float gain() { return volumeGain(parameters.drag, parameters.stiffness, parameters.seconds); }
+/// What a mass m o brings to the nodes from velocity v at x, along world axes.
+vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s) {
   vec3 w = inHeadFrame(v - carriedVelocity(x));
+  float g = mass * gain();
   return vec4(g * volumeRate(parameters.drag, parameters.stiffness, parameters.seconds, w, s), g);
 }
 

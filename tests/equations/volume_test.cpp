@@ -80,6 +80,7 @@ TEST(Volume, ADisplacementIsPulledBack) {
   ball.frame.next = ball.frame.now;
   for (VolumeParticle& p : ball.volume.particles) p.place.setZero(), p.mass = 1e-6, p.ownDensity = 0;
   std::fill(ball.positions.begin(), ball.positions.end(), Vector3<double>::Zero());
+  ball.volume.forget();
   beginVolume(ball.settings, ball.frame, ball.positions, ball.volume);
   ball.volume.particles[7].memory = {0.002, 0, 0};
   const VolumeSystem system = ball.means();

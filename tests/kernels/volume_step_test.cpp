@@ -187,18 +187,61 @@ TEST_F(VolumeStep, RoomOfListsDecidesNothing) {
   }
 }
 
+// Cells are sorted every second step of the run, whatever frames are made of: one frame of 6 steps, two of 3,
+// six of 1.
+TEST_F(VolumeStep, HoweverARunIsCutIntoFrames) {
+  std::vector<Hair> ends;
+  for (const int steps : {6, 3, 1}) {
+    Settings settings = volumeSettings();
+    settings.stepsPerFrame = steps;
+    settings.framesPerSecond = 192.0 / steps;
+    auto simulation = Simulation::create(device(), denseSwatch(32), {}, settings);
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    for (int done = 0; done < 18; done += steps) {
+      std::vector<HeadPose> poses;
+      for (int k = 1; k <= steps; ++k) poses.push_back(shaken(1, 0.002 * (done + k)));
+      ASSERT_TRUE(simulation->stepFrame(poses));
+    }
+    ends.push_back(hairOf(*simulation));
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+  EXPECT_EQ(ends[0], ends[2]);
+}
+
+// Without drag and stiffness a volume does nothing, and divides by nothing.
+TEST_F(VolumeStep, MayDoNothing) {
+  std::vector<Hair> ends;
+  for (const bool on : {false, true}) {
+    Settings settings = volumeSettings();
+    settings.contacts.on = on;
+    settings.contacts.volumeDrag = settings.contacts.volumeStiffness = 0;
+    auto simulation = Simulation::create(device(), denseSwatch(32), {}, settings);
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    shake(*simulation, 0, 4);
+    EXPECT_EQ(simulation->report()->nonfinite, 0u);
+    ends.push_back(hairOf(*simulation));
+  }
+  double apart = 0;
+  for (std::size_t i = 0; i < ends[0].first.size(); ++i)
+    apart =
+        std::max(apart, length(static_cast<Vec3d>(ends[0].first[i]) - static_cast<Vec3d>(ends[1].first[i])));
+  EXPECT_LE(apart, kMeetingMetres);  // another order of sums
+}
+
 // What is put somewhere begins anew: as hair that never was anywhere else.
 TEST_F(VolumeStep, StatesThatArePutForgetDisplacements) {
-  auto moved = Simulation::create(device(), denseSwatch(32), {}, volumeSettings());
+  Settings settings = volumeSettings();
+  settings.stepsPerFrame = 7;  // with an odd number frames end between two sorts
+  auto moved = Simulation::create(device(), denseSwatch(32), {}, settings);
   ASSERT_TRUE(moved) << moved.error().message;
   shake(*moved, 0, 5);
   const auto state = moved->state();
   ASSERT_TRUE(state) << state.error().message;
-  const HeadPose there = shaken(5, 0.03), step = interpolate(shaken(4, 0.03), there, 7.0 / 8);
-  auto anew = Simulation::create(device(), denseSwatch(32), {}, volumeSettings(), there, step);
+  const HeadPose there = shaken(5, 0.03), step = interpolate(shaken(4, 0.03), there, 6.0 / 7);
+  auto anew = Simulation::create(device(), denseSwatch(32), {}, settings, there, step);
   ASSERT_TRUE(anew) << anew.error().message;
   ASSERT_TRUE(anew->setState(*state));
-  auto kept = Simulation::create(device(), denseSwatch(32), {}, volumeSettings(), there, step);
+  auto kept = Simulation::create(device(), denseSwatch(32), {}, settings, there, step);
   ASSERT_TRUE(kept) << kept.error().message;
   shake(*kept, 0, 3);  // somewhere else
   shake(*kept, 3, 5);
@@ -209,6 +252,23 @@ TEST_F(VolumeStep, StatesThatArePutForgetDisplacements) {
 }
 
 // More cells than there is room for: they grow until they fit, and nothing is lost.
+// More particles in one cell than a loop may have turns.
+TEST_F(VolumeStep, MoreThanADeviceCanLookThroughIsAnError) {
+  if (!device().limits().endsLoopsEarly) GTEST_SKIP() << "this device does not end loops early";
+  SwatchParameters parameters;
+  parameters.curl.particleCount = 4;
+  parameters.columnCount = 250, parameters.rowCount = 140;
+  parameters.spacing = 0.001;
+  Settings settings = volumeSettings();
+  settings.contacts.volumeCell = 5;
+  auto simulation = Simulation::create(device(), *makeSwatch(parameters), {}, settings);
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  const Status stepped = simulation->stepFrame(shaken(1, 0.01));
+  ASSERT_FALSE(stepped);
+  EXPECT_NE(stepped.error().message.find("more contact particles are near one another"), std::string::npos)
+      << stepped.error().message;
+}
+
 TEST_F(VolumeStep, TooManyCellsBecomeLarger) {
   Settings settings = volumeSettings();
   settings.contacts.volumeCell = 1e-4;

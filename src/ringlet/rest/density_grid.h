@@ -14,7 +14,7 @@ namespace ringlet {
 
 class DensityGrid {
  public:
-  /// cell: [m], more than 0. Places that are not finite count as 0.
+  /// cell: [m], more than 0.
   explicit DensityGrid(double cell) : cell_(cell) {}
 
   /// The cell a place is in, as a key: places further than a million cells from the origin share some.

@@ -2,7 +2,6 @@
 // them may touch is decided once, in the rest pose. Part of scene/settings.h.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -45,9 +44,8 @@ inline constexpr double kVolumeStrands = 9;
 
 /// A cell of the volume's grid, in radii of contact particles as they are chosen without a setting.
 inline constexpr double kVolumeCellRadii = 4;
-/// Particles are put into the grid's cells every so many steps of a frame, from the first on: between, what
-/// is near moves with them.
-inline constexpr std::size_t kVolumeSortSteps = 2;
+/// Particles are put into the grid's cells every so many steps: between, what is near moves with them.
+inline constexpr std::uint32_t kVolumeSortSteps = 2;
 /// Particles of a strand that take part are at most so many cells apart along it, each for those between.
 inline constexpr double kVolumeSpacing = 1.6;
 

@@ -144,12 +144,9 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!histories) return histories.error();
   auto guesses = createZero(device, rest.points.size() * sizeof(layout::vec4), "contact guesses");
   if (!guesses) return guesses.error();
-  auto controlRead = gpu::Buffer::create(device, sizeof(layout::ContactControl), gpu::BufferKind::stream,
-                                         "contact control read back");
-  if (!controlRead) return controlRead.error();
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
-                                std::move(*guesses), std::move(*controlRead)});
+                                std::move(*guesses)});
   self.near_ = ListRoom{static_cast<std::uint32_t>(count), kFirstMostBlocks}.times(room);
   if (self.settings_.taper == ContactTaper::time) {
     auto lives = ContactLives::create(self.listMaker(), room);
@@ -174,13 +171,9 @@ std::uint32_t ContactStage::contactGroups() const {
   return static_cast<std::uint32_t>((particles_.size() + kGroupSize - 1) / kGroupSize);
 }
 
-void ContactStage::recordControl(gpu::Recorder& recorder) const {
-  recorder.copyBuffer(groom_->contactControl, buffers_->controlRead, sizeof(layout::ContactControl));
-}
-
 void ContactStage::readControl() {
   const std::uint32_t testsBefore = control_.pairTests;
-  control_ = *reinterpret_cast<const layout::ContactControl*>(buffers_->controlRead.mapped().data());
+  control_ = groom_->control();
   pairTests_ += control_.pairTests - testsBefore;
 }
 
@@ -214,7 +207,7 @@ Status ContactStage::bindLists() {
 // What contact kernels see: as storage, and as texels.
 gpu::BufferTable ContactStage::bufferTable() const {
   using namespace layout;
-  const auto& [contacts, neighbours, indices, grid, places, histories, guesses, controlRead] = *buffers_;
+  const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
   gpu::BufferTable table{{kBindContactPositions, hair().positions},
                          {kBindContactVelocities, hair().velocities},
                          {kBindContactSolved, hair().solved},
@@ -338,11 +331,6 @@ void ContactStage::recordNext(gpu::Recorder& recorder, SubmissionPace& pace) con
 // kept: what they hold must not depend on how much room there was.
 Status ContactStage::makeRoom() {
   layout::ContactControl& c = control_;
-  if (c.isHalted == layout::kHaltedByTurns) {
-    return Error{
-        "more contact particles are near one another than this device can look through; use a smaller "
-        "contact radius, or fewer strands in one place"};
-  }
   if (lives_) {
     if (Status status = lives_->makeRoom(c); !status) return status;
   }
@@ -379,9 +367,7 @@ Status ContactStage::archive(Archive& archive) {
     near_ = near;
     if (Status status = createLists(); !status) return status;
   }
-  DeviceChunk& chunk = groom_->chunks[0];
-  for (gpu::Buffer* buffer :
-       {&lists_[kHeads], &lists_[kPairs], &buffers_->histories, &chunk.contactSystems, &chunk.solved}) {
+  for (gpu::Buffer* buffer : {&lists_[kHeads], &lists_[kPairs], &buffers_->histories}) {
     if (Status status = archiveBuffer(archive, *buffer); !status) return status;
   }
   if (lives_) {

@@ -51,8 +51,6 @@ class ContactStage {
   void recordLists(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const;
   void recordFirst(gpu::Recorder& recorder, SubmissionPace& pace) const;
   void recordNext(gpu::Recorder& recorder, SubmissionPace& pace) const;
-  /// A frame ends with it, after a barrier: what its control block says comes to the host.
-  void recordControl(gpu::Recorder& recorder) const;
 
   /// After a frame and before all that follows here: what it left in the control block.
   void readControl();
@@ -74,8 +72,8 @@ class ContactStage {
   Result<std::uint64_t> contactCount() const;
   /// Forgets lists and lives: the hair was put somewhere else.
   Status forget();
-  /// All that the next step depends on beside positions and velocities. Where the archive is read, recordings
-  /// made before are no longer good.
+  /// All that the next step depends on beside positions, velocities and what the solve left. Where the
+  /// archive is read, recordings made before are no longer good.
   Status archive(Archive& archive);
 
   /// All pairs that are near or contacts, a < b, each once, sorted.
@@ -84,7 +82,6 @@ class ContactStage {
  private:
   struct Buffers {
     gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses;
-    gpu::Buffer controlRead;  // the control block as the last frame left it, in the host's memory
   };
   ContactStage() = default;
   using EachBlock =

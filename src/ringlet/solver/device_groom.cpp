@@ -79,7 +79,10 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
   auto control =
       createZero(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0, "contact control");
   if (!control) return control.error();
-  DeviceGroom groom{{}, std::move(*poses), std::move(*control)};
+  auto controlRead = gpu::Buffer::create(device, sizeof(layout::ContactControl), gpu::BufferKind::stream,
+                                         "contact control read back");
+  if (!controlRead) return controlRead.error();
+  DeviceGroom groom{{}, std::move(*poses), std::move(*control), std::move(*controlRead)};
   for (const GroomChunk& part : parts) {
     auto chunk = createChunk(device, rest, part, records);
     if (!chunk) return chunk.error();
@@ -107,6 +110,14 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindParticleTexels, c.particles},
           {kBindStrandTexels, c.strands},
           {kBindContactSystemTexels, c.contactSystems}};
+}
+
+void DeviceGroom::recordControl(gpu::Recorder& recorder) const {
+  recorder.copyBuffer(contactControl, controlRead, sizeof(layout::ContactControl));
+}
+
+const layout::ContactControl& DeviceGroom::control() const {
+  return *reinterpret_cast<const layout::ContactControl*>(controlRead.mapped().data());
 }
 
 std::uint64_t DeviceGroom::largestTexels() const {

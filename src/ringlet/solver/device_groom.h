@@ -40,6 +40,7 @@ struct DeviceGroom {
   std::vector<DeviceChunk> chunks;
   FrameInput poses;            // StepPose[kMaxStepPoses]
   gpu::Buffer contactControl;  // empty without contacts
+  gpu::Buffer controlRead;     // as the last frame left it, in the host's memory
 
   /// `slots`: frames in flight. Fails when the device lacks memory.
   static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest,
@@ -52,6 +53,11 @@ struct DeviceGroom {
   std::uint64_t largestTexels() const;
   std::uint64_t particleBytes() const;  // of all buffers with a record a particle
   std::uint64_t strandBytes() const;
+
+  /// With contacts a frame ends with it, after a barrier: what its control block says comes to the host.
+  void recordControl(gpu::Recorder& recorder) const;
+  /// What the last frame that has ended left in it.
+  const layout::ContactControl& control() const;
 
   /// All of them anew, as the rest state has them.
   Status uploadStrands(const RestState& rest);

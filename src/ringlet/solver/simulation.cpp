@@ -367,6 +367,12 @@ Status Simulation::Implementation::archive(Archive& archive) {
       if (Status status = archiveBuffer(archive, *buffer); !status) return status;
     }
   }
+  if (contacts || volume) {
+    DeviceChunk& hair = buffers.chunks[0];
+    for (gpu::Buffer* buffer : {&hair.contactSystems, &hair.solved}) {
+      if (Status status = archiveBuffer(archive, *buffer); !status) return status;
+    }
+  }
   if (volume) {
     if (Status status = volume->archive(archive); !status) return status;
   }

@@ -142,7 +142,7 @@ Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uin
     }
   }
   slots[slot].recordPositions(buffers);
-  if (contacts) contacts->recordControl(recorder);
+  buffers.recordControl(recorder);
   slots[slot].isRecorded = firstStep == 0 && predictFirst;
   return {};
 }
@@ -201,6 +201,11 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
     for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
       stageMilliseconds[stage] += milliseconds;
     if (contacts) contacts->readControl();
+    if ((contacts || volume) && buffers.control().isHalted == layout::kHaltedByTurns) {
+      return Error{
+          "more contact particles are near one another than this device can look through; use a smaller "
+          "contact radius or volume cell, or fewer strands in one place"};
+    }
     const bool isHalted = contacts && contacts->isHalted();
     // A frame that stopped says nothing of how long its work takes.
     if (isHalted || pace.learn(recorder.stageMilliseconds(), slots[slot].particleSteps)) {

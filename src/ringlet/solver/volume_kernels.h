@@ -8,7 +8,7 @@
 
 namespace ringlet {
 
-/// In the order of a step; from box to order only in steps that put particles into cells, bring only in
+/// In the order of a step; from count to order only in steps that put particles into cells, bring only in
 /// iterations after the first, gather and spread in each.
 enum class VolumeKernel { begin, box, count, scan, sum, start, scatter, order, bring, gather, spread };
 inline constexpr std::size_t kVolumeKernelCount = 11;

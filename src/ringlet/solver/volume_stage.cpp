@@ -17,7 +17,8 @@ namespace {
 // Of the grid; hair that reaches further than so many cells has larger ones.
 constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
 
-constexpr std::uint64_t kPerBlock = offsetof(layout::VolumeControl, indirectBlocks),
+constexpr std::uint64_t kPerParticle = offsetof(layout::VolumeControl, indirectParticles),
+                        kPerBlock = offsetof(layout::VolumeControl, indirectBlocks),
                         kPerNode = offsetof(layout::VolumeControl, indirectNodes);
 
 std::uint32_t cellCapacity(std::uint64_t wanted) {
@@ -47,8 +48,6 @@ std::vector<layout::VolumeState> unknownStates(const std::vector<float>& densiti
   return states;
 }
 
-bool sorts(std::uint32_t step) { return step % kVolumeSortSteps == 0; }
-
 layout::VolumeControl emptyControl() {
   layout::VolumeControl control{};
   for (int axis = 0; axis < 3; ++axis) control.least[axis] = 0x7fffffff, control.greatest[axis] = -0x7fffffff;
@@ -74,7 +73,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
                       .stiffness = static_cast<float>(settings.contacts.volumeStiffness),
                       .kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds)),
                       .warmth = static_cast<float>(kContactWarmth),
-                      .sorts = 0};
+                      .sortSteps = kVolumeSortSteps};
   if (self.particleGroups() > device.properties().maxGroupCount) {
     return Error{
         fmt::format("{} particles that meet as a volume are more than the {} this device takes at once; "
@@ -168,21 +167,20 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeNodeTexels, nodes}};
 }
 
+layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
+  layout::VolumeParameters parameters = parameters_;
+  parameters.step = step;
+  return parameters;
+}
 void VolumeStage::dispatch(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
                            std::uint32_t groups) const {
   const auto at = static_cast<std::size_t>(kernel);
-  layout::VolumeParameters parameters = parameters_;
-  parameters.step = step;
-  parameters.sorts = sorts(step) ? 1 : 0;
-  recorder.dispatch(*kernels_[at], bindings_[at], parameters, groups);
+  recorder.dispatch(*kernels_[at], bindings_[at], parameters(step), groups);
 }
 void VolumeStage::dispatchIndirect(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
                                    std::uint64_t offset) const {
   const auto at = static_cast<std::size_t>(kernel);
-  layout::VolumeParameters parameters = parameters_;
-  parameters.step = step;
-  parameters.sorts = sorts(step) ? 1 : 0;
-  recorder.dispatchIndirect(*kernels_[at], bindings_[at], parameters, buffers_->control, offset);
+  recorder.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), buffers_->control, offset);
 }
 
 void VolumeStage::recordNothing(gpu::Recorder& recorder) const {
@@ -193,24 +191,23 @@ void VolumeStage::recordBegin(gpu::Recorder& recorder, SubmissionPace& pace, std
   using enum VolumeKernel;
   pace.beginStage(recorder, "volume_begin");
   dispatch(recorder, begin, step, particleGroups());
-  recorder.endStage();
-  if (!sorts(step)) return;
   recorder.barrier();
+  recorder.endStage();
 
   pace.beginStage(recorder, "volume_sort");
   dispatch(recorder, box, step, 1);
   recorder.barrier();
-  dispatch(recorder, count, step, particleGroups());
+  dispatchIndirect(recorder, count, step, kPerParticle);
   recorder.barrier();
   dispatchIndirect(recorder, scan, step, kPerBlock);
   recorder.barrier();
   dispatch(recorder, sum, step, 1);
   recorder.barrier();
-  dispatchIndirect(recorder, start, step, kPerNode);
+  dispatchIndirect(recorder, start, step, kPerBlock);
   recorder.barrier();
-  dispatch(recorder, scatter, step, particleGroups());
+  dispatchIndirect(recorder, scatter, step, kPerParticle);
   recorder.barrier();
-  dispatch(recorder, order, step, particleGroups());
+  dispatchIndirect(recorder, order, step, kPerParticle);
   recorder.endStage();
 }
 
@@ -230,12 +227,23 @@ void VolumeStage::recordMeans(gpu::Recorder& recorder, SubmissionPace& pace, std
 
 Status VolumeStage::forget() {
   const std::vector<layout::VolumeState> states = unknownStates(densities_);
-  return buffers_->states.upload(std::as_bytes(std::span(states)));
+  if (Status status = buffers_->states.upload(std::as_bytes(std::span(states))); !status) return status;
+  const layout::VolumeControl control = emptyControl();
+  return buffers_->control.upload(std::as_bytes(std::span(&control, 1)));
 }
 
 Status VolumeStage::archive(Archive& archive) {
-  DeviceChunk& chunk = groom_->chunks[0];
-  for (gpu::Buffer* buffer : {&buffers_->states, &chunk.contactSystems, &chunk.solved}) {
+  Buffers& b = *buffers_;
+  auto control = downloadAll<layout::VolumeControl>(b.control, 1);
+  if (!control) return control.error();
+  archive.value(control->front());
+  if (archive.isShort()) return {};
+  if (archive.isReading()) {
+    if (Status status = b.control.upload(std::as_bytes(std::span(*control))); !status) return status;
+  }
+  std::vector<gpu::Buffer*> kept{&b.states};
+  if (control->front().untilSort > 0) kept.insert(kept.end(), {&b.cells, &b.parcels, &b.located});
+  for (gpu::Buffer* buffer : kept) {
     if (Status status = archiveBuffer(archive, *buffer); !status) return status;
   }
   return {};

@@ -45,7 +45,7 @@ class VolumeStage {
 
   /// Forgets displacements: the hair was put somewhere else.
   Status forget();
-  /// All that the next step depends on beside positions and velocities.
+  /// All that the next step depends on beside positions, velocities and what the solve left.
   Status archive(Archive& archive);
 
   std::uint64_t bytes() const;
@@ -56,6 +56,7 @@ class VolumeStage {
   };
   VolumeStage() = default;
   gpu::BufferTable bufferTable() const;
+  layout::VolumeParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
   void dispatchIndirect(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
