@@ -1,9 +1,9 @@
-// `jacobi` for one or two lanes and hair alone: the same exact solve, in two lanes from both ends of the strand at
-// once, lane 0 from the root and lane 1 from the tip, met at the edge between them; in one lane from the root to the
-// tip and back. No lane waits for what lies beyond its run, so no transfers and no compliances of whole runs are
-// needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). Four lanes, the inner two a
-// turn after the outer, were tried: what is done twice costs what the star does. Mirrored by reference/strand_solve.h.
-// Included by kernels/strand_step.comp.
+// `jacobi` for one or two lanes and hair by itself or as a volume: the same exact solve, in two lanes from both ends
+// of the strand at once, lane 0 from the root and lane 1 from the tip, met at the edge between them; in one lane from
+// the root to the tip and back. No lane waits for what lies beyond its run, so no transfers and no compliances of
+// whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). Four lanes,
+// the inner two a turn after the outer, were tried: what is done twice costs what the star does. Mirrored by
+// reference/strand_solve.h. Included by kernels/strand_step.comp.
 //
 //   root  o-o-o-o   o-o-o-o  tip
 //         lane 0 -> <- lane 1
@@ -14,7 +14,17 @@
 //   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
 // All sums of positive matrices: stiff edges cost no digits.
 
-const bool kFromEnds = kLanes <= 2 && !kAddsMass && !kBendVaries;
+// What a volume adds to a mass is a number, as the mass is.
+const bool kAddsMatrix = kContacts && kPairs || kAir || kBodies;
+const bool kFromEnds = kLanes <= 2 && !kAddsMatrix && !kBendVaries;
+
+// What the volume adds to particle k of the run: xyz to its right-hand side, w to its mass.
+vec4 addedByVolume(int k) {
+#ifdef RINGLET_CONTACTS
+  if (kVolume && meetsContacts(k)) return volumeSystemOf(strand.firstParticle + first + k);
+#endif
+  return vec4(0);
+}
 
 // A⁻¹ of an edge of this direction and length; void ones are never used.
 Symmetric complianceOf(vec3 direction, float edgeLength) {
@@ -50,8 +60,9 @@ void solveFromEnds(vec3 pinned[3]) {
     int k = RUN - 1 - j;
     vec3 rootSide = rightHandSide(j, j > 0 ? force[max(j - 1, 0)] : forceBefore);
     vec3 tipSide = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
-    r[j] = fromRoot ? rootSide : tipSide;
-    mass[j] = fromRoot ? restEdge[j].x : restEdge[k].x;
+    vec4 added = addedByVolume(fromRoot ? j : k);
+    r[j] = (fromRoot ? rootSide : tipSide) + added.xyz;
+    mass[j] = (fromRoot ? restEdge[j].x : restEdge[k].x) + added.w;
     if (j > 0) {
       Symmetric S = add(C[max(j - 1, 0)], complianceOf(fromRoot ? eHat[max(j - 1, 0)] : eHat[k],
                                                        fromRoot ? edgeLengthOf(max(j - 1, 0)) : edgeLengthOf(k)));

@@ -23,6 +23,8 @@ layout(constant_id = 13) const bool kPairs = true;       // of which there are o
 layout(constant_id = 14) const bool kVolume = false;     // and of hair as a volume
 #else
 const bool kContacts = false;
+const bool kPairs = false;
+const bool kVolume = false;
 #endif
 #ifdef RINGLET_SURROUNDINGS
 layout(constant_id = 8) const bool kBodies = false;      // there are some

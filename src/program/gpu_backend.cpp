@@ -56,7 +56,8 @@ class GpuBackend : public Backend {
 
 // Where what was measured is true, and there is a choice.
 bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
-  return strandWork(input.settings, input.material, !input.bodies.empty()) == StrandWork::hairAlone &&
+  const ContactKinds kinds{.pairs = input.settings.contacts.on};
+  return strandWork(input.settings, input.material, kinds, !input.bodies.empty()) == StrandWork::hairAlone &&
          kernel.form != KernelChoice::Form::serial && (kernel.lanes == 0 || kernel.particlesPerLane == 0);
 }
 

@@ -25,7 +25,7 @@ std::vector<Work> strandWorks() {
           {"stiffness that varies", StrandWork::plain, {.oneSmoothing = true, .bendVaries = true}},
           {"contacts", StrandWork::plain, {.oneSmoothing = true, .contacts = true}},
           {"a volume",
-           StrandWork::plain,
+           StrandWork::volume,
            {.oneSmoothing = true, .contacts = true, .pairs = false, .volume = true}},
           {"air", StrandWork::plain, {.oneSmoothing = true, .air = true, .turbulence = true}},
           {"bodies", StrandWork::bodies, {.oneSmoothing = true, .bodies = true}},

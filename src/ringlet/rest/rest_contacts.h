@@ -13,12 +13,21 @@
 
 namespace ringlet {
 
+/// Which ways of contact a run has.
+struct ContactKinds {
+  bool pairs = false;   // strands meet pair by pair
+  bool volume = false;  // some hair meets as a volume
+
+  bool any() const { return pairs || volume; }
+};
+
 /// Device order, as RestState.
 struct RestContacts {
   ContactParticles particles;
   ContactGraph graph;
   VolumeStrands volume;
 
+  ContactKinds kinds() const { return {meetPairByPair(volume, graph), volume.count > 0}; }
   /// For the user, a sentence each: of gaps or raised radii, and of pruning that leaves nothing.
   std::vector<std::string> warnings() const;
 };

@@ -69,10 +69,12 @@ constexpr double kLastResort = 1e9;  // [ns] of a particle, in place of a cost
 
 const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
 
+bool isFromEnds(StrandWork work) { return work == StrandWork::hairAlone || work == StrandWork::volume; }
+
 double modelCost(const StrandShape& shape, const CostModel& model, StrandWork work) {
-  const WorkModel& of = work == StrandWork::hairAlone ? model.hairAlone
-                        : work == StrandWork::bodies  ? model.bodies
-                                                      : model.plain;
+  const WorkModel& of = isFromEnds(work)             ? model.hairAlone
+                        : work == StrandWork::bodies ? model.bodies
+                                                     : model.plain;
   if (shape.serial()) return of.serial;
   const int doublings = std::max(0, std::countr_zero(shape.lanes) - 2);  // until four stretches are left
   const std::uint32_t rounds = std::min(shape.lanes, 4u) - 1;
@@ -207,18 +209,20 @@ std::string StrandShape::describe() const {
   return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
 }
 
-StrandWork strandWork(const Settings& settings, const Material& material, bool hasBodies) {
+StrandWork strandWork(const Settings& settings, const Material& material, ContactKinds kinds,
+                      bool hasBodies) {
   if (hasBodies) return StrandWork::bodies;
-  const bool isAlone = settings.integrator == Integrator::jacobi && !settings.contacts.on &&
-                       !settings.air.on && material.bendStiffnessProfile.points.empty();
-  return isAlone ? StrandWork::hairAlone : StrandWork::plain;
+  const bool isFromEnds = settings.integrator == Integrator::jacobi && !kinds.pairs && !settings.air.on &&
+                          material.bendStiffnessProfile.points.empty();
+  if (!isFromEnds) return StrandWork::plain;
+  return kinds.volume ? StrandWork::volume : StrandWork::hairAlone;
 }
 
 // 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but what
 // few lanes save is worth it, and beyond the most lanes there is only the serial form, 4 times slower.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work) {
   if (!limits.isCpu) return 16;
-  const bool isFew = work == StrandWork::hairAlone && lanes <= 2;
+  const bool isFew = isFromEnds(work) && lanes <= 2;
   const bool isWidest = work != StrandWork::bodies && (lanes == 0 || lanes == limits.subgroupSize);
   return isFew || isWidest ? kLongestRun : 24;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
+#include "ringlet/rest/rest_contacts.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/strand_shape.h"
 
@@ -16,10 +17,12 @@ namespace ringlet {
 enum class StrandWork {
   hairAlone,  // `jacobi` without contacts, bodies, air or bending that varies along the strand: one or two
               // lanes solve it from its ends (shaders/integrators/two_way.glsl). What `ringlet tune` measures
+  volume,     // the same with hair as a volume, without contacts of pairs: solved from its ends as well
   plain,      // all else but
   bodies,     // which ask for particles one by one
 };
-StrandWork strandWork(const Settings& settings, const Material& material, bool hasBodies);
+/// `kinds`: of contacts.
+StrandWork strandWork(const Settings& settings, const Material& material, ContactKinds kinds, bool hasBodies);
 
 /// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. There the widest
 /// shape takes long runs, and one or two lanes that solve from the strand's ends. lanes 0: the most of any

@@ -15,6 +15,7 @@
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_volume.h"
 #include "ringlet/rest/strand_order.h"
+#include "ringlet/solver/contact_momentum.h"
 #include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/groom_chunks.h"
 #include "ringlet/solver/packed.h"
@@ -70,31 +71,6 @@ class CompileNotice {
   CompileObserver* observer_;
 };
 
-// |sum J| over the sum of their sizes, of the last step; J_a = momentum - (2 D + g) v of the last iterate, in
-// kg m/s. What a pinned particle received is not known, and left out.
-Result<double> momentumError(const DeviceChunk& hair, const RestState& rest) {
-  auto systems = downloadAll<layout::ContactSystem>(hair.contactSystems, rest.points.size());
-  if (!systems) return systems.error();
-  auto solved = downloadAll<layout::vec4>(hair.solved, rest.points.size());
-  if (!solved) return solved.error();
-  Vec3d sum{};
-  double sizes = 0;
-  for (const layout::StrandRest& strand : rest.strands) {
-    for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
-      const auto& [d, o, m, g] = (*systems)[i];
-      const layout::vec4 v = (*solved)[i];
-      const Vec3d Dv{double(d.x) * v.x + double(o.z) * v.y + double(o.y) * v.z,
-                     double(o.z) * v.x + double(d.y) * v.y + double(o.x) * v.z,
-                     double(o.y) * v.x + double(o.x) * v.y + double(d.z) * v.z};
-      const Vec3d byVolume = Vec3d{g.x, g.y, g.z} - Vec3d{v.x, v.y, v.z} * double(g.w);
-      const Vec3d J = (Vec3d{m.x, m.y, m.z} - Dv * 2.0 + byVolume) * double(strand.firstEdge.w);
-      sum = sum + J;
-      sizes += length(J);
-    }
-  }
-  return sizes > 0 ? length(sum) / sizes : 0;
-}
-
 }  // namespace
 
 Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom,
@@ -113,9 +89,12 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   const DeviceLimits& limits = *chosenLimits;
   std::vector<std::uint32_t> counts;
   for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
-  auto ranges = counts.empty()
-                    ? Result<std::vector<StrandRange>>(std::vector<StrandRange>{})
-                    : planRanges(counts, limits, choice, strandWork(settings, material, !bodies.empty()));
+  std::optional<RestContacts> restContacts;
+  if (settings.contacts.on && !counts.empty()) restContacts = buildRestContacts(*rest, settings.contacts);
+  const ContactKinds kinds = restContacts ? restContacts->kinds() : ContactKinds{};
+  const StrandWork work = strandWork(settings, material, kinds, !bodies.empty());
+  auto ranges = counts.empty() ? Result<std::vector<StrandRange>>(std::vector<StrandRange>{})
+                               : planRanges(counts, limits, choice, work);
   if (!ranges) return ranges.error();
   const bool anySerial =
       std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
@@ -148,8 +127,8 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
                                                           std::move(*ranges),
                                                           SubmissionPace(longestSubmission(choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
-  if (settings.contacts.on && !counts.empty()) {
-    if (Status status = self->addContacts(choice.contactRoom); !status) return status.error();
+  if (restContacts) {
+    if (Status status = self->addContacts(*restContacts, choice.contactRoom); !status) return status.error();
   }
   self->rest.particles = {};  // the device has them
   if (Status status = self->makeKernels(!bodies.empty()); !status) return status.error();
@@ -231,19 +210,18 @@ Status Simulation::Implementation::dispatchNothing(std::span<const std::size_t> 
   return recorder->submitAndWait();
 }
 
-Status Simulation::Implementation::addContacts(int room) {
-  const RestContacts atRest = buildRestContacts(rest, settings.contacts);
+Status Simulation::Implementation::addContacts(const RestContacts& atRest, int room) {
   std::ranges::copy(atRest.warnings(), std::back_inserter(rest.warnings));
   contactReport = {.contactParticles = atRest.particles.particles.size(),
                    .pairsUnpruned = atRest.graph.pairsUnpruned,
                    .pairs = atRest.graph.pairs,
                    .volumeStrands = atRest.volume.count};
-  if (meetPairByPair(atRest.volume, atRest.graph)) {
+  if (atRest.kinds().pairs) {
     auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, room);
     if (!stage) return stage.error();
     contacts = std::move(*stage);
   }
-  if (atRest.volume.count > 0) {
+  if (atRest.kinds().volume) {
     const RestVolume volumeAtRest = buildRestVolume(rest, atRest);
     auto stage = VolumeStage::create(device.gpu(), rest, settings, volumeAtRest, buffers);
     if (!stage) return stage.error();
@@ -459,7 +437,7 @@ Result<ContactReport> Simulation::contactReport() const {
     report.rebuilds = self_->contacts->rebuilds();
     report.pairTests = self_->contacts->pairTests();
   }
-  auto error = momentumError(self_->buffers.chunks[0], self_->rest);
+  auto error = contactMomentumError(self_->buffers.chunks[0], self_->rest);
   if (!error) return error.error();
   report.momentumError = *error;
   return report;

@@ -79,7 +79,7 @@ struct Simulation::Implementation {
   // simulation.cpp
   Status makeKernels(bool hasBodies);
   Status dispatchNothing(std::span<const std::size_t> newKernels) const;
-  Status addContacts(int room);
+  Status addContacts(const RestContacts& atRest, int room);
   Status forgetContacts();
   Status placeAtRest();
   Status carryTo(const HeadPose& end);
