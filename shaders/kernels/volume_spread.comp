@@ -24,5 +24,5 @@ void main() {
 
   vec3 given = mass * (mean.xyz - parameters.stiffness * parameters.seconds * s);
   vec3 momentum = inWorld(given) + g * carriedVelocity(positionOf(self.particle));
-  systems[self.particle].volume = self.inverseMassUnit * vec4(momentum, g);
+  added[self.particle] = self.inverseMassUnit * vec4(momentum, g);
 }

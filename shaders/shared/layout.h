@@ -51,6 +51,10 @@ RINGLET_CONSTANT uint kBindWindModeTexels = 24;  // 2 a mode
 // Where roots are that move beside the head, each strand's its own way:
 RINGLET_CONSTANT uint kBindRootPoses = 25;       // RootPose[steps + 1][strands]
 RINGLET_CONSTANT uint kBindRootPoseTexels = 26;  // 4 a pose
+// And what hair as a volume adds to a particle's velocity system, in the strand's mass units:
+RINGLET_CONSTANT uint kBindAddedByVolume = 27;   // vec4[particles]: xyz: to the right-hand side [mass unit m/s]; w: to
+                                                 // the mass, g [mass unit]
+RINGLET_CONSTANT uint kBindAddedByVolumeTexels = 28;
 
 // Integrators (specialization constant 2).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
@@ -287,13 +291,11 @@ struct ContactForce {
   uint unused;
 };
 
-// What contacts add to a particle's velocity system, (L + 2 D + g I) v = base + momentum + volume, in the strand's mass
-// units.
+// What contacts add to a particle's velocity system, (L + 2 D) v = base + momentum, in the strand's mass units.
 struct ContactSystem {
   vec4 diagonal;     // xyz: of D xx, yy, zz; w: push x
   vec4 offDiagonal;  // xyz: of D yz, xz, xy; w: push y
   vec4 momentum;     // xyz: push and sum of Q (v_a + v_b) [mass unit m/s]; w: push z. The push is the sum of push n
-  vec4 volume;       // of hair as a volume, xyz: to the right-hand side [mass unit m/s]; w: to the mass, g [mass unit]
 };
 
 // A place of the grid: a contact particle as it was when lists were made. Numbers of both kinds are integers here: a
@@ -386,7 +388,7 @@ RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as 
 RINGLET_CONSTANT uint kBindVolumeCells = 7;       // uint: see cellCount and its like in shared/volume_buffers.glsl
 RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], in cell order
 RINGLET_CONSTANT uint kBindVolumeNodes = 9;       // vec4[nodes]: xyz: mean of a [m/s]; w: density [kg/m^3]
-RINGLET_CONSTANT uint kBindVolumeSystems = 10;    // ContactSystem[particles]
+RINGLET_CONSTANT uint kBindVolumeAdded = 10;      // vec4[particles]: see kBindAddedByVolume
 RINGLET_CONSTANT uint kBindVolumeControl = 11;    // VolumeControl
 RINGLET_CONSTANT uint kBindVolumeHalt = 12;       // ContactControl
 RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xyz: place in cells, bits of floats; w:

@@ -73,8 +73,10 @@ layout(set = 0, binding = kBindSolved) buffer Solved { vec4 solved[]; };
 layout(set = 0, binding = kBindContactSystems) readonly buffer ContactSystems { ContactSystem contactSystems[]; };
 layout(set = 0, binding = kBindContactControl) readonly buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindContactSystemTexels) uniform usamplerBuffer contactSystemTexels;
-vec4 contactSystemPart(uint i, uint part) { return vectorAt(contactSystemTexels, 4 * i + part); }
-vec4 volumeSystemOf(uint i) { return kTexels ? contactSystemPart(i, 3) : contactSystems[i].volume; }
+layout(set = 0, binding = kBindAddedByVolume) readonly buffer AddedByVolume { vec4 volumeSystems[]; };
+layout(set = 0, binding = kBindAddedByVolumeTexels) uniform usamplerBuffer volumeSystemTexels;
+vec4 contactSystemPart(uint i, uint part) { return vectorAt(contactSystemTexels, 3 * i + part); }
+vec4 volumeSystemOf(uint i) { return kTexels ? vectorAt(volumeSystemTexels, i) : volumeSystems[i]; }
 /// What is added to particle i's mass, and to its right-hand side.
 Symmetric contactMass(uint i) {
   Symmetric mass = symmetricDiagonal(kVolume ? volumeSystemOf(i).w : 0.0);

@@ -66,7 +66,8 @@ TEST(BoundBuffers, KernelsBindNothingOfWhatTheyLack) {
         return std::ranges::find_first_of(numbers, wanted) != numbers.end();
       };
       const std::initializer_list<std::uint32_t> contacts{
-          layout::kBindContactSystems, layout::kBindContactControl, layout::kBindContactSystemTexels};
+          layout::kBindContactSystems, layout::kBindContactControl, layout::kBindContactSystemTexels,
+          layout::kBindAddedByVolume, layout::kBindAddedByVolumeTexels};
       const std::initializer_list<std::uint32_t> world{
           layout::kBindBodies,        layout::kBindBodyPoses,      layout::kBindGridCells,
           layout::kBindAir,           layout::kBindWindModes,      layout::kBindBodyTexels,

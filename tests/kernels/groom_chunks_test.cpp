@@ -27,7 +27,7 @@ TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
     for (const bool movingRoots : {false, true}) {
       KernelChoice choice;
       choice.movingRoots = movingRoots;
-      const GroomRecords records = groomRecords({}, choice, serial, true);
+      const GroomRecords records = groomRecords({}, choice, {}, serial, true);
       for (std::uint64_t most : {300u * 240u, 100'000u, 1u << 20}) {
         const auto chunks = cutGroom(counts, records, most);
         ASSERT_TRUE(chunks) << chunks.error().message;
@@ -53,14 +53,14 @@ TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
 // What a groom of a million strands of 16 comes to where a buffer is 128 MiB.
 TEST(GroomChunks, OfAMillionStrandsAreFour) {
   const std::vector<std::uint32_t> counts(1'000'000, 16);
-  const auto chunks = cutGroom(counts, groomRecords({}, {}, false, false), 128 * kMebibyte);
+  const auto chunks = cutGroom(counts, groomRecords({}, {}, {}, false, false), 128 * kMebibyte);
   ASSERT_TRUE(chunks);
   EXPECT_EQ(chunks->size(), 4u);
   EXPECT_EQ(chunks->front().particleCount(), 128 * kMebibyte / 32);
 }
 
 TEST(GroomChunks, WhatDoesNotFitIsSaidWithItsNumbers) {
-  const GroomRecords records = groomRecords({}, {}, true, false);
+  const GroomRecords records = groomRecords({}, {}, {}, true, false);
   const std::vector<std::uint32_t> counts{10, 10, 5000};
   const auto tooLong = cutGroom(counts, records, 128 * 1000);
   ASSERT_FALSE(tooLong);
@@ -149,7 +149,7 @@ class ChunkedGroom : public GpuTest {
     const HairState whole = moved(groom, c, start);
 
     const bool serial = c.kernel.form == KernelChoice::Form::serial;
-    const GroomRecords records = groomRecords(c.settings, c.kernel, serial, c.bodies);
+    const GroomRecords records = groomRecords(c.settings, c.kernel, {}, serial, c.bodies);
     const std::uint64_t ofParticles = groom.points.size() * std::max(records.particleRest, records.scratch);
     c.kernel.mostBufferBytes = std::max(ofParticles, groom.strandCount() * records.rootPoses) * 2 / 5;
     std::vector<std::uint32_t> sorted(counts.begin(), counts.end());

@@ -147,8 +147,7 @@ const std::vector<CppStruct> kCppStructs = {
       using S = layout::ContactSystem;
       return CppStruct{"ContactSystem",
                        sizeof(S),
-                       {RINGLET_MEMBER(diagonal), RINGLET_MEMBER(offDiagonal), RINGLET_MEMBER(momentum),
-                        RINGLET_MEMBER(volume)}};
+                       {RINGLET_MEMBER(diagonal), RINGLET_MEMBER(offDiagonal), RINGLET_MEMBER(momentum)}};
     }(),
     [] {
       using S = layout::VolumeParticle;

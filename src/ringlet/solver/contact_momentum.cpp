@@ -6,22 +6,38 @@
 
 namespace ringlet {
 
-Result<double> contactMomentumError(const DeviceChunk& hair, const RestState& rest) {
-  auto systems = downloadAll<layout::ContactSystem>(hair.contactSystems, rest.points.size());
+namespace {
+
+// momentum - 2 D v [mass unit m/s].
+Vec3d givenByPairs(const layout::ContactSystem& system, const Vec3d& v) {
+  const auto& [d, o, m] = system;
+  const Vec3d Dv{d.x * v.x + o.z * v.y + o.y * v.z, o.z * v.x + d.y * v.y + o.x * v.z,
+                 o.y * v.x + o.x * v.y + d.z * v.z};
+  return Vec3d{m.x, m.y, m.z} - Dv * 2.0;
+}
+
+}  // namespace
+
+Result<double> contactMomentumError(const DeviceChunk& hair, const RestState& rest, ContactKinds kinds) {
+  const std::size_t count = rest.points.size();
+  auto systems = downloadAll<layout::ContactSystem>(hair.contactSystems, kinds.pairs ? count : 0);
   if (!systems) return systems.error();
-  auto solved = downloadAll<layout::vec4>(hair.solved, rest.points.size());
+  auto added = downloadAll<layout::vec4>(hair.addedByVolume, kinds.volume ? count : 0);
+  if (!added) return added.error();
+  auto solved = downloadAll<layout::vec4>(hair.solved, count);
   if (!solved) return solved.error();
   Vec3d sum{};
   double sizes = 0;
   for (const layout::StrandRest& strand : rest.strands) {
     for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
-      const auto& [d, o, m, g] = (*systems)[i];
-      const layout::vec4 v = (*solved)[i];
-      const Vec3d Dv{double(d.x) * v.x + double(o.z) * v.y + double(o.y) * v.z,
-                     double(o.z) * v.x + double(d.y) * v.y + double(o.x) * v.z,
-                     double(o.y) * v.x + double(o.x) * v.y + double(d.z) * v.z};
-      const Vec3d byVolume = Vec3d{g.x, g.y, g.z} - Vec3d{v.x, v.y, v.z} * double(g.w);
-      const Vec3d J = (Vec3d{m.x, m.y, m.z} - Dv * 2.0 + byVolume) * double(strand.firstEdge.w);
+      const Vec3d v{(*solved)[i].x, (*solved)[i].y, (*solved)[i].z};
+      Vec3d J{};
+      if (kinds.pairs) J = givenByPairs((*systems)[i], v);
+      if (kinds.volume) {
+        const layout::vec4& g = (*added)[i];
+        J = J + Vec3d{g.x, g.y, g.z} - v * static_cast<double>(g.w);
+      }
+      J = J * static_cast<double>(strand.firstEdge.w);
       sum = sum + J;
       sizes += length(J);
     }

@@ -31,6 +31,8 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const RestState& rest, cons
   if (!solved) return solved.error();
   auto systems = createZero(device, particleCount * records.contactSystem, "contact systems");
   if (!systems) return systems.error();
+  auto added = createZero(device, particleCount * records.addedByVolume, "added by the volume");
+  if (!added) return added.error();
   return DeviceChunk{part,
                      std::move(*positions),
                      std::move(*velocities),
@@ -39,7 +41,8 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const RestState& rest, cons
                      std::move(*reports),
                      std::move(*scratch),
                      std::move(*solved),
-                     std::move(*systems)};
+                     std::move(*systems),
+                     std::move(*added)};
 }
 
 }  // namespace
@@ -76,8 +79,9 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
                                         std::size_t slots) {
   auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
   if (!poses) return poses.error();
-  auto control =
-      createZero(device, records.contactSystem > 0 ? sizeof(layout::ContactControl) : 0, "contact control");
+  auto control = createZero(
+      device, records.contactSystem + records.addedByVolume > 0 ? sizeof(layout::ContactControl) : 0,
+      "contact control");
   if (!control) return control.error();
   auto controlRead = gpu::Buffer::create(device, sizeof(layout::ContactControl), gpu::BufferKind::stream,
                                          "contact control read back");
@@ -109,7 +113,9 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindVelocityTexels, c.velocities},
           {kBindParticleTexels, c.particles},
           {kBindStrandTexels, c.strands},
-          {kBindContactSystemTexels, c.contactSystems}};
+          {kBindContactSystemTexels, c.contactSystems},
+          {kBindAddedByVolume, c.addedByVolume},
+          {kBindAddedByVolumeTexels, c.addedByVolume}};
 }
 
 void DeviceGroom::recordControl(gpu::Recorder& recorder) const {
@@ -123,8 +129,8 @@ const layout::ContactControl& DeviceGroom::control() const {
 std::uint64_t DeviceGroom::largestTexels() const {
   std::uint64_t largest = 0;
   for (const DeviceChunk& c : chunks)
-    largest = std::max(
-        {largest, c.positions.bytes(), c.particles.bytes(), c.strands.bytes(), c.contactSystems.bytes()});
+    largest = std::max({largest, c.positions.bytes(), c.particles.bytes(), c.strands.bytes(),
+                        c.contactSystems.bytes(), c.addedByVolume.bytes()});
   return largest;
 }
 
@@ -132,7 +138,7 @@ std::uint64_t DeviceGroom::particleBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
     bytes += c.positions.bytes() + c.velocities.bytes() + c.particles.bytes() + c.scratch.bytes() +
-             c.solved.bytes() + c.contactSystems.bytes();
+             c.solved.bytes() + c.contactSystems.bytes() + c.addedByVolume.bytes();
   return bytes;
 }
 

@@ -24,7 +24,7 @@ namespace ringlet {
 struct DeviceChunk {
   GroomChunk part;
   gpu::Buffer positions, velocities, particles, strands, reports, scratch;
-  gpu::Buffer solved, contactSystems;  // empty unless needed (GroomRecords)
+  gpu::Buffer solved, contactSystems, addedByVolume;  // empty unless needed (GroomRecords)
 };
 
 /// The chunks a device wants a groom in: as large as storage allows, and as texels do where it sees as many

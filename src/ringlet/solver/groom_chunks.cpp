@@ -11,7 +11,8 @@ namespace ringlet {
 namespace {
 
 std::uint64_t largestOfParticle(const GroomRecords& r) {
-  return std::max({r.position, r.velocity, r.particleRest, r.scratch, r.solved, r.contactSystem});
+  return std::max(
+      {r.position, r.velocity, r.particleRest, r.scratch, r.solved, r.contactSystem, r.addedByVolume});
 }
 std::uint64_t largestOfStrand(const GroomRecords& r) {
   return std::max({r.strandRest, r.report, r.rootPoses});
@@ -23,8 +24,8 @@ std::string mebibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, bool anySerial,
-                          bool anyBodies) {
+GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds,
+                          bool anySerial, bool anyBodies) {
   const std::uint64_t serialScratch = layout::kScratchPerParticle + (anyBodies ? layout::kBodyScratch : 0) +
                                       (settings.air.on ? layout::kAirScratch : 0);
   GroomRecords records;
@@ -33,8 +34,9 @@ GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, 
   records.scratch =
       ((anySerial ? serialScratch : 0) + (choice.taps ? layout::kTapCount : 0)) * sizeof(layout::vec4);
   // A solve's result stands beside the velocities it began from.
-  if (settings.contacts.on || (anySerial && anyBodies)) records.solved = sizeof(layout::vec4);
-  if (settings.contacts.on) records.contactSystem = sizeof(layout::ContactSystem);
+  if (kinds.any() || (anySerial && anyBodies)) records.solved = sizeof(layout::vec4);
+  if (kinds.pairs) records.contactSystem = sizeof(layout::ContactSystem);
+  if (kinds.volume) records.addedByVolume = sizeof(layout::vec4);
   records.strandRest = sizeof(layout::StrandRest);
   records.report = sizeof(layout::StrandReport);
   if (choice.movingRoots)

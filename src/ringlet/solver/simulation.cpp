@@ -98,7 +98,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
   if (!ranges) return ranges.error();
   const bool anySerial =
       std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
-  const GroomRecords records = groomRecords(settings, choice, anySerial, !bodies.empty());
+  const GroomRecords records = groomRecords(settings, choice, kinds, anySerial, !bodies.empty());
   const auto chunks = cutForDevice(device.gpu(), counts, records, settings, choice);
   if (!chunks) return chunks.error();
   *ranges = cutRanges(*ranges, *chunks);
@@ -347,7 +347,7 @@ Status Simulation::Implementation::archive(Archive& archive) {
   }
   if (contacts || volume) {
     DeviceChunk& hair = buffers.chunks[0];
-    for (gpu::Buffer* buffer : {&hair.contactSystems, &hair.solved}) {
+    for (gpu::Buffer* buffer : {&hair.contactSystems, &hair.addedByVolume, &hair.solved}) {
       if (Status status = archiveBuffer(archive, *buffer); !status) return status;
     }
   }
@@ -437,7 +437,7 @@ Result<ContactReport> Simulation::contactReport() const {
     report.rebuilds = self_->contacts->rebuilds();
     report.pairTests = self_->contacts->pairTests();
   }
-  auto error = contactMomentumError(self_->buffers.chunks[0], self_->rest);
+  auto error = contactMomentumError(self_->buffers.chunks[0], self_->rest, self_->contactKinds());
   if (!error) return error.error();
   report.momentumError = *error;
   return report;

@@ -79,6 +79,7 @@ struct Simulation::Implementation {
   // simulation.cpp
   Status makeKernels(bool hasBodies);
   Status dispatchNothing(std::span<const std::size_t> newKernels) const;
+  ContactKinds contactKinds() const { return {contacts.has_value(), volume.has_value()}; }
   Status addContacts(const RestContacts& atRest, int room);
   Status forgetContacts();
   Status placeAtRest();

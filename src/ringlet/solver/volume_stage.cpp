@@ -152,7 +152,7 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeCells, cells},
           {kBindVolumeParcels, parcels},
           {kBindVolumeNodes, nodes},
-          {kBindVolumeSystems, hair.contactSystems},
+          {kBindVolumeAdded, hair.addedByVolume},
           {kBindVolumeControl, control},
           {kBindVolumeHalt, groom_->contactControl},
           {kBindVolumeLocated, located},
