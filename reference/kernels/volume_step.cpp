@@ -121,7 +121,7 @@ void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, cons
     p.share = othersShare(p.ownDensity, p.density);
     p.isKnown = true;
   }
-  volume.untilSort = (volume.untilSort > 0 ? volume.untilSort : kVolumeSortSteps) - 1;
+  volume.untilSort = (volume.untilSort > 0 ? volume.untilSort : volumeSortSteps(frame.seconds)) - 1;
 }
 
 VolumeSystem volumeMeans(const ContactSettings& settings, const VolumeFrame& frame,

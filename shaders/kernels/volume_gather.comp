@@ -4,19 +4,24 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
 
+// a / b; exact as long as a is less than 2^21, and faster than a division of integers.
+uint quotient(uint a, uint b) { return uint((float(a) + 0.5) / float(b)); }
+
 void main() {
   uint node = gl_GlobalInvocationID.x;
   if (halt.isHalted != 0 || node >= control.cellCount) return;
   uvec3 size = boxSize();
-  uvec3 at = uvec3(node % size.x, node / size.x % size.y, node / (size.x * size.y));
+  uint row = quotient(node, size.x);
+  uint z = quotient(row, size.y);
+  uvec3 at = uvec3(node - row * size.x, row - z * size.y, z);
   vec4 sum = vec4(0);
   float mass = 0.0;
   uint wanted = 4;  // turns of the loops; and how many they made
   uint made = 0;
-  uint row = 0;
+  uint turn = 0;
   do {
-    uint y = at.y - (row & 1);
-    uint z = at.z - (row >> 1);
+    uint y = at.y - (turn & 1);
+    uint z = at.z - (turn >> 1);
     bool isIn = y < size.y && z < size.z;  // below 0 they are large
     uint last = isIn ? (z * size.y + y) * size.x + at.x : 0;
     uint place = isIn ? startOf(last - min(at.x, 1)) : 0;
@@ -30,7 +35,7 @@ void main() {
       ++made;
     } while (++place < end);
     ++made;
-  } while (++row < 4);
+  } while (++turn < 4);
   if (made != wanted) halt.isHalted = kHaltedByTurns;
   nodes[node] = vec4(sum.w > 0.0 ? sum.xyz / sum.w : vec3(0),
                      mass * control.cellsPerMetre * control.cellsPerMetre * control.cellsPerMetre);

@@ -8,15 +8,20 @@ void main() {
   if (halt.isHalted != 0) return;
   uint i = gl_GlobalInvocationID.x;
   if (i >= parameters.count) return;
-  uint cell = cells[cellOf(i)];
+  uint cell = cellNumber(cellOf(i));
   uint start = startOf(cell);
-  uint end = startOf(cell + 1);
+  uint first = cellEntry(start);
+  uint end = cellEntry(startOf(cell + 1));
   uint before = 0;
-  uint other = start;
+  uint k = first / 4;
   do {  // itself is there
-    if (cells[cellEntry(other)] < i) ++before;
-  } while (++other < end);
-  if (other < end) halt.isHalted = kHaltedByTurns;
+    uvec4 others = cellNumbers(k);
+    for (uint j = 0; j < 4; ++j) {
+      uint at = 4 * k + j;
+      if (at >= first && at < end && others[j] < i) ++before;
+    }
+  } while (4 * ++k < end);
+  if (4 * k < end) halt.isHalted = kHaltedByTurns;
   vec3 inCells = placeInCells(placeOf(i).xyz);
   parcels[start + before] = VolumeParcel(broughtBy(i), vec4(inCells, volumeParticle(i).mass));
   located[i] = uvec4(floatBitsToUint(inCells), start + before);

@@ -7,5 +7,5 @@ void main() {
   if (halt.isHalted != 0) return;
   uint i = gl_GlobalInvocationID.x;
   if (i >= parameters.count) return;
-  cells[cellEntry(startOf(cells[cellOf(i)]) + cells[cellRank(i)])] = i;
+  cells[cellEntry(startOf(cellNumber(cellOf(i))) + cellNumber(cellRank(i)))] = i;
 }

@@ -404,7 +404,8 @@ RINGLET_CONSTANT uint kBindVolumeBroughtTexels = 19;
 RINGLET_CONSTANT uint kBindVolumeParcelTexels = 20;  // 2 a volume particle
 RINGLET_CONSTANT uint kBindVolumeNodeTexels = 21;
 RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 22;
-RINGLET_CONSTANT uint kVolumeTexelBindingCount = 9;
+RINGLET_CONSTANT uint kBindVolumeCellTexels = 23;  // four numbers each
+RINGLET_CONSTANT uint kVolumeTexelBindingCount = 10;
 
 // Constant per volume particle, in device order: one in so many of a strand that meets others as a volume, for as many.
 struct VolumeParticle {

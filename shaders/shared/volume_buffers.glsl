@@ -32,6 +32,7 @@ layout(set = 0, binding = kBindVolumeBroughtTexels) uniform usamplerBuffer broug
 layout(set = 0, binding = kBindVolumeParcelTexels) uniform usamplerBuffer parcelTexels;
 layout(set = 0, binding = kBindVolumeNodeTexels) uniform usamplerBuffer nodeTexels;
 layout(set = 0, binding = kBindVolumeLocatedTexels) uniform usamplerBuffer locatedTexels;
+layout(set = 0, binding = kBindVolumeCellTexels) uniform usamplerBuffer cellTexels;
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 
 // Records as they were when the dispatch began.
@@ -70,7 +71,13 @@ uint cellOf(uint i) { return cellSum(parameters.cellCapacity / kBucketBlock) + i
 uint cellRank(uint i) { return cellOf(parameters.count) + i; }  // among its cell's, in any order
 uint cellEntry(uint place) { return cellRank(parameters.count) + place; }  // in any order inside a cell
 
-uint startOf(uint cell) { return cells[cellStart(cell)]; }
+// As they were when the dispatch began: one number, and four that stand together, from 4 k on.
+uint cellNumber(uint at) { return kTexels ? recordAt(cellTexels, at / 4)[at % 4] : cells[at]; }
+uvec4 cellNumbers(uint k) {
+  if (kTexels) return recordAt(cellTexels, k);
+  return uvec4(cells[4 * k], cells[4 * k + 1], cells[4 * k + 2], cells[4 * k + 3]);
+}
+uint startOf(uint cell) { return cellNumber(cellStart(cell)); }
 
 const float kFarthestCell = 1e6;  // from the head; what is further, or no number, is taken for there
 ivec3 cellAt(vec3 place, float cellsPerMetre) {

@@ -68,6 +68,7 @@ TEST(ShapePlan, RoundLengthsHaveRoundShapes) {
   EXPECT_EQ(shapeOf(16, kLavapipe), (StrandShape{1, 16}));
   EXPECT_EQ(shapeOf(32, kLavapipe), (StrandShape{1, 32}));
   EXPECT_EQ(shapeOf(64, kLavapipe), (StrandShape{2, 32}));
+  EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::volume), (StrandShape{2, 32}));
   EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::plain), (StrandShape{4, 16}));
   EXPECT_EQ(shapeOf(16, kLavapipe, {}, StrandWork::bodies), (StrandShape{2, 8}));
   EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::bodies), (StrandShape{8, 8}));

@@ -70,8 +70,9 @@ TEST_F(VolumeOrder, IsByIndexInEveryCell) {
     gpu::BufferTable buffers{
         {layout::kBindVolumeParticles, *particle}, {layout::kBindVolumeParticleTexels, *particle},
         {layout::kBindVolumeBrought, *rate},       {layout::kBindVolumeBroughtTexels, *rate},
-        {layout::kBindVolumeCells, *words},        {layout::kBindVolumeParcels, *parcels},
-        {layout::kBindVolumeLocated, *located},    {layout::kBindVolumeHalt, *halt}};
+        {layout::kBindVolumeCells, *words},        {layout::kBindVolumeCellTexels, *words},
+        {layout::kBindVolumeParcels, *parcels},    {layout::kBindVolumeLocated, *located},
+        {layout::kBindVolumeHalt, *halt}};
     for (const auto& [number, kind] : (*kernel)->bindings()) buffers.emplace(number, *unused);
     auto bindings = gpu::Bindings::create(**kernel, buffers);
     auto recorder = gpu::Recorder::create(gpu(), "order");

@@ -2,6 +2,8 @@
 // them may touch is decided once, in the rest pose. Part of scene/settings.h.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -44,8 +46,12 @@ inline constexpr double kVolumeStrands = 9;
 
 /// A cell of the volume's grid, in radii of contact particles as they are chosen without a setting.
 inline constexpr double kVolumeCellRadii = 4;
-/// Particles are put into the grid's cells every so many steps: between, what is near moves with them.
-inline constexpr std::uint32_t kVolumeSortSteps = 2;
+/// Particles are put into the grid's cells so often [s]: between, what is near moves with them.
+inline constexpr double kVolumeSortSeconds = 1.0 / 48;
+/// The same in steps, at least 1.
+inline std::uint32_t volumeSortSteps(double stepSeconds) {
+  return static_cast<std::uint32_t>(std::max(1.0, std::round(kVolumeSortSeconds / stepSeconds)));
+}
 /// Particles of a strand that take part are at most so many cells apart along it, each for those between.
 inline constexpr double kVolumeSpacing = 1.6;
 

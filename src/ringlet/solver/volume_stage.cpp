@@ -73,7 +73,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
                       .stiffness = static_cast<float>(settings.contacts.volumeStiffness),
                       .kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds)),
                       .warmth = static_cast<float>(kContactWarmth),
-                      .sortSteps = kVolumeSortSteps};
+                      .sortSteps = volumeSortSteps(T)};
   if (self.particleGroups() > device.properties().maxGroupCount) {
     return Error{
         fmt::format("{} particles that meet as a volume are more than the {} this device takes at once; "
@@ -91,7 +91,8 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
     return status.error();
 
   const std::uint64_t largest =
-      std::max({groom.largestTexels(), count * sizeof(layout::VolumeState), capacity * sizeof(layout::vec4)});
+      std::max({groom.largestTexels(), count * sizeof(layout::VolumeState), capacity * sizeof(layout::vec4),
+                cellWords * sizeof(std::uint32_t)});
   const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
   for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
     const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels);
@@ -157,6 +158,7 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeHalt, groom_->contactControl},
           {kBindVolumeLocated, located},
           {kBindVolumeLocatedTexels, located},
+          {kBindVolumeCellTexels, cells},
           {kBindVolumePositionTexels, hair.positions},
           {kBindVolumeVelocityTexels, hair.velocities},
           {kBindVolumeSolvedTexels, hair.solved},
