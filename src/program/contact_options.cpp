@@ -60,9 +60,10 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
       ->type_name("STATE")
       ->group(group);
   command
-      ->add_option("--prune", choice.prune,
-                   "Overlapping spheres at rest from which on two strands may touch, 1 to 1000000: more is "
-                   "faster and misses more (default 8); none: all strands may, also those apart at rest")
+      ->add_option(
+          "--prune", choice.prune,
+          "Overlapping spheres at rest from which on two strands may touch pair by pair, 1 to 1000000: "
+          "more is faster and misses more (default 8); none: all may, also those apart at rest")
       ->check(pruneLevel())
       ->type_name("N|none")
       ->group(group);
@@ -88,8 +89,8 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
       ->group(group);
   command
       ->add_option("--contact-friction", choice.friction,
-                   "Damping of strands that slide along each other, as a share of that between strands "
-                   "that meet, 0 to 1 (default 0)")
+                   "Damping of strands that slide along each other, pair by pair, as a share of that between "
+                   "strands that meet, 0 to 1 (default 0)")
       ->check(between(0, 1))
       ->type_name("X")
       ->group(group);

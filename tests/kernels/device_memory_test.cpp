@@ -56,7 +56,7 @@ TEST_F(Memory, OfContacts) {
   auto simulation = make(settings);
   ASSERT_TRUE(simulation);
   const DeviceMemory memory = simulation->memory();
-  EXPECT_EQ(memory.particles, (64 + 80) * particleCount_);
+  EXPECT_EQ(memory.particles, (64 + 64) * particleCount_);
   const std::uint64_t contacts = simulation->contactReport()->contactParticles;
   ASSERT_GT(contacts, 0u);
   // A contact particle: 140 and two buckets of 8 or more, up to twice as many; a particle 20; a strand 16,
@@ -73,6 +73,20 @@ TEST_F(Memory, OfContacts) {
   auto timed = make(settings);
   ASSERT_TRUE(timed);
   EXPECT_EQ(timed->memory().contactLists, contacts * (16 * 16 + 44 + 40) + (contacts / 4 + 1) * 4 * 64);
+}
+
+// A particle of the volume: 140; a cell 24.
+TEST_F(Memory, OfAVolume) {
+  Settings settings;
+  settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::volume;
+  auto simulation = make(settings);
+  ASSERT_TRUE(simulation);
+  const DeviceMemory memory = simulation->memory();
+  EXPECT_EQ(memory.particles, (64 + 32) * particleCount_);
+  EXPECT_EQ(memory.contacts + memory.contactLists, 0u);
+  EXPECT_GT(memory.volume, 24u << 10);  // a block of cells at the least
+  EXPECT_LT(memory.volume, 140 * particleCount_ + (24u << 21) + (64u << 10));
 }
 
 // Lists as long as hair that lies in itself makes them: 16 bytes a pair and side, and a part that is empty.

@@ -230,13 +230,13 @@ TEST_F(ChunkedGroom, ALimitBelowOneStrandIsRefused) {
 
 TEST_F(ChunkedGroom, ContactsAndTapsWantItWhole) {
   const Groom groom = randomGroom(std::vector<int>(40, 20), 3);
-  Case contacts{"contacts", {.mostBufferBytes = 400 * 64}, {}};
+  Case contacts{"contacts", {.mostBufferBytes = 400 * 48}, {}};
   contacts.settings.contacts.on = true;
   auto refused = make(groom, contacts);
   ASSERT_FALSE(refused);
   expectParts(refused.error().message,
               {"contacts need the whole groom in one piece", "40 strands of 800 particles", "400 particles"});
-  contacts.kernel.mostBufferBytes = 800 * 64;
+  contacts.kernel.mostBufferBytes = 800 * 48;
   EXPECT_TRUE(make(groom, contacts));
   refused = make(groom, {"taps", {.taps = true, .mostBufferBytes = 799 * 128}, {}});
   ASSERT_FALSE(refused);

@@ -113,6 +113,23 @@ std::string errorOf(const Settings& settings) {
   return status ? "" : status.error().message;
 }
 
+// The taper in time is of pairs, and that method has none.
+TEST(RestLimits, AVolumeAloneHasNoTaperInTime) {
+  for (const ContactMethod method :
+       {ContactMethod::automatic, ContactMethod::explicitPairs, ContactMethod::volume}) {
+    for (const ContactTaper taper : {ContactTaper::distance, ContactTaper::time}) {
+      for (const bool on : {false, true}) {
+        Settings settings;
+        settings.contacts.on = on;
+        settings.contacts.method = method;
+        settings.contacts.taper = taper;
+        const bool isRefused = on && method == ContactMethod::volume && taper == ContactTaper::time;
+        EXPECT_EQ(errorOf(settings).find("as a volume") != std::string::npos, isRefused) << nameOf(method);
+      }
+    }
+  }
+}
+
 // The ends of every range are allowed, what lies just beyond is refused by name. Those of the air are in
 // tests/kernels/rest_state_test.cpp.
 template <class Number>

@@ -585,6 +585,28 @@ TEST(SceneParts, BodiesAreTheStatedOnes) {
   expectNear(mesh.poseAt(1.5, head).position, {0.5, 0, 0});
 }
 
+// What a file may say of a body's size, the body takes; and no more.
+TEST(SceneFile, SizesOfBodiesAreThoseABodyTakes) {
+  const Vec3d up{0, 1, 0};
+  for (const auto& [shape, key] : {std::pair{"sphere", "radius"},
+                                   {"capsule", "radius"},
+                                   {"capsule", "length"},
+                                   {"box", "half_extents"}}) {
+    const bool isBox = std::string(shape) == "box";
+    for (const std::string size : {"1e-6", "1000"}) {
+      const std::string value = isBox ? fmt::format("[{0}, {0}, {0}]", size) : size;
+      const SceneFile scene =
+          parsed(kGroom + fmt::format("[[body]]\nshape = '{}'\n{} = {}\n", shape, key, value));
+      ASSERT_EQ(scene.bodies.size(), 1u);
+      const Status status = checkBody(bodyOf(scene.bodies[0], 0, up));
+      EXPECT_TRUE(status) << shape << " " << key << ": " << status.error().message;
+    }
+    const std::string value = isBox ? "[1, 1, 1000.1]" : "1000.1";
+    EXPECT_NE(errorOf(kGroom + fmt::format("[[body]]\nshape = '{}'\n{} = {}\n", shape, key, value)), "")
+        << shape << " " << key;
+  }
+}
+
 TEST(SceneParts, SettingsAreTheStatedOnes) {
   const Settings settings = settingsOf(parsed(kKind + kEverythingElse));
   EXPECT_EQ(settings.framesPerSecond, 30);

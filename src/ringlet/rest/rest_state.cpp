@@ -416,6 +416,12 @@ Status checkSettings(const Settings& s, const Material& material) {
         "contacts are on with the integrator {}; contacts need jacobi: choose it, or turn contacts off",
         s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
   }
+  if (s.contacts.on && s.contacts.method == ContactMethod::volume && s.contacts.taper == ContactTaper::time) {
+    return Error{
+        "all hair is to meet as a volume, with the contacts' taper in time; that is of pairs: choose "
+        "contacts "
+        "auto or explicit, or the taper distance"};
+  }
   if (s.air.on && s.integrator != Integrator::jacobi) {
     return Error{
         fmt::format("the air is on with the integrator {}; air needs jacobi: choose it, or turn the air off",

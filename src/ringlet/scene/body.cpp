@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "ringlet/base/assert.h"
@@ -20,7 +19,8 @@ Status checkBody(const Body& body) {
   if (body.shape == BodyShape::capsule && !(body.length >= 0 && body.length <= 1000))
     return fail(fmt::format("has a length of {} m; it takes 0 to 1000", body.length));
   const Vec3d& half = body.halfExtents;
-  if (body.shape == BodyShape::box && !(std::min({half.x, half.y, half.z}) > 0 && length(half) <= 1000))
+  const auto isExtent = [](double x) { return x > 0 && x <= 1000; };
+  if (body.shape == BodyShape::box && !(isExtent(half.x) && isExtent(half.y) && isExtent(half.z)))
     return fail(fmt::format("has half extents of {} x {} x {} m; each takes more than 0, and at most 1000",
                             half.x, half.y, half.z));
   if (!(body.thickness >= 0 && body.thickness <= 1))

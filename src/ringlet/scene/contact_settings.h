@@ -104,8 +104,7 @@ struct ContactSettings {
 
   /// Whether any strand may go by volume. The paper's contacts, with a taper in time, are pairs.
   bool mayBeVolume() const {
-    return method == ContactMethod::volume ||
-           (method == ContactMethod::automatic && taper == ContactTaper::distance);
+    return method != ContactMethod::explicitPairs && taper == ContactTaper::distance;
   }
 
   // How strands hear of each other within a step.
