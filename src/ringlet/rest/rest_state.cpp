@@ -418,9 +418,8 @@ Status checkSettings(const Settings& s, const Material& material) {
   }
   if (s.contacts.on && s.contacts.method == ContactMethod::volume && s.contacts.taper == ContactTaper::time) {
     return Error{
-        "all hair is to meet as a volume, with the contacts' taper in time; that is of pairs: choose "
-        "contacts "
-        "auto or explicit, or the taper distance"};
+        "all hair is to meet as a volume, with a taper in time, which is of pairs: choose contacts auto or "
+        "explicit, or the taper distance"};
   }
   if (s.air.on && s.integrator != Integrator::jacobi) {
     return Error{
