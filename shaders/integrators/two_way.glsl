@@ -19,9 +19,9 @@ const bool kAddsMatrix = kContacts && kPairs || kAir || kBodies;
 const bool kFromEnds = kLanes <= 2 && !kAddsMatrix && !kBendVaries;
 
 // What the volume adds to particle k of the run: xyz to its right-hand side, w to its mass.
-vec4 addedByVolume(int k) {
+vec4 volumeAddedToRun(int k) {
 #ifdef RINGLET_CONTACTS
-  if (kVolume && meetsContacts(k)) return volumeSystemOf(strand.firstParticle + first + k);
+  if (kVolume && meetsContacts(k)) return volumeAddedTo(strand.firstParticle + first + k);
 #endif
   return vec4(0);
 }
@@ -60,7 +60,7 @@ void solveFromEnds(vec3 pinned[3]) {
     int k = RUN - 1 - j;
     vec3 rootSide = rightHandSide(j, j > 0 ? force[max(j - 1, 0)] : forceBefore);
     vec3 tipSide = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
-    vec4 added = addedByVolume(fromRoot ? j : k);
+    vec4 added = volumeAddedToRun(fromRoot ? j : k);
     r[j] = (fromRoot ? rootSide : tipSide) + added.xyz;
     mass[j] = (fromRoot ? restEdge[j].x : restEdge[k].x) + added.w;
     if (j > 0) {

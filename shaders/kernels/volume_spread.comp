@@ -1,5 +1,5 @@
-// What the volume adds to each particle's system in the next iteration of the solve (ContactSystem), from the nodes
-// about it; and the density there, for the next step. Mirrored by reference/kernels/volume_step.h.
+// What the volume adds to each particle's velocity system in the next iteration of the solve, from the nodes about it;
+// and the density there, for the next step. Mirrored by reference/kernels/volume_step.h.
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
@@ -24,5 +24,5 @@ void main() {
 
   vec3 given = mass * (mean.xyz - parameters.stiffness * parameters.seconds * s);
   vec3 momentum = inWorld(given) + g * carriedVelocity(positionOf(self.particle));
-  added[self.particle] = self.inverseMassUnit * vec4(momentum, g);
+  addedByVolume[self.particle] = self.inverseMassUnit * vec4(momentum, g);
 }

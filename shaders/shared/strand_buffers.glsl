@@ -73,13 +73,13 @@ layout(set = 0, binding = kBindSolved) buffer Solved { vec4 solved[]; };
 layout(set = 0, binding = kBindContactSystems) readonly buffer ContactSystems { ContactSystem contactSystems[]; };
 layout(set = 0, binding = kBindContactControl) readonly buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindContactSystemTexels) uniform usamplerBuffer contactSystemTexels;
-layout(set = 0, binding = kBindAddedByVolume) readonly buffer AddedByVolume { vec4 volumeSystems[]; };
-layout(set = 0, binding = kBindAddedByVolumeTexels) uniform usamplerBuffer volumeSystemTexels;
+layout(set = 0, binding = kBindAddedByVolume) readonly buffer AddedByVolume { vec4 addedByVolume[]; };
+layout(set = 0, binding = kBindAddedByVolumeTexels) uniform usamplerBuffer addedByVolumeTexels;
 vec4 contactSystemPart(uint i, uint part) { return vectorAt(contactSystemTexels, 3 * i + part); }
-vec4 volumeSystemOf(uint i) { return kTexels ? vectorAt(volumeSystemTexels, i) : volumeSystems[i]; }
+vec4 volumeAddedTo(uint i) { return kTexels ? vectorAt(addedByVolumeTexels, i) : addedByVolume[i]; }
 /// What is added to particle i's mass, and to its right-hand side.
 Symmetric contactMass(uint i) {
-  Symmetric mass = symmetricDiagonal(kVolume ? volumeSystemOf(i).w : 0.0);
+  Symmetric mass = symmetricDiagonal(kVolume ? volumeAddedTo(i).w : 0.0);
   if (kPairs) {
     mass.d += 2.0 * (kTexels ? contactSystemPart(i, 0) : contactSystems[i].diagonal).xyz;
     mass.o += 2.0 * (kTexels ? contactSystemPart(i, 1) : contactSystems[i].offDiagonal).xyz;
@@ -87,7 +87,7 @@ Symmetric contactMass(uint i) {
   return mass;
 }
 vec3 contactMomentum(uint i) {
-  vec3 momentum = kVolume ? volumeSystemOf(i).xyz : vec3(0);
+  vec3 momentum = kVolume ? volumeAddedTo(i).xyz : vec3(0);
   if (kPairs) momentum += (kTexels ? contactSystemPart(i, 2) : contactSystems[i].momentum).xyz;
   return momentum;
 }

@@ -19,7 +19,7 @@ layout(set = 0, binding = kBindVolumeBrought) buffer Brought { vec4 brought[]; }
 layout(set = 0, binding = kBindVolumeCells) buffer Cells { uint cells[]; };
 layout(set = 0, binding = kBindVolumeParcels) buffer Parcels { VolumeParcel parcels[]; };
 layout(set = 0, binding = kBindVolumeNodes) buffer Nodes { vec4 nodes[]; };
-layout(set = 0, binding = kBindVolumeAdded) buffer Added { vec4 added[]; };
+layout(set = 0, binding = kBindVolumeAdded) buffer AddedByVolume { vec4 addedByVolume[]; };
 layout(set = 0, binding = kBindVolumeControl) buffer Control { VolumeControl control; };
 layout(set = 0, binding = kBindVolumeHalt) buffer Halt { ContactControl halt; };
 layout(set = 0, binding = kBindVolumeLocated) buffer Located { uvec4 located[]; };
