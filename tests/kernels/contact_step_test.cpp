@@ -14,6 +14,7 @@
 #include "reference/step.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
+#include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
 
 namespace ringlet::test {
@@ -246,10 +247,7 @@ TEST_F(ContactStep, TheRestPoseStaysPut) {
   ASSERT_TRUE(simulation) << simulation.error().message;
   const auto rest = *simulation->positions();
   for (int frame = 0; frame < 48; ++frame) ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
-  const auto now = *simulation->positions();
-  double moved = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    moved = std::max(moved, length(static_cast<Vec3d>(now[i]) - static_cast<Vec3d>(rest[i])));
+  const double moved = farthestApart(*simulation->positions(), rest);
   const auto report = *simulation->contactReport();
   fmt::print("moved {:.1e} m in 2 s; {} pairs listed, {} of them contacts\n", moved, report.listed,
              report.contacts);

@@ -13,6 +13,7 @@
 #include "ringlet/groom/generate.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
+#include "tests/support/test_support.h"
 #include "tests/support/tolerances.h"
 
 namespace ringlet::test {
@@ -104,10 +105,7 @@ TEST_F(VolumeStep, HoldsStrandsTogether) {
     return hairOf(*simulation).first;
   };
   const auto with = run(true), without = run(false);
-  double apart = 0;
-  for (std::size_t i = 0; i < with.size(); ++i)
-    apart = std::max(apart, length(static_cast<Vec3d>(with[i]) - static_cast<Vec3d>(without[i])));
-  EXPECT_GT(apart, 0.001);
+  EXPECT_GT(farthestApart(with, without), 0.001);
 }
 
 TEST_F(VolumeStep, BesideContactsAgreesWithDouble) {
@@ -224,11 +222,7 @@ TEST_F(VolumeStep, MayDoNothing) {
     EXPECT_EQ(simulation->report()->nonfinite, 0u);
     ends.push_back(hairOf(*simulation));
   }
-  double apart = 0;
-  for (std::size_t i = 0; i < ends[0].first.size(); ++i)
-    apart =
-        std::max(apart, length(static_cast<Vec3d>(ends[0].first[i]) - static_cast<Vec3d>(ends[1].first[i])));
-  EXPECT_LE(apart, kMeetingMetres);  // another order of sums
+  EXPECT_LE(farthestApart(ends[0].first, ends[1].first), kMeetingMetres);  // another order of sums
 }
 
 // What is put somewhere begins anew: as hair that never was anywhere else.
@@ -282,16 +276,13 @@ TEST_F(VolumeStep, TooManyCellsBecomeLarger) {
   EXPECT_LT(simulation->memory().volume, 100u << 20);
 }
 
-// At rest nothing is displaced and nothing moves beside the head: not a bit of it changes.
+// At rest nothing is displaced and nothing moves beside the head: a volume gives nothing.
 TEST_F(VolumeStep, TheRestPoseStaysPut) {
   auto simulation = Simulation::create(device(), denseSwatch(48), {}, volumeSettings());
   ASSERT_TRUE(simulation) << simulation.error().message;
   const auto rest = *simulation->positions();
   for (int frame = 0; frame < 48; ++frame) ASSERT_TRUE(simulation->stepFrame(HeadPose{}));
-  const auto now = *simulation->positions();
-  double moved = 0;
-  for (std::size_t i = 0; i < rest.size(); ++i)
-    moved = std::max(moved, length(static_cast<Vec3d>(now[i]) - static_cast<Vec3d>(rest[i])));
+  const double moved = farthestApart(*simulation->positions(), rest);
   fmt::print("moved {:.1e} m in 2 s\n", moved);
   EXPECT_LE(moved, kAtRest * 0.56);  // of the arc length
 }

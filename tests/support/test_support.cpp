@@ -3,7 +3,10 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
+
+#include "ringlet/base/assert.h"
 
 namespace ringlet::test {
 
@@ -14,6 +17,17 @@ std::optional<std::filesystem::path> dataFile(const std::string& relative) {
       (folder ? fs::path(folder) : fs::path(RINGLET_SOURCE_DIR) / ".." / "shared" / "data") / relative;
   if (!fs::exists(path)) return std::nullopt;
   return path;
+}
+
+double farthestApart(std::span<const Vec3f> a, std::span<const Vec3f> b) {
+  RINGLET_ASSERT(a.size() == b.size(), "as many of both");
+  double farthest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double apart = length(static_cast<Vec3d>(a[i]) - static_cast<Vec3d>(b[i]));
+    if (!(apart <= farthest)) farthest = apart;
+    if (std::isnan(farthest)) return farthest;
+  }
+  return farthest;
 }
 
 std::filesystem::path scratchFolder(const std::string& name) {

@@ -1,9 +1,12 @@
-// What tests of all folders need: where the real data is, and how to skip loudly.
+// What tests of all folders need: where the real data is, how to skip loudly, how far states are apart.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+
+#include "ringlet/base/vec3.h"
 
 namespace ringlet::test {
 
@@ -13,6 +16,9 @@ std::optional<std::filesystem::path> dataFile(const std::string& relative);
 
 /// A fresh empty folder for this test, below the system's temporary one.
 std::filesystem::path scratchFolder(const std::string& name);
+
+/// The largest distance of two that stand in the same place of a and b; not a number where one is none.
+double farthestApart(std::span<const Vec3f> a, std::span<const Vec3f> b);
 
 }  // namespace ringlet::test
 
