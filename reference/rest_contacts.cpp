@@ -119,6 +119,18 @@ std::vector<std::vector<std::uint32_t>> prunedNeighbours(const std::vector<std::
 
 namespace {
 
+// One contact particle of a strand in q: larger, and as heavy as the q^2 of before.
+void thin(RestContacts& rest, std::size_t s, const ContactSettings& settings) {
+  const double count = static_cast<double>(rest.particles[s].size());
+  const double q = std::max(1.0, std::min(std::round(1 / settings.detail), std::floor(count / 2)));
+  std::vector<std::uint32_t> kept;
+  for (double c = std::floor(q * SeededRandom(settings.seed, s).uniform()); c < count; c += q)
+    kept.push_back(rest.particles[s][static_cast<std::size_t>(c)]);
+  rest.particles[s] = kept;
+  rest.radii[s] *= std::pow(q, kThinnedRadiusPower);
+  rest.masses[s] *= q * q;
+}
+
 using Node = std::array<int, 3>;
 
 // Of a place in cells: the eight nodes about it, with their weights.
@@ -161,13 +173,10 @@ double volumeCell(const std::vector<RestStrand<Real>>& strands, double radius) {
 // Of each strand, by the densities of all strands and of its own. Each takes over the least group it shares a
 // cell with until none changes; and groups whose median is dense enough stay.
 template <class Real>
-std::vector<std::uint32_t> volumeGroups(const std::vector<RestStrand<Real>>& strands,
-                                        const std::vector<Field<double>>& points, double cell,
-                                        const ContactSettings& settings) {
+std::vector<std::uint32_t> denseGroups(const std::vector<RestStrand<Real>>& strands,
+                                       const std::vector<Field<double>>& points, double cell) {
   const std::size_t n = strands.size();
-  if (settings.method == ContactMethod::volume) return std::vector<std::uint32_t>(n, 0);
   std::vector<std::uint32_t> groups(n, RestContacts::kNoGroup);
-  if (!settings.mayBeVolume()) return groups;
   std::map<Node, double> all;
   const auto mass = [&](std::size_t s, std::size_t i) { return static_cast<double>(strands[s].masses[i]); };
   for (std::size_t s = 0; s < n; ++s) {
@@ -181,7 +190,7 @@ std::vector<std::uint32_t> volumeGroups(const std::vector<RestStrand<Real>>& str
     double shares = 0;
     for (const Vector3<double>& x : points[s]) shares += massAt(own, x / cell) / massAt(all, x / cell);
     densities[s] = points[s].empty() ? 0 : static_cast<double>(points[s].size()) / shares;
-    if (densities[s] < kVolumeStrands / 2) continue;
+    if (densities[s] < kDenseStrands / 2) continue;
     groups[s] = static_cast<std::uint32_t>(s);
     for (const Vector3<double>& x : points[s]) cellsOf[s].insert(nodesAbout(x / cell).front().first);
   }
@@ -208,7 +217,7 @@ std::vector<std::uint32_t> volumeGroups(const std::vector<RestStrand<Real>>& str
     for (std::size_t t = 0; t < n; ++t)
       if (groups[t] == groups[s]) ofGroup.push_back(densities[t]);
     std::ranges::sort(ofGroup);
-    if (ofGroup[ofGroup.size() / 2] < kVolumeStrands) kept[s] = RestContacts::kNoGroup;
+    if (ofGroup[ofGroup.size() / 2] < kDenseStrands) kept[s] = RestContacts::kNoGroup;
   }
   return kept;
 }
@@ -231,11 +240,18 @@ RestContacts makeRestContacts(const std::vector<RestStrand<Real>>& strands, cons
     rest.masses.push_back(mass / static_cast<double>(std::max<std::size_t>(1, rest.particles[s].size())));
   }
   rest.volumeCell = settings.volumeCell.value_or(volumeCell(strands, base));
-  rest.volumeGroups = volumeGroups(strands, points, volumeCell(strands, baseRadius(points, {})), settings);
+  const std::vector<std::uint32_t> dense =
+      denseGroups(strands, points, volumeCell(strands, baseRadius(points, {})));
+  if (settings.method == ContactMethod::volume)
+    rest.volumeGroups.assign(strands.size(), 0);
+  else if (settings.mayBeVolume())
+    rest.volumeGroups = dense;
   rest.prunesPairs = settings.prunePairs;
   if (rest.prunesPairs) {
     rest.neighbours = prunedNeighbours(overlapCounts(points, rest, settings.enlargement), settings);
   }
+  for (std::size_t s = 0; s < strands.size(); ++s)
+    if (dense[s] != RestContacts::kNoGroup) thin(rest, s, settings);
   return rest;
 }
 

@@ -100,6 +100,22 @@ Groom denseSwatch(int particles) {
   return *makeSwatch(parameters);
 }
 
+Groom bunchAndStrands() {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  const auto add = [&](double x, double z, int s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 16; ++i) {
+      const double turn = 0.9 * i + s;
+      strand.push_back(Vec3f(Vec3d{x + 0.004 * std::cos(turn), -0.006 * i, z + 0.004 * std::sin(turn)}));
+    }
+    groom.addStrand(strand);
+  };
+  for (int s = 0; s < 60; ++s) add(0.0012 * (s % 8), 0.0012 * (s / 8), s);
+  for (int s = 0; s < 4; ++s) add(-0.022, 0.006 * s - 0.006, s);
+  return groom;
+}
+
 Settings meetingSettings() {
   Settings settings;
   settings.contacts.on = true;
@@ -109,10 +125,10 @@ Settings meetingSettings() {
   return settings;
 }
 
-Result<double> shakenSwatchError(
-    const ComputeDevice& device, const Settings& settings, const KernelChoice& kernel, int frameCount,
+Result<double> shakenError(
+    const ComputeDevice& device, const Groom& groom, const Settings& settings, const KernelChoice& kernel,
+    int frameCount,
     const std::function<void(const Simulation&, const reference::Simulation<double>&)>& afterFrame) {
-  const Groom groom = denseSwatch(32);
   auto simulation = Simulation::create(device, groom, {}, settings, {}, {}, kernel);
   if (!simulation) return simulation.error();
   reference::Simulation<double> reference(groom, {}, settings);

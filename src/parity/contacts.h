@@ -44,14 +44,18 @@ struct ListComparison {
 Result<ListComparison> compareLists(const ComputeDevice& device, const std::vector<Vec3f>& points,
                                     const Settings& settings = shortSteps());
 
-/// Curls that stand half a radius into each other, and contacts for them.
+/// Curls that stand half a radius into each other.
 Groom denseSwatch(int particles);
+/// A dense bunch of 60 curls, and four that hang beside it; they meet when shaken along x.
+Groom bunchAndStrands();
+/// Contacts for either, pair by pair.
 Settings meetingSettings();
 
-/// The dense swatch with the head shaken, device against the double reference: the largest distance of a
-/// particle in any frame [m]. `afterFrame` sees both after each frame.
-Result<double> shakenSwatchError(
-    const ComputeDevice& device, const Settings& settings, const KernelChoice& kernel, int frameCount,
+/// A groom with the head shaken, device against the double reference: the largest distance of a particle in
+/// any frame [m]. `afterFrame` sees both after each frame.
+Result<double> shakenError(
+    const ComputeDevice& device, const Groom& groom, const Settings& settings, const KernelChoice& kernel,
+    int frameCount,
     const std::function<void(const Simulation&, const reference::Simulation<double>&)>& afterFrame);
 
 }  // namespace ringlet::parity

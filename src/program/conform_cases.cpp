@@ -192,10 +192,10 @@ void checkMeeting(const ConformCases& cases, const Settings& settings, const std
   kernel.observer = &clock;
   ContactReport report;
   const auto apart =
-      parity::shakenSwatchError(cases.device, settings, kernel, kFrames,
-                                [&](const Simulation& simulation, const reference::Simulation<double>&) {
-                                  if (const auto now = simulation.contactReport()) report = *now;
-                                });
+      parity::shakenError(cases.device, parity::denseSwatch(32), settings, kernel, kFrames,
+                          [&](const Simulation& simulation, const reference::Simulation<double>&) {
+                            if (const auto now = simulation.contactReport()) report = *now;
+                          });
   const std::string name = fmt::format("{}: {} frames [m]", what, kFrames);
   if (!apart) return tell(failed(name, apart.error()));
   const std::string done = report.volumeStrands > 0 ? fmt::format("{} strands", report.volumeStrands)

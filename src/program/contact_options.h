@@ -14,6 +14,7 @@ struct ContactChoice {
   std::optional<std::string> state;  // off, on, or one of kContactMethodNames
   std::optional<double> radius;      // [m]
   std::optional<std::string> fillGaps;
+  std::optional<double> detail;
   std::optional<std::string> prune;  // a number of overlaps, or none
   std::optional<int> maxNeighbours;
   std::optional<double> dropShare;
@@ -28,10 +29,8 @@ struct ContactChoice {
   std::optional<ContactMethod> method() const;
 };
 
-/// Adds --contacts, --contact-radius, --fill-gaps, --prune, --max-neighbours, --drop-share,
-/// --contact-iterations, --contact-friction, --contact-taper and --volume-cell. defaultState: what --help
-/// says where
-/// --contacts is left out. `choice` must outlive the command.
+/// Adds the group of options "Contacts". defaultState: what --help says where --contacts is left out.
+/// `choice` must outlive the command.
 void addContactOptions(CLI::App* command, ContactChoice& choice, const std::string& defaultState);
 
 /// Throws CLI11's error for what makes no sense together.

@@ -22,6 +22,7 @@ void addContactKeys(nlohmann::ordered_json& json, const SimulateOutcome& outcome
   const ContactReport report = known.value_or(ContactReport{});
   const ContactNumbers numbers = measured.value_or(ContactNumbers{});
   json["volume_strands"] = orNull(known.has_value(), report.volumeStrands);
+  json["contact_particles"] = orNull(known.has_value(), report.contactParticles);
   json["contacts"] = orNull(known.has_value(), report.contacts);
   json["pairs_unpruned"] = orNull(known.has_value(), report.pairsUnpruned);
   json["pairs"] = orNull(known.has_value(), report.pairs);

@@ -23,9 +23,9 @@ Integrator integratorByName(const std::string& name);
 
 /// What the keys about contacts mean, for --help.
 inline constexpr const char* kContactKeysHelp =
-    "Keys about contacts, null without them: volume_strands (that meet as a volume) pairs_unpruned (pairs of "
-    "strands that overlap at rest when "
-    "enlarged)\n"
+    "Keys about contacts, null without them: volume_strands (that meet as a volume) contact_particles (by "
+    "which strands\n"
+    "meet pair by pair) pairs_unpruned (pairs of strands that overlap at rest when enlarged)\n"
     "pairs (of those, that may touch) pair_tests rebuilds (of lists; both over all steps) contacts (between "
     "particles)\n"
     "momentum_error (of a step: what contacts added to the sum of momenta, over the sum of what each "

@@ -108,6 +108,32 @@ TEST(RestContacts, ContactParticlesCarryTheStrandsMass) {
   EXPECT_NEAR(makeRestContacts(strands, settings).masses[0], mass / 5, 1e-6 * mass);
 }
 
+// A bunch, and one strand far from it: one in two of the 20 of the bunch, twice to the power 0.2 as large,
+// four times as heavy; begun at the first or the second.
+TEST(RestContacts, DenseStrandsAreThinned) {
+  ContactSettings settings;
+  settings.radius = 0.002;
+  std::vector<Vec3d> roots = row(30, 0.0005);
+  roots.push_back({1, 0, 0});
+  const auto strands = hanging(roots, 0.004, 20);
+  const RestContacts all = makeRestContacts(strands, settings);
+  settings.detail = 0.5;
+  const RestContacts thinned = makeRestContacts(strands, settings);
+  int first = 0;
+  for (std::size_t s = 0; s < 30; ++s) {
+    ASSERT_EQ(thinned.particles[s].size(), 10u);
+    for (std::size_t k = 0; k < 10; ++k) EXPECT_EQ(thinned.particles[s][k], thinned.particles[s][0] + 2 * k);
+    first += thinned.particles[s][0] == 0;
+    EXPECT_NEAR(thinned.radii[s] / all.radii[s], 1.1487, 1e-4);
+    EXPECT_NEAR(thinned.masses[s] / all.masses[s], 4, 1e-12);
+  }
+  EXPECT_GT(first, 5);
+  EXPECT_LT(first, 25);
+  EXPECT_EQ(thinned.particles[30], all.particles[30]);
+  EXPECT_EQ(thinned.radii[30], all.radii[30]);
+  EXPECT_EQ(thinned.masses[30], all.masses[30]);
+}
+
 // Parallel strands D apart, particles h apart, all contact particles: |i - j| <= sqrt((e R)^2 - D^2) / h.
 TEST(RestContacts, CountsOverlapsOfEnlargedSpheres) {
   ContactSettings settings;

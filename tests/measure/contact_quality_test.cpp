@@ -125,6 +125,25 @@ TEST(ContactQuality, IsThatOfAllPairs) {
   }
 }
 
+// What hair does is measured with all of them, and who may touch whom depends on none.
+TEST(ContactQuality, IsThatOfParticlesBeforeTheyAreThinned) {
+  Groom bunch = metres();
+  for (int s = 0; s < 30; ++s) bunch.addStrand(line({0.0002 * s, 0, 0}, {0.0002 * s, -0.076, 0}, 20));
+  Groom pressed = metres();
+  for (int s = 0; s < 30; ++s) pressed.addStrand(line({0.0001 * s, 0, 0}, {0.0001 * s, -0.076, 0}, 20));
+  ContactSettings settings = radius(0.0025);
+  const Prepared all(bunch, settings);
+  settings.detail = 0.25;
+  const Prepared thinned(bunch, settings);
+  ASSERT_LT(3 * thinned.contacts.particles.particles.size(), all.contacts.particles.particles.size());
+  const ContactQuality a = all.at(pressed.points), b = thinned.at(pressed.points);
+  EXPECT_GT(a.overlapping, 1000u);
+  EXPECT_EQ(b.overlapping, a.overlapping);
+  EXPECT_EQ(b.overlapBeyondRestSum, a.overlapBeyondRestSum);
+  EXPECT_EQ(b.rawRecall, a.rawRecall);
+  EXPECT_EQ(thinned.contacts.graph.pairs, all.contacts.graph.pairs);
+}
+
 TEST(ContactQuality, WhatIsNotFiniteOverlapsNothing) {
   const Prepared p(twoLines(0.02), radius(0.0025));
   std::vector<Vec3f> positions = twoLines(0.0035).points;

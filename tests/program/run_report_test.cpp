@@ -91,6 +91,7 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"velocity_residual", 0.0078125},
       {"contacts", 105},
       {"volume_strands", 110},
+      {"contact_particles", 101},
       {"pairs_unpruned", 102},
       {"pairs", 103},
       {"pair_tests", 106},
@@ -141,11 +142,11 @@ TEST(RunReport, WhatIsNotKnownIsNull) {
       EXPECT_EQ(value, whole[key]) << key;
   }
   EXPECT_EQ(found.size(), whole.size());
-  EXPECT_EQ(nulls, (std::set<std::string>{"velocity_residual", "volume_strands", "contacts", "pairs_unpruned",
-                                          "pairs", "pair_tests", "rebuilds", "momentum_error", "raw_recall",
-                                          "overlap_beyond_rest_sum", "deepest_overlap_all", "crossings",
-                                          "deepest_penetration_mm", "inside_bodies", "device_bytes",
-                                          "cache_error_bound_m"}));
+  EXPECT_EQ(nulls, (std::set<std::string>{"velocity_residual", "volume_strands", "contact_particles",
+                                          "contacts", "pairs_unpruned", "pairs", "pair_tests", "rebuilds",
+                                          "momentum_error", "raw_recall", "overlap_beyond_rest_sum",
+                                          "deepest_overlap_all", "crossings", "deepest_penetration_mm",
+                                          "inside_bodies", "device_bytes", "cache_error_bound_m"}));
 }
 
 TEST(RunReport, TheTextHasTheSameNumbers) {

@@ -58,17 +58,10 @@ TEST(Scene, ListsEveryScene) {
   }
 }
 
-const std::vector<std::string> kContactKeys = {"volume_strands",
-                                               "contacts",
-                                               "pairs_unpruned",
-                                               "pairs",
-                                               "pair_tests",
-                                               "rebuilds",
-                                               "momentum_error",
-                                               "raw_recall",
-                                               "overlap_beyond_rest_sum",
-                                               "deepest_overlap_all",
-                                               "crossings"};
+const std::vector<std::string> kContactKeys = {
+    "volume_strands",      "contact_particles", "contacts",       "pairs_unpruned", "pairs",
+    "pair_tests",          "rebuilds",          "momentum_error", "raw_recall",     "overlap_beyond_rest_sum",
+    "deepest_overlap_all", "crossings"};
 
 class SceneBackends : public testing::TestWithParam<const char*> {
  protected:
@@ -222,6 +215,17 @@ TEST(Scene, ContactOptionsTakeEffect) {
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
            {"--contact-iterations", "4"}, {"--contact-friction", "1"}, {"--bend-stiffness", "2"}})
     EXPECT_NE(run(options)["positions_hash"], plain["positions_hash"]) << options[0];
+
+  // Thinned where hair is dense, which a hundred strands are and twenty are not.
+  const auto flip = [&](const char* strands, const char* detail) {
+    return scene(folder,
+                 {"flip", "--particles", "32", "--seconds", "0.125", "--contacts", "explicit", "--strands",
+                  strands, "--contact-detail", detail},
+                 "gpu");
+  };
+  EXPECT_EQ(flip("20", "0.5")["positions_hash"], flip("20", "1")["positions_hash"]);
+  EXPECT_LT(flip("100", "0.5")["contact_particles"],
+            0.6 * flip("100", "1")["contact_particles"].get<double>());
 
   const auto text = runProgram(folder, {"scene", "two_curls", "--seconds", "0.125"});
   EXPECT_EQ(text.exitCode, 0) << text.err;

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
+#include <set>
 
 #include "tests/rest/contact_samples.h"
 
@@ -147,6 +149,48 @@ TEST(ContactParticles, FollowTheLawAndLeaveNoGap) {
           EXPECT_LE(apart(points[before], points[i]), settings.spacing * 2 * radius);
         }
       }
+    }
+  }
+}
+
+// Strands of 0 to 40 contact particles, every second one dense.
+TEST(ContactParticles, DenseStrandsAreThinned) {
+  Groom groom = metres();
+  addWandering(groom, 120, 41, {}, {0.15, 0, 0.15}, 0.005, 3);
+  const RestState rest = restOf(groom);
+  ContactSettings settings = withRadius(0.002);
+  const ContactParticles all = chooseContactParticles(rest, settings);
+  DenseStrands dense = noDenseStrands(rest);
+  for (std::uint32_t s = 0; s < all.strandCount(); s += 2) dense.isIn[s] = true;
+  for (const auto& [detail, asked] : {std::pair{1.0, 1u}, {0.5, 2u}, {0.3, 3u}, {0.05, 20u}}) {
+    settings.detail = detail;
+    const ContactParticles thinned = thinWhereDense(all, rest, dense, settings);
+    ASSERT_EQ(thinned.strands.size(), thinned.particles.size());
+    ASSERT_EQ(thinned.firstOfStrand.back(), thinned.particles.size());
+    std::set<std::uint32_t> phases;
+    for (std::uint32_t s = 0; s < all.strandCount(); ++s) {
+      const std::span before = std::span(all.particles)
+                                   .subspan(all.firstOfStrand[s])
+                                   .first(all.firstOfStrand[s + 1] - all.firstOfStrand[s]);
+      const std::span after = std::span(thinned.particles)
+                                  .subspan(thinned.firstOfStrand[s])
+                                  .first(thinned.firstOfStrand[s + 1] - thinned.firstOfStrand[s]);
+      const auto count = static_cast<std::uint32_t>(before.size());
+      const std::uint32_t q = dense.isIn[s] ? std::max(1u, std::min(asked, count / 2)) : 1;
+      ASSERT_FALSE(after.empty());
+      const auto phase = static_cast<std::uint32_t>(std::ranges::find(before, after[0]) - before.begin());
+      EXPECT_LT(phase, q);
+      EXPECT_EQ(after.size(), (count - phase + q - 1) / q);
+      for (std::size_t k = 0; k < after.size(); ++k) {
+        EXPECT_EQ(after[k], before[phase + k * q]);
+        EXPECT_EQ(thinned.strands[thinned.firstOfStrand[s] + k], s);
+      }
+      EXPECT_FLOAT_EQ(thinned.radii[s], all.radii[s] * std::pow(static_cast<float>(q), 0.2f));
+      EXPECT_FLOAT_EQ(thinned.masses[s], all.masses[s] * static_cast<float>(q * q));
+      if (q == asked) phases.insert(phase);
+    }
+    if (asked <= 3) {
+      EXPECT_EQ(phases.size(), asked) << "strands begin at different ones";
     }
   }
 }

@@ -178,6 +178,8 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
   real(
       "contacts.spacing", [](S& s) -> double& { return s.contacts.spacing; }, 0.01, 1);
   real(
+      "contacts.detail", [](S& s) -> double& { return s.contacts.detail; }, 0.05, 1);
+  real(
       "contacts.enlargement", [](S& s) -> double& { return s.contacts.enlargement; }, 1, 100);
   real(
       "contacts.dropShare", [](S& s) -> double& { return s.contacts.dropShare; }, 0, 1);

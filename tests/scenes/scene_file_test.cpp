@@ -46,7 +46,7 @@ const std::string kEverythingElse =
     "0.5\n"
     "friction = 0.75\ntaper = 'time'\nramp_seconds = 0.01\nstiffness_release_seconds = "
     "0.03\ndamping_release_seconds = 0.04\n"
-    "break_factor = 1.5\niterations = 3\n"
+    "break_factor = 1.5\niterations = 3\ndetail = 0.25\n"
     "[air]\nfall_speed = 3\nalong_share = 0.2\nwind = [1, -2, 3.5]\ngust = 0.5\ngust_seconds = 4\n"
     "turbulence = 0.75\neddy_size = 0.1\nseed = 12\n"
     "[[body]]\nname = 'skull'\nshape = 'sphere'\nradius = 0.09\nthickness = 0.001\nfriction = 0.5\n"
@@ -145,6 +145,7 @@ TEST(SceneFile, EverythingIsRead) {
   EXPECT_EQ(s.contacts.dampingReleaseSeconds, 0.04);
   EXPECT_EQ(s.contacts.breakFactor, 1.5);
   EXPECT_EQ(s.contacts.iterations, 3);
+  EXPECT_EQ(s.contacts.detail, 0.25);
 
   EXPECT_TRUE(s.air.on);
   EXPECT_EQ(s.air.fallSpeed, 3);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "ringlet/groom/seeded_random.h"
 #include "ringlet/rest/root_spacing.h"
 
 namespace ringlet {
@@ -126,6 +127,29 @@ ContactParticles chooseContactParticles(const RestState& rest, const ContactSett
         rest.strandInGroom[coarsest]));
   }
   return contacts;
+}
+
+ContactParticles thinWhereDense(const ContactParticles& all, const RestState& rest, const DenseStrands& dense,
+                                const ContactSettings& settings) {
+  const auto asked = static_cast<std::uint32_t>(std::lround(1 / settings.detail));
+  if (asked == 1) return all;
+  ContactParticles thinned = all;
+  thinned.particles.clear();
+  thinned.strands.clear();
+  for (std::uint32_t s = 0; s < all.strandCount(); ++s) {
+    const std::uint32_t first = all.firstOfStrand[s], end = all.firstOfStrand[s + 1];
+    const std::uint32_t q = dense.isIn[s] ? std::clamp((end - first) / 2, 1u, asked) : 1;
+    const auto phase =
+        static_cast<std::uint32_t>(q * SeededRandom(settings.seed, rest.strandInGroom[s]).uniform());
+    for (std::uint32_t c = first + phase; c < end; c += q) {
+      thinned.particles.push_back(all.particles[c]);
+      thinned.strands.push_back(s);
+    }
+    thinned.firstOfStrand[s + 1] = static_cast<std::uint32_t>(thinned.particles.size());
+    thinned.radii[s] = static_cast<float>(all.radii[s] * std::pow(q, kThinnedRadiusPower));
+    thinned.masses[s] = static_cast<float>(q * q) * all.masses[s];
+  }
+  return thinned;
 }
 
 }  // namespace ringlet

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/rest/dense_strands.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/contact_settings.h"
 
@@ -41,5 +42,12 @@ double radiusOfRoots(const RestState& rest);
 /// a strand's radius to half its longest; else a warning says so. (Raised radii on a dense head: 64 partners
 /// a particle instead of 14.) Cost: n log n in strands, linear in particles.
 ContactParticles chooseContactParticles(const RestState& rest, const ContactSettings& settings);
+
+/// Of each dense strand one contact particle in q = round(1 / settings.detail), at most half of them all;
+/// which one first, by the seed and the strand's place in the groom. Its radius grows by
+/// q^kThinnedRadiusPower; each of those that stay is as heavy as q and pushes for q: q^2 of the mass. Cost:
+/// linear.
+ContactParticles thinWhereDense(const ContactParticles& all, const RestState& rest, const DenseStrands& dense,
+                                const ContactSettings& settings);
 
 }  // namespace ringlet

@@ -13,9 +13,12 @@ std::vector<std::string> RestContacts::warnings() const {
 
 RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings) {
   ContactParticles particles = chooseContactParticles(rest, settings);
-  VolumeStrands volume = chooseVolumeStrands(rest, particles, settings);
+  const bool automatic = settings.mayBeVolume() && settings.method == ContactMethod::automatic;
+  const DenseStrands dense = automatic || settings.detail < 1 ? findDenseStrands(rest) : noDenseStrands(rest);
+  VolumeStrands volume = chooseVolumeStrands(rest, particles, dense, settings);
   ContactGraph graph = pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings);
-  return {std::move(particles), std::move(graph), std::move(volume)};
+  ContactParticles thinned = thinWhereDense(particles, rest, dense, settings);
+  return {std::move(thinned), std::move(particles), std::move(graph), std::move(volume)};
 }
 
 }  // namespace ringlet

@@ -23,7 +23,8 @@ struct ContactKinds {
 
 /// Device order, as RestState.
 struct RestContacts {
-  ContactParticles particles;
+  ContactParticles particles;     // by which the solver lets strands meet
+  ContactParticles allParticles;  // and before dense strands are thinned, by which what they do is measured
   ContactGraph graph;
   VolumeStrands volume;
 

@@ -380,6 +380,7 @@ Status checkSettings(const Settings& s, const Material& material) {
       {"dampingLoops", double(s.dampingLoops), 1, 1000},
       {"contacts.radius", s.contacts.radius.value_or(1), 1e-6, 1},
       {"contacts.spacing", s.contacts.spacing, 0.01, 1},
+      {"contacts.detail", s.contacts.detail, 0.05, 1},
       {"contacts.enlargement", s.contacts.enlargement, 1, 100},
       {"contacts.minOverlaps", double(s.contacts.minOverlaps), 1, 1e6},
       {"contacts.maxNeighbours", double(s.contacts.maxNeighbours), 0, 1e6},

@@ -2,111 +2,20 @@
 #include "ringlet/rest/volume_strands.h"
 
 #include <algorithm>
-#include <map>
-#include <numeric>
-#include <span>
-#include <unordered_map>
-#include <utility>
-
-#include "ringlet/rest/density_grid.h"
 
 namespace ringlet {
-namespace {
-
-// No smaller than particles along a strand want it (kVolumeSpacing).
-double cellFor(const RestState& rest, double radius) {
-  double arc = 0, edges = 0;
-  for (const layout::StrandRest& strand : rest.strands) {
-    for (std::uint32_t i = 0; i + 1 < strand.particleCount; ++i)
-      arc += rest.particles[strand.firstParticle + i].edgeLength, ++edges;
-  }
-  return std::max(kVolumeCellRadii * radius, edges > 0 ? arc / edges / kVolumeSpacing : 0);
-}
-
-// tell(i, mass) of each particle of a strand.
-template <class Tell>
-void eachParticle(const RestState& rest, const layout::StrandRest& strand, Tell&& tell) {
-  for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i)
-    tell(i, double(rest.particles[i].mass) * strand.firstEdge.w);
-}
-
-// Of each strand, in strands like itself.
-std::vector<double> strandDensities(const RestState& rest, double cell) {
-  DensityGrid all(cell);
-  for (const layout::StrandRest& strand : rest.strands)
-    eachParticle(rest, strand, [&](std::uint32_t i, double mass) { all.add(rest.points[i], mass); });
-  std::vector<double> densities;
-  for (const layout::StrandRest& strand : rest.strands) {
-    DensityGrid own(cell);
-    eachParticle(rest, strand, [&](std::uint32_t i, double mass) { own.add(rest.points[i], mass); });
-    double shares = 0;
-    eachParticle(rest, strand,
-                 [&](std::uint32_t i, double) { shares += own.at(rest.points[i]) / all.at(rest.points[i]); });
-    densities.push_back(strand.particleCount / shares);
-  }
-  return densities;
-}
-
-// The first of all strands that `s` hangs together with.
-std::uint32_t firstOf(std::vector<std::uint32_t>& groups, std::uint32_t s) {
-  while (groups[s] != s) s = groups[s] = groups[groups[s]];
-  return s;
-}
-
-// Groups of strands in `isIn` that share cells.
-std::vector<std::uint32_t> joinedThroughCells(const RestState& rest, const std::vector<bool>& isIn,
-                                              double cell) {
-  std::vector<std::uint32_t> groups(rest.strands.size());
-  std::iota(groups.begin(), groups.end(), 0u);
-  std::unordered_map<std::uint64_t, std::uint32_t> someStrand;  // of each cell
-  for (std::uint32_t s = 0; s < rest.strands.size(); ++s) {
-    if (!isIn[s]) continue;
-    eachParticle(rest, rest.strands[s], [&](std::uint32_t i, double) {
-      const std::uint32_t there =
-          someStrand.try_emplace(DensityGrid::cellOf(rest.points[i], cell), s).first->second;
-      const auto [least, most] = std::minmax({firstOf(groups, s), firstOf(groups, there)});
-      groups[most] = least;
-    });
-  }
-  for (std::uint32_t s = 0; s < rest.strands.size(); ++s) groups[s] = firstOf(groups, s);
-  return groups;
-}
-
-// Of groups whose median is not dense enough, each strand becomes one of its own.
-void keepDenseGroups(std::span<const double> densities, VolumeStrands& volume) {
-  std::map<std::uint32_t, std::vector<double>> byGroup;
-  for (std::size_t s = 0; s < densities.size(); ++s)
-    if (volume.isIn[s]) byGroup[volume.groups[s]].push_back(densities[s]);
-  for (auto& [group, all] : byGroup)
-    std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));
-  for (std::uint32_t s = 0; s < densities.size(); ++s) {
-    if (!volume.isIn[s]) continue;
-    const std::vector<double>& all = byGroup[volume.groups[s]];
-    if (all[all.size() / 2] >= kVolumeStrands) continue;
-    volume.isIn[s] = false;
-    volume.groups[s] = s;
-  }
-}
-
-}  // namespace
 
 VolumeStrands chooseVolumeStrands(const RestState& rest, const ContactParticles& particles,
-                                  const ContactSettings& settings) {
+                                  const DenseStrands& dense, const ContactSettings& settings) {
   const std::size_t strandCount = rest.strands.size();
   VolumeStrands volume;
-  volume.cell = settings.volumeCell.value_or(cellFor(rest, particles.baseRadius));
-  volume.groups.resize(strandCount);
-  volume.isIn.assign(strandCount, settings.method == ContactMethod::volume);
-  volume.count = settings.method == ContactMethod::volume ? strandCount : 0;
-  if (settings.method == ContactMethod::volume) return volume;
-  std::iota(volume.groups.begin(), volume.groups.end(), 0u);
-  if (!settings.mayBeVolume()) return volume;
-
-  const double cell = cellFor(rest, radiusOfRoots(rest));
-  const std::vector<double> densities = strandDensities(rest, cell);
-  for (std::size_t s = 0; s < strandCount; ++s) volume.isIn[s] = densities[s] >= kVolumeStrands / 2;
-  volume.groups = joinedThroughCells(rest, volume.isIn, cell);
-  keepDenseGroups(densities, volume);
+  volume.cell = settings.volumeCell.value_or(volumeCellFor(rest, particles.baseRadius));
+  if (settings.method == ContactMethod::volume) {
+    volume.groups.resize(strandCount);
+    volume.isIn.assign(strandCount, true);
+  } else {
+    static_cast<DenseStrands&>(volume) = settings.mayBeVolume() ? dense : noDenseStrands(rest);
+  }
   volume.count = static_cast<std::size_t>(std::ranges::count(volume.isIn, true));
   return volume;
 }

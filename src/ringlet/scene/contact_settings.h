@@ -42,7 +42,7 @@ constexpr const char* nameOf(ContactMethod method) { return kContactMethodNames[
 
 /// Strands that hang together are dense where the median of them has hair about it, at rest, as dense as so
 /// many of itself; those with less than half of it do not belong to them (rest/volume_strands.h).
-inline constexpr double kVolumeStrands = 9;
+inline constexpr double kDenseStrands = 9;
 
 /// A cell of the volume's grid, in radii of contact particles as they are chosen without a setting.
 inline constexpr double kVolumeCellRadii = 4;
@@ -54,6 +54,9 @@ inline std::uint32_t volumeSortSteps(double stepSeconds) {
 }
 /// Particles of a strand that take part are at most so many cells apart along it, each for those between.
 inline constexpr double kVolumeSpacing = 1.6;
+
+/// Where one contact particle in q takes part, radii grow by q to this.
+inline constexpr double kThinnedRadiusPower = 0.2;
 
 /// checkSettings (rest/rest_state.h) holds the ranges. `w` below is what a contact particle weighs: its mass
 /// m_c, the strand's over its number of contact particles, times 9.81 m/s^2. R is the sum of two radii [m].
@@ -68,6 +71,9 @@ struct ContactSettings {
                           // their particles; in a dense groom that multiplies the contacts
   double spacing = 0.75;  // contact particles stand this times R apart along a strand, 0.01 to 1: less
                           // keeps more of them, finer and slower
+  /// Of dense strands (rest/dense_strands.h) only one contact particle in round(1 / detail) takes part, 0.05
+  /// to 1, larger and heavier for it: faster, and hair slips through a little.
+  double detail = 1;
 
   // Which pairs of strands may touch. Pruning saves time; hair that meets hair it was not beside at rest
   // passes through it.
@@ -77,7 +83,7 @@ struct ContactSettings {
   int minOverlaps = 8;       // pairs of strands with fewer overlapping spheres are dropped, 1 to 1e6
   int maxNeighbours = 0;     // of a strand; those with most overlaps stay, 0 to 1e6; 0: no bound
   double dropShare = 0;  // of the pairs then left, dropped at random, 0 to 1 (the paper's stochastic pruning)
-  std::uint32_t seed = 1;  // of dropShare
+  std::uint32_t seed = 1;  // of dropShare and detail
 
   // The spring between two spheres that touch. It has no force at rest: spheres that overlap there may.
   double stiffness = 1000;  // in w / R, 0 to 1e7: a tenth of the default is felt as soft
