@@ -7,6 +7,14 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
 
+// Who comes last leaves the same as who comes first.
+void enter(uint place, uint group) {
+  uint groups = grid[place];
+  if (groups == group + 1 || groups == kSeveralGroups) return;
+  if (groups == 0) groups = atomicCompSwap(grid[place], 0, group + 1);
+  if (hasOthers(groups, group)) atomicMax(grid[place], kSeveralGroups);
+}
+
 void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
@@ -27,4 +35,10 @@ void main() {
   vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
   histories[c].predicted[control.parity ^ 1] = vec4(v, 0);
   guesses[particle] = vec4(v + parameters.warmth * change, rest.point.w);
+  if (kBesideVolume) {
+    uint group = groupOf(rest.strand);
+    ivec3 cell = cellOf(x);
+    enter(cellGroups(bucketOf(cell)), group);
+    enter(regionGroups(bucketOf(cell >> 1)), group);
+  }
 }

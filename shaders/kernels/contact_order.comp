@@ -6,7 +6,7 @@
 
 void main() {
   uint place = gl_GlobalInvocationID.x;
-  if (place >= parameters.contactCount) return;
+  if (place >= placedCount()) return;
   uint c = grid[gridEntry(place)];
   uint bucket = grid[gridBucketOf(c)];
   uint start = startOf(bucket);

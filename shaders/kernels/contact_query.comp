@@ -35,7 +35,7 @@ void take(ContactRest other, float R, float r0) {
 
 void main() {
   uint place = gl_GlobalInvocationID.x;
-  if (place >= parameters.contactCount) return;
+  if (place >= placedCount()) return;
   uint c = placedPosition(place).w;
   list = listOf(c);
   if (!search(place, parameters.skin)) control.isHalted = kHaltedByTurns;

@@ -6,5 +6,6 @@
 void main() {
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  grid[gridEntry(startOf(grid[gridBucketOf(c)]) + grid[gridRank(c)])] = c;
+  uint bucket = grid[gridBucketOf(c)];
+  if (bucket != kNoBucket) grid[gridEntry(startOf(bucket) + grid[gridRank(c)])] = c;
 }

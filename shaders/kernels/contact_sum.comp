@@ -18,8 +18,8 @@ void main() {
     before += count;
   }
   // The bucket beyond the last starts at the end.
-  if (gl_LocalInvocationID.x == 0) {
-    grid[gridSum(blockCount)] = parameters.contactCount;
+  if (gl_LocalInvocationID.x + 1 == gl_WorkGroupSize.x) {
+    grid[gridSum(blockCount)] = before;
     grid[gridStart(parameters.bucketCount)] = 0;
   }
 }

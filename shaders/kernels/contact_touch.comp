@@ -24,10 +24,19 @@ bool metBefore(uint c) { return lists[meetsPlace(c)] != 0; }
 void setMeets(uint c, bool meets) { lists[meetsPlace(c)] = uint(meets); }
 #endif
 
+// Who is in cells and regions is told anew in the next step.
+void emptyCells(uint c) {
+  for (uint bucket = c; bucket < parameters.bucketCount; bucket += parameters.contactCount) {
+    grid[cellGroups(bucket)] = 0;
+    grid[regionGroups(bucket)] = 0;
+  }
+}
+
 void main() {
   if (control.isHalted != 0 || !listsHadRoom()) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
+  if (kBesideVolume) emptyCells(c);
   particle = contactOf(c).particle;
   x = positionOf(particle);
   v = velocityOf(particle);

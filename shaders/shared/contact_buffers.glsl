@@ -96,6 +96,15 @@ uint gridRank(uint c) { return gridBucketOf(parameters.contactCount) + c; }  // 
 /// The contact particle of a place, in any order inside a bucket.
 uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }
 
+/// Beside a volume: who is in a cell, and in a region of eight cells; kSeveralGroups tells how.
+uint cellGroups(uint bucket) { return gridEntry(parameters.contactCount) + bucket; }
+uint regionGroups(uint bucket) { return cellGroups(parameters.bucketCount) + bucket; }
+bool hasOthers(uint groups, uint group) { return groups != 0 && groups != group + 1; }
+/// How many contact particles are in the grid: beside a volume only those that may have anybody to meet.
+uint placedCount() {
+  return kBesideVolume ? grid[gridSum(parameters.bucketCount / kBucketBlock)] : parameters.contactCount;
+}
+
 uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBucketBlock)]; }
 
 // Cells of one size, hashed, so that hair may be anywhere. Cells that follow each other along x are in buckets that do,
@@ -103,7 +112,8 @@ uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket
 // A product, not a quotient: Vulkan rounds products one way only, and two kernels must find the same cell for one
 // place.
 ivec3 cellOf(vec3 x) {
-  return ivec3(clamp(floor(x * control.cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
+  float cellsPerMetre = kBesideVolume ? parameters.cellsPerMetre : control.cellsPerMetre;
+  return ivec3(clamp(floor(x * cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
 }
 uint bucketOf(ivec3 cell) {
   uint row = uint(cell.y) * 2654435761u ^ uint(cell.z) * 2246822519u;

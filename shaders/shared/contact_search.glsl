@@ -27,6 +27,13 @@ bool mayTouch(uvec4 own, uint strand) {
   return false;
 }
 
+bool rowHasOthers(uint first, uint group) {
+  bool others = false;
+  for (uint k = 0; k < 3; ++k)
+    others = others || hasOthers(grid[cellGroups((first + k) & (parameters.bucketCount - 1))], group);
+  return others;
+}
+
 // Of the contact particle in this place of the grid, which must be one. skin: how much further than what may touch
 // within the step isSought looks [m]. False where the device ends loops early.
 bool search(uint place, float skin) {
@@ -41,6 +48,7 @@ bool search(uint place, float skin) {
   float mostR = rest.point.w + parameters.largestRadius;
   precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);
   ivec3 cell = cellOf(x);
+  uint placed = placedCount();
   uint wanted = 9;  // turns of the loops below; and how many they made
   uint made = 0;
   int row = 0;
@@ -51,9 +59,10 @@ bool search(uint place, float skin) {
     uint entry = startOf(first);
     uint entries = startOf(min(first + 3, parameters.bucketCount)) - entry;
     if (first + 3 > parameters.bucketCount) entries += startOf(first + 3 - parameters.bucketCount);
+    if (kBesideVolume && !rowHasOthers(first, group)) entries = 0;
     if (entries > 0) do {
-      if (entry == parameters.contactCount) entry = 0;
-      uint looked = min(min(entries, 32), parameters.contactCount - entry);
+      if (entry == placed) entry = 0;
+      uint looked = min(min(entries, 32), placed - entry);
       // Three sieves, finer and dearer each, over what is left as bits: a driver that runs invocations in step does for
       // all of them what a single one must. And it runs the body of a loop that asks before it once more than there
       // are turns; hence if and do.

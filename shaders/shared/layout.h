@@ -252,6 +252,9 @@ RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 RINGLET_CONSTANT uint kListBlock = 16;          // two bits of an integer for each (contact_touch.comp)
 RINGLET_CONSTANT uint kLiveBlock = 4;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
+// Beside a volume, who is in a cell: 0 nobody, a group and one more, or several groups.
+RINGLET_CONSTANT uint kSeveralGroups = 0xffffffffu;
+RINGLET_CONSTANT uint kNoBucket = 0xffffffffu;  // of a contact particle that is not in the grid
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for
                                                 // each strand, (first of its buckets, how many less one, its group, 0),
                                                 // then the buckets of four strands; see solver/neighbour_table.h
@@ -375,6 +378,7 @@ struct ContactParameters {
   float listedAhead;    // and in lists from this times r0 on, no more than seenAhead
   uint sampleStride;    // in dense hair: one contact particle in so many is in the sample; 0: there is none
   float warmth;         // share of a step's change by contacts that the next one is guessed to have
+  float cellsPerMetre;  // beside a volume: cells are longer than any list reaches, and do not change
 };
 
 // Bindings of the volume's kernels, all in set 0.

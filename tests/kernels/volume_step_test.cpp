@@ -94,15 +94,19 @@ TEST_F(VolumeStep, HoldsStrandsTogether) {
 
 TEST_F(VolumeStep, BesideContactsAgreesWithDouble) {
   const Groom groom = bunchAndStrands();
-  for (const KernelChoice& kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::serial}}) {
-    const Settings settings = besideSettings();
+  // With the smaller radius strands come near the bunch, leave and come again: its lists are empty between.
+  for (const auto& [kernel, radius] : {std::pair{KernelChoice{}, 0.004},
+                                       {KernelChoice{KernelChoice::Form::serial}, 0.004},
+                                       {KernelChoice{}, 0.002}}) {
+    Settings settings = besideSettings();
+    settings.contacts.radius = radius;
     auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, kernel);
     ASSERT_TRUE(simulation) << simulation.error().message;
     reference::Simulation<double> reference(groom, {}, settings);
     HeadPose before;
     double worst = 0;
-    std::uint64_t most = 0;
-    for (int frame = 1; frame <= 10; ++frame) {
+    std::uint64_t met = 0;
+    for (int frame = 1; frame <= 12; ++frame) {
       const HeadPose next = shaken(frame, 0.03);
       shake(*simulation, frame - 1, frame);
       std::vector<HeadPose> poses;
@@ -116,11 +120,11 @@ TEST_F(VolumeStep, BesideContactsAgreesWithDouble) {
       const auto report = *simulation->contactReport();
       EXPECT_EQ(report.contacts, reference.report().contacts) << frame;
       EXPECT_EQ(report.volumeStrands, 60u);
-      most = std::max(most, report.contacts);
+      met += report.contacts;
     }
-    fmt::print("{:.1e} m apart; {} contacts at the most\n", worst, most);
+    fmt::print("{:.1e} m apart; {} contacts in all frames\n", worst, met);
     EXPECT_LE(worst, kMeetingMetres);
-    EXPECT_GT(most, 10u) << "nothing meets pair by pair, and nothing is tested";
+    EXPECT_GT(met, 10u) << "nothing meets pair by pair, and nothing is tested";
   }
 }
 

@@ -119,8 +119,8 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   }
 
   const auto table = neighbourTable(contacts.graph, contacts.volume);
-  const std::uint64_t gridWords =
-      2 * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
+  const std::uint64_t gridWords = (besideVolume ? 4 : 2) * self.bucketCount_ + 1 +
+                                  self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
   const std::uint64_t needed =
       count * (sizeof(layout::ContactRest) + sizeof(layout::ContactPlace) + sizeof(layout::ContactHistory)) +
       gridWords * sizeof(std::uint32_t) + table.size() * sizeof(table[0]) +
@@ -236,6 +236,9 @@ gpu::BufferTable ContactStage::bufferTable() const {
   return table;
 }
 
+double ContactStage::skin() const { return kContactMargin * 2 * largestRadius_; }
+double ContactStage::listedAhead() const { return sampleStride_ > 0 ? kDenseAhead : kContactSeenAhead; }
+
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
   const ListRoom live = lives_ ? lives_->room() : ListRoom{};
   return {.contactCount = static_cast<std::uint32_t>(particles_.size()),
@@ -247,7 +250,7 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
           .everyPair = everyPair_ ? 1u : 0u,
           .step = step,
           .seconds = static_cast<float>(stepSeconds_),
-          .skin = static_cast<float>(kContactMargin * 2 * largestRadius_),
+          .skin = static_cast<float>(skin()),
           .largestRadius = largestRadius_,
           .stiffness = static_cast<float>(settings_.stiffness * kStandardGravity),
           .dampingRatio = static_cast<float>(settings_.dampingRatio),
@@ -258,9 +261,10 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
           .reachFactor = static_cast<float>(settings_.listedReach()),
           .breakFactor = static_cast<float>(settings_.reach()),
           .seenAhead = static_cast<float>(kContactSeenAhead),
-          .listedAhead = static_cast<float>(sampleStride_ > 0 ? kDenseAhead : kContactSeenAhead),
+          .listedAhead = static_cast<float>(listedAhead()),
           .sampleStride = sampleStride_,
-          .warmth = static_cast<float>(kContactWarmth)};
+          .warmth = static_cast<float>(kContactWarmth),
+          .cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())))};
 }
 
 void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,

@@ -98,6 +98,8 @@ class ContactStage {
   void dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
   std::uint32_t contactGroups() const;
+  double skin() const;         // [m]
+  double listedAhead() const;  // [r0]
   Status writeControl();
   const DeviceChunk& hair() const { return groom_->chunks[0]; }
 
