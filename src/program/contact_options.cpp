@@ -72,7 +72,7 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
       ->add_option(
           "--prune", choice.prune,
           "Overlapping spheres at rest from which on two strands may touch pair by pair, 1 to 1000000: "
-          "more is faster and misses more (default 8); none: all may, also those apart at rest")
+          "more misses more and is little faster; none: all may, also those apart at rest (default none)")
       ->check(pruneLevel())
       ->type_name("N|none")
       ->group(group);

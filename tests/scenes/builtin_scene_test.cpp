@@ -131,7 +131,7 @@ TEST(RootMotion, GoesOutAndBackSmoothly) {
   EXPECT_EQ(press.shareAt(2), 1);
 }
 
-// Two halves of as many strands each, which go opposite ways; apart at rest, so without pruning.
+// Two halves of as many strands each, which go opposite ways; and no scene prunes pairs.
 TEST(BuiltinScene, HairThatComesTogetherDoesSoUnpruned) {
   for (const char* name : {"two_curls", "curtain", "pile"}) {
     const auto scene = makeScene(name);
@@ -142,12 +142,12 @@ TEST(BuiltinScene, HairThatComesTogetherDoesSoUnpruned) {
       EXPECT_EQ(scene->rootShifts[s], scene->rootShifts[0]);
       EXPECT_EQ(scene->rootShifts[half + s], scene->rootShifts[0] * -1.0);
     }
-    EXPECT_FALSE(scene->settings.contacts.prunePairs) << name;
   }
   for (const std::string& name : sceneNames()) {
     const auto scene = makeScene(name), off = makeScene(name, {.contacts = false});
     ASSERT_TRUE(scene && off) << name;
     EXPECT_EQ(scene->showsContacts, sceneShowsContacts(name));
+    EXPECT_FALSE(scene->settings.contacts.prunePairs) << name;
     EXPECT_EQ(scene->settings.contacts.on, sceneShowsContacts(name));
     EXPECT_FALSE(off->settings.contacts.on);
     if (sceneShowsContacts(name) && name != "head" && name != "walk_head") {  // which are dense

@@ -41,7 +41,7 @@ const std::string kEverythingElse =
     "[simulation]\nfps = 30\nframes = 12\nsteps_per_frame = 5\ngravity = 1.62\npreload = 0.5\nmax_stretch = "
     "1.3\n"
     "teleport_distance = 0.25\nroots = 2\nintegrator = 'point_jacobi'\niterations = 50\nchebyshev = false\n"
-    "[contacts]\nradius = 0.004\nfill_gaps = true\nspacing = 0.5\nprune_pairs = false\nenlargement = 2\n"
+    "[contacts]\nradius = 0.004\nfill_gaps = true\nspacing = 0.5\nprune_pairs = true\nenlargement = 2\n"
     "min_overlaps = 4\nmax_neighbours = 9\ndrop_share = 0.25\nseed = 11\nstiffness = 500\ndamping_ratio = "
     "0.5\n"
     "friction = 0.75\ntaper = 'time'\nramp_seconds = 0.01\nstiffness_release_seconds = "
@@ -130,7 +130,7 @@ TEST(SceneFile, EverythingIsRead) {
   EXPECT_EQ(s.contacts.radius, 0.004);
   EXPECT_TRUE(s.contacts.fillGaps);
   EXPECT_EQ(s.contacts.spacing, 0.5);
-  EXPECT_FALSE(s.contacts.prunePairs);
+  EXPECT_TRUE(s.contacts.prunePairs);
   EXPECT_EQ(s.contacts.enlargement, 2);
   EXPECT_EQ(s.contacts.minOverlaps, 4);
   EXPECT_EQ(s.contacts.maxNeighbours, 9);

@@ -75,9 +75,9 @@ struct ContactSettings {
   /// to 1, larger and heavier for it: faster, and hair slips through a little.
   double detail = 1;
 
-  // Which pairs of strands may touch. Pruning saves time; hair that meets hair it was not beside at rest
-  // passes through it.
-  bool prunePairs = true;    // false: all may
+  // Which pairs of strands may touch: all, or those that are near at rest. Pruned hair passes through hair it
+  // was not beside at rest; what that saves in time is little (README, "Hair that meets hair").
+  bool prunePairs = false;
   double enlargement = 1.5;  // factor on radii while overlaps at rest are counted, 1 to 100: more, and
                              // strands further apart count
   int minOverlaps = 8;       // pairs of strands with fewer overlapping spheres are dropped, 1 to 1e6

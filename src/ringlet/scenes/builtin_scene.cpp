@@ -67,13 +67,11 @@ struct Recipe {
   bool hasHead = false;        // below the hair
 };
 
-// Hair that meets hair: nothing slips between particles, and where it comes together from apart, every pair
-// may touch.
-ContactSettings meeting(bool prunePairs = false) {
+// Hair that meets hair: nothing slips between particles.
+ContactSettings meeting() {
   ContactSettings contacts;
   contacts.radius = kMeetingRadius;
   contacts.fillGaps = true;
-  contacts.prunePairs = prunePairs;
   return contacts;
 }
 
@@ -151,9 +149,9 @@ const std::vector<Recipe>& recipes() {
        false,
        true,
        {},
-       meeting(true)},
+       meeting()},
       {"head",
-       "The generated head of 1,500 curls, shaken by 10 cm twice a second: what pruning is for.",
+       "The generated head of 1,500 curls, shaken by 10 cm twice a second.",
        wholeHead,
        ringletMaterial,
        {.kind = MotionKind::shake, .axis = side, .amplitude = 0.1, .frequency = 2},
