@@ -18,6 +18,6 @@ void main() {
   } while (++other < end);
   if (other < end) control.isHalted = kHaltedByTurns;
   ContactRest rest = contactOf(c);
-  places[start + before] = ContactPlace(uvec4(floatBitsToUint(positionOf(rest.particle)), c),
-                                        uvec4(floatBitsToUint(velocityOf(rest.particle)), groupOf(rest.strand)));
+  places[start + before] = ContactPlace(uvec4(floatBitsToUint(positionOf(rest.particle)), groupOf(rest.strand)),
+                                        uvec4(floatBitsToUint(velocityOf(rest.particle)), c));
 }

@@ -36,7 +36,7 @@ void take(ContactRest other, float R, float r0) {
 void main() {
   uint place = gl_GlobalInvocationID.x;
   if (place >= placedCount()) return;
-  uint c = placedPosition(place).w;
+  uint c = placedVelocity(place).w;
   list = listOf(c);
   if (!search(place, parameters.skin)) control.isHalted = kHaltedByTurns;
   lists[list] = count;

@@ -17,7 +17,7 @@ void main() {
   uint place = gl_GlobalInvocationID.x * parameters.sampleStride + control.steps % parameters.sampleStride;
   if (place >= parameters.contactCount) return;
   if (!search(place, 0.0)) control.isHalted = kHaltedByTurns;
-  uint list = listOf(placedPosition(place).w);
+  uint list = listOf(placedVelocity(place).w);
   uint count = lists[list];
   uint listed = 0;
   uint j = 0;

@@ -62,7 +62,6 @@ uint contactAt(uint particle) {
 }
 uvec4 placedPosition(uint place) { return kTexels ? recordAt(placeTexels, 2 * place) : places[place].position; }
 uvec4 placedVelocity(uint place) { return kTexels ? recordAt(placeTexels, 2 * place + 1) : places[place].velocity; }
-vec3 placedAt(uint place) { return uintBitsToFloat(placedPosition(place).xyz); }
 vec3 listedPosition(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c).xyz : histories[c].position.xyz; }
 vec3 listedVelocity(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c + 1).xyz : histories[c].velocity.xyz; }
 vec3 predictedBefore(uint c) {

@@ -38,12 +38,13 @@ bool rowHasOthers(uint first, uint group) {
 // within the step isSought looks [m]. False where the device ends loops early.
 bool search(uint place, float skin) {
   uvec4 self = placedPosition(place);
-  rest = contactOf(self.w);
+  uvec4 moving = placedVelocity(place);
+  rest = contactOf(moving.w);
   uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
-  uint group = groupOf(rest.strand);
+  uint group = self.w;
   precise vec3 here = uintBitsToFloat(self.xyz);
   x = here;
-  v = uintBitsToFloat(placedVelocity(place).xyz);
+  v = uintBitsToFloat(moving.xyz);
   // No pair's reach is larger: by the radii, and by the fastest there is.
   float mostR = rest.point.w + parameters.largestRadius;
   precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);
@@ -69,9 +70,10 @@ bool search(uint place, float skin) {
       uint near = 0;
       uint k = 0;
       do {
-        precise vec3 apart = here - placedAt(entry + k);
+        uvec4 other = placedPosition(entry + k);
+        precise vec3 apart = here - uintBitsToFloat(other.xyz);
         precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
-        if (squared < farthest * farthest) near |= 1u << k;
+        if (squared < farthest * farthest && other.w != group) near |= 1u << k;
         ++made;
       } while (++k < looked);
       wanted += looked + bitCount(near);
@@ -80,22 +82,20 @@ bool search(uint place, float skin) {
         uint k = findLSB(near);
         near &= near - 1;
         ++made;
-        vec3 apart = x - placedAt(entry + k);
-        uvec4 other = placedVelocity(entry + k);
-        float ahead = parameters.seconds * length(v - uintBitsToFloat(other.xyz));
+        vec3 apart = x - uintBitsToFloat(placedPosition(entry + k).xyz);
+        float ahead = parameters.seconds * length(v - uintBitsToFloat(placedVelocity(entry + k).xyz));
         float acting = max(mostR + ahead, parameters.reachFactor * mostR);
         float reach = 1.0001 * (min(acting, parameters.listedAhead * mostR) + skin);
-        bool mayMeet = dot(apart, apart) < reach * reach && other.w != group;
-        if (mayMeet) meeting |= 1u << k;
+        if (dot(apart, apart) < reach * reach) meeting |= 1u << k;
       } while (near != 0);
       wanted += bitCount(meeting);
       if (meeting != 0) do {
         uint k = findLSB(meeting);
         meeting &= meeting - 1;
         ++made;
-        uvec4 found = placedPosition(entry + k);
-        vec3 foundAt = uintBitsToFloat(found.xyz);
-        vec3 otherVelocity = uintBitsToFloat(placedVelocity(entry + k).xyz);
+        vec3 foundAt = uintBitsToFloat(placedPosition(entry + k).xyz);
+        uvec4 found = placedVelocity(entry + k);
+        vec3 otherVelocity = uintBitsToFloat(found.xyz);
         ContactRest other = contactOf(found.w);
         // Other cells may share a bucket, and a bucket may come by twice.
         ivec3 away = cellOf(foundAt) - middle;

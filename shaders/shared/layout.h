@@ -304,8 +304,8 @@ struct ContactSystem {
 // A place of the grid: a contact particle as it was when lists were made. Numbers of both kinds are integers here: a
 // driver may flush an integer to 0 that it moves as a float, and none a float that it moves as an integer.
 struct ContactPlace {
-  uvec4 position;  // xyz: [m], bits of floats; w: which contact particle
-  uvec4 velocity;  // xyz: v^0 [m/s], bits of floats; w: its strand's group, see groupOf in shared/contact_buffers.glsl
+  uvec4 position;  // xyz: [m], bits of floats; w: its strand's group, see groupOf in shared/contact_buffers.glsl
+  uvec4 velocity;  // xyz: v^0 [m/s], bits of floats; w: which contact particle
 };
 
 // What a contact particle was: when its list was made, and in the step before.

@@ -345,6 +345,7 @@ TEST(ContactStep, PrunedPairsPassThroughEachOther) {
   Settings settings = swatchSettings();
   const auto contactsOf = [&](double dropShare) {
     settings.contacts.dropShare = dropShare;
+    settings.contacts.prunePairs = true;
     Simulation<double> simulation(groom, Material{}, settings);
     disturb(simulation, groom.firstPoint);
     simulateStill(simulation, settings.stepSeconds());

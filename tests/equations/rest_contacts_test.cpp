@@ -151,6 +151,7 @@ TEST(RestContacts, CountsOverlapsOfEnlargedSpheres) {
 
 TEST(RestContacts, DropsPairsOfStrandsThatBarelyOverlap) {
   ContactSettings settings;  // in a row, a root spacing R apart
+  settings.prunePairs = true;
   settings.minOverlaps = 5;
   const auto strands = hanging(row(6, 0.01), 0.01, 10);
   // 15 mm reach the next strand (D = R, and one along), not the one after.

@@ -158,6 +158,7 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
     settings.contacts.on = true;
     settings.contacts.method = method;
     settings.contacts.radius = 0.01;
+    settings.contacts.prunePairs = true;
     settings.contacts.enlargement = 1.2;
     const auto state = buildRestState(groom, {}, settings);
     ASSERT_TRUE(state) << state.error().message;

@@ -241,7 +241,7 @@ const std::vector<CppStruct> kCppStructs = {
                                            RINGLET_MEMBER(dampingRelease), RINGLET_MEMBER(reachFactor),
                                            RINGLET_MEMBER(breakFactor),    RINGLET_MEMBER(seenAhead),
                                            RINGLET_MEMBER(listedAhead),    RINGLET_MEMBER(sampleStride),
-                                           RINGLET_MEMBER(warmth)}};
+                                           RINGLET_MEMBER(warmth),         RINGLET_MEMBER(cellsPerMetre)}};
     }(),
 };
 

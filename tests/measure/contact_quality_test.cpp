@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "tests/rest/contact_samples.h"
@@ -13,11 +14,19 @@ namespace {
 
 using namespace test;
 
+// Pairs that are apart at rest are pruned.
+ContactSettings radius(std::optional<double> r) {
+  ContactSettings settings;
+  settings.prunePairs = true;
+  settings.radius = r;
+  return settings;
+}
+
 struct Prepared {
   RestState rest;
   RestContacts contacts;
 
-  explicit Prepared(const Groom& groom, const ContactSettings& settings = {})
+  explicit Prepared(const Groom& groom, const ContactSettings& settings = radius({}))
       : rest(restOf(groom)), contacts(buildRestContacts(rest, settings)) {}
   ContactQuality at(std::span<const Vec3f> positions) const {
     return measureContacts(rest, contacts, positions);
@@ -31,12 +40,6 @@ Groom twoLines(double apart) {
   groom.addStrand(line({apart, 0, 0}, {apart, -0.076, 0}, 20));
   return groom;
 }
-ContactSettings radius(double r) {
-  ContactSettings settings;
-  settings.radius = r;
-  return settings;
-}
-
 TEST(ContactQuality, OfTwoLinesPressedTogether) {
   // Apart at rest, then the spheres that face each other 3 mm from each other, 20 pairs; next ones 5 mm:
   // beyond R.

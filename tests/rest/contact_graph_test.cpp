@@ -70,6 +70,7 @@ GroomPairs pairsOf(const ContactGraph& graph, const RestState& rest) {
 ContactSettings settingsWith(int minOverlaps, int maxNeighbours = 0, double dropShare = 0,
                              std::uint32_t seed = 1) {
   ContactSettings settings;
+  settings.prunePairs = true;
   settings.minOverlaps = minOverlaps;
   settings.maxNeighbours = maxNeighbours;
   settings.dropShare = dropShare;
@@ -190,11 +191,8 @@ TEST(ContactGraph, WithoutPruningEveryPairMayTouch) {
   groom.addStrand(line({}, {0, -0.1, 0}, 20));
   groom.addStrand(line({5, 0, 0}, {5, -0.1, 0}, 20));
   const Prepared p(groom);
-  ContactSettings settings;
-  const ContactGraph pruned = p.pruned(settings);
-  EXPECT_FALSE(pruned.allows(0, 1));
-  settings.prunePairs = false;
-  const ContactGraph all = p.pruned(settings);
+  EXPECT_FALSE(p.pruned(settingsWith(8)).allows(0, 1));
+  const ContactGraph all = p.pruned({});
   EXPECT_TRUE(all.everyPair && all.allows(0, 1) && all.allows(1, 0));
   EXPECT_FALSE(all.allows(1, 1));
   EXPECT_TRUE(all.neighbours.empty() && all.warnings.empty());
@@ -203,11 +201,11 @@ TEST(ContactGraph, WithoutPruningEveryPairMayTouch) {
 TEST(ContactGraph, SaysWhenNothingCanTouch) {
   Groom groom = metres();
   groom.addStrand(line({}, {0, -0.1, 0}, 20));
-  EXPECT_TRUE(Prepared(groom).pruned({}).warnings.empty()) << "one strand has none to touch";
+  EXPECT_TRUE(Prepared(groom).pruned(settingsWith(8)).warnings.empty()) << "one strand has none to touch";
   groom.addStrand(line({0.5, 0, 0}, {0.5, 0, 0.1}, 20));
   const Prepared p(groom);
   const auto overlaps = countOverlaps(p.rest, p.contacts, 0.1);
-  const ContactGraph graph = pruneStrandPairs(overlaps, p.rest, {});
+  const ContactGraph graph = pruneStrandPairs(overlaps, p.rest, settingsWith(8));
   ASSERT_EQ(graph.warnings.size(), 1u);
   EXPECT_NE(graph.warnings[0].find("no two of 2 strands may touch: of 0 pairs"), std::string::npos)
       << graph.warnings[0];
