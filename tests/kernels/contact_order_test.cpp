@@ -93,9 +93,9 @@ TEST_F(ContactOrder, IsByIndexInEveryBucket) {
     const auto places = order(grid, texels);
     for (std::uint32_t i = 0; i < kContacts; ++i) {
       const std::uint32_t c = grid.ascending[i];
-      ASSERT_EQ(places[i].position.w, c) << "place " << i;
+      ASSERT_EQ(places[i].velocity.w, c) << "place " << i;
       EXPECT_EQ(std::bit_cast<float>(places[i].position.x), float(c)) << "place " << i;
-      EXPECT_EQ(places[i].velocity.w, c / 2) << "place " << i;
+      EXPECT_EQ(places[i].position.w, c / 2) << "place " << i;
     }
   }
 }

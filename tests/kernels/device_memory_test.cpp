@@ -3,6 +3,7 @@
 
 #include <bit>
 
+#include "parity/contacts.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
@@ -87,6 +88,22 @@ TEST_F(Memory, OfAVolume) {
   EXPECT_EQ(memory.contacts + memory.contactLists, 0u);
   EXPECT_GT(memory.volume, 24u << 10);  // a block of cells at the least
   EXPECT_LT(memory.volume, 140 * particleCount_ + (24u << 21) + (64u << 10));
+}
+
+// Contacts between pairs beside it: two buckets of 16.
+TEST_F(Memory, OfContactsBesideAVolume) {
+  const Groom groom = parity::bunchAndStrands();
+  Settings settings = parity::meetingSettings();
+  settings.contacts.method = ContactMethod::automatic;
+  auto simulation = Simulation::create(device(), groom, {}, settings);
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  ASSERT_EQ(simulation->contactReport()->volumeStrands, 60u);
+  const std::uint64_t contacts = simulation->contactReport()->contactParticles;
+  const std::uint64_t buckets = std::bit_ceil(std::max<std::uint64_t>(2 * contacts, 1024));
+  const std::uint64_t expected =
+      140 * contacts + 16 * buckets + 20 * groom.points.size() + 16 * groom.strandCount();
+  EXPECT_GE(simulation->memory().contacts, expected);
+  EXPECT_LE(simulation->memory().contacts, expected + buckets / 256 + 64);
 }
 
 // Lists as long as hair that lies in itself makes them: 16 bytes a pair and side, and a part that is empty.
