@@ -87,7 +87,7 @@ fetch_mesa() {
 
 icd() { env "VK_ICD_FILENAMES=$1" "VK_DRIVER_FILES=$1" "${@:2}"; }
 
-# quick DRIVER PREFIX...: gpu tests, conform, lists and repeats.
+# quick DRIVER PREFIX...: gpu tests, conform, lists, repeats, and a volume beside contacts.
 quick() {
   local driver=$1
   shift
@@ -95,7 +95,8 @@ quick() {
   try "$driver" "conform --quick" "$@" $build/ringlet conform --quick
   try "$driver" "contact lists" "$@" $build/tests/kernels_tests --gtest_brief=1 --gtest_filter='ContactLists.*'
   try "$driver" "a run with contacts repeats" "$@" $build/tests/kernels_tests --gtest_brief=1 \
-    --gtest_filter='ContactStep.RepeatsBitwise*'
+    --gtest_filter='ContactStep.RepeatsBitwise*:VolumeStep.RepeatsBitwise*'
+  try "$driver" "a volume beside contacts" "$@" $build/tests/kernels_tests --gtest_brief=1 --gtest_filter='VolumeStep.Beside*'
 }
 
 for bits in 128 512; do
