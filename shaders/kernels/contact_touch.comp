@@ -1,16 +1,18 @@
 // What the neighbours of each contact particle do, as bits beside each list's blocks, and which contact particles have
-// contacts or had some: the kernels after this one run for those only, and most only stand near others. Mirrored by
+// contacts or had some: kernels of later iterations run for those only, and most only stand near others. With the
+// distance taper also what contacts add to the first iteration, from guessed velocities. Mirrored by
 // reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "shared/contact_buffers.glsl"
 #include "equations/contact_spring.glsl"
+#include "shared/contact_buffers.glsl"
 
 uint particle;  // this invocation's
 vec3 x;
 vec3 v;
 
-// Whether a contact particle had contacts in the step before; from now on it has some, or none.
+// Whether a contact particle had contacts in the step before; from now on it has some, or none. And the first iteration
+// of those it has.
 #ifdef RINGLET_TAPER_TIME
 const uint kMeeting = ~((1u << kListBlock) - 1);  // of the bits
 bool metBefore(uint c) {
@@ -18,10 +20,21 @@ bool metBefore(uint c) {
   return liveLists[liveListOf(c, control.parity ^ 1)] > 0;
 }
 void setMeets(uint c, bool meets) {}
+void beginSum() {}
+void addToSum(ContactPair pair, ContactMeeting meeting, bool touching) {}
+void setSum(ContactRest rest) {}
 #else
+#include "shared/contact_sum.glsl"
 const uint kMeeting = (1u << kListBlock) - 1;
 bool metBefore(uint c) { return lists[meetsPlace(c)] != 0; }
 void setMeets(uint c, bool meets) { lists[meetsPlace(c)] = uint(meets); }
+ContactSum sum = kNoContacts;
+vec3 guess;
+void beginSum() { guess = guessOf(particle).xyz; }
+void addToSum(ContactPair pair, ContactMeeting meeting, bool touching) {
+  addContact(sum, pair, meeting, touching, guess + guessOf(pair.particle).xyz);
+}
+void setSum(ContactRest rest) { setSystem(rest, sum); }
 #endif
 
 // Who is in cells and regions is told anew in the next step.
@@ -37,9 +50,11 @@ void main() {
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
   if (kBesideVolume) emptyCells(c);
-  particle = contactOf(c).particle;
+  ContactRest rest = contactOf(c);
+  particle = rest.particle;
   x = positionOf(particle);
   v = velocityOf(particle);
+  beginSum();
   uint list = listOf(c);
   uint count = lists[list];
   bool meets = false;
@@ -56,7 +71,9 @@ void main() {
           contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle), particle < pair.particle);
       bool touching = isTouching(meeting, pair.restLength, parameters.seconds, parameters.seenAhead);
       if (touching) bits |= 1u << kListBlock + k;
-      if (touching || meeting.distance < parameters.breakFactor * pair.restLength) bits |= 1u << k;
+      bool acts = touching || meeting.distance < parameters.breakFactor * pair.restLength;
+      if (acts) bits |= 1u << k;
+      if (acts) addToSum(pair, meeting, touching);
     } while (++k < inBlock);
     lists[pairBits(list, begin / kListBlock)] = bits;
     meets = meets || (bits & kMeeting) != 0;
@@ -67,6 +84,7 @@ void main() {
   bool met = metBefore(c);
   setMeets(c, meets);
   if (!meets && !met) return;
+  setSum(rest);
   uint i = atomicAdd(control.meetingCount, 1);
   lists[meetingPlace(i)] = c;
   if (i % gl_WorkGroupSize.x == 0) atomicAdd(control.indirectMeeting[0], 1);

@@ -54,11 +54,9 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
     kernels.push_back({description.name + std::string(what), description});
   };
   using enum ContactKernel;
-  for (std::size_t k = 0; k < kContactKernelCount; ++k) {
-    const auto which = static_cast<ContactKernel>(k);
-    add(which, ContactTaper::distance, which == first ? ", first iteration" : which == next ? ", later" : "");
-  }
-  for (const ContactKernel which : {touch, first, next})
+  for (std::size_t k = 0; k < contactKernelCount(ContactTaper::distance); ++k)
+    add(static_cast<ContactKernel>(k), ContactTaper::distance, "");
+  for (const ContactKernel which : {touch, life, next})
     add(which, ContactTaper::time, which == touch ? ", time taper" : "");
   for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
     const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels);

@@ -30,7 +30,7 @@ std::uint32_t storageCount(const gpu::KernelDescription& description) {
 
 std::uint32_t mostOfContacts() {
   std::uint32_t most = 0;
-  for (std::size_t k = 0; k < kContactKernelCount; ++k) {
+  for (std::size_t k = 0; k < contactKernelCount(ContactTaper::distance); ++k) {
     const auto which = static_cast<ContactKernel>(k);
     most = std::max(most, storageCount(describeContactKernel(which, ContactTaper::distance, true, 64, true)));
   }

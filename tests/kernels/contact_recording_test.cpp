@@ -21,11 +21,12 @@ using Commands = std::vector<std::string>;
 
 // In the order of a step, up to its first solve; and before each of the others.
 Commands ofAStep(ContactTaper taper) {
-  return {"contact_motion", "contact_decide", "contact_count",
-          "contact_scan",   "contact_sum",    "contact_scatter",
-          "contact_order",  "contact_sample", "contact_judge",
-          "contact_query",  "contact_touch",  taper == ContactTaper::time ? "contact_life" : "contact_system",
-          "contact_check"};
+  Commands step{"contact_motion", "contact_decide",  "contact_count", "contact_scan",
+                "contact_sum",    "contact_scatter", "contact_order", "contact_sample",
+                "contact_judge",  "contact_query",   "contact_touch"};
+  if (taper == ContactTaper::time) step.push_back("contact_life");
+  step.push_back("contact_check");
+  return step;
 }
 const char* betweenSolves(ContactTaper taper) {
   return taper == ContactTaper::time ? "contact_gather" : "contact_system";

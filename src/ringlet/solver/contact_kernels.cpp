@@ -30,14 +30,14 @@ struct Compiled {
 };
 
 // As ContactKernel counts them, with the distance taper.
-const Compiled kCompiled[kContactKernelCount] = {
+const Compiled kCompiled[contactKernelCount(ContactTaper::distance)] = {
     {"contact_motion", k_contact_motion_plain}, {"contact_decide", k_contact_decide_plain},
     {"contact_count", k_contact_count_plain},   {"contact_scan", k_contact_scan_plain},
     {"contact_sum", k_contact_sum_plain},       {"contact_scatter", k_contact_scatter_plain},
     {"contact_order", k_contact_order_plain},   {"contact_sample", k_contact_sample_plain},
     {"contact_judge", k_contact_judge_plain},   {"contact_query", k_contact_query_plain},
-    {"contact_touch", k_contact_touch_plain},   {"contact_system", k_contact_system_plain},
-    {"contact_check", k_contact_check_plain},   {"contact_system", k_contact_system_plain},
+    {"contact_touch", k_contact_touch_plain},   {"contact_check", k_contact_check_plain},
+    {"contact_system", k_contact_system_plain},
 };
 
 const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
@@ -45,7 +45,7 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
       life{"contact_life", k_contact_life_plain}, gather{"contact_gather", k_contact_gather_plain};
   if (taper == ContactTaper::time) {
     if (which == ContactKernel::touch) return touch;
-    if (which == ContactKernel::first) return life;
+    if (which == ContactKernel::life) return life;
     if (which == ContactKernel::next) return gather;
   }
   return kCompiled[static_cast<std::size_t>(which)];
@@ -62,8 +62,6 @@ gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper t
   description.remedy = "take another device, or leave out contacts";
   description.pushConstantBytes = sizeof(layout::ContactParameters);
   description.constants = {{0, groupSize}, {7, texels ? 1u : 0u}, {9, besideVolume ? 1u : 0u}};
-  if (compiled.spirv.data() == k_contact_system_plain)
-    description.constants.push_back({8, which == ContactKernel::first ? 1u : 0u});
   description.groupSize = groupSize;
   return description;
 }

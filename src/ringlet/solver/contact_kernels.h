@@ -9,9 +9,9 @@
 
 namespace ringlet {
 
-/// In the order of a step: contact_motion.comp and so on. What prepares the first iteration of a step's solve
-/// and those after it is contact_system.comp with the distance taper, contact_life.comp and
-/// contact_gather.comp with the time taper.
+/// In the order of a step: contact_motion.comp and so on. The first iteration of a step's solve is prepared
+/// by `touch`, with the time taper by `life`; those after it by `next`: contact_system.comp, with the time
+/// taper contact_gather.comp.
 enum class ContactKernel {
   motion,
   decide,
@@ -24,11 +24,15 @@ enum class ContactKernel {
   judge,
   query,
   touch,
-  first,
   check,
-  next
+  next,
+  life  // between touch and check
 };
-inline constexpr std::size_t kContactKernelCount = 14;
+/// How many of them there are.
+constexpr std::size_t contactKernelCount(ContactTaper taper) {
+  const auto life = static_cast<std::size_t>(ContactKernel::life);
+  return taper == ContactTaper::time ? life + 1 : life;
+}
 
 /// Invocations of a workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;

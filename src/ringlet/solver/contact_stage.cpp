@@ -109,7 +109,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
     const std::uint64_t seen = device.properties().maxTexelRecords * sizeof(layout::vec4);
     self.largestList_ = std::min(self.largestList_, seen);
   }
-  for (std::size_t k = 0; k < kContactKernelCount; ++k) {
+  for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
     const auto description = describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper,
                                                    besideVolume, kGroupSize, texels);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
@@ -316,11 +316,12 @@ void ContactStage::recordFirst(gpu::Recorder& recorder, SubmissionPace& pace) co
   pace.beginStage(recorder, "contact_touch");
   dispatch(recorder, ContactKernel::touch, 0, contactGroups());
   recorder.barrier();
-  recorder.endStage();
-
-  pace.beginStage(recorder, lives_ ? "contact_life" : "contact_system");
-  dispatchIndirect(recorder, ContactKernel::first, 0, kMeeting);
-  recorder.barrier();
+  if (lives_) {
+    recorder.endStage();
+    pace.beginStage(recorder, "contact_life");
+    dispatchIndirect(recorder, ContactKernel::life, 0, kMeeting);
+    recorder.barrier();
+  }
   dispatch(recorder, ContactKernel::check, 0, 1);
   recorder.endStage();
 }
