@@ -16,19 +16,16 @@ void main() {
 
   uint list = listOf(c);
   uint blockCount = (lists[list] + kListBlock - 1) / kListBlock;
-  uint wanted = blockCount;  // turns of the loops; and how many they made
-  uint made = 0;
+  bool isWhole = true;  // no loop ended early
   uint b = 0;
   if (blockCount > 0) do {
     uint first = lists[listedBlock(list, b)] * kListBlock;
     uint bits = lists[pairBits(list, b)];
     uint unmet = 0;
     uint acting = bits & ((1u << kListBlock) - 1);
-    wanted += bitCount(acting);
     if (acting != 0) do {
       uint k = findLSB(acting);
       acting &= acting - 1;
-      ++made;
       ContactPair pair = pairAt(first + k);
       vec3 other = velocityOf(pair.particle);
       ContactMeeting meeting = contactMeeting(x - positionOf(pair.particle), v - other, rest.particle < pair.particle);
@@ -39,9 +36,9 @@ void main() {
       }
       addContact(sum, pair, meeting, pushes, v + other);
     } while (acting != 0);
+    if (acting != 0) isWhole = false;
     if (unmet != 0) lists[pairBits(list, b)] = bits & ~unmet;
-    ++made;
   } while (++b < blockCount);
-  if (made != wanted) control.isHalted = kHaltedByTurns;
+  if (!isWhole || b < blockCount) control.isHalted = kHaltedByTurns;
   setSystem(rest, sum);
 }
