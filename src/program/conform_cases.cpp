@@ -164,13 +164,13 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
   checkShape(cases, StrandShape{}, {}, "hair alone, serial", !cases.quick, tell);
 }
 
-// Some 4,000 pairs.
-void checkLists(const ComputeDevice& device, const Tell& tell) {
-  const std::string name = "contact lists of 1,000 points";
+// `count` points at random in a cube of `side` [m].
+void checkLists(const ComputeDevice& device, int count, double side, const Tell& tell) {
+  const std::string name = fmt::format("contact lists of {} points in {} mm", count, 1000 * side);
   std::mt19937 engine(7);
   std::vector<Vec3f> points;
-  const auto coordinate = [&] { return 0.12 * static_cast<double>(engine()) / 4294967295.0; };
-  for (int i = 0; i < 1000; ++i) {
+  const auto coordinate = [&] { return side * static_cast<double>(engine()) / 4294967295.0; };
+  for (int i = 0; i < count; ++i) {
     const double x = coordinate(), y = coordinate(), z = coordinate();
     points.push_back(Vec3f(Vec3d{x, y, z}));
   }
@@ -204,7 +204,8 @@ void checkMeeting(const ConformCases& cases, const Settings& settings, const std
 }
 
 void checkContacts(const ConformCases& cases, const Tell& tell) {
-  checkLists(cases.device, tell);
+  checkLists(cases.device, 1000, 0.12, tell);  // some 4,000 pairs
+  checkLists(cases.device, 300, 0.01, tell);   // each near all others
   const Settings pairs = parity::meetingSettings();
   Settings volume = pairs;
   volume.contacts.method = ContactMethod::volume;

@@ -37,7 +37,7 @@ TEST_F(SharedKernels, FourEqualSimulationsCompileOnce) {
       simulations.push_back(std::move(*made));
       if (i == 0) compiled = own->gpu().kernels().compiledCount();
     }
-    EXPECT_EQ(compiled, contacts ? 15u : 1u) << "one for the strands, fourteen for contacts";
+    EXPECT_EQ(compiled, contacts ? 14u : 1u) << "one for the strands, thirteen for contacts";
     EXPECT_EQ(own->gpu().kernels().compiledCount(), compiled);
     EXPECT_EQ(announced.counts, std::vector<std::size_t>{compiled});
     EXPECT_EQ(announced.ends, 1u);
