@@ -4,7 +4,7 @@
 // hold two together is taken back for the rest of the step. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "shared/contact_sum.glsl"
+#include "shared/contact_terms.glsl"
 
 void main() {
   if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
@@ -12,7 +12,7 @@ void main() {
   ContactRest rest = contactOf(c);
   vec3 x = positionOf(rest.particle);
   vec3 v = velocityOf(rest.particle);
-  ContactSum sum = kNoContacts;
+  ContactTerms terms = kNoTerms;
 
   uint list = listOf(c);
   uint blockCount = (lists[list] + kListBlock - 1) / kListBlock;
@@ -34,11 +34,11 @@ void main() {
         pushes = false;
         unmet |= 1u << kListBlock + k;
       }
-      addContact(sum, pair, meeting, pushes, v + other);
+      addContact(terms, pair, meeting, pushes, v + other);
     } while (acting != 0);
     if (acting != 0) isWhole = false;
     if (unmet != 0) lists[pairBits(list, b)] = bits & ~unmet;
   } while (++b < blockCount);
   if (!isWhole || b < blockCount) control.isHalted = kHaltedByTurns;
-  setSystem(rest, sum);
+  setSystem(rest, terms);
 }

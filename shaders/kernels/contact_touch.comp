@@ -20,21 +20,21 @@ bool metBefore(uint c) {
   return liveLists[liveListOf(c, control.parity ^ 1)] > 0;
 }
 void setMeets(uint c, bool meets) {}
-void beginSum() {}
-void addToSum(ContactPair pair, ContactMeeting meeting, bool touching) {}
-void setSum(ContactRest rest) {}
+void beginTerms() {}
+void addTerms(ContactPair pair, ContactMeeting meeting, bool touching) {}
+void setTerms(ContactRest rest) {}
 #else
-#include "shared/contact_sum.glsl"
+#include "shared/contact_terms.glsl"
 const uint kMeeting = (1u << kListBlock) - 1;
 bool metBefore(uint c) { return lists[meetsPlace(c)] != 0; }
 void setMeets(uint c, bool meets) { lists[meetsPlace(c)] = uint(meets); }
-ContactSum sum = kNoContacts;
+ContactTerms terms = kNoTerms;
 vec3 guess;
-void beginSum() { guess = guessOf(particle).xyz; }
-void addToSum(ContactPair pair, ContactMeeting meeting, bool touching) {
-  addContact(sum, pair, meeting, touching, guess + guessOf(pair.particle).xyz);
+void beginTerms() { guess = guessOf(particle).xyz; }
+void addTerms(ContactPair pair, ContactMeeting meeting, bool touching) {
+  addContact(terms, pair, meeting, touching, guess + guessOf(pair.particle).xyz);
 }
-void setSum(ContactRest rest) { setSystem(rest, sum); }
+void setTerms(ContactRest rest) { setSystem(rest, terms); }
 #endif
 
 // Who is in cells and regions is told anew in the next step.
@@ -54,7 +54,7 @@ void main() {
   particle = rest.particle;
   x = positionOf(particle);
   v = velocityOf(particle);
-  beginSum();
+  beginTerms();
   uint list = listOf(c);
   uint count = lists[list];
   bool meets = false;
@@ -73,7 +73,7 @@ void main() {
       if (touching) bits |= 1u << kListBlock + k;
       bool acts = touching || meeting.distance < parameters.breakFactor * pair.restLength;
       if (acts) bits |= 1u << k;
-      if (acts) addToSum(pair, meeting, touching);
+      if (acts) addTerms(pair, meeting, touching);
     } while (++k < inBlock);
     lists[pairBits(list, begin / kListBlock)] = bits;
     meets = meets || (bits & kMeeting) != 0;
@@ -84,7 +84,7 @@ void main() {
   bool met = metBefore(c);
   setMeets(c, meets);
   if (!meets && !met) return;
-  setSum(rest);
+  setTerms(rest);
   uint i = atomicAdd(control.meetingCount, 1);
   lists[meetingPlace(i)] = c;
   if (i % gl_WorkGroupSize.x == 0) atomicAdd(control.indirectMeeting[0], 1);

@@ -204,7 +204,7 @@ void checkMeeting(const ConformCases& cases, const Settings& settings, const std
 }
 
 void checkContacts(const ConformCases& cases, const Tell& tell) {
-  checkLists(cases.device, 1000, 0.12, tell);  // some 4,000 pairs
+  checkLists(cases.device, 1000, 0.12, tell);  // some 1,400 pairs
   checkLists(cases.device, 300, 0.01, tell);   // each near all others
   const Settings pairs = parity::meetingSettings();
   Settings volume = pairs;

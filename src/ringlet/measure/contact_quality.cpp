@@ -11,7 +11,7 @@ namespace ringlet {
 
 ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
                                std::span<const Vec3f> positions) {
-  const auto& particles = contacts.allParticles;  // names, since Clang 14 captures no structured binding
+  const auto& particles = contacts.allParticles();  // names, since Clang 14 captures no structured binding
   const auto& graph = contacts.graph;
   RINGLET_ASSERT(positions.size() == rest.groomParticleCount, "one position per particle");
   std::vector<Box> boxes;

@@ -132,7 +132,6 @@ ContactParticles chooseContactParticles(const RestState& rest, const ContactSett
 ContactParticles thinWhereDense(const ContactParticles& all, const RestState& rest, const DenseStrands& dense,
                                 const ContactSettings& settings) {
   const auto asked = static_cast<std::uint32_t>(std::lround(1 / settings.detail));
-  if (asked == 1) return all;
   ContactParticles thinned = all;
   thinned.particles.clear();
   thinned.strands.clear();

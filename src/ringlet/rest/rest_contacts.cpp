@@ -17,8 +17,12 @@ RestContacts buildRestContacts(const RestState& rest, const ContactSettings& set
   const DenseStrands dense = automatic || settings.detail < 1 ? findDenseStrands(rest) : noDenseStrands(rest);
   VolumeStrands volume = chooseVolumeStrands(rest, particles, dense, settings);
   ContactGraph graph = pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings);
-  ContactParticles thinned = thinWhereDense(particles, rest, dense, settings);
-  return {std::move(thinned), std::move(particles), std::move(graph), std::move(volume)};
+  RestContacts contacts{std::move(particles), std::move(graph), std::move(volume), {}};
+  if (settings.detail < 1) {
+    contacts.unthinned = std::move(contacts.particles);
+    contacts.particles = thinWhereDense(*contacts.unthinned, rest, dense, settings);
+  }
+  return contacts;
 }
 
 }  // namespace ringlet

@@ -2,6 +2,7 @@
 // reports of contacts all start from. Iben et al. 2012, section 4. Mirrored by reference/rest_contacts.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,13 @@ struct ContactKinds {
 
 /// Device order, as RestState.
 struct RestContacts {
-  ContactParticles particles;     // by which the solver lets strands meet
-  ContactParticles allParticles;  // and before dense strands are thinned, by which what they do is measured
+  ContactParticles particles;  // by which the solver lets strands meet
   ContactGraph graph;
   VolumeStrands volume;
+  std::optional<ContactParticles> unthinned;  // where dense strands are thinned: what there was before
+
+  /// By which what strands do is measured.
+  const ContactParticles& allParticles() const { return unthinned ? *unthinned : particles; }
 
   ContactKinds kinds() const { return {meetPairByPair(volume, graph), volume.count > 0}; }
   /// For the user, a sentence each: of gaps or raised radii, and of pruning that leaves nothing.

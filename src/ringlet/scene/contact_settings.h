@@ -41,7 +41,7 @@ inline constexpr const char* kContactMethodNames[] = {"auto", "explicit", "volum
 constexpr const char* nameOf(ContactMethod method) { return kContactMethodNames[static_cast<int>(method)]; }
 
 /// Strands that hang together are dense where the median of them has hair about it, at rest, as dense as so
-/// many of itself; those with less than half of it do not belong to them (rest/volume_strands.h).
+/// many of itself; those with less than half of it do not belong to them (rest/dense_strands.h).
 inline constexpr double kDenseStrands = 9;
 
 /// A cell of the volume's grid, in radii of contact particles as they are chosen without a setting.

@@ -62,7 +62,7 @@ constexpr double kDenseAhead = 1.3;
 std::uint32_t sampleStride(const RestContacts& contacts, const ContactSettings& settings) {
   const ContactGraph& graph = contacts.graph;
   const auto overlaps = static_cast<double>(graph.everyPair ? graph.overlapsUnpruned : graph.overlaps);
-  const double neighbours = 2 * overlaps / static_cast<double>(contacts.allParticles.particles.size()) *
+  const double neighbours = 2 * overlaps / static_cast<double>(contacts.allParticles().particles.size()) *
                             std::pow(1.5 / settings.enlargement, 3);
   constexpr double kMostStride = 32;
   return neighbours > kDenseNeighbours ? static_cast<std::uint32_t>(std::min(neighbours / 2, kMostStride))
