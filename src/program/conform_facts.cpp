@@ -10,6 +10,7 @@
 
 #include "ringlet/gpu/device.h"
 #include "ringlet/solver/strand_shape.h"
+#include "ringlet/version.h"
 
 namespace ringlet::program {
 namespace {

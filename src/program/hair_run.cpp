@@ -23,6 +23,7 @@
 #include "program/stopwatch.h"
 #include "program/writer_thread.h"
 #include "ringlet/output/positions_hash.h"
+#include "ringlet/version.h"
 
 namespace ringlet::program {
 namespace {

@@ -22,6 +22,7 @@
 #include "program/simulate_command.h"
 #include "program/standard_error.h"
 #include "program/tune_command.h"
+#include "ringlet/version.h"
 
 int main(int argumentCount, char** arguments) {
   using namespace ringlet::program;

@@ -3,6 +3,8 @@
 // rest are volk's globals.
 #pragma once
 
+#include "ringlet/gpu/volk_names.h"
+
 #include <volk.h>
 
 namespace ringlet::gpu {

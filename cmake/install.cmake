@@ -1,0 +1,45 @@
+# cmake --install: the command, the libraries with their headers, and what find_package(ringlet) and pkg-config read.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ringlet)
+
+set(parts core)
+if(RINGLET_BUILD_IO)
+  list(APPEND parts io)
+endif()
+foreach(part ${parts})
+  install(TARGETS ringlet_${part} EXPORT ringlet_${part} FILE_SET HEADERS)
+  install(EXPORT ringlet_${part} NAMESPACE ringlet:: DESTINATION ${package_dir})
+endforeach()
+if(TARGET ringlet_program)
+  install(TARGETS ringlet_program)
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/ringletConfig.cmake.in ${PROJECT_BINARY_DIR}/ringletConfig.cmake
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/ringletConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/ringletConfig.cmake ${PROJECT_BINARY_DIR}/ringletConfigVersion.cmake
+  DESTINATION ${package_dir})
+
+# pkg-config has a file a part, which finds the rest from where it lies.
+file(RELATIVE_PATH pkgconfig_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+# Who links a static library also links what that one needs.
+set(core_requires)
+set(core_needs fmt)
+set(io_requires ringlet-core)
+set(io_needs fmt libpng zlib libzstd)
+set(core_summary "Simulates curly hair on Vulkan devices")
+set(io_summary "Reads and writes what Ringlet simulates")
+foreach(part ${parts})
+  set(requires ${${part}_requires})
+  set(requires_private)
+  set(libs_private)
+  if(NOT BUILD_SHARED_LIBS)
+    list(JOIN ${part}_needs " " requires_private)
+    set(libs_private "-lm -ldl -pthread")
+  endif()
+  set(summary "${${part}_summary}")
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/ringlet.pc.in ${PROJECT_BINARY_DIR}/ringlet-${part}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/ringlet-${part}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Installs a build of ringlet and uses what was installed as a stranger does: find_package with every compiler there is,
+# and pkg-config.
+#   installed_test.sh BUILD_FOLDER GENERATOR static|shared
+set -euo pipefail
+build=$1 generator=$2 kind=$3
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
+prefix=$work/prefix
+fail() { echo "installed_test ($kind): $*" >&2; exit 1; }
+
+cmake --install "$build" --prefix "$prefix" > "$work/install.txt" || { cat "$work/install.txt"; exit 1; }
+libraries=("$prefix"/lib/libringlet_core.* "$prefix"/lib/libringlet_io.*)
+
+# A host may have a volk of its own.
+names=$(nm -g --defined-only -- "${libraries[@]}" 2> /dev/null | grep -E ' (vk|volk)[A-Z]' | head -n 3 || true)
+[ -z "$names" ] || fail "names of volk are shown: $names"
+if [ "$kind" = shared ]; then
+  names=$(nm -D -C --defined-only -- "${libraries[@]}" | grep -E '^[0-9a-f]' |
+    grep -vE '^[0-9a-f]+ . (ringlet::|(typeinfo( name)?|vtable) for ringlet::)' | head -n 3 || true)
+  [ -z "$names" ] || fail "a shared library shows names that are not Ringlet's: $names"
+fi
+
+compilers=0
+for compiler in g++ clang++; do
+  command -v $compiler > /dev/null || { echo "SKIPPED: $compiler is not installed"; continue; }
+  cmake -S "$here/installed" -B "$work/$compiler" -G "$generator" -DCMAKE_CXX_COMPILER=$compiler \
+    -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" > "$work/$compiler.txt" &&
+    cmake --build "$work/$compiler" >> "$work/$compiler.txt" || { cat "$work/$compiler.txt"; fail "$compiler"; }
+  for program in simulates reads_and_writes includes_all; do
+    (cd "$work" && "$work/$compiler/$program") || fail "$program, compiled with $compiler"
+  done
+  compilers=$((compilers + 1))
+done
+[ $compilers -gt 0 ] || fail "no compiler"
+
+# A component that is not installed is asked for in vain.
+cat > "$work/CMakeLists.txt" << 'END'
+cmake_minimum_required(VERSION 3.25)
+project(asks_for_more LANGUAGES CXX)
+find_package(ringlet REQUIRED COMPONENTS core moon)
+END
+! cmake -S "$work" -B "$work/moon" -G "$generator" -DCMAKE_PREFIX_PATH="$prefix" > "$work/moon.txt" 2>&1 ||
+  fail "find_package finds a component that there is not"
+grep -q moon "$work/moon.txt" || fail "find_package does not name the component: $(cat "$work/moon.txt")"
+
+export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+flags=$([ "$kind" = static ] && echo --static || true)
+g++ -std=c++20 "$here/installed/reads_and_writes.cpp" $(pkg-config --cflags --libs $flags ringlet-io) -o "$work/by_pkg_config"
+(cd "$work" && LD_LIBRARY_PATH=$prefix/lib ./by_pkg_config) || fail "what pkg-config says"
+if [ -x "$prefix/bin/ringlet" ]; then
+  (cd "$work" && "$prefix/bin/ringlet" make curl -o curl.obj > make.txt) || fail "the installed command"
+fi
