@@ -94,7 +94,8 @@ TEST(IncludeRules, InstalledHeadersIncludeInstalledOnes) {
   for (const std::string& header : both) {
     const std::set<std::string>& seen = core.count(header) ? core : both;
     for (const std::string& include : includesOf(kRoot / "src" / header)) {
-      const bool isStandard = include.find('.') == std::string::npos && include.find('/') == std::string::npos;
+      const bool isStandard =
+          include.find('.') == std::string::npos && include.find('/') == std::string::npos;
       EXPECT_TRUE(isStandard || seen.count(include)) << header << " includes " << include;
     }
   }
