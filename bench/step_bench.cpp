@@ -75,7 +75,7 @@ std::vector<HeadPose> posesOfFrame(int frame, int steps) {
 }
 
 Result<Simulation> simulationOf(const Groom& groom, Kind kind) {
-  return Simulation::create(*device, groom, {}, settingsOf(kind), {}, {}, {}, bodiesOf(kind));
+  return Simulation::create(*device, groom, {}, settingsOf(kind), {.bodies = bodiesOf(kind)});
 }
 
 template <class Real>

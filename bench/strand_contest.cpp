@@ -49,7 +49,7 @@ Result<Contest> Contest::create(const ComputeDevice& device, const std::vector<i
   contest.particles_ = std::accumulate(particleCounts.begin(), particleCounts.end(), 0.0);
   contest.team_ = std::make_unique<ThreadTeam>(coreCount());
   const Groom groom = curls(particleCounts);
-  auto simulation = Simulation::create(device, groom, {}, contest.settings_, {}, {}, choice);
+  auto simulation = Simulation::create(device, groom, {}, contest.settings_, {}, choice);
   if (!simulation) return simulation.error();
   contest.simulation_ = std::move(*simulation);
   if (baselines == Baselines::all) {

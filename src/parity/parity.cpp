@@ -216,15 +216,16 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   const RootWays roots(c);
   const HairState start = roots.carried(c.groom, randomState(c.groom, c.settings, c.seed));
 
-  auto simulation =
-      Simulation::create(device, c.groom, c.material, c.settings, head.now, head.before, c.kernel, c.bodies);
-  if (!simulation) return {failed("create", simulation.error())};
   const double T = c.settings.stepSeconds();
   const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-T), rootsNext = roots.at(T);
-  if (!roots.empty()) {
-    if (Status placed = simulation->placeRoots(rootsNow, rootsBefore); !placed)
-      return {failed("placeRoots", placed.error())};
-  }
+  auto simulation = Simulation::create(device, c.groom, c.material, c.settings,
+                                       {.head = head.now,
+                                        .oneStepEarlier = head.before,
+                                        .bodies = c.bodies,
+                                        .roots = rootsNow,
+                                        .rootsEarlier = rootsBefore},
+                                       c.kernel);
+  if (!simulation) return {failed("create", simulation.error())};
   if (Status set = simulation->setState(start); !set) return {failed("setState", set.error())};
   const std::vector<double> end{T};
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
@@ -290,15 +291,16 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
     return HeadPose{Vec3d{0.5 * t * t, 0, 0.2 * t}, fromRotationVector(Vec3d{0, 2, 0.5} * (t * t))};
   };
 
-  auto simulation =
-      Simulation::create(device, c.groom, c.material, c.settings, pose(0), pose(-1), c.kernel, c.bodies);
+  auto simulation = Simulation::create(device, c.groom, c.material, c.settings,
+                                       {.head = pose(0),
+                                        .oneStepEarlier = pose(-1),
+                                        .bodies = c.bodies,
+                                        .roots = rootsNow,
+                                        .rootsEarlier = rootsBefore},
+                                       c.kernel);
   if (!simulation) return failed("create", simulation.error());
   ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1), {}, c.bodies);
-  if (!roots.empty()) {
-    if (Status placed = simulation->placeRoots(rootsNow, rootsBefore); !placed)
-      return failed("placeRoots", placed.error());
-    expected.placeRoots(rootsNow, rootsBefore);
-  }
+  if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
   if (Status set = simulation->setState(start); !set) return failed("setState", set.error());
   expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
   for (int frame = 0; frame < frameCount; ++frame) {

@@ -74,7 +74,7 @@ void checkFrame(const ComputeDevice& device, parity::ParityCase c, const std::st
 // FNV-1a over the positions after two frames.
 Result<std::uint64_t> hashOfRun(const ComputeDevice& device, const Groom& groom, const Material& material,
                                 const Settings& settings, const KernelChoice& kernel) {
-  auto simulation = Simulation::create(device, groom, material, settings, {}, {}, kernel);
+  auto simulation = Simulation::create(device, groom, material, settings, {}, kernel);
   if (!simulation) return simulation.error();
   for (int frame = 1; frame <= 2; ++frame) {
     const HeadPose head{{0, 0, 0.03 * std::sin(0.5 * frame)}, fromRotationVector(Vec3d{0, 0.05 * frame, 0})};

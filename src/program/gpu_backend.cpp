@@ -81,17 +81,16 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
   choice.movingRoots = !input.rootStarts.empty();
   CompileNote note(device->name());
   if (gpu.tells) choice.observer = &note;
-  auto simulation = Simulation::create(*device, input.groom, input.material, input.settings, input.start,
-                                       input.oneStepEarlier, choice, input.bodies);
+  auto simulation = Simulation::create(*device, input.groom, input.material, input.settings,
+                                       {.head = input.start,
+                                        .oneStepEarlier = input.oneStepEarlier,
+                                        .bodies = input.bodies,
+                                        .bodyPlaces = input.bodyStarts,
+                                        .roots = input.rootStarts,
+                                        .rootsEarlier = input.rootsEarlier,
+                                        .rootShifts = input.rootShifts},
+                                       choice);
   if (!simulation) return simulation.error();
-  if (choice.movingRoots) {
-    if (Status placed = simulation->placeRoots(input.rootStarts, input.rootsEarlier); !placed)
-      return placed.error();
-  }
-  simulation->placeBodies(input.bodyStarts);
-  if (!input.rootShifts.empty()) {
-    if (Status shifted = simulation->setRootShifts(input.rootShifts); !shifted) return shifted.error();
-  }
   return std::unique_ptr<Backend>(
       std::make_unique<GpuBackend>(std::move(*device), std::move(*simulation), std::move(tuned)));
 }

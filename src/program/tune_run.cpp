@@ -117,7 +117,7 @@ struct Runner {
     choice.lanes = static_cast<int>(entry.shape.lanes);
     choice.particlesPerLane = static_cast<int>(entry.shape.particlesPerLane);
     choice.subgroupSize = static_cast<int>(entry.subgroupSize);
-    auto simulation = Simulation::create(device, *groom, {}, Settings{}, {}, {}, choice);
+    auto simulation = Simulation::create(device, *groom, {}, Settings{}, {}, choice);
     if (!simulation) return simulation.error();
     if (Status stepped = simulation->stepFrame(kMoved); !stepped) return stepped.error();
     auto positions = simulation->positions();

@@ -66,7 +66,7 @@ TEST_F(SubgroupOption, TakesWhatTheDeviceHas) {
   const auto create = [&](int width) {
     KernelChoice choice;
     choice.subgroupSize = width;
-    return Simulation::create(device(), *groom, {}, {}, {}, {}, choice);
+    return Simulation::create(device(), *groom, {}, {}, {}, choice);
   };
   const DeviceLimits limits = device().limits();
   auto automatic = create(0);
@@ -96,8 +96,8 @@ TEST_F(SubgroupOption, LanesNeedNoPromisedSubgroups) {
     KernelChoice choice;
     choice.form = KernelChoice::Form::lanes;
     choice.lanes = lanes;
-    auto rich = Simulation::create(device(), *groom, {}, {}, {}, {}, choice);
-    auto plain = Simulation::create(poor, *groom, {}, {}, {}, {}, choice);
+    auto rich = Simulation::create(device(), *groom, {}, {}, {}, choice);
+    auto plain = Simulation::create(poor, *groom, {}, {}, {}, choice);
     ASSERT_TRUE(rich && plain);
     for (Simulation* simulation : {&*rich, &*plain})
       ASSERT_TRUE(simulation->stepFrame(HeadPose{{0.01, 0, 0}, {}}));

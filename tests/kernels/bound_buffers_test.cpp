@@ -91,8 +91,8 @@ class FewBuffers : public GpuTest {
  protected:
   Result<Simulation> make(const ComputeDevice& device, const Settings& settings,
                           const KernelChoice& kernel = {}, bool bodies = false) {
-    return Simulation::create(device, randomGroom({8, 16, 20, 8}, 3), {}, settings, {}, {}, kernel,
-                              bodies ? sampleBodies() : std::vector<Body>{});
+    return Simulation::create(device, randomGroom({8, 16, 20, 8}, 3), {}, settings,
+                              {.bodies = bodies ? sampleBodies() : std::vector<Body>{}}, kernel);
   }
   Result<ComputeDevice> openFew() {
     auto opened = gpu::Device::open("", {.mostStorageBuffers = kFew});

@@ -102,9 +102,6 @@ TEST_F(ContactLists, KeptListsHoldAllThatMayTouch) {
   settings.maxStretch = 100;
   const double T = settings.stepSeconds();
   const Groom groom = farApart(kStrands);
-  auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {.movingRoots = true});
-  ASSERT_TRUE(simulation) << simulation.error().message;
-
   const auto direction = [&] {
     const Vec3d v(random(1, {2, 2, 2})[0]);
     return v / std::max(length(v), 1e-3);
@@ -115,7 +112,9 @@ TEST_F(ContactLists, KeptListsHoldAllThatMayTouch) {
     roots.push_back({static_cast<Vec3d>(state.positions[2 * s] - groom.strand(s)[0]), {}});
     state.velocities[2 * s + 1] = Vec3f(Vec3d{(s % 2 ? 0.24 : -0.24) * kSkin / T, 0, 0});
   }
-  ASSERT_TRUE(simulation->placeRoots(roots, roots));
+  auto simulation = Simulation::create(device(), groom, {}, settings, {.roots = roots, .rootsEarlier = roots},
+                                       {.movingRoots = true});
+  ASSERT_TRUE(simulation) << simulation.error().message;
   ASSERT_TRUE(simulation->setState(state));
 
   std::size_t due = 0, missed = 0;

@@ -103,7 +103,7 @@ TEST_F(ContactRecording, TheVolumeHasABarrierBeforeEveryDispatch) {
         settings.contacts.prunePairs = false;
         settings.contacts.method = method;
         settings.contacts.iterations = iterations;
-        auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {form});
+        auto simulation = Simulation::create(device(), groom, {}, settings, {}, {form});
         ASSERT_TRUE(simulation) << simulation.error().message;
         EXPECT_EQ(simulation->contactReport()->volumeStrands, method == ContactMethod::volume ? 63u : 60u);
         const std::string label =
@@ -135,7 +135,7 @@ TEST_F(ContactRecording, HasABarrierBeforeEveryDispatch) {
       settings.contacts.prunePairs = false;
       settings.contacts.method = ContactMethod::explicitPairs;
       settings.contacts.iterations = iterations;
-      auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {form});
+      auto simulation = Simulation::create(device(), groom, {}, settings, {}, {form});
       ASSERT_TRUE(simulation) << simulation.error().message;
       const std::string label =
           fmt::format("{}, {}, {}", simulation->kernelDescription(), iterations, nameOf(taper));

@@ -157,7 +157,7 @@ TEST_F(ContactStep, FramesOfMovingRootsAgreeWithDouble) {
   Settings settings = meetingSettings();
   settings.contacts.taper = ContactTaper::time;
   settings.contacts.stiffnessReleaseSeconds = settings.contacts.dampingReleaseSeconds = 10;
-  auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {.movingRoots = true});
+  auto simulation = Simulation::create(device(), groom, {}, settings, {}, {.movingRoots = true});
   ASSERT_TRUE(simulation) << simulation.error().message;
   reference::Simulation<double> reference(groom, {}, settings);
   const int frames = 12;
@@ -240,7 +240,7 @@ TEST_F(ContactStep, RoomDecidesNothing) {
     const auto run = [&](int room) {
       Settings settings = meetingSettings();
       settings.contacts.taper = taper;
-      auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, {.contactRoom = room});
+      auto simulation = Simulation::create(device(), groom, {}, settings, {}, {.contactRoom = room});
       EXPECT_TRUE(simulation) << simulation.error().message;
       const std::uint64_t before = simulation->memory().contactLists;
       for (int frame = 1; frame <= 8; ++frame)

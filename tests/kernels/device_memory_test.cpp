@@ -22,8 +22,8 @@ class Memory : public GpuTest {
     return simulation ? simulation->memory() : DeviceMemory{};
   }
   Result<Simulation> make(const Settings& settings, const KernelChoice& kernel = {}, bool bodies = false) {
-    auto simulation = Simulation::create(device(), groom_, {}, settings, {}, {}, kernel,
-                                         bodies ? sampleBodies() : std::vector<Body>{});
+    auto simulation = Simulation::create(device(), groom_, {}, settings,
+                                         {.bodies = bodies ? sampleBodies() : std::vector<Body>{}}, kernel);
     EXPECT_TRUE(simulation) << simulation.error().message;
     return simulation;
   }

@@ -105,9 +105,13 @@ class ChunkedGroom : public GpuTest {
   };
 
   Result<Simulation> make(const Groom& groom, const Case& c) {
-    return Simulation::create(device(), groom, varyingMaterial(), c.settings, headAt(0),
-                              headAt(-c.settings.stepSeconds()), c.kernel,
-                              c.bodies ? sampleBodies() : std::vector<Body>{});
+    const std::vector<Vec3d> shifts(groom.strandCount(), {0.01, 0, 0.02});
+    return Simulation::create(device(), groom, varyingMaterial(), c.settings,
+                              {.head = headAt(0),
+                               .oneStepEarlier = headAt(-c.settings.stepSeconds()),
+                               .bodies = c.bodies ? sampleBodies() : std::vector<Body>{},
+                               .rootShifts = shifts},
+                              c.kernel);
   }
 
   // Three frames from a state at random, roots on ways of their own where they have some; the last jumps.
@@ -117,7 +121,6 @@ class ChunkedGroom : public GpuTest {
     if (!simulation) return {};
     const std::size_t steps = static_cast<std::size_t>(c.settings.stepsPerFrame);
     EXPECT_TRUE(simulation->setState(start));
-    EXPECT_TRUE(simulation->setRootShifts(std::vector<Vec3d>(groom.strandCount(), {0.01, 0, 0.02})));
     for (int frame = 0; frame < 3; ++frame) {
       std::vector<HeadPose> heads;
       std::vector<BodyPose> roots;

@@ -55,7 +55,7 @@ class Residual : public GpuTest {
   }
   double residualOf(const Settings& settings, KernelChoice::Form form) {
     auto simulation =
-        Simulation::create(device(), groom_, {}, settings, {}, {}, {.form = form, .residual = true});
+        Simulation::create(device(), groom_, {}, settings, {}, {.form = form, .residual = true});
     EXPECT_TRUE(simulation) << simulation.error().message;
     EXPECT_TRUE(simulation->setState(randomState(groom_, settings, 3)));
     EXPECT_TRUE(simulation->stepFrame(HeadPose{}));

@@ -79,9 +79,10 @@ class RigidHairTest : public GpuTest {
     return all;
   }
 
-  Simulation make(const Groom& groom, const KernelChoice& kernel, std::span<const Body> bodies = {}) {
-    auto simulation = Simulation::create(device(), groom, {}, settings_, headAt(0, 0),
-                                         headAt(-settings_.stepSeconds(), 0), kernel, bodies);
+  Simulation make(const Groom& groom, const KernelChoice& kernel, InitialState initial = {}) {
+    initial.head = headAt(0, 0);
+    initial.oneStepEarlier = headAt(-settings_.stepSeconds(), 0);
+    auto simulation = Simulation::create(device(), groom, {}, settings_, initial, kernel);
     EXPECT_TRUE(simulation) << simulation.error().message;
     return std::move(*simulation);
   }
@@ -136,14 +137,16 @@ TEST_F(RigidHairTest, IsWhereTheReferenceHasIt) {
   settings_.contacts.method = ContactMethod::explicitPairs;
   settings_.contacts.prunePairs = false;
   settings_.contacts.radius = 0.002;
-  Simulation simulation = make(groom_, {.movingRoots = true}, bodies);
+  const std::vector<Vec3d> moved = shifts();
+  const std::vector<BodyPose> now = rootsAt(0), earlier = rootsAt(-settings_.stepSeconds());
+  Simulation simulation =
+      make(groom_, {.movingRoots = true},
+           {.bodies = bodies, .roots = now, .rootsEarlier = earlier, .rootShifts = moved});
   reference::Simulation<double> reference(groom_, {}, settings_, headAt(0, 0),
                                           headAt(-settings_.stepSeconds(), 0), {}, bodies);
   reference.carryRigidly(rigid_);
-  ASSERT_TRUE(simulation.setRootShifts(shifts()));
-  reference.setRootShifts(shifts());
-  ASSERT_TRUE(simulation.placeRoots(rootsAt(0), rootsAt(-settings_.stepSeconds())));
-  reference.placeRoots(rootsAt(0), rootsAt(-settings_.stepSeconds()));
+  reference.setRootShifts(moved);
+  reference.placeRoots(now, earlier);
   for (int frame = -1; frame < kFrames; ++frame) {
     if (frame >= 0) {
       ASSERT_TRUE(simulation.stepFrame(headsOf(frame), {}, rootsOf(frame, groom_)));
@@ -200,7 +203,7 @@ TEST_F(RigidHairTest, MayBeAllThereIs) {
   settings_.contacts.on = true;
   settings_.contacts.method = ContactMethod::explicitPairs;
   const std::vector<Body> bodies{{.name = "ball", .radius = 0.05}};
-  Simulation simulation = make(fine, {}, bodies);
+  Simulation simulation = make(fine, {}, {.bodies = bodies});
   EXPECT_EQ(simulation.rigidStrandCount(), 3u);
   EXPECT_NE(simulation.kernelDescription().find("rigid"), std::string::npos);
   for (int frame = 0; frame < kFrames; ++frame) ASSERT_TRUE(simulation.stepFrame(headsOf(frame)));

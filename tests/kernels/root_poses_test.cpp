@@ -47,10 +47,15 @@ class RootPoses : public GpuTest {
       poses.push_back(at((frame * settings_.stepsPerFrame + k) * settings_.stepSeconds()));
     return poses;
   }
-  Simulation make(KernelChoice kernel, bool movingRoots, HeadPose (*head)(double)) {
+  Simulation make(KernelChoice kernel, bool movingRoots, HeadPose (*head)(double),
+                  std::span<const BodyPose> roots = {}, std::span<const BodyPose> earlier = {}) {
     kernel.movingRoots = movingRoots;
-    auto simulation =
-        Simulation::create(device(), groom_, {}, settings_, head(0), head(-settings_.stepSeconds()), kernel);
+    auto simulation = Simulation::create(device(), groom_, {}, settings_,
+                                         {.head = head(0),
+                                          .oneStepEarlier = head(-settings_.stepSeconds()),
+                                          .roots = roots,
+                                          .rootsEarlier = earlier},
+                                         kernel);
     EXPECT_TRUE(simulation) << simulation.error().message;
     return std::move(*simulation);
   }
@@ -80,8 +85,8 @@ TEST_F(RootPoses, ThatDoNotMoveChangeNothing) {
 // World positions, where all strands' poses are the same and where the head itself moves so.
 TEST_F(RootPoses, ThatAreEqualAreAMovingHead) {
   for (const KernelChoice& form : kForms) {
-    Simulation apart = make(form, true, headAt), moving = make(form, false, together);
-    ASSERT_TRUE(apart.placeRoots(onAll(rootAt(0)), onAll(rootAt(-settings_.stepSeconds()))));
+    const std::vector<BodyPose> now = onAll(rootAt(0)), earlier = onAll(rootAt(-settings_.stepSeconds()));
+    Simulation apart = make(form, true, headAt, now, earlier), moving = make(form, false, together);
     const auto difference = [&] {
       const std::vector<Vec3f> a = *apart.positions(), b = *moving.positions();
       double most = 0;
@@ -107,8 +112,8 @@ TEST_F(RootPoses, ThatAreEqualAreAMovingHead) {
 // A head that jumps takes the hair along; roots then are where their new poses say.
 TEST_F(RootPoses, AreTheNewOnesAfterAJump) {
   for (const KernelChoice& form : kForms) {
-    Simulation simulation = make(form, true, headAt);
-    ASSERT_TRUE(simulation.placeRoots(onAll(rootAt(0)), onAll(rootAt(0))));
+    const std::vector<BodyPose> still = onAll(rootAt(0));
+    Simulation simulation = make(form, true, headAt, still, still);
     const std::vector<HeadPose> far(static_cast<std::size_t>(settings_.stepsPerFrame),
                                     HeadPose{{10, 0, 0}, {}});
     std::vector<BodyPose> roots(far.size() * groom_.strandCount(), rootAt(0.05));

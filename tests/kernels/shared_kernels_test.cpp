@@ -32,7 +32,7 @@ TEST_F(SharedKernels, FourEqualSimulationsCompileOnce) {
     std::vector<Simulation> simulations;
     std::size_t compiled = 0;
     for (int i = 0; i < 4; ++i) {
-      auto made = Simulation::create(*own, groom, {}, settings, {}, {}, {.observer = &announced});
+      auto made = Simulation::create(*own, groom, {}, settings, {}, {.observer = &announced});
       ASSERT_TRUE(made) << made.error().message;
       simulations.push_back(std::move(*made));
       if (i == 0) compiled = own->gpu().kernels().compiledCount();

@@ -127,8 +127,8 @@ class ShortSubmissions : public GpuTest {
   static Outcome run(const ComputeDevice& device, bool contacts, const KernelChoice& kernel) {
     Settings settings;
     settings.contacts.on = contacts;
-    auto simulation = Simulation::create(device, randomGroom({2, 8, 16, 20, 64, 100, 16, 8}, 3), {}, settings,
-                                         {}, {}, kernel);
+    auto simulation =
+        Simulation::create(device, randomGroom({2, 8, 16, 20, 64, 100, 16, 8}, 3), {}, settings, {}, kernel);
     EXPECT_TRUE(simulation) << simulation.error().message;
     if (!simulation) return {};
     const std::uint64_t before = device.gpu().submissionCount();

@@ -100,7 +100,7 @@ TEST_F(VolumeStep, BesideContactsAgreesWithDouble) {
                                        {KernelChoice{}, 0.002}}) {
     Settings settings = besideSettings();
     settings.contacts.radius = radius;
-    auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, kernel);
+    auto simulation = Simulation::create(device(), groom, {}, settings, {}, kernel);
     ASSERT_TRUE(simulation) << simulation.error().message;
     reference::Simulation<double> reference(groom, {}, settings);
     HeadPose before;
@@ -151,8 +151,7 @@ TEST_F(VolumeStep, RepeatsBitwiseWithAnyNumberOfThreads) {
 TEST_F(VolumeStep, RoomOfListsDecidesNothing) {
   const Groom groom = bunchAndStrands();
   const auto run = [&](int room) {
-    auto simulation =
-        Simulation::create(device(), groom, {}, besideSettings(), {}, {}, {.contactRoom = room});
+    auto simulation = Simulation::create(device(), groom, {}, besideSettings(), {}, {.contactRoom = room});
     EXPECT_TRUE(simulation) << simulation.error().message;
     const std::uint64_t before = simulation->memory().contactLists;
     HairState state = *simulation->state();
@@ -223,10 +222,12 @@ TEST_F(VolumeStep, StatesThatArePutForgetDisplacements) {
   const auto state = moved->state();
   ASSERT_TRUE(state) << state.error().message;
   const HeadPose there = shaken(5, 0.03), step = interpolate(shaken(4, 0.03), there, 6.0 / 7);
-  auto anew = Simulation::create(device(), denseSwatch(32), {}, settings, there, step);
+  auto anew =
+      Simulation::create(device(), denseSwatch(32), {}, settings, {.head = there, .oneStepEarlier = step});
   ASSERT_TRUE(anew) << anew.error().message;
   ASSERT_TRUE(anew->setState(*state));
-  auto kept = Simulation::create(device(), denseSwatch(32), {}, settings, there, step);
+  auto kept =
+      Simulation::create(device(), denseSwatch(32), {}, settings, {.head = there, .oneStepEarlier = step});
   ASSERT_TRUE(kept) << kept.error().message;
   shake(*kept, 0, 3);  // somewhere else
   shake(*kept, 3, 5);

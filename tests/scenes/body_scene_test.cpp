@@ -45,8 +45,9 @@ class BodyScene : public GpuTest {
   Seen run(const Cast& cast, int frames) {
     Seen run;
     const double T = cast.settings.stepSeconds();
-    auto simulation = Simulation::create(device(), cast.groom, cast.material, cast.settings,
-                                         cast.motion.poseAt(0), cast.motion.poseAt(-T), {}, cast.bodies);
+    auto simulation = Simulation::create(
+        device(), cast.groom, cast.material, cast.settings,
+        {.head = cast.motion.poseAt(0), .oneStepEarlier = cast.motion.poseAt(-T), .bodies = cast.bodies});
     EXPECT_TRUE(simulation) << simulation.error().message;
     if (!simulation) return run;
     BodyWatch watch(cast.groom, cast.bodies, cast.settings.rootCount);
@@ -179,8 +180,10 @@ TEST_F(BodyScene, AJumpingHeadCarriesItsHair) {
       return HeadPose{Vec3d{10, 3, 0} + rotate(turn, p.position), turn * p.rotation};
     };
     const double T = settings.stepSeconds();
-    auto jumping = Simulation::create(device(), *curl, Material{}, settings, pose(0), pose(-T));
-    auto staying = Simulation::create(device(), *curl, Material{}, settings, pose(0), pose(-T));
+    auto jumping = Simulation::create(device(), *curl, Material{}, settings,
+                                      {.head = pose(0), .oneStepEarlier = pose(-T)});
+    auto staying = Simulation::create(device(), *curl, Material{}, settings,
+                                      {.head = pose(0), .oneStepEarlier = pose(-T)});
     ASSERT_TRUE(jumping && staying);
     // In the frame of the jump the head goes on for no time at all.
     const auto frame = [&](Simulation& simulation, int index, bool isAway) {

@@ -122,7 +122,7 @@ std::vector<std::tuple<std::uint32_t, std::uint32_t, float, float>> pairsOf(cons
 class CheckpointTest : public GpuTest {
  protected:
   Simulation make(const Case& one) {
-    auto made = Simulation::create(device(), one.groom, {}, one.settings, {}, {}, one.kernel, one.bodies);
+    auto made = Simulation::create(device(), one.groom, {}, one.settings, {.bodies = one.bodies}, one.kernel);
     EXPECT_TRUE(made) << one.name << ": " << made.error().message;
     return std::move(*made);
   }

@@ -37,12 +37,10 @@ class ContactSceneTest : public SceneTest {
     const BuiltinScene steps = frameByStep(scene);
     const double T = steps.settings.stepSeconds();
     auto simulation = Simulation::create(device(), steps.groom, steps.material, steps.settings,
-                                         scene.motion.poseAt(0), scene.motion.poseAt(-T));
+                                         {.head = scene.motion.poseAt(0),
+                                          .oneStepEarlier = scene.motion.poseAt(-T),
+                                          .rootShifts = scene.rootShifts});
     EXPECT_TRUE(simulation) << simulation.error().message;
-    if (!scene.rootShifts.empty()) {
-      const Status shifted = simulation->setRootShifts(scene.rootShifts);
-      EXPECT_TRUE(shifted) << shifted.error().message;
-    }
     auto watch = ContactWatch::make(scene.groom, scene.material, scene.settings);
     EXPECT_TRUE(watch) << watch.error().message;
     auto measure = MotionMeasure::make(scene.groom, {.framesPerSecond = scene.settings.framesPerSecond});

@@ -45,12 +45,11 @@ struct Seen {
 class FramesInFlight : public GpuTest {
  protected:
   Simulation make(const Cast& cast) {
-    auto simulation = Simulation::create(device(), cast.groom, cast.material, cast.settings, cast.start,
-                                         cast.start, {.movingRoots = cast.movingRoots}, cast.bodies);
+    auto simulation =
+        Simulation::create(device(), cast.groom, cast.material, cast.settings,
+                           {.head = cast.start, .bodies = cast.bodies, .rootShifts = cast.rootShifts},
+                           {.movingRoots = cast.movingRoots});
     EXPECT_TRUE(simulation) << simulation.error().message;
-    if (!cast.rootShifts.empty()) {
-      EXPECT_TRUE(simulation->setRootShifts(cast.rootShifts));
-    }
     return std::move(*simulation);
   }
 

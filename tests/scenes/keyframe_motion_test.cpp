@@ -35,8 +35,9 @@ class KeyframeMotion : public GpuTest {
     Settings settings;
     settings.framesPerSecond = framesPerSecond;
     settings.stepsPerFrame = static_cast<int>(std::lround(kStepsPerSecond / framesPerSecond));
-    auto simulation = Simulation::create(device(), *curl, materialPreset("ringlet").value(), settings,
-                                         motion.poseAt(0), motion.poseAt(-settings.stepSeconds()));
+    auto simulation = Simulation::create(
+        device(), *curl, materialPreset("ringlet").value(), settings,
+        {.head = motion.poseAt(0), .oneStepEarlier = motion.poseAt(-settings.stepSeconds())});
     ASSERT_TRUE(simulation) << simulation.error().message;
     for (int frame = 0; frame < static_cast<int>(std::lround(seconds * framesPerSecond)); ++frame) {
       std::vector<HeadPose> poses;

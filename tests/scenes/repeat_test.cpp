@@ -21,7 +21,7 @@ class Repeat : public GpuTest {
     settings.pointIterations = 30;
     const Motion motion = *motionByName("shake", {0, 1, 0});
     const Groom groom = randomGroom({2, 3, 31, 64, 64, 100, 128, 129, 250}, 9);
-    auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, kernel);
+    auto simulation = Simulation::create(device(), groom, {}, settings, {}, kernel);
     EXPECT_TRUE(simulation) << simulation.error().message;
     for (int step = 0; step < steps; step += stepsPerFrame) {
       std::vector<HeadPose> poses;
@@ -73,7 +73,7 @@ TEST_F(Repeat, LongFramesAmongBodiesGiveTheBitsOfSingleSteps) {
     settings.stepsPerFrame = stepsPerFrame;
     settings.framesPerSecond = 192.0 / stepsPerFrame;
     auto simulation =
-        Simulation::create(device(), groom, {}, settings, {}, {}, {KernelChoice::Form::serial}, bodies);
+        Simulation::create(device(), groom, {}, settings, {.bodies = bodies}, {KernelChoice::Form::serial});
     EXPECT_TRUE(simulation) << simulation.error().message;
     for (int step = 0; step < kSteps; step += stepsPerFrame) EXPECT_TRUE(simulation->stepFrame(HeadPose{}));
     return *simulation->state();

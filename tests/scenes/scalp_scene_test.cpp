@@ -46,10 +46,14 @@ class ScalpScene : public GpuTest {
            Seen&& seen) {
     const Settings settings;
     const double T = settings.stepSeconds();
+    const std::vector<BodyPose> roots0 = scalp.rootPosesAt(begin), earlier = scalp.rootPosesAt(begin - T);
     auto simulation = Simulation::create(device(), groom, materialPreset("ringlet").value(), settings,
-                                         head.poseAt(begin), head.poseAt(begin - T), {.movingRoots = true});
+                                         {.head = head.poseAt(begin),
+                                          .oneStepEarlier = head.poseAt(begin - T),
+                                          .roots = roots0,
+                                          .rootsEarlier = earlier},
+                                         {.movingRoots = true});
     ASSERT_TRUE(simulation) << simulation.error().message;
-    ASSERT_TRUE(simulation->placeRoots(scalp.rootPosesAt(begin), scalp.rootPosesAt(begin - T)));
     for (double t = begin; t < end - T;) {
       std::vector<HeadPose> heads;
       std::vector<BodyPose> roots;

@@ -69,8 +69,9 @@ class SceneTest : public GpuTest {
   SceneRun run(const BuiltinScene& scene) {
     SceneRun run;
     const HeadPose start = scene.motion.poseAt(0);
-    auto simulation = Simulation::create(device(), scene.groom, scene.material, scene.settings, start,
-                                         scene.motion.poseAt(-scene.settings.stepSeconds()));
+    auto simulation = Simulation::create(
+        device(), scene.groom, scene.material, scene.settings,
+        {.head = start, .oneStepEarlier = scene.motion.poseAt(-scene.settings.stepSeconds())});
     EXPECT_TRUE(simulation) << simulation.error().message;
     auto measure = MotionMeasure::make(scene.groom, {.framesPerSecond = scene.settings.framesPerSecond});
     EXPECT_TRUE(measure) << measure.error().message;

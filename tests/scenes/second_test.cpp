@@ -19,7 +19,7 @@ class WholeSecond : public GpuTest {
     const Groom groom = randomGroom({16, 31, 32, 64, 64, 64, 100, 128, 200}, 31);
     const Settings settings;
     const Motion motion = *motionByName(motionName, {0, 1, 0});
-    auto simulation = Simulation::create(device(), groom, {}, settings, {}, {}, kernel);
+    auto simulation = Simulation::create(device(), groom, {}, settings, {}, kernel);
     ASSERT_TRUE(simulation) << simulation.error().message;
     reference::Simulation<double> expected(groom, {}, settings);
     for (int frame = 0; frame < 24; ++frame) {

@@ -24,7 +24,7 @@ class StiffSolve : public GpuTest {
     Material material;
     material.stretchStiffness = stretchStiffness;
     const Motion motion = *motionByName("shake", {0, 1, 0});
-    auto simulation = Simulation::create(device(), groom, material, settings, {}, {}, kernel);
+    auto simulation = Simulation::create(device(), groom, material, settings, {}, kernel);
     EXPECT_TRUE(simulation) << simulation.error().message;
     reference::Simulation<double> expected(groom, material, settings);
     for (int frame = 0; frame < 10; ++frame) {

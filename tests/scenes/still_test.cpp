@@ -38,7 +38,8 @@ class Still : public GpuTest {
   double moveOver(double seconds, const Groom& groom, const Settings& settings, Vec3d start, Vec3d velocity) {
     const double T = settings.stepSeconds();
     const auto poseAt = [&](int step) { return HeadPose{start + velocity * (step * T), {}}; };
-    auto simulation = Simulation::create(device(), groom, {}, settings, poseAt(0), poseAt(-1));
+    auto simulation =
+        Simulation::create(device(), groom, {}, settings, {.head = poseAt(0), .oneStepEarlier = poseAt(-1)});
     EXPECT_TRUE(simulation) << simulation.error().message;
     double largest = 0;
     for (int frame = 0; frame < seconds * settings.framesPerSecond; ++frame) {

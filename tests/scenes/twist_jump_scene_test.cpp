@@ -23,8 +23,9 @@ class TwistJump : public SceneTest {
                   {.particles = particles, .smoothedFrames = smoothed, .stepsPerFrame = steps, .seconds = 1});
     EXPECT_TRUE(made) << made.error().message;
     const BuiltinScene scene = frameByStep(std::move(*made));
-    auto simulation = Simulation::create(device(), scene.groom, scene.material, scene.settings,
-                                         scene.motion.poseAt(0), {}, {.taps = true});
+    auto simulation =
+        Simulation::create(device(), scene.groom, scene.material, scene.settings,
+                           {.head = scene.motion.poseAt(0), .oneStepEarlier = HeadPose{}}, {.taps = true});
     EXPECT_TRUE(simulation) << simulation.error().message;
     double smallestCosine = 1;
     std::vector<std::array<float, 4>> before;

@@ -10,7 +10,7 @@ struct HeadPose {
   Vec3d position;  // [m]
   Quatd rotation;
   double shift =
-      0;  // of roots that move beside the head (Simulation::setRootShifts): share of each one's shift
+      0;  // of roots that move beside the head (InitialState::rootShifts): share of each one's shift
 };
 
 /// Pose at fraction s in [0, 1] of the way from a to b: linear in position and shift, slerp in rotation.

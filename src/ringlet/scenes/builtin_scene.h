@@ -38,7 +38,7 @@ struct BuiltinScene {
   Material material;
   Settings settings;
   Motion motion;
-  std::vector<Vec3d> rootShifts{};  // of each strand's root beside the head (Simulation::setRootShifts) [m],
+  std::vector<Vec3d> rootShifts{};  // of each strand's root beside the head (InitialState::rootShifts) [m],
                                     // or none
   std::vector<Body> bodies{};  // what hair stays out of: in walk_head the generated head (bodies/head_mesh.h)
   double seconds = 0;

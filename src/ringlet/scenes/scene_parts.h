@@ -29,7 +29,7 @@ void placeGroom(const SceneGroom& scene, Groom& groom);
 /// A built-in motion or keys, not a file's.
 Motion motionOf(const SceneMotion& motion, Vec3d up);
 
-/// Each strand's shift of its root (Simulation::setRootShifts); none where nothing shifts.
+/// Each strand's shift of its root (InitialState::rootShifts); none where nothing shifts.
 std::vector<Vec3d> rootShiftsOf(Vec3d shift, std::size_t strandCount);
 
 /// All but framesPerSecond's company: stepsPerFrame (1 where it is to be chosen), maxStretch (the

@@ -11,18 +11,36 @@ namespace {
 using gpu::Buffer;
 using gpu::BufferKind;
 
-Result<DeviceChunk> createChunk(gpu::Device& device, const RestState& rest, const GroomChunk& part,
+using SharedBuffer = std::shared_ptr<const Buffer>;
+
+// Of strands in device order.
+Result<SharedBuffer> createStrands(gpu::Device& device, std::span<const layout::StrandRest> all,
+                                   const GroomChunk& part) {
+  auto strands =
+      Buffer::create(device, part.strandCount() * sizeof(layout::StrandRest), BufferKind::storage, "strands");
+  if (!strands) return strands.error();
+  constexpr std::size_t kPieceStrands = 1 << 16;  // 7 MiB
+  std::vector<layout::StrandRest> piece;
+  for (std::size_t done = 0; done < part.strandCount(); done += piece.size()) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(part.strandBegin + done);
+    const std::size_t count = std::min(kPieceStrands, part.strandCount() - done);
+    piece.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    for (layout::StrandRest& strand : piece) strand.firstParticle -= part.particleBegin;
+    if (Status status = strands->upload(std::as_bytes(std::span(piece)), done * sizeof(layout::StrandRest));
+        !status)
+      return status.error();
+  }
+  return std::make_shared<const Buffer>(std::move(*strands));
+}
+
+Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& constants,
                                 const GroomRecords& records) {
+  const GroomChunk& part = constants.part;
   const std::uint64_t particleCount = part.particleCount(), strandCount = part.strandCount();
   auto positions = createZero(device, particleCount * records.position, "positions");
   if (!positions) return positions.error();
   auto velocities = createZero(device, particleCount * records.velocity, "velocities");
   if (!velocities) return velocities.error();
-  auto particles =
-      createFilled(device, std::span(rest.particles).subspan(part.particleBegin, particleCount), "particles");
-  if (!particles) return particles.error();
-  auto strands = Buffer::create(device, strandCount * records.strandRest, BufferKind::storage, "strands");
-  if (!strands) return strands.error();
   auto reports = createZero(device, strandCount * records.report, "reports");
   if (!reports) return reports.error();
   auto scratch = createZero(device, particleCount * records.scratch, "scratch");
@@ -33,16 +51,16 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const RestState& rest, cons
   if (!systems) return systems.error();
   auto added = createZero(device, particleCount * records.addedByVolume, "added by the volume");
   if (!added) return added.error();
-  return DeviceChunk{part,
-                     std::move(*positions),
-                     std::move(*velocities),
-                     std::move(*particles),
-                     std::move(*strands),
-                     std::move(*reports),
-                     std::move(*scratch),
-                     std::move(*solved),
-                     std::move(*systems),
-                     std::move(*added)};
+  return DeviceChunk{.part = part,
+                     .particles = constants.particles,
+                     .strands = constants.strands,
+                     .positions = std::move(*positions),
+                     .velocities = std::move(*velocities),
+                     .reports = std::move(*reports),
+                     .scratch = std::move(*scratch),
+                     .solved = std::move(*solved),
+                     .contactSystems = std::move(*systems),
+                     .addedByVolume = std::move(*added)};
 }
 
 }  // namespace
@@ -74,9 +92,19 @@ Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
   return chunks;
 }
 
-Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& rest,
-                                        std::span<const GroomChunk> parts, const GroomRecords& records,
-                                        std::size_t slots) {
+Result<ConstantChunk> ConstantChunk::create(gpu::Device& device, const RestState& rest,
+                                            const GroomChunk& part) {
+  auto particles = createFilled(
+      device, std::span(rest.particles).subspan(part.particleBegin, part.particleCount()), "particles");
+  if (!particles) return particles.error();
+  auto strands = createStrands(device, rest.strands, part);
+  if (!strands) return strands.error();
+  return ConstantChunk{part, std::make_shared<const Buffer>(std::move(*particles)), std::move(*strands)};
+}
+
+Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, std::span<const ConstantChunk> constants,
+                                        std::span<const layout::StrandRest> shifted,
+                                        const GroomRecords& records, std::size_t slots) {
   auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
   if (!poses) return poses.error();
   auto control = createZero(
@@ -86,13 +114,17 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, const RestState& re
   auto controlRead = gpu::Buffer::create(device, sizeof(layout::ContactControl), gpu::BufferKind::stream,
                                          "contact control read back");
   if (!controlRead) return controlRead.error();
-  DeviceGroom groom{{}, std::move(*poses), std::move(*control), std::move(*controlRead)};
-  for (const GroomChunk& part : parts) {
-    auto chunk = createChunk(device, rest, part, records);
+  DeviceGroom groom{{}, std::move(*poses), std::move(*control), std::move(*controlRead), !shifted.empty()};
+  for (const ConstantChunk& constant : constants) {
+    auto chunk = createChunk(device, constant, records);
     if (!chunk) return chunk.error();
+    if (!shifted.empty()) {
+      auto strands = createStrands(device, shifted, constant.part);
+      if (!strands) return strands.error();
+      chunk->strands = std::move(*strands);
+    }
     groom.chunks.push_back(std::move(*chunk));
   }
-  if (Status status = groom.uploadStrands(rest); !status) return status.error();
   return groom;
 }
 
@@ -101,8 +133,8 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
   const DeviceChunk& c = chunks[chunk];
   return {{kBindPositions, c.positions},
           {kBindVelocities, c.velocities},
-          {kBindParticles, c.particles},
-          {kBindStrands, c.strands},
+          {kBindParticles, *c.particles},
+          {kBindStrands, *c.strands},
           {kBindReports, c.reports},
           {kBindScratch, c.scratch},
           {kBindPoses, poses.seen()},
@@ -111,8 +143,8 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindContactControl, contactControl},
           {kBindPositionTexels, c.positions},
           {kBindVelocityTexels, c.velocities},
-          {kBindParticleTexels, c.particles},
-          {kBindStrandTexels, c.strands},
+          {kBindParticleTexels, *c.particles},
+          {kBindStrandTexels, *c.strands},
           {kBindContactSystemTexels, c.contactSystems},
           {kBindAddedByVolume, c.addedByVolume},
           {kBindAddedByVolumeTexels, c.addedByVolume}};
@@ -129,7 +161,7 @@ const layout::ContactControl& DeviceGroom::control() const {
 std::uint64_t DeviceGroom::largestTexels() const {
   std::uint64_t largest = 0;
   for (const DeviceChunk& c : chunks)
-    largest = std::max({largest, c.positions.bytes(), c.particles.bytes(), c.strands.bytes(),
+    largest = std::max({largest, c.positions.bytes(), c.particles->bytes(), c.strands->bytes(),
                         c.contactSystems.bytes(), c.addedByVolume.bytes()});
   return largest;
 }
@@ -137,33 +169,22 @@ std::uint64_t DeviceGroom::largestTexels() const {
 std::uint64_t DeviceGroom::particleBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
-    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles.bytes() + c.scratch.bytes() +
+    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles->bytes() + c.scratch.bytes() +
              c.solved.bytes() + c.contactSystems.bytes() + c.addedByVolume.bytes();
   return bytes;
 }
 
 std::uint64_t DeviceGroom::strandBytes() const {
   std::uint64_t bytes = 0;
-  for (const DeviceChunk& c : chunks) bytes += c.strands.bytes() + c.reports.bytes();
+  for (const DeviceChunk& c : chunks) bytes += c.strands->bytes() + c.reports.bytes();
   return bytes;
 }
 
-Status DeviceGroom::uploadStrands(const RestState& rest) {
-  constexpr std::size_t kPieceStrands = 1 << 16;  // 7 MiB
-  std::vector<layout::StrandRest> piece;
-  for (DeviceChunk& chunk : chunks) {
-    for (std::size_t done = 0; done < chunk.part.strandCount(); done += piece.size()) {
-      const auto begin = rest.strands.begin() + static_cast<std::ptrdiff_t>(chunk.part.strandBegin + done);
-      const std::size_t count = std::min(kPieceStrands, chunk.part.strandCount() - done);
-      piece.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
-      for (layout::StrandRest& strand : piece) strand.firstParticle -= chunk.part.particleBegin;
-      if (Status status =
-              chunk.strands.upload(std::as_bytes(std::span(piece)), done * sizeof(layout::StrandRest));
-          !status)
-        return status;
-    }
-  }
-  return {};
+std::uint64_t DeviceGroom::sharedBytes() const {
+  std::uint64_t bytes = 0;
+  for (const DeviceChunk& c : chunks)
+    bytes += c.particles->bytes() + (hasOwnStrands ? 0 : c.strands->bytes());
+  return bytes;
 }
 
 Result<std::vector<layout::StrandReport>> DeviceGroom::downloadReports() const {

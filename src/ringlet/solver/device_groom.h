@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,10 +21,21 @@
 
 namespace ringlet {
 
-/// What kernels see of some of the strands; their firstParticle counts within the chunk.
+/// What does not change of some of the strands; their firstParticle counts within the chunk. One for all
+/// heads with this hair.
+struct ConstantChunk {
+  GroomChunk part;
+  std::shared_ptr<const gpu::Buffer> particles, strands;
+
+  /// Fails when the device lacks memory.
+  static Result<ConstantChunk> create(gpu::Device& device, const RestState& rest, const GroomChunk& part);
+};
+
+/// What kernels see of some of the strands of one head.
 struct DeviceChunk {
   GroomChunk part;
-  gpu::Buffer positions, velocities, particles, strands, reports, scratch;
+  std::shared_ptr<const gpu::Buffer> particles, strands;
+  gpu::Buffer positions, velocities, reports, scratch;
   gpu::Buffer solved, contactSystems, addedByVolume;  // empty unless needed (GroomRecords)
 };
 
@@ -41,10 +53,12 @@ struct DeviceGroom {
   FrameInput poses;            // StepPose[kMaxStepPoses]
   gpu::Buffer contactControl;  // empty without contacts
   gpu::Buffer controlRead;     // as the last frame left it, in the host's memory
+  bool hasOwnStrands = false;  // which no other head sees
 
-  /// `slots`: frames in flight. Fails when the device lacks memory.
-  static Result<DeviceGroom> create(gpu::Device& device, const RestState& rest,
-                                    std::span<const GroomChunk> parts, const GroomRecords& records,
+  /// `shifted`: all strands in device order, of a head whose roots move beside it; else none. `slots`: frames
+  /// in flight. Fails when the device lacks memory.
+  static Result<DeviceGroom> create(gpu::Device& device, std::span<const ConstantChunk> constants,
+                                    std::span<const layout::StrandRest> shifted, const GroomRecords& records,
                                     std::size_t slots);
 
   /// A chunk's buffers, as strand kernels bind them.
@@ -53,14 +67,14 @@ struct DeviceGroom {
   std::uint64_t largestTexels() const;
   std::uint64_t particleBytes() const;  // of all buffers with a record a particle
   std::uint64_t strandBytes() const;
+  /// Of these, what other heads see too.
+  std::uint64_t sharedBytes() const;
 
   /// With contacts a frame ends with it, after a barrier: what its control block says comes to the host.
   void recordControl(gpu::Recorder& recorder) const;
   /// What the last frame that has ended left in it.
   const layout::ContactControl& control() const;
 
-  /// All of them anew, as the rest state has them.
-  Status uploadStrands(const RestState& rest);
   /// In device order.
   Result<std::vector<layout::StrandReport>> downloadReports() const;
 

@@ -19,7 +19,7 @@ class RigidHair {
 
   std::size_t strandCount() const { return strands_.size(); }
 
-  /// As Simulation::setRootShifts takes them.
+  /// As InitialState has them.
   void setRootShifts(std::span<const Vec3d> shifts);
   /// Strands' own poses before the next step and one step before that, of all strands in groom order.
   void placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);

@@ -7,14 +7,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
 #include "ringlet/base/assert.h"
 #include "ringlet/rest/rest_contacts.h"
-#include "ringlet/rest/rest_volume.h"
-#include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/contact_momentum.h"
 #include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/groom_chunks.h"
@@ -54,6 +51,18 @@ std::uint32_t askedWidth(const gpu::DeviceProperties& device, const KernelChoice
   return device.canChooseSubgroupSize && width != device.subgroupSize ? width : 0;
 }
 
+// The strands of a head whose roots move beside it.
+std::vector<layout::StrandRest> shiftedStrands(const RestState& rest, std::span<const Vec3d> shifts) {
+  if (shifts.empty()) return {};
+  RINGLET_ASSERT(shifts.size() == rest.groomStrandCount, "every strand has a root shift");
+  std::vector<layout::StrandRest> strands = rest.strands;
+  for (std::size_t s = 0; s < strands.size(); ++s) {
+    const Vec3f shift = static_cast<Vec3f>(shifts[rest.strandInGroom[s]]);
+    strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
+  }
+  return strands;
+}
+
 // Tells the observer, where there is one and something to compile, of a beginning and, whatever happens, of
 // an end.
 class CompileNotice {
@@ -75,65 +84,65 @@ class CompileNotice {
 
 Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& groom,
                                       const Material& material, const Settings& settings,
-                                      const HeadPose& start, const HeadPose& oneStepEarlier,
-                                      const KernelChoice& choice, std::span<const Body> bodies) {
-  if (!bodies.empty() && settings.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
-  // Strands that may meet stand near each other in memory.
-  std::vector<std::uint32_t> order;
-  if (settings.contacts.on) order = orderAlongCurve(groom);
-  auto rest = buildRestState(groom, material, settings, order);
-  if (!rest) return rest.error();
+                                      const InitialState& initial, const KernelChoice& kernel) {
+  const BodyUse use = initial.bodies.empty() ? BodyUse::none : BodyUse::some;
+  const auto asset = HairAsset::build(device, groom, material, settings, kernel, use);
+  return asset ? create(*asset, initial) : asset.error();
+}
 
-  const auto chosenLimits = withSubgroupSize(device.limits(), choice.subgroupSize);
-  if (!chosenLimits) return chosenLimits.error();
-  const DeviceLimits& limits = *chosenLimits;
-  std::vector<std::uint32_t> counts;
-  for (const layout::StrandRest& strand : rest->strands) counts.push_back(strand.particleCount);
-  std::optional<RestContacts> restContacts;
-  if (settings.contacts.on && !counts.empty()) restContacts = buildRestContacts(*rest, settings.contacts);
-  const ContactKinds kinds = restContacts ? restContacts->kinds() : ContactKinds{};
-  const StrandWork work = strandWork(settings, material, kinds, !bodies.empty());
-  auto ranges = counts.empty() ? Result<std::vector<StrandRange>>(std::vector<StrandRange>{})
-                               : planRanges(counts, limits, choice, work);
-  if (!ranges) return ranges.error();
-  const bool anySerial =
-      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
-  const GroomRecords records = groomRecords(settings, choice, kinds, anySerial, !bodies.empty());
-  const auto chunks = cutForDevice(device.gpu(), counts, records, settings, choice);
-  if (!chunks) return chunks.error();
-  *ranges = cutRanges(*ranges, *chunks);
-  const auto plan = planFrame(*ranges, limits, settings, bodies.size(), kStrandGroupSize);
+Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState& initial) {
+  const HairAsset::Implementation& constant = *asset.self_;
+  const Settings& settings = constant.settings;
+  const RestState& rest = constant.rest;
+  gpu::Device& device = constant.device.gpu();
+  if (initial.bodies.empty() != (constant.bodies == BodyUse::none)) {
+    return Error{initial.bodies.empty()
+                     ? "the hair's asset was built for bodies, and there are none"
+                     : "the hair's asset was built without bodies; build it with BodyUse::some"};
+  }
+  const auto limits = withSubgroupSize(constant.device.limits(), constant.choice.subgroupSize);
+  if (!limits) return limits.error();
+  const auto plan = planFrame(constant.ranges, *limits, settings, initial.bodies.size(), kStrandGroupSize);
   if (!plan) return plan.error();  // before anything is made for it
 
-  auto buffers = DeviceGroom::create(device.gpu(), *rest, *chunks, records, kFramesInFlight);
+  auto buffers = DeviceGroom::create(device, constant.constants, shiftedStrands(rest, initial.rootShifts),
+                                     constant.records, kFramesInFlight);
   if (!buffers) return buffers.error();
-  auto world = DeviceWorld::create(device.gpu(), bodies, settings, start, kFramesInFlight);
+  auto world = DeviceWorld::create(device, initial.bodies, settings, initial.head, kFramesInFlight);
   if (!world) return world.error();
-  auto roots =
-      DeviceRoots::create(device.gpu(), *rest, settings, choice.movingRoots, *chunks, kFramesInFlight);
-  if (!roots) return roots.error();
-  RigidHair rigidHair(std::exchange(rest->rigid, {}), rest->groomStrandCount);
-
-  std::unique_ptr<Implementation> self(new Implementation{device,
-                                                          std::move(*rest),
-                                                          settings,
-                                                          material,
-                                                          choice,
-                                                          {oneStepEarlier, start},
-                                                          std::move(*buffers),
-                                                          std::move(*world),
-                                                          std::move(*roots),
-                                                          std::move(rigidHair),
-                                                          std::move(*ranges),
-                                                          SubmissionPace(longestSubmission(choice, limits))});
-  if (Status status = self->placeAtRest(); !status) return status.error();
-  if (restContacts) {
-    if (Status status = self->addContacts(*restContacts, choice.contactRoom); !status) return status.error();
+  if (!initial.bodyPlaces.empty()) {
+    RINGLET_ASSERT(initial.bodyPlaces.size() == initial.bodies.size(), "every body has a place");
+    world->placeBodies(initial.bodyPlaces);
   }
-  self->rest.particles = {};  // the device has them
-  if (Status status = self->makeKernels(!bodies.empty()); !status) return status.error();
+  auto roots = DeviceRoots::create(device, rest, settings, constant.choice.movingRoots, constant.chunks(),
+                                   kFramesInFlight);
+  if (!roots) return roots.error();
+  RigidHair rigidHair(rest.rigid, rest.groomStrandCount);
+  if (!initial.rootShifts.empty()) rigidHair.setRootShifts(initial.rootShifts);
+  if (!initial.roots.empty()) {
+    roots->place(initial.roots, initial.rootsEarlier);
+    rigidHair.placeRoots(initial.roots, initial.rootsEarlier);
+  }
+
+  std::unique_ptr<Implementation> self(
+      new Implementation{.asset = asset.self_,
+                         .device = constant.device,
+                         .rest = rest,
+                         .settings = settings,
+                         .material = constant.material,
+                         .choice = constant.choice,
+                         .ranges = constant.ranges,
+                         .head = {initial.oneStepEarlier.value_or(initial.head), initial.head},
+                         .buffers = std::move(*buffers),
+                         .world = std::move(*world),
+                         .roots = std::move(*roots),
+                         .rigidHair = std::move(rigidHair),
+                         .pace = SubmissionPace(longestSubmission(constant.choice, *limits))});
+  if (Status status = self->placeAtRest(); !status) return status.error();
+  if (Status status = self->addContacts(); !status) return status.error();
+  if (Status status = self->makeKernels(); !status) return status.error();
   for (std::size_t slot = 0; slot < kFramesInFlight; ++slot) {
-    auto made = FrameSlot::create(device.gpu(), self->buffers);
+    auto made = FrameSlot::create(device, self->buffers);
     if (!made) return made.error();
     self->slots.push_back(std::move(*made));
     if (Status status = self->recordFrame(slot); !status) return status.error();
@@ -143,7 +152,7 @@ Result<Simulation> Simulation::create(const ComputeDevice& device, const Groom& 
 
 // Made, several at a time, and compiled by a dispatch of nothing: some drivers compile only then. Kernels
 // that a simulation before has made on this device are ready.
-Status Simulation::Implementation::makeKernels(bool hasBodies) {
+Status Simulation::Implementation::makeKernels() {
   if (ranges.empty()) return {};
   const auto start = std::chrono::steady_clock::now();
   const std::vector<StrandShape> shapes = shapesOf(ranges);
@@ -162,7 +171,7 @@ Status Simulation::Implementation::makeKernels(bool hasBodies) {
                                     .volume = volume.has_value(),
                                     .texels = fitsTexels,
                                     .residual = choice.residual,
-                                    .bodies = hasBodies,
+                                    .bodies = asset->bodies == BodyUse::some,
                                     .air = settings.air.on,
                                     .turbulence = world.isTurbulent(),
                                     .movingRoots = choice.movingRoots,
@@ -210,20 +219,20 @@ Status Simulation::Implementation::dispatchNothing(std::span<const std::size_t> 
   return recorder->submitAndWait();
 }
 
-Status Simulation::Implementation::addContacts(const RestContacts& atRest, int room) {
-  std::ranges::copy(atRest.warnings(), std::back_inserter(rest.warnings));
+Status Simulation::Implementation::addContacts() {
+  if (!asset->contacts) return {};
+  const RestContacts& atRest = *asset->contacts;
   contactReport = {.contactParticles = atRest.particles.particles.size(),
                    .pairsUnpruned = atRest.graph.pairsUnpruned,
                    .pairs = atRest.graph.pairs,
                    .volumeStrands = atRest.volume.count};
-  if (atRest.kinds().pairs) {
-    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, room);
+  if (asset->kinds().pairs) {
+    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, choice.contactRoom);
     if (!stage) return stage.error();
     contacts = std::move(*stage);
   }
-  if (atRest.kinds().volume) {
-    const RestVolume volumeAtRest = buildRestVolume(rest, atRest);
-    auto stage = VolumeStage::create(device.gpu(), rest, settings, volumeAtRest, buffers);
+  if (asset->volume) {
+    auto stage = VolumeStage::create(device.gpu(), rest, settings, *asset->volume, buffers);
     if (!stage) return stage.error();
     volume = std::move(*stage);
   }
@@ -372,31 +381,6 @@ Status Simulation::restore(std::span<const std::byte> checkpoint) {
   return {};
 }
 
-void Simulation::placeBodies(std::span<const BodyPose> poses) {
-  RINGLET_ASSERT(poses.size() == self_->world.bodyCount(), "every body has a place");
-  self_->world.placeBodies(poses);
-}
-
-Status Simulation::placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
-  if (Status status = self_->finishFrames(); !status) return status;
-  self_->roots.place(now, oneStepEarlier);
-  self_->rigidHair.placeRoots(now, oneStepEarlier);
-  if (Status status = self_->forgetContacts(); !status) return status;
-  return self_->placeAtRest();
-}
-
-Status Simulation::setRootShifts(std::span<const Vec3d> shifts) {
-  std::vector<layout::StrandRest>& strands = self_->rest.strands;
-  RINGLET_ASSERT(shifts.size() == self_->rest.groomStrandCount, "every strand has a root shift");
-  if (Status status = self_->finishFrames(); !status) return status;
-  self_->rigidHair.setRootShifts(shifts);
-  for (std::size_t s = 0; s < strands.size(); ++s) {
-    const Vec3f shift = static_cast<Vec3f>(shifts[self_->rest.strandInGroom[s]]);
-    strands[s].pins[0].w = shift.x, strands[s].pins[1].w = shift.y, strands[s].pins[2].w = shift.z;
-  }
-  return self_->buffers.uploadStrands(self_->rest);
-}
-
 const HeadPose& Simulation::head() const { return self_->head.now; }
 
 Result<SimulationReport> Simulation::report() const {
@@ -470,6 +454,7 @@ DeviceMemory Simulation::memory() const {
   DeviceMemory memory;
   memory.particles = s.buffers.particleBytes();
   memory.strands = s.buffers.strandBytes();
+  memory.shared = s.buffers.sharedBytes();
   memory.rootPoses = s.roots.bytes();
   if (s.contacts) memory.contacts = s.contacts->bytes(), memory.contactLists = s.contacts->listBytes();
   if (s.volume) memory.volume = s.volume->bytes();

@@ -1,5 +1,6 @@
-// Simulation: one groom on one device. Everything is uploaded at creation; a frame is one submission,
-// recorded once, which begins by taking the head's poses over and ends by bringing positions back.
+// Simulation: the hair of one head, on one device. What does not change is its HairAsset's (hair_asset.h),
+// which any number of heads share. A frame is one submission, recorded once, which begins by taking the
+// head's poses over and ends by bringing positions back.
 //
 //   submitFrame(1)  submitFrame(2)  waitFrame  framePositions -> 1   submitFrame(3)  waitFrame ...
 //   device:         1 ............................ 2 ................................ 3
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +24,8 @@
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/compute_device.h"
-#include "ringlet/solver/strand_shape.h"
+#include "ringlet/solver/hair_asset.h"
+#include "ringlet/solver/kernel_choice.h"
 
 namespace ringlet {
 
@@ -63,10 +66,25 @@ struct DeviceMemory {
   std::uint64_t volume = 0;        // of strands that meet as a volume: particles, grid
   std::uint64_t world = 0;         // the head's poses, bodies with their grids, air
   std::uint64_t frames = 0;        // in flight, in the host's memory: positions read back, poses, air
+  std::uint64_t shared = 0;        // of particles and strands: held once for all simulations of an asset
 
   std::uint64_t total() const {
     return particles + strands + rootPoses + contacts + contactLists + volume + world + frames;
   }
+};
+
+/// A head before its first frame. What is left out stands still. Needed until create returns.
+struct InitialState {
+  HeadPose head{};
+  std::optional<HeadPose> oneStepEarlier{};  // one outer step before; the hair moves with the head
+  std::span<const Body> bodies{};            // what hair stays out of (Integrator::jacobi only)
+  std::span<const BodyPose> bodyPlaces{};    // where they are; without, where they are at t = 0
+  // With KernelChoice::movingRoots, strands' own poses (Simulation::stepFrame), now and one outer step
+  // before, in groom order; without, they are BodyPose{}. The hair is there, at rest, and moves with them.
+  std::span<const BodyPose> roots{}, rootsEarlier{};
+  // How far each strand's root (groom order) moves beside the head, when the head's pose has `shift` 1: in
+  // the groom's axes [m]. For scenes that bring hair together which is apart at rest.
+  std::span<const Vec3d> rootShifts{};
 };
 
 /// Particles' positions and velocities, in groom order, relative to the head's origin and its translation,
@@ -88,37 +106,6 @@ struct ListedContact {
   float stiffnessShare = 0, dampingShare = 0;
 };
 
-/// Told when the driver begins to compile a simulation's kernels, which may take seconds, and when it is
-/// done. Not told where a simulation before has compiled them all on this device.
-class CompileObserver {
- public:
-  virtual ~CompileObserver() = default;
-  virtual void begin(std::size_t kernelCount) = 0;
-  virtual void end() = 0;  // also after a failure
-};
-
-/// How the strand kernel is laid over the device; the defaults choose by device and strand length.
-struct KernelChoice {
-  enum class Form { automatic, lanes, serial };
-  Form form = Form::automatic;            // lanes x run, or one thread per strand
-  int particlesPerLane = 0;               // see longestRun in shape_plan.h; 0: choose
-  int lanes = 0;                          // of a strand, a power of two; 0: choose
-  int subgroupSize = 0;                   // see subgroupSizes in subgroup_choice.h; 0: choose
-  std::span<const ShapeCost> measured{};  // on this device, needed until create returns; none: a model's
-  bool manyKernels = false;               // the best shape for every strand, whatever kernels cost to make
-  CompileObserver* observer = nullptr;    // needed until create returns
-  bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
-  bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
-  bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
-  // [s] of one submission, about: a desktop whose device works longer at one piece takes it for hung. 0: 0.3,
-  // and on a CPU device without bound.
-  double longestSubmissionSeconds = 0;
-  // Less than the device has, for tests; 0: what it has [bytes].
-  std::uint64_t mostBufferBytes = 0;  // of one buffer: more is cut into chunks
-  std::uint64_t mostDeviceBytes = 0;  // of all
-  int contactRoom = 1;                // contact lists begin with so many times the room, for tests
-};
-
 /// Strands that float32 cannot hold, and a few that would need far more steps than the others, are carried
 /// rigidly by their roots, in their rest shape (rest/rigid_strands.h); warnings() name them. They have
 /// positions and velocities as all others do, with roots' poses and shifts, and keep their numbers in groom
@@ -126,18 +113,15 @@ struct KernelChoice {
 /// none of their edges, ContactReport and listedContacts none of their particles, and their taps are 0.
 class Simulation {
  public:
-  /// Uploads a groom, and the bodies it stays out of (Integrator::jacobi only). The head starts at `start`,
-  /// coming from `oneStepEarlier` (one outer step before), and the hair moves with it. Fails, with what to
-  /// do, on settings out of range, on a groom with fewer than one strand or with non-finite points, and when
-  /// the device lacks memory.
+  /// The hair of an asset on a head of its own. Fails, with what to do, on bodies that make no sense, or that
+  /// the asset was not built for, and when the device lacks memory. Cost: the hair's state in device memory;
+  /// kernels are compiled with the first simulation that needs them on a device.
+  static Result<Simulation> create(const HairAsset& asset, const InitialState& initial = {});
+
+  /// The same of an asset of its own. Fails where HairAsset::build does, too.
   static Result<Simulation> create(const ComputeDevice& device, const Groom& groom, const Material& material,
-                                   const Settings& settings, const HeadPose& start,
-                                   const HeadPose& oneStepEarlier, const KernelChoice& kernel = {},
-                                   std::span<const Body> bodies = {});
-  static Result<Simulation> create(const ComputeDevice& device, const Groom& groom, const Material& material,
-                                   const Settings& settings, const HeadPose& start = {}) {
-    return create(device, groom, material, settings, start, start);
-  }
+                                   const Settings& settings, const InitialState& initial = {},
+                                   const KernelChoice& kernel = {});
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
@@ -181,19 +165,6 @@ class Simulation {
   Result<std::vector<std::byte>> checkpoint();
   /// Fails, with this simulation spoilt, where the bytes are those of another.
   Status restore(std::span<const std::byte> checkpoint);
-
-  /// How far each strand's root (groom order) moves beside the head, when the head's pose has `shift` 1: in
-  /// the groom's axes [m]. For scenes that bring hair together which is apart at rest. Before the first
-  /// frame.
-  Status setRootShifts(std::span<const Vec3d> shifts);
-
-  /// Where the bodies are before the first frame; without, where they are at t = 0.
-  void placeBodies(std::span<const BodyPose> poses);
-
-  /// Where strands' own poses (stepFrame) are before the first frame, and were one outer step earlier;
-  /// without, they are BodyPose{}. Puts the hair there, at rest, moving with them. Needs
-  /// KernelChoice::movingRoots.
-  Status placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
 
   const HeadPose& head() const;
   Result<SimulationReport> report() const;

@@ -19,6 +19,7 @@
 #include "ringlet/solver/device_world.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/frame_slot.h"
+#include "ringlet/solver/hair_asset_implementation.h"
 #include "ringlet/solver/rigid_hair.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/submission_pace.h"
@@ -44,18 +45,21 @@ struct HeadHistory {
 };
 
 struct Simulation::Implementation {
-  ComputeDevice device;
-  RestState rest;  // its rigid strands are in rigidHair
-  Settings settings;
-  Material material;
-  KernelChoice choice;
+  std::shared_ptr<const HairAsset::Implementation> asset;
+  // Of the asset:
+  const ComputeDevice& device;
+  const RestState& rest;
+  const Settings& settings;
+  const Material& material;
+  const KernelChoice& choice;
+  const std::vector<StrandRange>& ranges;
+
   HeadHistory head;
 
   DeviceGroom buffers;
   DeviceWorld world;
   DeviceRoots roots;
   RigidHair rigidHair;
-  std::vector<StrandRange> ranges;
   SubmissionPace pace;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
   std::vector<std::size_t> kernelOf{};                        // each range's
@@ -77,10 +81,10 @@ struct Simulation::Implementation {
   std::vector<FrameSlot> slots{};    // go first, waiting for what still uses the rest
 
   // simulation.cpp
-  Status makeKernels(bool hasBodies);
+  Status makeKernels();
   Status dispatchNothing(std::span<const std::size_t> newKernels) const;
   ContactKinds contactKinds() const { return {contacts.has_value(), volume.has_value()}; }
-  Status addContacts(const RestContacts& atRest, int room);
+  Status addContacts();
   Status forgetContacts();
   Status placeAtRest();
   Status carryTo(const HeadPose& end);

@@ -1,0 +1,77 @@
+// Implements solver/hair_asset.h.
+#include "ringlet/solver/hair_asset.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "ringlet/rest/strand_order.h"
+#include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/hair_asset_implementation.h"
+#include "ringlet/solver/strand_kernels.h"
+#include "ringlet/solver/subgroup_choice.h"
+
+namespace ringlet {
+namespace {
+
+std::vector<std::uint32_t> particleCounts(const RestState& rest) {
+  std::vector<std::uint32_t> counts;
+  for (const layout::StrandRest& strand : rest.strands) counts.push_back(strand.particleCount);
+  return counts;
+}
+
+// All strands may be rigid, and then none is on the device.
+Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts, const DeviceLimits& limits,
+                                          const KernelChoice& choice, StrandWork work) {
+  if (counts.empty()) return std::vector<StrandRange>{};
+  return planRanges(counts, limits, choice, work);
+}
+
+}  // namespace
+
+Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& groom, const Material& material,
+                                   const Settings& settings, const KernelChoice& choice, BodyUse bodies) {
+  const bool hasBodies = bodies == BodyUse::some;
+  if (hasBodies && settings.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
+  // Strands that may meet stand near each other in memory.
+  std::vector<std::uint32_t> order;
+  if (settings.contacts.on) order = orderAlongCurve(groom);
+  auto rest = buildRestState(groom, material, settings, order);
+  if (!rest) return rest.error();
+  const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
+  if (!limits) return limits.error();
+
+  auto self = std::make_shared<Implementation>(
+      Implementation{device, material, settings, choice, bodies, std::move(*rest), {}, {}, {}, {}, {}});
+  self->choice.measured = {};
+  const std::vector<std::uint32_t> counts = particleCounts(self->rest);
+  if (settings.contacts.on && !counts.empty()) {
+    self->contacts = buildRestContacts(self->rest, settings.contacts);
+    std::ranges::copy(self->contacts->warnings(), std::back_inserter(self->rest.warnings));
+    if (self->kinds().volume) self->volume = buildRestVolume(self->rest, *self->contacts);
+  }
+  auto ranges = rangesOf(counts, *limits, choice, strandWork(settings, material, self->kinds(), hasBodies));
+  if (!ranges) return ranges.error();
+  const bool anySerial =
+      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
+  self->records = groomRecords(settings, choice, self->kinds(), anySerial, hasBodies);
+  const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
+  if (!chunks) return chunks.error();
+  self->ranges = cutRanges(*ranges, *chunks);
+  const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, kStrandGroupSize);
+  if (!plan) return plan.error();  // before anything is made for it
+  for (const GroomChunk& chunk : *chunks) {
+    auto constants = ConstantChunk::create(device.gpu(), self->rest, chunk);
+    if (!constants) return constants.error();
+    self->constants.push_back(std::move(*constants));
+  }
+  self->rest.particles = {};  // the device has them
+  return HairAsset(std::move(self));
+}
+
+std::size_t HairAsset::strandCount() const { return self_->rest.groomStrandCount; }
+std::size_t HairAsset::particleCount() const { return self_->rest.groomParticleCount; }
+std::size_t HairAsset::rigidStrandCount() const { return self_->rest.rigid.size(); }
+const std::vector<std::string>& HairAsset::warnings() const { return self_->rest.warnings; }
+
+}  // namespace ringlet

@@ -1,0 +1,38 @@
+// What a HairAsset holds, for the files that implement it and simulations of it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "ringlet/rest/rest_contacts.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/rest/rest_volume.h"
+#include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/groom_chunks.h"
+#include "ringlet/solver/hair_asset.h"
+#include "ringlet/solver/shape_plan.h"
+
+namespace ringlet {
+
+struct HairAsset::Implementation {
+  ComputeDevice device;
+  Material material;
+  Settings settings;
+  KernelChoice choice;
+  BodyUse bodies = BodyUse::none;
+  RestState rest;                        // its particles are on the device
+  std::optional<RestContacts> contacts;  // with contacts
+  std::optional<RestVolume> volume;      // where strands meet as one
+  std::vector<StrandRange> ranges;
+  GroomRecords records;
+  std::vector<ConstantChunk> constants;
+
+  ContactKinds kinds() const { return contacts ? contacts->kinds() : ContactKinds{}; }
+  std::vector<GroomChunk> chunks() const {
+    std::vector<GroomChunk> parts;
+    for (const ConstantChunk& chunk : constants) parts.push_back(chunk.part);
+    return parts;
+  }
+};
+
+}  // namespace ringlet

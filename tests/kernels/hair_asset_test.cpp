@@ -1,0 +1,125 @@
+// Heads that share an asset: each moves as if it were alone.
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "parity/contacts.h"
+#include "parity/sample_bodies.h"
+#include "ringlet/solver/simulation.h"
+#include "tests/support/gpu_test.h"
+#include "tests/support/parity.h"
+
+namespace ringlet::test {
+namespace {
+
+struct Hair {
+  const char* name;
+  Groom groom;
+  Settings settings{};
+  KernelChoice kernel{};
+  std::vector<Body> bodies{};
+};
+
+std::vector<Hair> hairs() {
+  const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
+  Settings pairs;
+  pairs.contacts.on = true;
+  pairs.contacts.method = ContactMethod::explicitPairs;
+  Settings volume = pairs;
+  volume.contacts.method = ContactMethod::volume;
+  Settings air;
+  air.air.on = true;
+  return {{"lanes", groom},
+          {"serial", groom, {}, {KernelChoice::Form::serial}},
+          {"roots that move", groom, {}, {.movingRoots = true}},
+          {"chunks", groom, {}, {.mostBufferBytes = 70 * 32}},
+          {"pairs", parity::denseSwatch(16), pairs},
+          {"volume", parity::denseSwatch(16), volume},
+          {"bodies and air", groom, air, {}, sampleBodies()}};
+}
+
+// Two heads on different ways; the second is born moving, with shifted roots.
+struct Head {
+  Vec3d way;
+  double shift = 0;
+
+  HeadPose at(double t) const { return {way * t, fromRotationVector(Vec3d{0, 3 * way.x * t, 0}), shift * t}; }
+};
+const Head kHeads[] = {{{1, 0, 0}}, {{-0.5, 0.3, 0.2}, 1}};
+
+using HairAssetTest = GpuTest;
+
+Result<Simulation> make(const HairAsset& asset, const Hair& hair, const Head& head) {
+  const std::vector<Vec3d> shifts(head.shift != 0 ? hair.groom.strandCount() : 0, {0.01, 0, 0.02});
+  return Simulation::create(asset, {.head = head.at(0),
+                                    .oneStepEarlier = head.at(-hair.settings.stepSeconds()),
+                                    .bodies = hair.bodies,
+                                    .rootShifts = shifts});
+}
+
+Result<HairAsset> build(const ComputeDevice& device, const Hair& hair) {
+  return HairAsset::build(device, hair.groom, varyingMaterial(), hair.settings, hair.kernel,
+                          hair.bodies.empty() ? BodyUse::none : BodyUse::some);
+}
+
+Status step(Simulation& simulation, const Hair& hair, const Head& head, int frame) {
+  return simulation.stepFrame(head.at((frame + 1) / hair.settings.framesPerSecond));
+}
+
+TEST_F(HairAssetTest, HeadsMoveAsIfAlone) {
+  constexpr int kFrames = 3;
+  for (const Hair& hair : hairs()) {
+    SCOPED_TRACE(hair.name);
+    std::vector<HairState> alone;
+    for (const Head& head : kHeads) {
+      const auto asset = build(device(), hair);
+      ASSERT_TRUE(asset) << asset.error().message;
+      auto simulation = make(*asset, hair, head);
+      ASSERT_TRUE(simulation) << simulation.error().message;
+      for (int frame = 0; frame < kFrames; ++frame) ASSERT_TRUE(step(*simulation, hair, head, frame));
+      alone.push_back(*simulation->state());
+    }
+    EXPECT_FALSE(alone[0].positions == alone[1].positions);
+
+    std::optional<HairAsset> asset = *build(device(), hair);
+    Simulation first = *make(*asset, hair, kHeads[0]);
+    ASSERT_TRUE(step(first, hair, kHeads[0], 0));
+    Simulation second = *make(*asset, hair, kHeads[1]);
+    asset.reset();  // simulations hold what they need
+    for (int frame = 0; frame < kFrames; ++frame) {
+      ASSERT_TRUE(step(second, hair, kHeads[1], frame));
+      if (frame == 0) continue;
+      ASSERT_TRUE(step(first, hair, kHeads[0], frame));
+    }
+    EXPECT_TRUE(first.state()->positions == alone[0].positions);
+    EXPECT_TRUE(first.state()->velocities == alone[0].velocities);
+    EXPECT_TRUE(second.state()->positions == alone[1].positions);
+    EXPECT_TRUE(second.state()->velocities == alone[1].velocities);
+  }
+}
+
+TEST_F(HairAssetTest, SaysWhatIsShared) {
+  for (const Hair& hair : hairs()) {
+    SCOPED_TRACE(hair.name);
+    const auto asset = build(device(), hair);
+    ASSERT_TRUE(asset) << asset.error().message;
+    EXPECT_EQ(asset->strandCount(), hair.groom.strandCount());
+    EXPECT_EQ(asset->particleCount(), hair.groom.points.size());
+    const std::uint64_t particles = 32 * hair.groom.points.size(), strands = 112 * hair.groom.strandCount();
+    EXPECT_EQ(make(*asset, hair, kHeads[0])->memory().shared, particles + strands);
+    EXPECT_EQ(make(*asset, hair, kHeads[1])->memory().shared, particles) << "its strands are shifted";
+  }
+}
+
+TEST_F(HairAssetTest, IsBuiltWithBodiesOrWithout) {
+  const Hair with{"with", randomGroom({8, 8}, 1), {}, {}, sampleBodies()}, without{"without", with.groom};
+  const auto wanting = make(*build(device(), without), with, kHeads[0]);
+  EXPECT_EQ(wanting.error().message,
+            "the hair's asset was built without bodies; build it with BodyUse::some");
+  const auto idle = make(*build(device(), with), without, kHeads[0]);
+  EXPECT_EQ(idle.error().message, "the hair's asset was built for bodies, and there are none");
+}
+
+}  // namespace
+}  // namespace ringlet::test
