@@ -126,9 +126,11 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.maxPushConstantBytes = basic.limits.maxPushConstantsSize;
   p.maxSharedMemoryBytes = basic.limits.maxComputeSharedMemorySize;
   p.timestampPeriod = basic.limits.timestampPeriod;
-  if (basic.apiVersion < kNeededApiVersion) {
+  if (p.apiVersion < kNeededApiVersion) {
+    const bool isDrivers = basic.apiVersion < kNeededApiVersion;
     candidate.listing.why =
-        fmt::format("its driver knows Vulkan {}, needed is 1.1", versionText(basic.apiVersion));
+        fmt::format("{} Vulkan {}, needed is 1.1",
+                    isDrivers ? "its driver knows" : "the instance was made for", versionText(p.apiVersion));
     return candidate;
   }
 
@@ -149,7 +151,8 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   // What came after 1.1 is asked for only where it is known.
   const bool hasDriverProperties =
       p.apiVersion >= VK_API_VERSION_1_2 || has(VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
-  candidate.hasMemoryBudget = has(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);  // to ask needs no switching on
+  candidate.hasMemoryBudget = has(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME) &&  // to ask needs no switching on
+                              !options.withoutMemoryBudget;
   const bool hasSizeControlInCore = p.apiVersion >= VK_API_VERSION_1_3;
   const bool hasSizeControl = hasSizeControlInCore || has(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
 
@@ -331,13 +334,9 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
   const Candidate& candidate = **picked;
 
   std::shared_ptr<Device> self(new Device);
-  self->instance_ = std::move(*instance);
-  self->properties_ = candidate.listing.properties;
+  self->take(std::move(*instance), candidate.handle, candidate.queueFamily, candidate.hasMemoryBudget,
+             candidate.listing.properties);
   self->options_ = options;
-  self->queueFamily_ = candidate.queueFamily;
-  self->physical_ = candidate.handle;
-  self->hasMemoryBudget_ = candidate.hasMemoryBudget;
-  vkGetPhysicalDeviceMemoryProperties(candidate.handle, &self->memory_);
 
   const float priority = 1;
   auto queue = zeroed<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
@@ -374,6 +373,53 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
   }
 
   if (Status opened = self->openPipelineCache(candidate.handle, cacheFolder); !opened) return opened.error();
+  return self;
+}
+
+Result<DeviceNeeds> Device::needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                                  VkPhysicalDevice physical, std::uint32_t apiVersion) {
+  auto adopted = Instance::adopt(getInstanceProcAddr, instance, apiVersion);
+  if (!adopted) return adopted.error();
+  const Candidate candidate = inspect(**adopted, physical, 0, {});
+  const DeviceProperties& p = candidate.listing.properties;
+  if (!candidate.listing.usable)
+    return Error{fmt::format("the Vulkan device {} cannot run Ringlet: {}", p.name, candidate.listing.why)};
+  return DeviceNeeds{{candidate.extensions.begin(), candidate.extensions.end()},
+                     p.canChooseSubgroupSize,
+                     p.hasFullSubgroups,
+                     candidate.queueFamily};
+}
+
+Result<std::shared_ptr<Device>> Device::adopt(const HostDevice& host,
+                                              const std::filesystem::path& cacheFolder) {
+  auto instance = Instance::adopt(host.getInstanceProcAddr, host.instance, host.apiVersion);
+  if (!instance) return instance.error();
+  if (!host.physical || !host.device || !host.queue)
+    return Error{"a host hands over no physical device, no device or no queue"};
+  Candidate candidate = inspect(**instance, host.physical, 0, {});
+  DeviceProperties& p = candidate.listing.properties;
+  const std::vector<VkQueueFamilyProperties> families = queueFamilies(host.physical);
+  if (host.queueFamily >= families.size() || !(families[host.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT))
+    return Error{
+        fmt::format("the queue that a host hands over is of family {}, which does not compute; {} "
+                    "computes in family {}",
+                    host.queueFamily, p.name, candidate.queueFamily)};
+  if (!candidate.listing.usable)
+    return Error{fmt::format("the Vulkan device {} cannot run Ringlet: {}", p.name, candidate.listing.why)};
+  p.timestampBits = families[host.queueFamily].timestampValidBits;
+  p.hasTimestamps = p.timestampBits > 0 && p.timestampPeriod > 0;
+  p.canChooseSubgroupSize = p.canChooseSubgroupSize && host.subgroupSizeControl;
+  p.hasFullSubgroups = p.hasFullSubgroups && host.computeFullSubgroups;
+  p.subgroupSize = defaultSubgroupSize(p);
+
+  std::shared_ptr<Device> self(new Device);
+  self->isOwned_ = false;
+  self->take(std::move(*instance), host.physical, host.queueFamily, candidate.hasMemoryBudget, p);
+  self->device_ = host.device;
+  if (host.queueMutex) self->queueMutex_ = host.queueMutex;
+  volkLoadDeviceTable(&self->table_, self->device_);
+  self->queue_ = host.queue;
+  if (Status opened = self->openPipelineCache(host.physical, cacheFolder); !opened) return opened.error();
   return self;
 }
 
@@ -418,6 +464,16 @@ void Device::keepPipelineCache() const {
   (void)writePipelineCache(pipelineCacheFile_, pipelineCacheOwner_, bytes);
 }
 
+void Device::take(std::unique_ptr<Instance> instance, VkPhysicalDevice physical, std::uint32_t queueFamily,
+                  bool hasMemoryBudget, const DeviceProperties& properties) {
+  instance_ = std::move(instance);
+  physical_ = physical;
+  queueFamily_ = queueFamily;
+  hasMemoryBudget_ = hasMemoryBudget;
+  properties_ = properties;
+  vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
+}
+
 Device::Device() : kernels_(std::make_unique<KernelCache>()) {}
 
 Device::~Device() {
@@ -425,7 +481,7 @@ Device::~Device() {
   keepPipelineCache();
   kernels_.reset();
   table_.vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
-  table_.vkDestroyDevice(device_, nullptr);
+  if (isOwned_) table_.vkDestroyDevice(device_, nullptr);
 }
 
 std::vector<std::string> Device::validationMessages() const {
@@ -454,7 +510,7 @@ std::shared_ptr<void> Device::countBytes(std::uint32_t heap, std::uint64_t bytes
 
 // One call a part: drivers may take what comes in one call for one job, and a watchdog counts jobs.
 VkResult Device::submit(std::span<const VkCommandBuffer> parts, VkFence fence) {
-  const std::lock_guard lock(queueMutex_);
+  const std::lock_guard lock(*queueMutex_);
   for (const VkCommandBuffer& part : parts) {
     auto info = zeroed<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
     info.commandBufferCount = 1;
@@ -471,7 +527,7 @@ VkResult Device::submit(std::span<const VkCommandBuffer> parts, VkFence fence) {
 }
 
 std::chrono::steady_clock::time_point Device::noteWait(std::chrono::steady_clock::time_point now) {
-  const std::lock_guard lock(queueMutex_);
+  const std::lock_guard lock(ownMutex_);
   return std::exchange(lastWait_, now);
 }
 

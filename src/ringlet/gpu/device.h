@@ -78,15 +78,38 @@ struct DeviceListing {
 /// How a device is opened. Most of it turns off what a device has, so that tests and `ringlet conform` reach
 /// the paths for devices without it.
 struct DeviceOptions {
-  bool alwaysStage = false;                  // never map storage buffers, copy through a staging buffer
-  bool withoutTimestamps = false;            // time by the host's clock
-  bool withoutFullSubgroups = false;         // leave subgroup sizes to the driver
-  std::uint64_t mostTexelRecords = 0;        // a kernel sees as texels; 0: as many as the device has
+  bool alwaysStage = false;            // never map storage buffers, copy through a staging buffer
+  bool withoutTimestamps = false;      // time by the host's clock
+  bool withoutFullSubgroups = false;   // leave subgroup sizes to the driver
+  bool withoutMemoryBudget = false;    // count what this device took; a budget moves with other programs
+  std::uint64_t mostTexelRecords = 0;  // a kernel sees as texels; 0: as many as the device has
   Inspection inspection = Inspection::none;  // for `ringlet kernels`; drivers crash in their own statistics
   bool allowNull = false;  // open null hardware too: it has no memory and only compiles kernels
   /// Changes a kernel's SPIR-V before it is compiled: shows that a wrong kernel is noticed.
   std::function<void(const std::string& kernel, std::vector<std::uint32_t>& spirv)> changeCode{};
   std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has
+};
+
+/// A device that a host opened, and closes when everything made on it is gone.
+struct HostDevice {
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  std::uint32_t queueFamily = 0;
+  std::uint32_t apiVersion = 0;       // of the host's VkApplicationInfo
+  bool subgroupSizeControl = false;   // features that the device was opened with
+  bool computeFullSubgroups = false;  // likewise
+  std::mutex* queueMutex = nullptr;   // held while something is handed to the queue; none: nobody else does
+};
+
+/// What a device must be opened with, to be adopted: all it has of what kernels use.
+struct DeviceNeeds {
+  std::vector<std::string> extensions;
+  bool subgroupSizeControl = false;
+  bool computeFullSubgroups = false;
+  std::uint32_t queueFamily = 0;  // the best; another that computes will do
 };
 
 class Device : public std::enable_shared_from_this<Device> {
@@ -101,6 +124,12 @@ class Device : public std::enable_shared_from_this<Device> {
                                               const std::filesystem::path& cacheFolder = {});
   /// All devices, by index. Empty where there is no Vulkan.
   static std::vector<DeviceListing> list();
+  /// Works on a host's device. Fails where the solver needs what the device, or its queue, lacks.
+  static Result<std::shared_ptr<Device>> adopt(const HostDevice& host,
+                                               const std::filesystem::path& cacheFolder = {});
+  /// Of a host's instance. Fails where the device cannot run the solver.
+  static Result<DeviceNeeds> needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                                   VkPhysicalDevice physical, std::uint32_t apiVersion);
 
   ~Device();
   Device(const Device&) = delete;
@@ -140,6 +169,8 @@ class Device : public std::enable_shared_from_this<Device> {
 
  private:
   Device();
+  void take(std::unique_ptr<Instance> instance, VkPhysicalDevice physical, std::uint32_t queueFamily,
+            bool hasMemoryBudget, const DeviceProperties& properties);
   Status openPipelineCache(VkPhysicalDevice physical, const std::filesystem::path& folder);
   void keepPipelineCache() const;
 
@@ -148,9 +179,11 @@ class Device : public std::enable_shared_from_this<Device> {
   bool hasMemoryBudget_ = false;
   std::array<std::atomic<std::uint64_t>, VK_MAX_MEMORY_HEAPS> takenBytes_{};
   VkDevice device_ = VK_NULL_HANDLE;
+  bool isOwned_ = true;
   VolkDeviceTable table_{};
   VkQueue queue_ = VK_NULL_HANDLE;
-  std::mutex queueMutex_;
+  std::mutex ownMutex_;
+  std::mutex* queueMutex_ = &ownMutex_;
   std::atomic<std::uint64_t> submissionCount_ = 0;
   std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;

@@ -31,6 +31,14 @@ Status openLoader() {
   return {};
 }
 
+// A host's loader is the one that this process has, or the first.
+void useLoader(PFN_vkGetInstanceProcAddr getInstanceProcAddr) {
+  const std::lock_guard lock(loaderMutex);
+  if (isLoaderOpen) return;
+  volkInitializeCustom(getInstanceProcAddr);
+  isLoaderOpen = true;
+}
+
 void loadInstanceFunctions(VkInstance instance) {
   const std::lock_guard lock(loaderMutex);
   if (areInstanceFunctionsLoaded) return;
@@ -195,8 +203,21 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
   return self;
 }
 
+Result<std::unique_ptr<Instance>> Instance::adopt(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
+                                                  VkInstance instance, std::uint32_t apiVersion) {
+  if (!getInstanceProcAddr || !instance)
+    return Error{"a host hands over no Vulkan instance, or no vkGetInstanceProcAddr"};
+  useLoader(getInstanceProcAddr);
+  loadInstanceFunctions(instance);
+  std::unique_ptr<Instance> self(new Instance);
+  self->instance_ = instance;
+  self->isOwned_ = false;
+  self->apiVersion_ = std::min<std::uint32_t>(apiVersion, VK_API_VERSION_1_3);
+  return self;
+}
+
 Instance::~Instance() {
-  if (!instance_) return;
+  if (!instance_ || !isOwned_) return;
   if (messenger_) {
     const auto destroyMessenger = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));

@@ -28,6 +28,9 @@ class Instance {
   /// With validation: VK_LAYER_KHRONOS_validation and its synchronisation validation; an Error where it is
   /// missing.
   static Result<std::unique_ptr<Instance>> create(bool validation);
+  /// One that a host made, and destroys when this is gone. apiVersion: the host's VkApplicationInfo's.
+  static Result<std::unique_ptr<Instance>> adopt(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
+                                                 VkInstance instance, std::uint32_t apiVersion);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -45,6 +48,7 @@ class Instance {
   Instance() = default;
 
   VkInstance instance_ = VK_NULL_HANDLE;
+  bool isOwned_ = true;
   std::uint32_t apiVersion_ = 0;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::shared_ptr<ValidationLog> validationLog_;

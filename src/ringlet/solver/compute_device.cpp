@@ -30,6 +30,10 @@ DeviceLimits limitsOf(const gpu::DeviceProperties& p) {
   return limits;
 }
 
+PFN_vkGetInstanceProcAddr loaderOf(const HostVulkan& host) {
+  return reinterpret_cast<PFN_vkGetInstanceProcAddr>(host.getInstanceProcAddr);
+}
+
 }  // namespace
 
 Result<ComputeDevice> ComputeDevice::open(const std::string& choice,
@@ -37,6 +41,30 @@ Result<ComputeDevice> ComputeDevice::open(const std::string& choice,
   auto opened = gpu::Device::open(choice, {}, cacheFolder);
   if (!opened) return opened.error();
   return over(std::move(*opened));
+}
+
+Result<ComputeDevice> ComputeDevice::adopt(const HostVulkan& host, const std::filesystem::path& cacheFolder) {
+  auto adopted = gpu::Device::adopt({.getInstanceProcAddr = loaderOf(host),
+                                     .instance = static_cast<VkInstance>(host.instance),
+                                     .physical = static_cast<VkPhysicalDevice>(host.physicalDevice),
+                                     .device = static_cast<VkDevice>(host.device),
+                                     .queue = static_cast<VkQueue>(host.queue),
+                                     .queueFamily = host.queueFamily,
+                                     .apiVersion = host.apiVersion,
+                                     .subgroupSizeControl = host.subgroupSizeControl,
+                                     .computeFullSubgroups = host.computeFullSubgroups,
+                                     .queueMutex = host.queueMutex},
+                                    cacheFolder);
+  if (!adopted) return adopted.error();
+  return over(std::move(*adopted));
+}
+
+Result<HostVulkanNeeds> ComputeDevice::needs(const HostVulkan& host) {
+  auto needs = gpu::Device::needs(loaderOf(host), static_cast<VkInstance>(host.instance),
+                                  static_cast<VkPhysicalDevice>(host.physicalDevice), host.apiVersion);
+  if (!needs) return needs.error();
+  return HostVulkanNeeds{std::move(needs->extensions), needs->subgroupSizeControl,
+                         needs->computeFullSubgroups, needs->queueFamily};
 }
 
 ComputeDevice ComputeDevice::over(std::shared_ptr<gpu::Device> device) {

@@ -1,8 +1,10 @@
 // ComputeDevice: the Vulkan device simulations run on, without showing Vulkan.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,31 @@ struct DeviceSummary {
   std::string why;                           // if not usable: what is missing
 };
 
+/// A Vulkan device that a host opened: handles as <vulkan/vulkan.h> has them, which this header does not
+/// show. The host keeps the instance and the device until everything that was made with them here is gone.
+struct HostVulkan {
+  void* getInstanceProcAddr = nullptr;  // PFN_vkGetInstanceProcAddr
+  void* instance = nullptr;             // VkInstance
+  void* physicalDevice = nullptr;       // VkPhysicalDevice
+  void* device = nullptr;               // VkDevice
+  void* queue = nullptr;                // VkQueue
+  std::uint32_t queueFamily = 0;        // the queue's, which computes
+  std::uint32_t apiVersion = 0;         // of the host's VkApplicationInfo, 1.1 at least
+  bool subgroupSizeControl = false;     // features that the device was opened with
+  bool computeFullSubgroups = false;
+  // Held while work is handed to the queue. Without it nobody else may hand over work in a call to Ringlet.
+  std::mutex* queueMutex = nullptr;
+};
+
+/// What a host opens a device with, so that Ringlet can use all the device has. It works without extensions
+/// and features too, slower where kernels then do not know the width of a subgroup.
+struct HostVulkanNeeds {
+  std::vector<std::string> extensions;
+  bool subgroupSizeControl = false;  // features, of VkPhysicalDeviceSubgroupSizeControlFeatures
+  bool computeFullSubgroups = false;
+  std::uint32_t queueFamily = 0;  // the best one; any that computes will do
+};
+
 /// Cheap to copy; the device closes with its last copy.
 class ComputeDevice {
  public:
@@ -39,6 +66,12 @@ class ComputeDevice {
 
   /// All devices, by index (the Vulkan loader's order). Empty where there is no Vulkan.
   static std::vector<DeviceSummary> list();
+
+  /// Works on a host's device, and never closes it. Fails where device or queue lack what the solver needs.
+  static Result<ComputeDevice> adopt(const HostVulkan& host, const std::filesystem::path& cacheFolder = {});
+  /// Before a host opens a device; of `host` it asks for all but device and queue. Fails where the device
+  /// cannot run the solver.
+  static Result<HostVulkanNeeds> needs(const HostVulkan& host);
 
   /// A device that is open already, as tests and `ringlet kernels` open it with options of their own.
   static ComputeDevice over(std::shared_ptr<gpu::Device> device);

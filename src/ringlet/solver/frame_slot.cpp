@@ -7,11 +7,12 @@
 
 namespace ringlet {
 
-Result<FrameSlot> FrameSlot::create(gpu::Device& device, const DeviceGroom& groom) {
+Result<FrameSlot> FrameSlot::create(gpu::Device& device, const DeviceGroom& groom, bool readsBack) {
   auto recorder = gpu::Recorder::create(device, "frame");
   if (!recorder) return recorder.error();
   std::vector<gpu::Buffer> positions;
   for (const DeviceChunk& chunk : groom.chunks) {
+    if (!readsBack) break;
     auto buffer =
         gpu::Buffer::create(device, chunk.positions.bytes(), gpu::BufferKind::stream, "positions read back");
     if (!buffer) return buffer.error();

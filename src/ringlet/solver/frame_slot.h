@@ -16,16 +16,16 @@
 namespace ringlet {
 
 struct FrameSlot {
-  std::vector<gpu::Buffer> positions;  // of each chunk, as the frame left them, in the host's memory
+  std::vector<gpu::Buffer> positions;  // of each chunk, as the frame left them, in the host's memory; or none
   std::vector<Vec3f> rigid{};          // positions of rigid strands then, as RigidHair gives them
   gpu::Recorder recorder;              // goes first, waiting for what it writes
   bool isRecorded = false;             // as a whole frame
   double particleSteps = 0;            // of strands, in what is recorded
 
   /// Fails when the device lacks memory.
-  static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom);
+  static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom, bool readsBack);
 
-  /// Brings positions back, at the frame's end.
+  /// Brings positions back, at the frame's end, where they are to come back.
   void recordPositions(const DeviceGroom& groom);
   /// Brings them back now, after a frame that is not recorded.
   Status downloadPositions(const DeviceGroom& groom);

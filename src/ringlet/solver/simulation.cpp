@@ -132,6 +132,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                          .material = constant.material,
                          .choice = constant.choice,
                          .ranges = constant.ranges,
+                         .readsBack = initial.readsBack,
                          .head = {initial.oneStepEarlier.value_or(initial.head), initial.head},
                          .buffers = std::move(*buffers),
                          .world = std::move(*world),
@@ -142,7 +143,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   if (Status status = self->addContacts(); !status) return status.error();
   if (Status status = self->makeKernels(); !status) return status.error();
   for (std::size_t slot = 0; slot < kFramesInFlight; ++slot) {
-    auto made = FrameSlot::create(device, self->buffers);
+    auto made = FrameSlot::create(device, self->buffers, initial.readsBack);
     if (!made) return made.error();
     self->slots.push_back(std::move(*made));
     if (Status status = self->recordFrame(slot); !status) return status.error();
@@ -315,6 +316,17 @@ Result<std::vector<Vec3f>> Simulation::positions() const {
   auto values = self_->inGroomOrder(&DeviceChunk::positions);
   if (values) rigid.scatter(rigid.positions(self_->head.now), *values);
   return values;
+}
+
+std::vector<DevicePositions> Simulation::devicePositions() const {
+  const std::vector<std::uint32_t> all = groomIndices(self_->rest);
+  std::vector<DevicePositions> chunks;
+  for (const DeviceChunk& chunk : self_->buffers.chunks) {
+    const auto begin = all.begin() + chunk.part.particleBegin, end = all.begin() + chunk.part.particleEnd;
+    chunks.push_back(
+        {reinterpret_cast<void*>(chunk.positions.handle()), chunk.positions.bytes(), {begin, end}});
+  }
+  return chunks;
 }
 
 Result<HairState> Simulation::state() const {

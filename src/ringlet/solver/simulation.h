@@ -85,6 +85,9 @@ struct InitialState {
   // How far each strand's root (groom order) moves beside the head, when the head's pose has `shift` 1: in
   // the groom's axes [m]. For scenes that bring hair together which is apart at rest.
   std::span<const Vec3d> rootShifts{};
+  // Each frame ends with positions in the host's memory. Without, framePositions() may not be asked for, and
+  // positions() waits and copies.
+  bool readsBack = true;
 };
 
 /// Particles' positions and velocities, in groom order, relative to the head's origin and its translation,
@@ -92,6 +95,17 @@ struct InitialState {
 struct HairState {
   std::vector<Vec3f> positions;   // [m]
   std::vector<Vec3f> velocities;  // [m/s]
+};
+
+/// Positions in the device's memory, for a host that draws from there (ComputeDevice::adopt): four floats a
+/// particle, x y z 0 [m], relative to the head's origin, along world axes. They are those of the last frame
+/// once it was waited for; the host's commands that read them begin with a barrier from compute writes, and
+/// are over before the next frame is submitted. The buffer can be bound as storage, texels or vertices, and
+/// copied from.
+struct DevicePositions {
+  void* buffer = nullptr;  // VkBuffer; where handles are 64 bits
+  std::uint64_t bytes = 0;
+  std::vector<std::uint32_t> particles;  // the groom's index of each particle in the buffer
 };
 
 /// Simulation::restore says this of bytes that do not fit.
@@ -153,6 +167,9 @@ class Simulation {
   /// Positions in groom order [m], relative to the head's origin, along world axes; world = head().position +
   /// p.
   Result<std::vector<Vec3f>> positions() const;
+  /// The same without a way to the host: a buffer for each chunk of strands, good as long as the simulation.
+  /// Strands that are carried rigidly are in none.
+  std::vector<DevicePositions> devicePositions() const;
   /// Positions and velocities; setState puts them back, of strands that are not rigid, and finds contacts
   /// anew.
   Result<HairState> state() const;

@@ -175,7 +175,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   slots[slot].rigid = rigidHair.positions(head.now);
   ++submitted;
   stepsDone += stepPoses.size();
-  isReadBack = true;
+  isReadBack = readsBack;
   return {};
 }
 
@@ -268,6 +268,7 @@ Status Simulation::waitFrame() {
 }
 
 std::vector<Vec3f> Simulation::framePositions() const {
+  RINGLET_ASSERT(self_->readsBack, "framePositions of a simulation that reads nothing back");
   RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
                  "framePositions before waitFrame, or after its place was taken");
   return self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers, self_->rigidHair);

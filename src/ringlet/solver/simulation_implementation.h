@@ -53,6 +53,7 @@ struct Simulation::Implementation {
   const Material& material;
   const KernelChoice& choice;
   const std::vector<StrandRange>& ranges;
+  bool readsBack = true;  // every frame
 
   HeadHistory head;
 
