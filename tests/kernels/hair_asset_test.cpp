@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <thread>
 #include <vector>
 
 #include "parity/contacts.h"
@@ -96,6 +97,34 @@ TEST_F(HairAssetTest, HeadsMoveAsIfAlone) {
     EXPECT_TRUE(first.state()->velocities == alone[0].velocities);
     EXPECT_TRUE(second.state()->positions == alone[1].positions);
     EXPECT_TRUE(second.state()->velocities == alone[1].velocities);
+  }
+}
+
+// Each head on a thread of its own, from its creation on.
+TEST_F(HairAssetTest, HeadsMoveOnThreadsOfTheirOwn) {
+  constexpr int kFrames = 4;
+  for (const Hair& hair : hairs()) {
+    SCOPED_TRACE(hair.name);
+    const auto asset = build(device(), hair);
+    ASSERT_TRUE(asset) << asset.error().message;
+    const auto endOf = [&](const Head& head) {
+      auto simulation = make(*asset, hair, head);
+      for (int frame = 0; simulation && frame < kFrames; ++frame) {
+        if (!step(*simulation, hair, head, frame)) return HairState{};
+      }
+      return simulation ? *simulation->state() : HairState{};
+    };
+    HairState together[2];
+    std::vector<std::thread> threads;
+    for (int which = 0; which < 2; ++which)
+      threads.emplace_back([&, which] { together[which] = endOf(kHeads[which]); });
+    for (std::thread& thread : threads) thread.join();
+    for (int which = 0; which < 2; ++which) {
+      const HairState alone = endOf(kHeads[which]);
+      ASSERT_EQ(alone.positions.size(), hair.groom.points.size());
+      EXPECT_TRUE(together[which].positions == alone.positions);
+      EXPECT_TRUE(together[which].velocities == alone.velocities);
+    }
   }
 }
 

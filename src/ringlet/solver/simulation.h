@@ -120,6 +120,8 @@ struct ListedContact {
   float stiffnessShare = 0, dampingShare = 0;
 };
 
+/// For one thread at a time; simulations of one device or asset may each have a thread of their own.
+///
 /// Strands that float32 cannot hold, and a few that would need far more steps than the others, are carried
 /// rigidly by their roots, in their rest shape (rest/rigid_strands.h); warnings() name them. They have
 /// positions and velocities as all others do, with roots' poses and shifts, and keep their numbers in groom
