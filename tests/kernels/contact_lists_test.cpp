@@ -261,13 +261,16 @@ TEST_F(ContactLists, MoreThanABufferHoldsIsAnError) {
       << simulation.error().message;
 }
 
-// lavapipe ends loops that are too long without a word; pairs would be lost. The user is told instead.
+// Some versions of lavapipe end loops that are too long without a word; pairs would be lost. The user is told
+// instead. Others look on until the lists are larger than a buffer.
 TEST_F(ContactLists, MoreThanADeviceCanLookThroughIsAnError) {
   if (!device().limits().endsLoopsEarly) GTEST_SKIP() << "this device does not end loops early";
   const auto simulation = stepAt(device(), random(26000, {0.001, 0.001, 0.001}));
   ASSERT_FALSE(simulation);
-  EXPECT_NE(simulation.error().message.find("more contact particles are near one another"), std::string::npos)
-      << simulation.error().message;
+  const std::string& message = simulation.error().message;
+  EXPECT_TRUE(message.find("more contact particles are near one another") != std::string::npos ||
+              message.find("this device's are 128 MiB at most") != std::string::npos)
+      << message;
 }
 
 // Positions that are no numbers meet nobody and harm nothing.
