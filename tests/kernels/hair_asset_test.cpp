@@ -22,6 +22,9 @@ struct Hair {
   std::vector<Body> bodies{};
 };
 
+// Takes a strand of 64 particles in any form, and less than half of 1,200 particles in lanes.
+constexpr std::uint64_t kSmallBuffer = 64 * 288;
+
 std::vector<Hair> hairs() {
   const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
   Settings pairs;
@@ -34,7 +37,7 @@ std::vector<Hair> hairs() {
   return {{"lanes", groom},
           {"serial", groom, {}, {KernelChoice::Form::serial}},
           {"roots that move", groom, {}, {.movingRoots = true}},
-          {"chunks", groom, {}, {.mostBufferBytes = 70 * 32}},
+          {"chunks", randomGroom(std::vector<int>(40, 30), 3), {}, {.mostBufferBytes = kSmallBuffer}},
           {"pairs", parity::denseSwatch(16), pairs},
           {"volume", parity::denseSwatch(16), volume},
           {"bodies and air", groom, air, {}, sampleBodies()}};
