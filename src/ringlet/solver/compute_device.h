@@ -41,7 +41,8 @@ struct HostVulkan {
   std::uint32_t apiVersion = 0;         // of the host's VkApplicationInfo, 1.1 at least
   bool subgroupSizeControl = false;     // features that the device was opened with
   bool computeFullSubgroups = false;
-  // Held while work is handed to the queue. Without it nobody else may hand over work in a call to Ringlet.
+  // Ringlet holds it while it hands work to the queue. Without it, the host hands over none during calls of
+  // Ringlet.
   std::mutex* queueMutex = nullptr;
 };
 
