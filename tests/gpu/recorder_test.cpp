@@ -130,6 +130,43 @@ TEST_F(Recorders, DispatchesFollowEachOtherAcrossBarriers) {
     ASSERT_EQ(found[i], 1024 * i + 1023) << i;  // v -> 2 v + 1, ten times
 }
 
+// Lists that stand beside each other share barriers; the longest says how many there are. Stages and cuts
+// would say something of all of them: they are left out.
+TEST_F(Recorders, ListsBesideEachOtherShareBarriers) {
+  auto bench = Bench::create(gpu(), 64, describeKernel(1));
+  auto other = Bench::create(gpu(), 64, describeKernel(2));
+  ASSERT_TRUE(bench && other);
+  Recorder& recorder = bench->recorder;
+  RINGLET_EXPECT_OK(recorder.begin());
+  const auto add = [&](Bench& to) {
+    recorder.dispatch(*to.kernel, to.bindings[to.current], Push{to.count, 2}, 1);
+    to.current = 1 - to.current;
+  };
+  recorder.beginStage("first");
+  add(*bench);
+  recorder.barrier();
+  add(*bench);
+  recorder.endStage();
+  recorder.cut();
+  recorder.beside();
+  add(*other);
+  recorder.barrier();
+  add(*other);
+  recorder.barrier();
+  add(*other);
+  recorder.barrier();
+  const std::string kernel = "scale_values", barrier = Recorder::kBarrier;
+  EXPECT_EQ(recorder.recorded(),
+            (std::vector<std::string>{kernel, kernel, barrier, kernel, kernel, barrier, kernel, barrier}));
+  RINGLET_EXPECT_OK(recorder.submitAndWait());
+  EXPECT_TRUE(recorder.stageMilliseconds().empty());
+  const auto found = bench->found(), foundOther = other->found();
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    EXPECT_EQ(found[i], 4 * i + 3);
+    EXPECT_EQ(foundOther[i], 8 * i + 14);
+  }
+}
+
 // A recording may be submitted again, with other uniforms, and be replaced by another.
 TEST_F(Recorders, AreReusable) {
   auto bench = Bench::create(gpu(), 100, describeKernel(0));

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <optional>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -18,11 +18,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kStagesPerPool = 64;                   // two timestamps each
 constexpr std::uint32_t kQueriesPerPool = 2 * kStagesPerPool;  // pools are added as stages come
-
-constexpr VkPipelineStageFlags kWork = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-constexpr VkAccessFlags kWrites = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-constexpr VkAccessFlags kReads =
-    VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
 
 }  // namespace
 
@@ -38,10 +33,7 @@ struct Recorder::State {
   OwnedFence fence;
   std::vector<OwnedQueryPool> timestamps;
   Phase phase = Phase::empty;
-  std::optional<Error> failure;  // of a call that returns nothing; reported by submit
-  std::vector<std::string> recorded;
   std::vector<std::string> stages;
-  bool isStageOpen = false;
   Clock::time_point submitted;
   double submissionMilliseconds = 0,
          ownMilliseconds = 0;  // from submit; from the wait before, if that is later
@@ -56,13 +48,6 @@ struct Recorder::State {
   const VolkDeviceTable& vk() const { return device->vk(); }
   std::string attempt(const char* what) const {
     return fmt::format("{} '{}' on {}", what, name, device->properties().name);
-  }
-
-  void memoryBarrier(VkAccessFlags readers, VkPipelineStageFlags readingStages) {
-    auto barrier = zeroed<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
-    barrier.srcAccessMask = kWrites;
-    barrier.dstAccessMask = readers;
-    vk().vkCmdPipelineBarrier(commands, kWork, readingStages, 0, 1, &barrier, 0, nullptr, 0, nullptr);
   }
 
   // The pool of stage `index`, made and reset when its first stage is recorded.
@@ -87,6 +72,17 @@ struct Recorder::State {
     vk().vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT,
                              timestamps[stage / kStagesPerPool].get(),
                              static_cast<std::uint32_t>(stage % kStagesPerPool) * 2 + which);
+  }
+
+  Status beginStage(const std::string& stage) {
+    stages.push_back(stage);
+    if (!device->properties().hasTimestamps) return {};
+    if (Status status = preparePool(stages.size() - 1); !status) return status;
+    writeTimestamp(stages.size() - 1, 0);
+    return {};
+  }
+  void endStage() {
+    if (device->properties().hasTimestamps) writeTimestamp(stages.size() - 1, 1);
   }
 
   Status waitForFence() {
@@ -153,7 +149,9 @@ Result<Recorder> Recorder::create(Device& device, const std::string& name) {
   RINGLET_VK_CHECK(device.vk().vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence),
                    self->attempt("record"));
   self->fence = OwnedFence(self->device, fence);
-  return Recorder(std::move(self));
+  Recorder recorder(std::move(self));
+  recorder.isOpen_ = false;
+  return recorder;
 }
 
 // Command buffers are made as parts are recorded, and kept.
@@ -174,8 +172,7 @@ Status Recorder::beginPart() {
   auto info = zeroed<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
   RINGLET_VK_CHECK(self_->vk().vkBeginCommandBuffer(self_->commands, &info), self_->attempt("record"));
   ++self_->partCount;
-  self_->phase = State::Phase::recording;
-  barrier();  // against earlier submissions
+  recordCommand(self_->vk(), self_->commands, command::Barrier{});  // against earlier submissions
   return {};
 }
 
@@ -186,124 +183,44 @@ Status Recorder::endPart() {
 
 Status Recorder::begin() {
   RINGLET_ASSERT(self_->phase != State::Phase::submitted, "begin before wait");
+  isOpen_ = false;
   self_->phase = State::Phase::empty;
-  self_->failure.reset();
-  self_->recorded.clear();
-  self_->stages.clear();
-  self_->isStageOpen = false;
-  self_->partCount = 0;
   RINGLET_VK_CHECK(self_->vk().vkResetCommandPool(self_->device->handle(), self_->pool.get(), 0),
                    self_->attempt("record"));
-  return beginPart();
+  clear();
+  isOpen_ = true;
+  self_->phase = State::Phase::recording;
+  return {};
 }
 
-void Recorder::cut() {
-  RINGLET_ASSERT(self_->phase == State::Phase::recording, "cut outside begin and submit");
-  RINGLET_ASSERT(!self_->isStageOpen, "cut before endStage");
-  Status status = endPart();
-  if (status) status = beginPart();
-  if (!status && !self_->failure) self_->failure = status.error();
-}
-
-// What a dispatch of either kind needs before it.
-void Recorder::bind(const Kernel& kernel, const Bindings& bindings,
-                    std::span<const std::byte> pushConstants) {
-  RINGLET_ASSERT(self_->phase == State::Phase::recording, "dispatch outside begin and submit");
-  RINGLET_ASSERT(pushConstants.size() == kernel.pushConstantBytes(),
-                 "push constants of a size the kernel does not have");
-  RINGLET_ASSERT(bindings.bindings() == kernel.bindings(), "bindings made for a kernel that binds others");
-  self_->recorded.push_back(kernel.name());
-  const VkDescriptorSet set = bindings.set();
-  self_->vk().vkCmdBindPipeline(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-  self_->vk().vkCmdBindDescriptorSets(self_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
-                                      &set, 0, nullptr);
-  if (!pushConstants.empty()) {
-    self_->vk().vkCmdPushConstants(self_->commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                   static_cast<std::uint32_t>(pushConstants.size()), pushConstants.data());
+// The list into command buffers, a part for each cut.
+Status Recorder::write() {
+  self_->stages.clear();
+  self_->partCount = 0;
+  if (Status status = beginPart(); !status) return status;
+  for (const Command* command : inOrder()) {
+    if (std::holds_alternative<command::Cut>(*command)) {
+      if (Status status = endPart(); !status) return status;
+      if (Status status = beginPart(); !status) return status;
+    } else if (const auto* stage = std::get_if<command::BeginStage>(command)) {
+      if (Status status = self_->beginStage(stage->name); !status) return status;
+    } else if (std::holds_alternative<command::EndStage>(*command)) {
+      self_->endStage();
+    } else {
+      recordCommand(self_->vk(), self_->commands, *command);
+    }
   }
-}
-
-void Recorder::dispatch(const Kernel& kernel, const Bindings& bindings,
-                        std::span<const std::byte> pushConstants, std::uint32_t groupCount) {
-  RINGLET_ASSERT(groupCount <= self_->device->properties().maxGroupCount,
-                 "more workgroups than one dispatch may have");
-  if (groupCount == 0) return;
-  bind(kernel, bindings, pushConstants);
-  self_->vk().vkCmdDispatch(self_->commands, groupCount, 1, 1);
-}
-
-void Recorder::dispatchIndirect(const Kernel& kernel, const Bindings& bindings,
-                                std::span<const std::byte> pushConstants, const Buffer& groupCounts,
-                                std::uint64_t offset) {
-  RINGLET_ASSERT(offset % 4 == 0 && offset + 3 * sizeof(std::uint32_t) <= groupCounts.bytes(),
-                 "group counts outside their buffer");
-  bind(kernel, bindings, pushConstants);
-  self_->vk().vkCmdDispatchIndirect(self_->commands, groupCounts.handle(), offset);
-}
-
-void Recorder::dispatchNothing(const Kernel& kernel, const Bindings& bindings) {
-  barrier();  // the validation layer does not count workgroups
-  const std::vector<std::byte> none(kernel.pushConstantBytes());
-  bind(kernel, bindings, none);
-  self_->vk().vkCmdDispatch(self_->commands, 0, 1, 1);
-}
-
-// One kind of barrier for everything: on compute work a narrower one gains nothing.
-void Recorder::barrier() {
-  RINGLET_ASSERT(self_->phase == State::Phase::recording, "barrier outside begin and submit");
-  self_->recorded.push_back(kBarrier);
-  self_->memoryBarrier(kReads | kWrites | VK_ACCESS_INDIRECT_COMMAND_READ_BIT,
-                       kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT);
-}
-
-void Recorder::copyBuffer(const Buffer& from, const Buffer& to, std::uint64_t bytes, std::uint64_t fromOffset,
-                          std::uint64_t toOffset) {
-  RINGLET_ASSERT(self_->phase == State::Phase::recording, "copyBuffer outside begin and submit");
-  RINGLET_ASSERT(fromOffset <= from.bytes() && bytes <= from.bytes() - fromOffset,
-                 "a copy runs past its source's end");
-  RINGLET_ASSERT(toOffset <= to.bytes() && bytes <= to.bytes() - toOffset,
-                 "a copy runs past its target's end");
-  if (bytes == 0) return;
-  self_->recorded.push_back(kCopy);
-  const VkBufferCopy region{.srcOffset = fromOffset, .dstOffset = toOffset, .size = bytes};
-  self_->vk().vkCmdCopyBuffer(self_->commands, from.handle(), to.handle(), 1, &region);
-}
-
-void Recorder::fillZero(const Buffer& buffer) {
-  RINGLET_ASSERT(self_->phase == State::Phase::recording, "fillZero outside begin and submit");
-  self_->recorded.push_back(kFill);
-  self_->vk().vkCmdFillBuffer(self_->commands, buffer.handle(), 0, buffer.capacity(), 0);
-}
-
-void Recorder::beginStage(const std::string& name) {
-  RINGLET_ASSERT(self_->phase == State::Phase::recording, "beginStage outside begin and submit");
-  RINGLET_ASSERT(!self_->isStageOpen, "stages do not nest");
-  const std::size_t index = self_->stages.size();
-  self_->stages.push_back(name);
-  self_->isStageOpen = true;
-  if (!self_->device->properties().hasTimestamps || self_->failure) return;
-  if (Status status = self_->preparePool(index); !status) {
-    self_->failure = status.error();
-    return;
-  }
-  self_->writeTimestamp(index, 0);
-}
-
-void Recorder::endStage() {
-  RINGLET_ASSERT(self_->isStageOpen, "endStage without beginStage");
-  self_->isStageOpen = false;
-  if (!self_->device->properties().hasTimestamps || self_->failure) return;
-  self_->writeTimestamp(self_->stages.size() - 1, 1);
+  recordHostBarrier(self_->vk(), self_->commands);  // for what is mapped
+  return endPart();
 }
 
 Status Recorder::submit() {
   RINGLET_ASSERT(self_->phase == State::Phase::recording || self_->phase == State::Phase::recorded,
                  "submit without a recording, or before wait");
-  if (self_->failure) return *self_->failure;
   if (self_->phase == State::Phase::recording) {
-    RINGLET_ASSERT(!self_->isStageOpen, "submit before endStage");
-    self_->memoryBarrier(VK_ACCESS_HOST_READ_BIT, VK_PIPELINE_STAGE_HOST_BIT);  // for what is mapped
-    if (Status status = endPart(); !status) return status;
+    RINGLET_ASSERT(!isStageOpen(), "submit before endStage");
+    isOpen_ = false;
+    if (Status status = write(); !status) return status;
     self_->phase = State::Phase::recorded;
   }
   const VkFence fence = self_->fence.get();
@@ -331,7 +248,6 @@ Status Recorder::submitAndWait() {
   return wait();
 }
 
-const std::vector<std::string>& Recorder::recorded() const { return self_->recorded; }
 const std::vector<std::pair<std::string, double>>& Recorder::stageMilliseconds() const {
   return self_->stageMilliseconds;
 }

@@ -267,69 +267,69 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
           .cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())))};
 }
 
-void ContactStage::dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
+void ContactStage::dispatch(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                             std::uint32_t groupCount) const {
   const auto at = static_cast<std::size_t>(kernel);
-  recorder.dispatch(*kernels_[at], bindings_[at], parameters(step), groupCount);
+  list.dispatch(*kernels_[at], bindings_[at], parameters(step), groupCount);
 }
-void ContactStage::dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
+void ContactStage::dispatchIndirect(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                                     std::uint64_t offset) const {
   const auto at = static_cast<std::size_t>(kernel);
-  recorder.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), groom_->contactControl, offset);
+  list.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), groom_->contactControl, offset);
 }
 
-void ContactStage::recordNothing(gpu::Recorder& recorder) const {
-  for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], bindings_[k]);
+void ContactStage::recordNothing(gpu::CommandList& list) const {
+  for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void ContactStage::recordLists(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const {
-  pace.beginStage(recorder, "contact_motion");
-  dispatch(recorder, ContactKernel::motion, step, contactGroups());
-  recorder.barrier();
-  dispatch(recorder, ContactKernel::decide, step, 1);
-  recorder.barrier();
-  recorder.endStage();
+void ContactStage::recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+  pace.beginStage(list, "contact_motion");
+  dispatch(list, ContactKernel::motion, step, contactGroups());
+  list.barrier();
+  dispatch(list, ContactKernel::decide, step, 1);
+  list.barrier();
+  list.endStage();
 
-  pace.beginStage(recorder, "contact_grid");
+  pace.beginStage(list, "contact_grid");
   using enum ContactKernel;
   const std::pair<ContactKernel, std::uint64_t> grid[] = {
       {count, kPerContact}, {scan, kPerBlock}, {sum, kOne}, {scatter, kPerContact}, {order, kPerContact}};
   for (const auto& [kernel, offset] : grid) {
-    dispatchIndirect(recorder, kernel, step, offset);
-    recorder.barrier();
+    dispatchIndirect(list, kernel, step, offset);
+    list.barrier();
   }
-  recorder.endStage();
+  list.endStage();
 
-  pace.beginStage(recorder, "contact_sample");
-  dispatchIndirect(recorder, ContactKernel::sample, step, kSample);
-  recorder.barrier();
-  dispatch(recorder, ContactKernel::judge, step, 1);
-  recorder.barrier();
-  recorder.endStage();
+  pace.beginStage(list, "contact_sample");
+  dispatchIndirect(list, ContactKernel::sample, step, kSample);
+  list.barrier();
+  dispatch(list, ContactKernel::judge, step, 1);
+  list.barrier();
+  list.endStage();
 
-  pace.beginStage(recorder, "contact_query");
-  dispatchIndirect(recorder, ContactKernel::query, step, kQuery);
-  recorder.endStage();
+  pace.beginStage(list, "contact_query");
+  dispatchIndirect(list, ContactKernel::query, step, kQuery);
+  list.endStage();
 }
 
-void ContactStage::recordFirst(gpu::Recorder& recorder, SubmissionPace& pace) const {
-  pace.beginStage(recorder, "contact_touch");
-  dispatch(recorder, ContactKernel::touch, 0, contactGroups());
-  recorder.barrier();
+void ContactStage::recordFirst(gpu::CommandList& list, SubmissionPace& pace) const {
+  pace.beginStage(list, "contact_touch");
+  dispatch(list, ContactKernel::touch, 0, contactGroups());
+  list.barrier();
   if (lives_) {
-    recorder.endStage();
-    pace.beginStage(recorder, "contact_life");
-    dispatchIndirect(recorder, ContactKernel::life, 0, kMeeting);
-    recorder.barrier();
+    list.endStage();
+    pace.beginStage(list, "contact_life");
+    dispatchIndirect(list, ContactKernel::life, 0, kMeeting);
+    list.barrier();
   }
-  dispatch(recorder, ContactKernel::check, 0, 1);
-  recorder.endStage();
+  dispatch(list, ContactKernel::check, 0, 1);
+  list.endStage();
 }
 
-void ContactStage::recordNext(gpu::Recorder& recorder, SubmissionPace& pace) const {
-  pace.beginStage(recorder, lives_ ? "contact_gather" : "contact_system");
-  dispatchIndirect(recorder, ContactKernel::next, 0, kMeeting);
-  recorder.endStage();
+void ContactStage::recordNext(gpu::CommandList& list, SubmissionPace& pace) const {
+  pace.beginStage(list, lives_ ? "contact_gather" : "contact_system");
+  dispatchIndirect(list, ContactKernel::next, 0, kMeeting);
+  list.endStage();
 }
 
 // The step begins anew, from the contacts of the step before, in larger buffers. Lists that had room are

@@ -20,8 +20,8 @@
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
 #include "ringlet/gpu/kernel.h"
-#include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/settings.h"
@@ -44,13 +44,13 @@ class ContactStage {
   /// Kernels that this stage was the first on its device to ask for.
   std::size_t newKernelCount() const { return newKernels_.size(); }
   /// Those, without work: so that they are compiled before they are needed.
-  void recordNothing(gpu::Recorder& recorder) const;
+  void recordNothing(gpu::CommandList& list) const;
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say.
-  void recordLists(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const;
-  void recordFirst(gpu::Recorder& recorder, SubmissionPace& pace) const;
-  void recordNext(gpu::Recorder& recorder, SubmissionPace& pace) const;
+  void recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  void recordFirst(gpu::CommandList& list, SubmissionPace& pace) const;
+  void recordNext(gpu::CommandList& list, SubmissionPace& pace) const;
 
   /// After a frame and before all that follows here: what it left in the control block.
   void readControl();
@@ -93,9 +93,9 @@ class ContactStage {
   Status bindLists();
   gpu::BufferTable bufferTable() const;
   layout::ContactParameters parameters(std::uint32_t step) const;
-  void dispatch(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
+  void dispatch(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                 std::uint32_t groupCount) const;
-  void dispatchIndirect(gpu::Recorder& recorder, ContactKernel kernel, std::uint32_t step,
+  void dispatchIndirect(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
   std::uint32_t contactGroups() const;
   double skin() const;         // [m]

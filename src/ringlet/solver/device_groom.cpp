@@ -150,8 +150,8 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindAddedByVolumeTexels, c.addedByVolume}};
 }
 
-void DeviceGroom::recordControl(gpu::Recorder& recorder) const {
-  recorder.copyBuffer(contactControl, controlRead, sizeof(layout::ContactControl));
+void DeviceGroom::recordControl(gpu::CommandList& list) const {
+  list.copyBuffer(contactControl, controlRead, sizeof(layout::ContactControl));
 }
 
 const layout::ContactControl& DeviceGroom::control() const {

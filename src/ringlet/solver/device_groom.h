@@ -71,7 +71,7 @@ struct DeviceGroom {
   std::uint64_t sharedBytes() const;
 
   /// With contacts a frame ends with it, after a barrier: what its control block says comes to the host.
-  void recordControl(gpu::Recorder& recorder) const;
+  void recordControl(gpu::CommandList& list) const;
   /// What the last frame that has ended left in it.
   const layout::ContactControl& control() const;
 

@@ -54,8 +54,8 @@ class DeviceRoots {
   /// they stay.
   void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses);
   /// A frame of this slot begins with it.
-  void record(gpu::Recorder& recorder, std::size_t slot) const {
-    for (const FrameInput& poses : poses_) poses.record(recorder, slot);
+  void record(gpu::CommandList& list, std::size_t slot) const {
+    for (const FrameInput& poses : poses_) poses.record(list, slot);
   }
   /// Where roots are now, and were one step earlier.
   void archive(Archive& archive) {

@@ -52,9 +52,9 @@ class DeviceWorld {
   void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses,
                   double seconds);
   /// A frame of this slot begins with it.
-  void record(gpu::Recorder& recorder, std::size_t slot) const {
-    poses_.record(recorder, slot);
-    air_.record(recorder, slot);
+  void record(gpu::CommandList& list, std::size_t slot) const {
+    poses_.record(list, slot);
+    air_.record(list, slot);
   }
   /// Where bodies are now.
   void archive(Archive& archive) { archive.values(std::span(now_)); }

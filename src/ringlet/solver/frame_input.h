@@ -11,8 +11,8 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
 #include "ringlet/gpu/device.h"
-#include "ringlet/gpu/recorder.h"
 
 namespace ringlet {
 
@@ -34,8 +34,8 @@ class FrameInput {
     return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
   /// Takes it over, at the frame's start; a barrier must follow.
-  void record(gpu::Recorder& recorder, std::size_t slot) const {
-    recorder.copyBuffer(written_[slot], seen_, seen_.bytes());
+  void record(gpu::CommandList& list, std::size_t slot) const {
+    list.copyBuffer(written_[slot], seen_, seen_.bytes());
   }
 
  private:

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ringlet/gpu/recorder.h"
+#include "ringlet/gpu/command_list.h"
 
 namespace ringlet {
 namespace {
@@ -36,9 +36,9 @@ double SubmissionPace::secondsOf(const std::string& stage) const {
   return found == stageSeconds_.end() ? std::numeric_limits<double>::infinity() : found->second;
 }
 
-void SubmissionPace::beginStage(gpu::Recorder& recorder, const std::string& name) {
-  if (cutsBefore(secondsOf(name))) recorder.cut();
-  recorder.beginStage(name);
+void SubmissionPace::beginStage(gpu::CommandList& list, const std::string& name) {
+  if (cutsBefore(secondsOf(name))) list.cut();
+  list.beginStage(name);
 }
 
 bool SubmissionPace::learn(std::span<const std::pair<std::string, double>> stageMilliseconds,

@@ -11,7 +11,7 @@
 
 namespace ringlet {
 namespace gpu {
-class Recorder;
+class CommandList;
 }
 
 class SubmissionPace {
@@ -29,7 +29,7 @@ class SubmissionPace {
   /// Whether work that follows is to begin a new submission. Of so many particles times steps of strands:
   bool cutsBeforeStrands(double particleSteps) { return cutsBefore(particleSteps * strandRate_); }
   /// Begins a stage, in a new submission where the open one would become too long.
-  void beginStage(gpu::Recorder& recorder, const std::string& name);
+  void beginStage(gpu::CommandList& list, const std::string& name);
 
   /// Of a recording that has run: its stages and their times [ms], and the particles times steps of those
   /// named kStrandStage. Whether recordings are to be made anew: nothing was known when they were made, or

@@ -174,57 +174,57 @@ layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
   parameters.step = step;
   return parameters;
 }
-void VolumeStage::dispatch(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
+void VolumeStage::dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                            std::uint32_t groups) const {
   const auto at = static_cast<std::size_t>(kernel);
-  recorder.dispatch(*kernels_[at], bindings_[at], parameters(step), groups);
+  list.dispatch(*kernels_[at], bindings_[at], parameters(step), groups);
 }
-void VolumeStage::dispatchIndirect(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
+void VolumeStage::dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                                    std::uint64_t offset) const {
   const auto at = static_cast<std::size_t>(kernel);
-  recorder.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), buffers_->control, offset);
+  list.dispatchIndirect(*kernels_[at], bindings_[at], parameters(step), buffers_->control, offset);
 }
 
-void VolumeStage::recordNothing(gpu::Recorder& recorder) const {
-  for (const std::size_t k : newKernels_) recorder.dispatchNothing(*kernels_[k], bindings_[k]);
+void VolumeStage::recordNothing(gpu::CommandList& list) const {
+  for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void VolumeStage::recordBegin(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const {
+void VolumeStage::recordBegin(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
   using enum VolumeKernel;
-  pace.beginStage(recorder, "volume_begin");
-  dispatch(recorder, begin, step, particleGroups());
-  recorder.barrier();
-  recorder.endStage();
+  pace.beginStage(list, "volume_begin");
+  dispatch(list, begin, step, particleGroups());
+  list.barrier();
+  list.endStage();
 
-  pace.beginStage(recorder, "volume_sort");
-  dispatch(recorder, box, step, 1);
-  recorder.barrier();
-  dispatchIndirect(recorder, count, step, kPerParticle);
-  recorder.barrier();
-  dispatchIndirect(recorder, scan, step, kPerBlock);
-  recorder.barrier();
-  dispatch(recorder, sum, step, 1);
-  recorder.barrier();
-  dispatchIndirect(recorder, start, step, kPerBlock);
-  recorder.barrier();
-  dispatchIndirect(recorder, scatter, step, kPerParticle);
-  recorder.barrier();
-  dispatchIndirect(recorder, order, step, kPerParticle);
-  recorder.endStage();
+  pace.beginStage(list, "volume_sort");
+  dispatch(list, box, step, 1);
+  list.barrier();
+  dispatchIndirect(list, count, step, kPerParticle);
+  list.barrier();
+  dispatchIndirect(list, scan, step, kPerBlock);
+  list.barrier();
+  dispatch(list, sum, step, 1);
+  list.barrier();
+  dispatchIndirect(list, start, step, kPerBlock);
+  list.barrier();
+  dispatchIndirect(list, scatter, step, kPerParticle);
+  list.barrier();
+  dispatchIndirect(list, order, step, kPerParticle);
+  list.endStage();
 }
 
-void VolumeStage::recordMeans(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step,
+void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
                               bool isFirst) const {
   using enum VolumeKernel;
-  pace.beginStage(recorder, "volume_mean");
+  pace.beginStage(list, "volume_mean");
   if (!isFirst) {
-    dispatch(recorder, bring, step, particleGroups());
-    recorder.barrier();
+    dispatch(list, bring, step, particleGroups());
+    list.barrier();
   }
-  dispatchIndirect(recorder, gather, step, kPerNode);
-  recorder.barrier();
-  dispatch(recorder, spread, step, particleGroups());
-  recorder.endStage();
+  dispatchIndirect(list, gather, step, kPerNode);
+  list.barrier();
+  dispatch(list, spread, step, particleGroups());
+  list.endStage();
 }
 
 Status VolumeStage::forget() {

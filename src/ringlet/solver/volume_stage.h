@@ -16,8 +16,8 @@
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
 #include "ringlet/gpu/kernel.h"
-#include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/rest_volume.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/device_groom.h"
@@ -36,12 +36,12 @@ class VolumeStage {
   /// Kernels that this stage was the first on its device to ask for.
   std::size_t newKernelCount() const { return newKernels_.size(); }
   /// Those, without work: so that they are compiled before they are needed.
-  void recordNothing(gpu::Recorder& recorder) const;
+  void recordNothing(gpu::CommandList& list) const;
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say. Nothing happens where contacts of pairs have halted.
-  void recordBegin(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step) const;
-  void recordMeans(gpu::Recorder& recorder, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
+  void recordBegin(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
 
   /// Forgets displacements: the hair was put somewhere else.
   Status forget();
@@ -57,8 +57,8 @@ class VolumeStage {
   VolumeStage() = default;
   gpu::BufferTable bufferTable() const;
   layout::VolumeParameters parameters(std::uint32_t step) const;
-  void dispatch(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
-  void dispatchIndirect(gpu::Recorder& recorder, VolumeKernel kernel, std::uint32_t step,
+  void dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
+  void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
   std::uint32_t particleGroups() const;
 
