@@ -12,6 +12,8 @@
 #include <set>
 #include <tuple>
 
+#include "ringlet/solver/strand_kernels.h"
+
 namespace ringlet::test {
 namespace {
 
@@ -151,6 +153,18 @@ TEST(ShapePlan, FewStrandsGetAKernelThatIsSoonThere) {
   EXPECT_EQ(rangesOf(std::vector(40, 64u), kLavapipe).at(0).shape, (StrandShape{8, 8}));
   EXPECT_EQ(rangesOf(std::vector(1000, 64u), kLavapipe).at(0).shape, (StrandShape{2, 32}));
   EXPECT_EQ(rangesOf(std::vector(1000, 128u), kLavapipe).at(0).shape, (StrandShape{8, 16}));
+}
+
+TEST(ShapePlan, FewStrandsOfManyHeadsGetTheKernelOfManyStrands) {
+  EXPECT_EQ(rangesOf(std::vector(40, 64u), kLavapipe, {.heads = 25}).at(0).shape,
+            rangesOf(std::vector(1000, 64u), kLavapipe).at(0).shape);
+}
+
+TEST(ShapePlan, ACpusWorkgroupsAreSubgroups) {
+  for (const std::uint32_t width : {4u, 8u, 16u, 32u}) {
+    EXPECT_EQ(strandGroupSize({.subgroupSize = width, .isCpu = true}), std::max(8u, width));
+    EXPECT_EQ(strandGroupSize({.subgroupSize = width}), kStrandGroupSize);
+  }
 }
 
 TEST(ShapePlan, FewStrandsOrNearlyEqualOnesGetOneKernel) {

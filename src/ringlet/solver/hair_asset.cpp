@@ -41,8 +41,8 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
   if (!limits) return limits.error();
 
-  auto self = std::make_shared<Implementation>(
-      Implementation{device, material, settings, choice, bodies, std::move(*rest), {}, {}, {}, {}, {}});
+  auto self = std::make_shared<Implementation>(Implementation{
+      device, material, settings, choice, bodies, *limits, std::move(*rest), {}, {}, {}, {}, {}});
   self->choice.measured = {};
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   if (settings.contacts.on && !counts.empty()) {
@@ -58,7 +58,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   self->ranges = cutRanges(*ranges, *chunks);
-  const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, kStrandGroupSize);
+  const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, strandGroupSize(*limits));
   if (!plan) return plan.error();  // before anything is made for it
   for (const GroomChunk& chunk : *chunks) {
     auto constants = ConstantChunk::create(device.gpu(), self->rest, chunk);

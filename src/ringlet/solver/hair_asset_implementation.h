@@ -20,6 +20,7 @@ struct HairAsset::Implementation {
   Settings settings;
   KernelChoice choice;
   BodyUse bodies = BodyUse::none;
+  DeviceLimits limits;                   // the device's, with the subgroups that were chosen
   RestState rest;                        // its particles are on the device
   std::optional<RestContacts> contacts;  // with contacts
   std::optional<RestVolume> volume;      // where strands meet as one

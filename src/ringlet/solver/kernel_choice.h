@@ -28,6 +28,7 @@ struct KernelChoice {
   std::span<const ShapeCost>
       measured{};            // on this device, needed until build or create returns; none: a model's
   bool manyKernels = false;  // the best shape for every strand, whatever kernels cost to make
+  int heads = 1;             // with this hair, about: for many a kernel that is long in the making pays
   CompileObserver* observer = nullptr;  // needed as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)

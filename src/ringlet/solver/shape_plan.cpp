@@ -131,7 +131,7 @@ double rangeCost(const ShapeCost& cost, std::size_t strands, std::uint64_t parti
 
 std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
                                         std::span<const ShapeCost> costs, const DeviceLimits& limits,
-                                        bool manyKernels) {
+                                        const KernelChoice& choice) {
   std::vector<std::uint64_t> particlesBefore{0};
   for (std::uint32_t count : counts) particlesBefore.push_back(particlesBefore.back() + count);
   std::vector<Cut> best(costs.size());
@@ -144,7 +144,8 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
     for (std::ptrdiff_t i = -1; i < static_cast<std::ptrdiff_t>(j); ++i) {
       const Cut from = i < 0 ? Cut{.cost = 0} : best[static_cast<std::size_t>(i)];
       if (from.end >= best[j].end) continue;
-      const double kernel = manyKernels ? 0 : preparingCost(shape, modelOf(limits));
+      const double kernel =
+          choice.manyKernels ? 0 : preparingCost(shape, modelOf(limits)) / std::max(1, choice.heads);
       const double cost = from.cost + kernel +
                           rangeCost(costs[j], best[j].end - from.end,
                                     particlesBefore[best[j].end] - particlesBefore[from.end], limits);
@@ -261,7 +262,7 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
   const bool isHeld = !costs.empty() &&
                       (costs.back().shape.serial() || particleCounts.back() <= costs.back().shape.capacity());
   if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, work);
-  return cheapestRanges(particleCounts, costs, limits, choice.manyKernels);
+  return cheapestRanges(particleCounts, costs, limits, choice);
 }
 
 }  // namespace ringlet

@@ -71,7 +71,7 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
   description.spirv = spirvOf(shape, options);
   description.remedy = "take another device, or leave out contacts, bodies and air";
   description.pushConstantBytes = sizeof(layout::StepParameters);
-  description.constants = {{0, kStrandGroupSize},
+  description.constants = {{0, options.groupSize},
                            {2, integratorConstant(options.integrator)},
                            {3, options.oneSmoothing ? 1u : 0u},
                            {4, options.residual ? 1u : 0u},
@@ -86,7 +86,7 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
     description.constants.push_back({13, options.pairs ? 1u : 0u});
     description.constants.push_back({14, options.volume ? 1u : 0u});
   }
-  description.groupSize = kStrandGroupSize;
+  description.groupSize = options.groupSize;
   if (!shape.serial()) {
     description.constants.push_back({1, shape.lanes});
     description.constants.push_back({12, shape.particlesPerLane});

@@ -1,6 +1,7 @@
 // The compiled variants of the strand kernel, by form, run length and taps.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -14,8 +15,14 @@
 
 namespace ringlet {
 
-/// Invocations of a workgroup.
+/// Invocations of a workgroup, at most.
 inline constexpr std::uint32_t kStrandGroupSize = 64;
+
+/// How many they are on a device. A CPU device takes a workgroup as a task for one of its cores: small ones
+/// share out few strands too.
+inline std::uint32_t strandGroupSize(const DeviceLimits& limits) {
+  return limits.isCpu ? std::max(8u, limits.subgroupSize) : kStrandGroupSize;
+}
 
 /// What a strand kernel is specialized for besides its shape.
 struct StrandKernelOptions {
@@ -33,6 +40,7 @@ struct StrandKernelOptions {
   bool turbulence = false;
   bool movingRoots = false;        // strands have poses of their own
   std::uint32_t subgroupSize = 0;  // of the lanes form, one the device can be asked for; 0: its default
+  std::uint32_t groupSize = kStrandGroupSize;
 };
 
 gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const StrandKernelOptions& options);
