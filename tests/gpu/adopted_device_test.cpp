@@ -7,12 +7,15 @@
 
 #include <array>
 #include <cstring>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/hair_frames.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet_shaders/scale_values_test.h"
 
@@ -69,8 +72,18 @@ class Host {
   HostVulkan handles() { return handles_; }
   const std::shared_ptr<std::vector<std::string>>& messages() const { return messages_; }
 
-  // What the host's own kernel finds in a buffer: it reads every number, and a copy of it comes back.
-  std::vector<std::uint32_t> read(VkBuffer source, std::uint64_t bytes);
+  // Commands of the host's, handed to the queue; and until they are done.
+  using Record = std::function<void(VkCommandBuffer)>;
+  struct Work {
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+  };
+  Work submit(const Record& record);
+  void wait(const Work& work);
+  // What the host's own kernel finds in a buffer, after other commands of the same submission: it reads every
+  // number, and a copy of it comes back.
+  std::vector<std::uint32_t> read(
+      VkBuffer source, std::uint64_t bytes, const Record& before = [](VkCommandBuffer) {});
 
  private:
   struct Owned {
@@ -187,7 +200,44 @@ Host::Owned Host::makeBuffer(std::uint64_t bytes, VkBufferUsageFlags usage) {
   return owned;
 }
 
-std::vector<std::uint32_t> Host::read(VkBuffer source, std::uint64_t bytes) {
+Host::Work Host::submit(const Record& record) {
+  Work work;
+  VkCommandPoolCreateInfo commandInfo{};
+  commandInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+  commandInfo.queueFamilyIndex = handles_.queueFamily;
+  CALL(vkCreateCommandPool)(device_, &commandInfo, nullptr, &work.pool);
+  VkCommandBufferAllocateInfo allocateCommands{};
+  allocateCommands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+  allocateCommands.commandPool = work.pool;
+  allocateCommands.commandBufferCount = 1;
+  VkCommandBuffer commands;
+  CALL(vkAllocateCommandBuffers)(device_, &allocateCommands, &commands);
+  VkCommandBufferBeginInfo begin{};
+  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+  CALL(vkBeginCommandBuffer)(commands, &begin);
+  record(commands);
+  CALL(vkEndCommandBuffer)(commands);
+  VkFenceCreateInfo fenceInfo{};
+  fenceInfo.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  CALL(vkCreateFence)(device_, &fenceInfo, nullptr, &work.fence);
+  VkSubmitInfo submit{};
+  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands;
+  {
+    const std::lock_guard lock(queueMutex_);
+    CALL(vkQueueSubmit)(queue_, 1, &submit, work.fence);
+  }
+  return work;
+}
+
+void Host::wait(const Work& work) {
+  CALL(vkWaitForFences)(device_, 1, &work.fence, VK_TRUE, ~0ull);
+  CALL(vkDestroyFence)(device_, work.fence, nullptr);
+  CALL(vkDestroyCommandPool)(device_, work.pool, nullptr);
+}
+
+std::vector<std::uint32_t> Host::read(VkBuffer source, std::uint64_t bytes, const Record& before) {
   const Owned target = makeBuffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   const Owned shift = makeBuffer(16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 
@@ -265,54 +315,28 @@ std::vector<std::uint32_t> Host::read(VkBuffer source, std::uint64_t bytes) {
   }
   CALL(vkUpdateDescriptorSets)(device_, 3, writes.data(), 0, nullptr);
 
-  VkCommandPoolCreateInfo commandInfo{};
-  commandInfo.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
-  commandInfo.queueFamilyIndex = handles_.queueFamily;
-  VkCommandPool commandPool;
-  CALL(vkCreateCommandPool)(device_, &commandInfo, nullptr, &commandPool);
-  VkCommandBufferAllocateInfo allocateCommands{};
-  allocateCommands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  allocateCommands.commandPool = commandPool;
-  allocateCommands.commandBufferCount = 1;
-  VkCommandBuffer commands;
-  CALL(vkAllocateCommandBuffers)(device_, &allocateCommands, &commands);
-  VkCommandBufferBeginInfo begin{};
-  begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
-  CALL(vkBeginCommandBuffer)(commands, &begin);
-  // As DevicePositions asks for.
-  VkMemoryBarrier barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-  barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
-  barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-  CALL(vkCmdPipelineBarrier)
-  (commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &barrier, 0,
-   nullptr, 0, nullptr);
-  CALL(vkCmdBindPipeline)(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-  CALL(vkCmdBindDescriptorSets)
-  (commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
   const auto count = static_cast<std::uint32_t>(bytes / 4);
-  const std::array<std::uint32_t, 2> countAndFactor{count, 1};
-  CALL(vkCmdPushConstants)(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, 8, countAndFactor.data());
-  CALL(vkCmdDispatch)(commands, (count + groupSize - 1) / groupSize, 1, 1);
-  CALL(vkEndCommandBuffer)(commands);
-  VkFenceCreateInfo fenceInfo{};
-  fenceInfo.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-  VkFence fence;
-  CALL(vkCreateFence)(device_, &fenceInfo, nullptr, &fence);
-  VkSubmitInfo submit{};
-  submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
-  submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &commands;
-  {
-    const std::lock_guard lock(queueMutex_);
-    CALL(vkQueueSubmit)(queue_, 1, &submit, fence);
-  }
-  CALL(vkWaitForFences)(device_, 1, &fence, VK_TRUE, ~0ull);
+  const auto record = [&](VkCommandBuffer commands) {
+    before(commands);
+    // As DevicePositions asks for.
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
+    CALL(vkCmdPipelineBarrier)
+    (commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &barrier, 0,
+     nullptr, 0, nullptr);
+    CALL(vkCmdBindPipeline)(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+    CALL(vkCmdBindDescriptorSets)
+    (commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    const std::array<std::uint32_t, 2> countAndFactor{count, 1};
+    CALL(vkCmdPushConstants)(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, 8, countAndFactor.data());
+    CALL(vkCmdDispatch)(commands, (count + groupSize - 1) / groupSize, 1, 1);
+  };
+  wait(submit(record));
   std::vector<std::uint32_t> values(count);
   std::memcpy(values.data(), target.mapped, bytes);
 
-  CALL(vkDestroyFence)(device_, fence, nullptr);
-  CALL(vkDestroyCommandPool)(device_, commandPool, nullptr);
   CALL(vkDestroyDescriptorPool)(device_, pool, nullptr);
   CALL(vkDestroyPipeline)(device_, pipeline, nullptr);
   CALL(vkDestroyShaderModule)(device_, module, nullptr);
@@ -327,13 +351,23 @@ HeadPose headAt(int which, double t) {
   return {Vec3d{which ? -0.3 : 0.5, 0.1, 0} * t, fromRotationVector(Vec3d{0, 4, 1} * t)};
 }
 
-Result<HairAsset> assetOn(const ComputeDevice& device) {
+Result<HairAsset> assetOn(const ComputeDevice& device, bool contacts = true) {
   HeadParameters parameters;
   parameters.strandCount = 40;
   parameters.curl.particleCount = 24;
   Settings settings;
-  settings.contacts.on = true;
+  settings.contacts.on = contacts;
   return HairAsset::build(device, *makeHead(parameters), {}, settings);
+}
+
+// As a host's kernel reads them.
+void expectPositions(const std::vector<std::uint32_t>& found, const DevicePositions& chunk,
+                     const std::vector<Vec3f>& wanted) {
+  ASSERT_EQ(chunk.particles.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Vec3f& p = wanted[chunk.particles[i]];
+    ASSERT_EQ(std::memcmp(&found[4 * i], &p, sizeof(p)), 0) << "particle " << i;
+  }
 }
 
 // Two heads of one asset for 60 frames, on a device opened as Ringlet asks for and on one that has nothing
@@ -369,12 +403,7 @@ TEST(AdoptedDevice, AHostReadsPositionsWithItsOwnKernel) {
           const std::vector<DevicePositions> chunks = heads[which].devicePositions();
           ASSERT_EQ(chunks.size(), 1u);
           const auto found = host->read(static_cast<VkBuffer>(chunks[0].buffer), chunks[0].bytes);
-          ASSERT_EQ(chunks[0].particles.size(), wanted.size());
-          for (std::size_t i = 0; i < wanted.size(); ++i) {
-            const Vec3f& p = wanted[chunks[0].particles[i]];
-            ASSERT_EQ(std::memcmp(&found[4 * i], &p, sizeof(p)), 0)
-                << "frame " << frame << ", particle " << i;
-          }
+          expectPositions(found, chunks[0], wanted);
           if (frame == kFrames) {
             EXPECT_EQ(*heads[which].positions(), wanted) << "without being read back each frame";
             EXPECT_LT(heads[which].memory().frames, expected[which].memory().frames);
@@ -384,6 +413,142 @@ TEST(AdoptedDevice, AHostReadsPositionsWithItsOwnKernel) {
     }
     host.reset();  // everything of Ringlet's is gone, or the layer says so
     EXPECT_EQ(*messages, std::vector<std::string>{});
+  }
+}
+
+std::vector<HeadPose> posesOf(int which, int frame) {
+  const int steps = Settings{}.stepsPerFrame;
+  std::vector<HeadPose> poses;
+  for (int k = 1; k <= steps; ++k) poses.push_back(headAt(which, (frame - 1 + double(k) / steps) / 24.0));
+  return poses;
+}
+
+// Two heads of one asset for 60 frames in commands of the host's, which read what they find there. With
+// contacts one frame is under way at a time, without them two.
+TEST(AdoptedDevice, AHostRecordsFramesIntoItsOwnCommands) {
+  constexpr int kFrames = 60;
+  for (const bool contacts : {false, true}) {
+    SCOPED_TRACE(contacts);
+    auto host = std::make_unique<Host>(true);
+    const auto messages = host->messages();
+    {
+      const auto device = ComputeDevice::adopt(host->handles());
+      ASSERT_TRUE(device) << device.error().message;
+      const auto asset = assetOn(*device, contacts);
+      ASSERT_TRUE(asset) << asset.error().message;
+      const auto ownAsset = assetOn(*ComputeDevice::open(), contacts);
+      std::vector<Simulation> heads, expected;
+      for (int which = 0; which < 2; ++which) {
+        heads.push_back(*Simulation::create(*asset, {.head = headAt(which, 0), .readsBack = which == 0}));
+        expected.push_back(*Simulation::create(*ownAsset, {.head = headAt(which, 0)}));
+      }
+      std::deque<Host::Work> underWay;
+      std::deque<std::vector<Vec3f>> wanted;
+      for (int frame = 1; frame <= kFrames; ++frame) {
+        SCOPED_TRACE(frame);
+        const std::vector<HeadPose> poses[2] = {posesOf(0, frame), posesOf(1, frame)};
+        for (int which = 0; which < 2; ++which) ASSERT_TRUE(expected[which].stepFrame(poses[which]));
+        wanted.push_back(*expected[0].positions());
+        const auto record = [&](VkCommandBuffer commands) {
+          const Status status =
+              recordFrames(std::vector<HairFrame>{{&heads[0], poses[0]}, {&heads[1], poses[1]}}, commands);
+          EXPECT_TRUE(status) << status.error().message;
+        };
+        underWay.push_back(host->submit(record));
+        EXPECT_FALSE(heads[0].positions()) << "nobody has said that the frame is over";
+        for (; underWay.size() > (contacts || frame == kFrames ? 0 : 1); underWay.pop_front()) {
+          host->wait(underWay.front());
+          for (Simulation& head : heads) {
+            const Status over = head.frameIsOver();
+            ASSERT_TRUE(over) << over.error().message;
+          }
+          EXPECT_EQ(heads[0].framePositions(), wanted.front());
+          wanted.pop_front();
+        }
+        if (!contacts && frame % 20 != 0) continue;
+        for (; !underWay.empty(); underWay.pop_front()) {
+          host->wait(underWay.front());
+          for (Simulation& head : heads) ASSERT_TRUE(head.frameIsOver());
+          wanted.pop_front();
+        }
+        const DevicePositions chunk = heads[1].devicePositions()[0];
+        expectPositions(host->read(static_cast<VkBuffer>(chunk.buffer), chunk.bytes), chunk,
+                        *expected[1].positions());
+      }
+      for (int which = 0; which < 2; ++which) {
+        EXPECT_EQ(heads[which].state()->positions, expected[which].state()->positions);
+        EXPECT_EQ(heads[which].state()->velocities, expected[which].state()->velocities);
+      }
+    }
+    host.reset();
+    EXPECT_EQ(*messages, std::vector<std::string>{});
+  }
+}
+
+// In the submission that steps the hair.
+TEST(AdoptedDevice, AHostReadsAFrameInTheSameCommands) {
+  Host host(true);
+  {
+    const auto device = ComputeDevice::adopt(host.handles());
+    auto hair = Simulation::create(*assetOn(*device, false), {.head = headAt(0, 0), .readsBack = false});
+    auto expected = Simulation::create(*assetOn(*ComputeDevice::open(), false), {.head = headAt(0, 0)});
+    const DevicePositions chunk = hair->devicePositions()[0];
+    for (int frame = 1; frame <= 5; ++frame) {
+      const std::vector<HeadPose> poses = posesOf(0, frame);
+      const auto found = host.read(static_cast<VkBuffer>(chunk.buffer), chunk.bytes, [&](auto commands) {
+        ASSERT_TRUE(recordFrames(std::vector<HairFrame>{{&*hair, poses}}, commands));
+      });
+      ASSERT_TRUE(hair->frameIsOver());
+      ASSERT_TRUE(expected->stepFrame(poses));
+      expectPositions(found, chunk, *expected->positions());
+    }
+  }
+  EXPECT_EQ(*host.messages(), std::vector<std::string>{});
+}
+
+// What cannot be recorded changes nothing: the frames that can go on as if it had not been asked for.
+TEST(AdoptedDevice, AHostIsToldWhatItCannotRecord) {
+  for (const bool contacts : {false, true}) {
+    SCOPED_TRACE(contacts);
+    Host host(true);
+    {
+      const auto device = ComputeDevice::adopt(host.handles());
+      auto hair = *Simulation::create(*assetOn(*device, contacts), {.head = headAt(0, 0)});
+      auto expected = *Simulation::create(*assetOn(*ComputeDevice::open(), contacts), {.head = headAt(0, 0)});
+      const std::vector<HeadPose> jump(posesOf(0, 1).size(), HeadPose{Vec3d{50, 0, 0}, {}});
+      std::vector<Host::Work> works;
+      const auto step = [&](const std::vector<HeadPose>& poses) {
+        Status status;
+        works.push_back(host.submit([&](VkCommandBuffer commands) {
+          status = recordFrames(std::vector<HairFrame>{{&hair, poses}}, commands);
+        }));
+        return status;
+      };
+      EXPECT_TRUE(hair.frameIsOver()) << "there is none";
+      const int most = contacts ? 1 : 2;
+      for (int frame = 1; frame <= most; ++frame) {
+        ASSERT_TRUE(step(posesOf(0, frame)));
+        ASSERT_TRUE(expected.stepFrame(posesOf(0, frame)));
+      }
+      const Status tooMany = step(posesOf(0, most + 1)), whileJumping = step(jump);
+      EXPECT_FALSE(tooMany);
+      EXPECT_FALSE(whileJumping);
+      EXPECT_NE(tooMany.error().message.find("call frameIsOver"), std::string::npos);
+      EXPECT_NE(whileJumping.error().message.find("call frameIsOver"), std::string::npos);
+      const auto early = hair.positions();
+      ASSERT_FALSE(early);
+      EXPECT_NE(early.error().message.find("call frameIsOver"), std::string::npos);
+      for (const Host::Work& work : works) host.wait(work);
+      works.clear();
+      for (int frame = 1; frame <= most; ++frame) ASSERT_TRUE(hair.frameIsOver());
+      EXPECT_EQ(*hair.positions(), *expected.positions());
+      ASSERT_TRUE(step(jump));
+      ASSERT_TRUE(expected.stepFrame(jump));
+      ASSERT_TRUE(hair.frameIsOver()) << "a jump is none of the device's";
+      EXPECT_EQ(*hair.positions(), *expected.positions());
+      for (const Host::Work& work : works) host.wait(work);
+    }
+    EXPECT_EQ(*host.messages(), std::vector<std::string>{});
   }
 }
 

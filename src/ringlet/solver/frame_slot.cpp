@@ -21,10 +21,10 @@ Result<FrameSlot> FrameSlot::create(gpu::Device& device, const DeviceGroom& groo
   return FrameSlot{.positions = std::move(positions), .recorder = std::move(*recorder)};
 }
 
-void FrameSlot::recordPositions(const DeviceGroom& groom) {
-  recorder.barrier();
+void FrameSlot::recordPositions(gpu::CommandList& list, const DeviceGroom& groom) const {
+  list.barrier();
   for (std::size_t c = 0; c < positions.size(); ++c)
-    recorder.copyBuffer(groom.chunks[c].positions, positions[c], positions[c].bytes());
+    list.copyBuffer(groom.chunks[c].positions, positions[c], positions[c].bytes());
 }
 
 Status FrameSlot::downloadPositions(const DeviceGroom& groom) {

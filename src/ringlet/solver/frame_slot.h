@@ -21,12 +21,13 @@ struct FrameSlot {
   gpu::Recorder recorder;              // goes first, waiting for what it writes
   bool isRecorded = false;             // as a whole frame
   double particleSteps = 0;            // of strands, in what is recorded
+  bool isHosts = false;                // the frame is in commands of a host's, which says when it is over
 
   /// Fails when the device lacks memory.
   static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom, bool readsBack);
 
   /// Brings positions back, at the frame's end, where they are to come back.
-  void recordPositions(const DeviceGroom& groom);
+  void recordPositions(gpu::CommandList& list, const DeviceGroom& groom) const;
   /// Brings them back now, after a frame that is not recorded.
   Status downloadPositions(const DeviceGroom& groom);
   std::vector<Vec3f> inGroomOrder(const RestState& rest, const DeviceGroom& groom,

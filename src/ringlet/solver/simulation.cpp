@@ -18,7 +18,6 @@
 #include "ringlet/solver/packed.h"
 #include "ringlet/solver/simulation_implementation.h"
 #include "ringlet/solver/strand_kernels.h"
-#include "ringlet/solver/subgroup_choice.h"
 
 namespace ringlet {
 namespace {
@@ -100,9 +99,9 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                      ? "the hair's asset was built for bodies, and there are none"
                      : "the hair's asset was built without bodies; build it with BodyUse::some"};
   }
-  const auto limits = withSubgroupSize(constant.device.limits(), constant.choice.subgroupSize);
-  if (!limits) return limits.error();
-  const auto plan = planFrame(constant.ranges, *limits, settings, initial.bodies.size(), kStrandGroupSize);
+  const DeviceLimits& limits = constant.limits;
+  const auto plan =
+      planFrame(constant.ranges, limits, settings, initial.bodies.size(), strandGroupSize(limits));
   if (!plan) return plan.error();  // before anything is made for it
 
   auto buffers = DeviceGroom::create(device, constant.constants, shiftedStrands(rest, initial.rootShifts),
@@ -138,7 +137,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                          .world = std::move(*world),
                          .roots = std::move(*roots),
                          .rigidHair = std::move(rigidHair),
-                         .pace = SubmissionPace(longestSubmission(constant.choice, *limits))});
+                         .pace = SubmissionPace(longestSubmission(constant.choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
   if (Status status = self->addContacts(); !status) return status.error();
   if (Status status = self->makeKernels(); !status) return status.error();
@@ -146,7 +145,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
     auto made = FrameSlot::create(device, self->buffers, initial.readsBack);
     if (!made) return made.error();
     self->slots.push_back(std::move(*made));
-    if (Status status = self->recordFrame(slot); !status) return status.error();
+    if (Status status = self->recordSlot(slot); !status) return status.error();
   }
   return Simulation(std::move(self));
 }
@@ -176,7 +175,8 @@ Status Simulation::Implementation::makeKernels() {
                                     .air = settings.air.on,
                                     .turbulence = world.isTurbulent(),
                                     .movingRoots = choice.movingRoots,
-                                    .subgroupSize = askedWidth(device.gpu().properties(), choice)};
+                                    .subgroupSize = askedWidth(device.gpu().properties(), choice),
+                                    .groupSize = strandGroupSize(asset->limits)};
   std::vector<std::size_t> newKernels;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     if (!gpu::Kernel::isCompiled(device.gpu(), describeStrandKernel(shapes[k], options)))

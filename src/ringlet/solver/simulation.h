@@ -163,6 +163,12 @@ class Simulation {
   Status waitFrame();
   std::vector<Vec3f> framePositions() const;
 
+  /// The oldest frame that recordFrames (hair_frames.h) put into a host's commands is done, as are the host's
+  /// own commands that read it; framePositions gives it, as after waitFrame. Without such a frame it does
+  /// nothing. Where contact lists had no room for the frame, which happens in a run's first frames, this
+  /// submits the rest of it to the device's queue, and waits.
+  Status frameIsOver();
+
   /// The same as stepFrame with the poses interpolated from the last one to `end`.
   Status stepFrame(const HeadPose& end);
 
@@ -215,6 +221,7 @@ class Simulation {
   std::string kernelDescription() const;
 
  private:
+  friend class HairFrames;
   struct Implementation;
   explicit Simulation(std::unique_ptr<Implementation>);
   std::unique_ptr<Implementation> self_;

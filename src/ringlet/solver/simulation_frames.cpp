@@ -1,6 +1,7 @@
 // Implements the frames of solver/simulation.h: a frame is one recorded list of dispatches, replayed with new
 // poses; one recording for each frame in flight.
 #include <algorithm>
+#include <utility>
 
 #include "ringlet/base/assert.h"
 #include "ringlet/solver/packed.h"
@@ -39,167 +40,197 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
 }
 
 // One stage, or in several submissions one in each.
-void Simulation::Implementation::dispatchAll(FrameSlot& slot, std::span<const PlannedDispatch> dispatches) {
+void Simulation::Implementation::dispatchAll(FrameRecording& frame,
+                                             std::span<const PlannedDispatch> dispatches) const {
   if (dispatches.empty()) return;  // all strands are rigid
-  gpu::Recorder& recorder = slot.recorder;
   for (std::size_t d = 0; d < dispatches.size(); ++d) {
     const PlannedDispatch& now = dispatches[d];
     const auto particleSteps = static_cast<double>(particleStepsOf(now, ranges));
-    slot.particleSteps += particleSteps;
-    const bool cuts = pace.cutsBeforeStrands(particleSteps);
-    if (cuts && d > 0) recorder.endStage();
-    if (cuts) recorder.cut();
-    if (cuts || d == 0) recorder.beginStage(SubmissionPace::kStrandStage);
+    frame.particleSteps += particleSteps;
+    const bool cuts = frame.pace.cutsBeforeStrands(particleSteps);
+    if (cuts && d > 0) frame.list.endStage();
+    if (cuts) frame.list.cut();
+    if (cuts || d == 0) frame.list.beginStage(SubmissionPace::kStrandStage);
     // Dispatches on other strands may overlap. The validation layer sees whole buffers, and would take them
     // for hazards.
     const bool isValidated = device.gpu().validationLog() != nullptr;
-    if (d > 0 && !cuts && (isValidated || sharesStrands(dispatches[d - 1], now))) recorder.barrier();
-    recorder.dispatch(*kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now), now.groupCount);
+    if (d > 0 && !cuts && (isValidated || sharesStrands(dispatches[d - 1], now))) frame.list.barrier();
+    frame.list.dispatch(*kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now),
+                        now.groupCount);
   }
-  recorder.endStage();
+  frame.list.endStage();
 }
 
 // A recording takes over what the host wrote for the frame, and at its end brings positions back.
-Status Simulation::Implementation::beginFrame(std::size_t slot) {
-  gpu::Recorder& recorder = slots[slot].recorder;
-  slots[slot].particleSteps = 0;
-  pace.beginRecording();
-  if (Status status = recorder.begin(); !status) return status;
-  buffers.poses.record(recorder, slot);
-  world.record(recorder, slot);
-  roots.record(recorder, slot);
-  recorder.barrier();
-  return {};
+void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
+  frame.pace.beginRecording();
+  buffers.poses.record(frame.list, frame.slot);
+  world.record(frame.list, frame.slot);
+  roots.record(frame.list, frame.slot);
+  frame.list.barrier();
 }
 
 // The whole frame, once: what changes from frame to frame is in its inputs.
-Status Simulation::Implementation::recordFrame(std::size_t slot) {
-  if (contacts || volume) return recordContactFrame(slot, 0, true);
-  const auto plan = planFrame(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize,
-                              pace.mostParticleSteps());
+Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
+  if (contacts || volume) return recordContactFrame(frame, 0, true);
+  const auto plan = planFrame(ranges, asset->limits, settings, world.bodyCount(),
+                              strandGroupSize(asset->limits), frame.pace.mostParticleSteps());
   if (!plan) return plan.error();
-  if (Status status = beginFrame(slot); !status) return status;
-  dispatchAll(slots[slot], *plan);
-  slots[slot].recordPositions(buffers);
-  slots[slot].isRecorded = true;
+  beginFrame(frame);
+  dispatchAll(frame, *plan);
+  slots[frame.slot].recordPositions(frame.list, buffers);
   return {};
 }
 
-Status Simulation::Implementation::recordPass(FrameSlot& slot, const SolvePass& pass) {
-  const auto dispatches = planPass(ranges, device.limits(), settings, world.bodyCount(), kStrandGroupSize,
-                                   pass, pace.mostParticleSteps());
+Status Simulation::Implementation::recordPass(FrameRecording& frame, const SolvePass& pass) const {
+  const auto dispatches = planPass(ranges, asset->limits, settings, world.bodyCount(),
+                                   strandGroupSize(asset->limits), pass, frame.pace.mostParticleSteps());
   if (!dispatches) return dispatches.error();
-  dispatchAll(slot, *dispatches);
-  slot.recorder.barrier();
+  dispatchAll(frame, *dispatches);
+  frame.list.barrier();
   return {};
 }
 
 // What strands hear of each other before the first iteration of a step's solve, and before each later one.
 // Contacts come first: they may halt, and then the volume must not go on.
-void Simulation::Implementation::recordFirstMeeting(gpu::Recorder& recorder, std::uint32_t step) {
+void Simulation::Implementation::recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const {
   if (contacts) {
-    contacts->recordLists(recorder, pace, step);
-    recorder.barrier();
-    contacts->recordFirst(recorder, pace);
-    recorder.barrier();
+    contacts->recordLists(frame.list, frame.pace, step);
+    frame.list.barrier();
+    contacts->recordFirst(frame.list, frame.pace);
+    frame.list.barrier();
   }
   if (volume) {
-    volume->recordBegin(recorder, pace, step);
-    recorder.barrier();
-    volume->recordMeans(recorder, pace, step, true);
-    recorder.barrier();
+    volume->recordBegin(frame.list, frame.pace, step);
+    frame.list.barrier();
+    volume->recordMeans(frame.list, frame.pace, step, true);
+    frame.list.barrier();
   }
 }
-void Simulation::Implementation::recordNextMeeting(gpu::Recorder& recorder, std::uint32_t step) {
+void Simulation::Implementation::recordNextMeeting(FrameRecording& frame, std::uint32_t step) const {
   if (contacts) {
-    contacts->recordNext(recorder, pace);
-    recorder.barrier();
+    contacts->recordNext(frame.list, frame.pace);
+    frame.list.barrier();
   }
   if (volume) {
-    volume->recordMeans(recorder, pace, step, false);
-    recorder.barrier();
+    volume->recordMeans(frame.list, frame.pace, step, false);
+    frame.list.barrier();
   }
 }
 
 // The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h,
 // volume_stage.h).
-Status Simulation::Implementation::recordContactFrame(std::size_t slot, std::uint32_t firstStep,
-                                                      bool predictFirst) {
-  if (Status status = beginFrame(slot); !status) return status;
-  gpu::Recorder& recorder = slots[slot].recorder;
+Status Simulation::Implementation::recordContactFrame(FrameRecording& frame, std::uint32_t firstStep,
+                                                      bool predictFirst) const {
+  beginFrame(frame);
   if (predictFirst) {
-    if (Status status = recordPass(slots[slot], {.step = firstStep}); !status) return status;
+    if (Status status = recordPass(frame, {.step = firstStep}); !status) return status;
   }
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   const int iterations = settings.contacts.iterationCount(contacts.has_value());
   for (std::uint32_t step = firstStep; step < steps; ++step) {
-    recordFirstMeeting(recorder, step);
+    recordFirstMeeting(frame, step);
     for (int iteration = 1; iteration <= iterations; ++iteration) {
       const bool isLast = iteration == iterations;
       const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
-      if (Status status = recordPass(slots[slot], pass); !status) return status;
-      if (!isLast) recordNextMeeting(recorder, step);
+      if (Status status = recordPass(frame, pass); !status) return status;
+      if (!isLast) recordNextMeeting(frame, step);
     }
   }
-  slots[slot].recordPositions(buffers);
-  buffers.recordControl(recorder);
-  slots[slot].isRecorded = firstStep == 0 && predictFirst;
+  slots[frame.slot].recordPositions(frame.list, buffers);
+  buffers.recordControl(frame.list);
   return {};
+}
+
+// A frame of this slot's, to be submitted as often as wanted.
+Status Simulation::Implementation::recordSlot(std::size_t slot) {
+  FrameSlot& of = slots[slot];
+  if (Status status = of.recorder.begin(); !status) return status;
+  FrameRecording frame{of.recorder, pace, slot};
+  if (Status status = recordFrame(frame); !status) return status;
+  of.particleSteps = frame.particleSteps;
+  of.isRecorded = true;
+  return {};
+}
+
+// What is left of a frame that halted.
+Status Simulation::Implementation::recordRest(std::size_t slot) {
+  FrameSlot& of = slots[slot];
+  of.isRecorded = false;
+  if (Status status = of.recorder.begin(); !status) return status;
+  FrameRecording frame{of.recorder, pace, slot};
+  if (Status status = recordContactFrame(frame, contacts->haltedStep(), false); !status) return status;
+  of.particleSteps = frame.particleSteps;
+  return {};
+}
+
+// What the host does before a frame. Whether the device has something to do: not where the head jumps.
+Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> stepPoses,
+                                                      std::span<const BodyPose> bodyPoses,
+                                                      std::span<const BodyPose> rootPoses) {
+  const bool jumps = isJump(stepPoses);
+  const std::size_t slot = submitted % kFramesInFlight;
+  if (jumps) {
+    if (Status status = jumpTo(stepPoses.back(), bodyPoses, rootPoses); !status) return status.error();
+  } else {
+    writePoses(slot, stepPoses, bodyPoses, rootPoses);
+    rigidHair.endFrame(rootPoses);
+  }
+  slots[slot].rigid = rigidHair.positions(head.now);
+  stepsDone += stepPoses.size();
+  isReadBack = readsBack;
+  return !jumps;
 }
 
 Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPoses,
                                                std::span<const BodyPose> bodyPoses,
                                                std::span<const BodyPose> rootPoses) {
-  RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(settings.stepsPerFrame),
-                 "a frame takes one pose per outer step");
   if (lostFrame) return *lostFrame;
   RINGLET_ASSERT(submitted - waited < kFramesInFlight, "more frames in flight than there are places");
-  const HeadPose& end = stepPoses.back();
-  const bool jumps = settings.jumps(length(end.position - head.now.position));
   // A frame with contacts may not be over when the device stops.
-  if (contacts || jumps) {
+  if (contacts || isJump(stepPoses)) {
     if (Status status = finishFrames(); !status) return status;
   }
-  const std::size_t slot = submitted % kFramesInFlight;
-  if (jumps) {
-    if (Status status = jumpTo(end, bodyPoses, rootPoses); !status) return status;
-    ++finished;
-  } else {
-    writePoses(slot, stepPoses, bodyPoses, rootPoses);
-    rigidHair.endFrame(rootPoses);
+  const auto works = prepareFrame(stepPoses, bodyPoses, rootPoses);
+  if (!works) return works.error();
+  if (*works) {
+    const std::size_t slot = submitted % kFramesInFlight;
     if (!slots[slot].isRecorded) {
-      if (Status status = recordFrame(slot); !status) return status;
+      if (Status status = recordSlot(slot); !status) return status;
     }
     if (Status status = slots[slot].recorder.submit(); !status) return status;
+  } else {
+    ++finished;
   }
-  slots[slot].rigid = rigidHair.positions(head.now);
   ++submitted;
-  stepsDone += stepPoses.size();
-  isReadBack = readsBack;
   return {};
 }
 
 // Until frame `end`, not itself, is over.
 Status Simulation::Implementation::finishFrames(std::uint64_t end) {
   if (lostFrame) return *lostFrame;
-  while (finished < end) {
-    if (Status status = runToEnd(finished % kFramesInFlight); !status) {
+  for (; finished < end; ++finished) {
+    const std::size_t slot = finished % kFramesInFlight;
+    if (slots[slot].isHosts)
+      return Error{"a frame of this hair is in a host's commands: call frameIsOver once they are done"};
+    if (Status status = runToEnd(slot); !status) {
       lostFrame = status.error();
       return status;
     }
-    ++finished;
   }
   return {};
 }
 
 // A frame that stopped because a list was too long goes on from its step with longer ones: no pair is
-// dropped.
+// dropped. Commands of a host's are done.
 Status Simulation::Implementation::runToEnd(std::size_t slot) {
   gpu::Recorder& recorder = slots[slot].recorder;
-  while (true) {
-    if (Status status = recorder.wait(); !status) return status;
-    for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
-      stageMilliseconds[stage] += milliseconds;
+  for (bool isHosts = std::exchange(slots[slot].isHosts, false);; isHosts = false) {
+    if (!isHosts) {
+      if (Status status = recorder.wait(); !status) return status;
+      for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
+        stageMilliseconds[stage] += milliseconds;
+    }
     if (contacts) contacts->readControl();
     if ((contacts || volume) && buffers.control().isHalted == layout::kHaltedByTurns) {
       return Error{
@@ -208,12 +239,12 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
     }
     const bool isHalted = contacts && contacts->isHalted();
     // A frame that stopped says nothing of how long its work takes.
-    if (isHalted || pace.learn(recorder.stageMilliseconds(), slots[slot].particleSteps)) {
+    if (isHalted || (!isHosts && pace.learn(recorder.stageMilliseconds(), slots[slot].particleSteps))) {
       for (FrameSlot& other : slots) other.isRecorded = false;
     }
     if (!isHalted) return {};
     if (Status status = contacts->makeRoom(); !status) return status;
-    if (Status status = recordContactFrame(slot, contacts->haltedStep(), false); !status) return status;
+    if (Status status = recordRest(slot); !status) return status;
     if (Status status = recorder.submit(); !status) return status;
   }
 }

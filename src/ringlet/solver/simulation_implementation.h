@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/assert.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/rest_state.h"
@@ -20,6 +21,7 @@
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/frame_slot.h"
 #include "ringlet/solver/hair_asset_implementation.h"
+#include "ringlet/solver/hair_frames.h"
 #include "ringlet/solver/rigid_hair.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/submission_pace.h"
@@ -42,6 +44,14 @@ struct HeadHistory {
     now = to;
     oneStepEarlier = {to.position - step, normalized(turn.conjugate() * to.rotation), to.shift};
   }
+};
+
+// What a frame is recorded into, from which slot's input, and how it is cut into submissions.
+struct FrameRecording {
+  gpu::CommandList& list;
+  SubmissionPace& pace;
+  std::size_t slot = 0;
+  double particleSteps = 0;  // of strands
 };
 
 struct Simulation::Implementation {
@@ -95,19 +105,32 @@ struct Simulation::Implementation {
 
   // simulation_frames.cpp
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
+  bool isJump(std::span<const HeadPose> stepPoses) const {
+    RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(settings.stepsPerFrame),
+                   "a frame takes one pose per outer step");
+    return settings.jumps(length(stepPoses.back().position - head.now.position));
+  }
   FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
-  Status beginFrame(std::size_t slot);
-  Status recordFrame(std::size_t slot);
-  void recordFirstMeeting(gpu::Recorder& recorder, std::uint32_t step);
-  void recordNextMeeting(gpu::Recorder& recorder, std::uint32_t step);
-  Status recordContactFrame(std::size_t slot, std::uint32_t firstStep, bool predictFirst);
-  Status recordPass(FrameSlot& slot, const SolvePass& pass);
-  void dispatchAll(FrameSlot& slot, std::span<const PlannedDispatch> dispatches);
+  void beginFrame(FrameRecording& frame) const;
+  Status recordFrame(FrameRecording& frame) const;
+  void recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const;
+  void recordNextMeeting(FrameRecording& frame, std::uint32_t step) const;
+  Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
+  Status recordPass(FrameRecording& frame, const SolvePass& pass) const;
+  void dispatchAll(FrameRecording& frame, std::span<const PlannedDispatch> dispatches) const;
+  Status recordSlot(std::size_t slot);
+  Status recordRest(std::size_t slot);
+  Result<bool> prepareFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                            std::span<const BodyPose> rootPoses);
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                      std::span<const BodyPose> rootPoses);
   Status finishFrames(std::uint64_t end);
   Status finishFrames() { return finishFrames(submitted); }
   Status runToEnd(std::size_t slot);
+
+  // hair_frames.cpp
+  Status checkFree(const HairFrame& frame) const;
+  Status recordBeside(const HairFrame& frame, gpu::CommandList& list);
   void writePoses(std::size_t slot, std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                   std::span<const BodyPose> rootPoses);
   Status jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
