@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "program/setting_options.h"
 #include "ringlet/scene/contact_settings.h"
 
 namespace ringlet::program {
@@ -12,16 +13,8 @@ namespace ringlet::program {
 /// Contacts as asked for on a command line; what was left out is the scene's, or ContactSettings' own.
 struct ContactChoice {
   std::optional<std::string> state;  // off, on, or one of kContactMethodNames
-  std::optional<double> radius;      // [m]
-  std::optional<std::string> fillGaps;
-  std::optional<double> detail;
   std::optional<std::string> prune;  // a number of overlaps, or none
-  std::optional<int> maxNeighbours;
-  std::optional<double> dropShare;
-  std::optional<int> iterations;
-  std::optional<double> friction;
-  std::optional<std::string> taper;  // of kContactTaperNames
-  std::optional<double> volumeCell;  // [m]
+  TypedSettings typed;               // all others
 
   /// Switched on or off; nothing: neither.
   std::optional<bool> on() const { return state ? std::optional(*state != "off") : std::nullopt; }

@@ -182,23 +182,23 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
   real(
       "contacts.enlargement", [](S& s) -> double& { return s.contacts.enlargement; }, 1, 100);
   real(
-      "contacts.dropShare", [](S& s) -> double& { return s.contacts.dropShare; }, 0, 1);
+      "contacts.drop_share", [](S& s) -> double& { return s.contacts.dropShare; }, 0, 1);
   real(
       "contacts.stiffness", [](S& s) -> double& { return s.contacts.stiffness; }, 0, 1e7);
   real(
-      "contacts.dampingRatio", [](S& s) -> double& { return s.contacts.dampingRatio; }, 0, 100);
+      "contacts.damping_ratio", [](S& s) -> double& { return s.contacts.dampingRatio; }, 0, 100);
   real(
       "contacts.friction", [](S& s) -> double& { return s.contacts.friction; }, 0, 1);
   real(
-      "contacts.rampSeconds", [](S& s) -> double& { return s.contacts.rampSeconds; }, 0, 10);
+      "contacts.ramp_seconds", [](S& s) -> double& { return s.contacts.rampSeconds; }, 0, 10);
   real(
-      "contacts.stiffnessReleaseSeconds", [](S& s) -> double& { return s.contacts.stiffnessReleaseSeconds; },
-      0, 10);
+      "contacts.stiffness_release_seconds",
+      [](S& s) -> double& { return s.contacts.stiffnessReleaseSeconds; }, 0, 10);
   real(
-      "contacts.dampingReleaseSeconds", [](S& s) -> double& { return s.contacts.dampingReleaseSeconds; }, 0,
+      "contacts.damping_release_seconds", [](S& s) -> double& { return s.contacts.dampingReleaseSeconds; }, 0,
       10);
   real(
-      "contacts.breakFactor", [](S& s) -> double& { return s.contacts.breakFactor; }, 1, 10);
+      "contacts.break_factor", [](S& s) -> double& { return s.contacts.breakFactor; }, 1, 10);
 
   const auto whole = [](const char* name, int& (*of)(S&), int low, int high) {
     expectRange<int>({name, of, low, high, low - 1, high + 1});
@@ -214,9 +214,9 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
   whole(
       "dampingLoops", [](S& s) -> int& { return s.dampingLoops; }, 1, 1000);
   whole(
-      "contacts.minOverlaps", [](S& s) -> int& { return s.contacts.minOverlaps; }, 1, 1000000);
+      "contacts.min_overlaps", [](S& s) -> int& { return s.contacts.minOverlaps; }, 1, 1000000);
   whole(
-      "contacts.maxNeighbours", [](S& s) -> int& { return s.contacts.maxNeighbours; }, 0, 1000000);
+      "contacts.max_neighbours", [](S& s) -> int& { return s.contacts.maxNeighbours; }, 0, 1000000);
   whole(
       "contacts.iterations", [](S& s) -> int& { return s.contacts.iterations.emplace(); }, 1, 1000);
 }

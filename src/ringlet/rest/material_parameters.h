@@ -10,16 +10,12 @@
 #include <variant>
 #include <vector>
 
+#include "ringlet/base/number_range.h"
 #include "ringlet/base/result.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/rest/material_presets.h"
 
 namespace ringlet {
-
-struct NumberRange {
-  double low = 0, high = 0;
-  bool contains(double value) const { return value >= low && value <= high; }  // NaN is in none
-};
 
 /// What a person needs to know of a parameter.
 struct ParameterText {

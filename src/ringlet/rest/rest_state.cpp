@@ -14,6 +14,7 @@
 #include "ringlet/rest/rest_curve.h"
 #include "ringlet/rest/rigid_strands.h"
 #include "ringlet/rest/strand_constants.h"
+#include "ringlet/scene/settings_fields.h"
 
 namespace ringlet {
 namespace {
@@ -378,40 +379,14 @@ Status checkSettings(const Settings& s, const Material& material) {
       {"pointIterations", double(s.pointIterations), 1, 60000},
       {"forceLoops", double(s.forceLoops), 1, 1000},
       {"dampingLoops", double(s.dampingLoops), 1, 1000},
-      {"contacts.radius", s.contacts.radius.value_or(1), 1e-6, 1},
-      {"contacts.spacing", s.contacts.spacing, 0.01, 1},
-      {"contacts.detail", s.contacts.detail, 0.05, 1},
-      {"contacts.enlargement", s.contacts.enlargement, 1, 100},
-      {"contacts.minOverlaps", double(s.contacts.minOverlaps), 1, 1e6},
-      {"contacts.maxNeighbours", double(s.contacts.maxNeighbours), 0, 1e6},
-      {"contacts.dropShare", s.contacts.dropShare, 0, 1},
-      {"contacts.stiffness", s.contacts.stiffness, 0, 1e7},
-      {"contacts.dampingRatio", s.contacts.dampingRatio, 0, 100},
-      {"contacts.friction", s.contacts.friction, 0, 1},
-      {"contacts.rampSeconds", s.contacts.rampSeconds, 0, 10},
-      {"contacts.stiffnessReleaseSeconds", s.contacts.stiffnessReleaseSeconds, 0, 10},
-      {"contacts.dampingReleaseSeconds", s.contacts.dampingReleaseSeconds, 0, 10},
-      {"contacts.breakFactor", s.contacts.breakFactor, 1, 10},
-      {"contacts.volumeCell", s.contacts.volumeCell.value_or(1), 1e-5, 10},
-      {"contacts.volumeDrag", s.contacts.volumeDrag, 0, 1e5},
-      {"contacts.volumeStiffness", s.contacts.volumeStiffness, 0, 1e9},
-      {"contacts.volumeMemorySeconds", s.contacts.volumeMemorySeconds, 0.001, 1000},
-      {"contacts.iterations", double(s.contacts.iterations.value_or(1)), 1, 1000},
-      {"air.fallSpeed", s.air.fallSpeed, 0.01, 1000},
-      {"air.alongShare", s.air.alongShare, 0, 1},
-      {"air.wind.x", s.air.wind.x, -1000, 1000},
-      {"air.wind.y", s.air.wind.y, -1000, 1000},
-      {"air.wind.z", s.air.wind.z, -1000, 1000},
-      {"air.gust", s.air.gust, 0, 10},
-      {"air.gustSeconds", s.air.gustSeconds, 0.01, 1000},
-      {"air.turbulence", s.air.turbulence, 0, 1000},
-      {"air.eddySize", s.air.eddySize, 0.001, 1000},
   };
   for (const Range& r : ranges) {
     if (!(r.value >= r.low && r.value <= r.high)) {
       return Error{fmt::format("{} is {}; it must be from {} to {}", r.name, r.value, r.low, r.high)};
     }
   }
+  if (Status status = checkContactSettings(s.contacts); !status) return status;
+  if (Status status = checkAirSettings(s.air); !status) return status;
   if (s.contacts.on && s.integrator != Integrator::jacobi) {
     return Error{fmt::format(
         "contacts are on with the integrator {}; contacts need jacobi: choose it, or turn contacts off",

@@ -16,23 +16,12 @@ constexpr NumberRange kUnit{1e-6, 1000};    // [m]
 constexpr NumberRange kSeed{0, 4294967295.0};
 constexpr NumberRange kShare{0, 1};
 constexpr NumberRange kSeconds{0, 3600};
-constexpr double kMostOverlaps = 1e6;
 constexpr const char* kGenerated = "curl, swatch, head";
 constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";
 constexpr const char* kTurnHelp = "Turned about X first, then Y, then Z, the axes of what it is placed in.";
 
 }  // namespace
-
-std::vector<std::string> namesIn(std::string_view list) {
-  std::vector<std::string> names;
-  for (std::size_t at = 0; at < list.size();) {
-    const std::size_t comma = std::min(list.find(", ", at), list.size());
-    names.emplace_back(list.substr(at, comma - at));
-    at = comma + 2;
-  }
-  return names;
-}
 
 std::span<const SceneField<SceneGroom>> groomFields() {
   using G = SceneGroom;
@@ -305,162 +294,6 @@ std::span<const SceneField<SceneSimulation>> simulationFields() {
       {"chebyshev", "", "", "Whether these are accelerated.", &S::chebyshev, {}, "", "point_jacobi"},
       {"force_loops", "", "", "Of a step.", &S::forceLoops, {1, 1000}, "", "paper"},
       {"damping_loops", "", "", "Of a force loop.", &S::dampingLoops, {1, 1000}, "", "paper"},
-  };
-  return all;
-}
-
-std::span<const SceneField<ContactSettings>> contactFields() {
-  using C = ContactSettings;
-  static const SceneField<C> all[] = {
-      {"on", "", "true where [contacts] stands", "Whether strands push each other away; jacobi only.",
-       &C::on},
-      {"method",
-       "",
-       "",
-       "By what means: auto, as a volume where strands are dense at rest and pair by pair elsewhere; pair by "
-       "pair; or all as a volume.",
-       &C::method,
-       {},
-       "auto, explicit, volume"},
-      {"radius",
-       "m",
-       "half the mean distance of neighbouring roots",
-       "Of the spheres by which strands feel each other.",
-       &C::radius,
-       {1e-6, 1}},
-      {"fill_gaps", "", "",
-       "Whether strands cut coarser than two radii get a larger radius, so that nothing slips between.",
-       &C::fillGaps},
-      {"spacing",
-       "1",
-       "",
-       "Spheres stand this share of two radii apart along a strand: less keeps more of them.",
-       &C::spacing,
-       {0.01, 1}},
-      {"detail",
-       "1",
-       "",
-       "Share of their contact particles by which dense strands meet others pair by pair: less is faster and "
-       "lets more hair slip through.",
-       &C::detail,
-       {0.05, 1}},
-      {"prune_pairs", "", "", "Whether only strands that are near at rest may touch.", &C::prunePairs},
-      {"enlargement",
-       "1",
-       "",
-       "Factor on radii while overlaps at rest are counted.",
-       &C::enlargement,
-       {1, 100}},
-      {"min_overlaps",
-       "",
-       "",
-       "Overlapping spheres at rest from which on two strands may touch.",
-       &C::minOverlaps,
-       {1, kMostOverlaps}},
-      {"max_neighbours",
-       "",
-       "",
-       "Most strands that one may touch, those with the most overlaps; 0: no bound.",
-       &C::maxNeighbours,
-       {0, kMostOverlaps}},
-      {"drop_share", "1", "", "Share of the pairs then left that is dropped at random.", &C::dropShare,
-       kShare},
-      {"seed", "", "", "Of drop_share and detail.", &C::seed, kSeed},
-      {"stiffness",
-       "w / R",
-       "",
-       "Of two spheres that touch: the weight of one over the sum of their radii.",
-       &C::stiffness,
-       {0, 1e7}},
-      {"damping_ratio", "1", "", "Along the contact's normal; 1 is critical.", &C::dampingRatio, {0, 100}},
-      {"friction", "1", "",
-       "Damping of strands that slide along each other, as a share of that between strands that meet.",
-       &C::friction, kShare},
-      {"taper",
-       "",
-       "",
-       "How a contact comes and goes: with the distance of the two, or in time, as in the paper, which is "
-       "slower.",
-       &C::taper,
-       {},
-       "distance, time"},
-      {"ramp_seconds", "s", "", "From first touch to full stiffness.", &C::rampSeconds, {0, 10}, "", "time"},
-      {"stiffness_release_seconds",
-       "s",
-       "",
-       "From parting until stiffness has faded.",
-       &C::stiffnessReleaseSeconds,
-       {0, 10},
-       "",
-       "time"},
-      {"damping_release_seconds",
-       "s",
-       "",
-       "And then damping.",
-       &C::dampingReleaseSeconds,
-       {0, 10},
-       "",
-       "time"},
-      {"break_factor",
-       "1",
-       "",
-       "Parted further than this times its rest length, a contact is over.",
-       &C::breakFactor,
-       {1, 10},
-       "",
-       "time"},
-      {"volume_cell",
-       "m",
-       "four radii, or more where particles are further apart",
-       "Of the grid by which hair meets as a volume.",
-       &C::volumeCell,
-       {1e-5, 10}},
-      {"volume_drag",
-       "1/s",
-       "",
-       "Of hair that meets as a volume, towards the velocity of what is near.",
-       &C::volumeDrag,
-       {0, 1e5}},
-      {"volume_stiffness", "1/s^2", "", "And towards its displacement.", &C::volumeStiffness, {0, 1e9}},
-      {"volume_memory_seconds",
-       "s",
-       "",
-       "In which such a displacement is forgotten.",
-       &C::volumeMemorySeconds,
-       {0.001, 1000}},
-      {"iterations",
-       "",
-       "2; 1 where all hair meets as a volume",
-       "Solves of a step in which strands hear of each other.",
-       &C::iterations,
-       {1, 1000}},
-  };
-  return all;
-}
-
-std::span<const SceneField<AirSettings>> airFields() {
-  using A = AirSettings;
-  static const SceneField<A> all[] = {
-      {"on", "", "true where [air] stands", "Whether there is air; jacobi only.", &A::on},
-      {"fall_speed",
-       "m/s",
-       "",
-       "At which air carries hair's weight: less, and wind takes more.",
-       &A::fallSpeed,
-       {0.01, 1000}},
-      {"along_share", "1", "", "What air does along a strand, as a share of what it does across.",
-       &A::alongShare, kShare},
-      {"wind", "m/s", "", "Even wind.", &A::wind, {-1000, 1000}},
-      {"gust", "1", "", "The wind swells by up to this share of itself.", &A::gust, {0, 10}},
-      {"gust_seconds", "s", "", "From gust to gust, on average.", &A::gustSeconds, {0.01, 1000}},
-      {"turbulence",
-       "m/s",
-       "",
-       "Root mean square of each component of the turbulent wind.",
-       &A::turbulence,
-       {0, 1000}},
-      {"eddy_size", "m", "", "Of its largest eddies.", &A::eddySize, {0.001, 1000}},
-      {"seed", "", "", "Of gusts and turbulence.", &A::seed, kSeed},
   };
   return all;
 }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "ringlet/base/nearest_name.h"
+#include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
 #include "ringlet/scenes/scene_fields.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
 

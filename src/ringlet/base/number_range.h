@@ -1,0 +1,12 @@
+// NumberRange: what a number may be.
+#pragma once
+
+namespace ringlet {
+
+struct NumberRange {
+  double low = 0, high = 0;
+  bool contains(double value) const { return value >= low && value <= high; }  // NaN is in none
+  bool operator==(const NumberRange&) const = default;
+};
+
+}  // namespace ringlet

@@ -1,0 +1,54 @@
+// SettingField: a setting, said once: where it is, its name, type, unit, range, default, and what it does.
+// Scene files, options, checks and lists go through tables of these (settings_fields.h,
+// scenes/scene_fields.h).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "ringlet/base/number_range.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/scene/contact_settings.h"
+
+namespace ringlet {
+
+/// One whose value is a part of an Owner: ContactSettings, AirSettings, a table of a scene file.
+template <class Owner>
+struct SettingField {
+  const char* key;
+  const char* unit;      // of numbers; "" for none
+  const char* standard;  // what holds without the key, in words; "" for the Owner's own default
+  const char* effect;    // one sentence
+  std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
+               std::uint32_t Owner::*, bool Owner::*, std::string Owner::*, std::filesystem::path Owner::*,
+               Vec3d Owner::*, std::optional<Vec3d> Owner::*, std::optional<Quatd> Owner::*,
+               std::vector<std::string> Owner::*, ContactTaper Owner::*, ContactMethod Owner::*>
+      member;
+  NumberRange allowed{};    // of a number, or of each of several
+  std::string choices{};    // of a text or a list of texts, separated by commas; "" for any
+  std::string onlyWith{};   // the kinds, shapes or sources that have it, separated by commas; "" for all
+  const char* option = "";  // of commands; "" for none
+  bool isLive = false;      // may change while hair moves (Simulation::setSettings)
+
+  SettingField asOption(const char* name) const {
+    SettingField named = *this;
+    named.option = name;
+    return named;
+  }
+  SettingField live() const {
+    SettingField changing = *this;
+    changing.isLive = true;
+    return changing;
+  }
+};
+
+/// "a, b, c" as a list.
+std::vector<std::string> namesIn(std::string_view list);
+
+}  // namespace ringlet

@@ -1,0 +1,26 @@
+// The settings of contacts and of the air, each once.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "ringlet/base/result.h"
+#include "ringlet/scene/air.h"
+#include "ringlet/scene/contact_settings.h"
+#include "ringlet/scene/setting_field.h"
+
+namespace ringlet {
+
+std::span<const SettingField<ContactSettings>> contactFields();
+std::span<const SettingField<AirSettings>> airFields();
+
+/// The sentence that says which number is out of its range, if any is.
+Status checkContactSettings(const ContactSettings& settings);
+Status checkAirSettings(const AirSettings& settings);
+
+/// The first setting that differs and may not change while hair moves, as a scene file names it
+/// ("contacts.radius"); "" for none.
+std::string fixedDifference(const ContactSettings& a, const ContactSettings& b);
+std::string fixedDifference(const AirSettings& a, const AirSettings& b);
+
+}  // namespace ringlet
