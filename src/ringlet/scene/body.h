@@ -29,6 +29,11 @@ struct BodyPose {
   Quatd rotation;
 };
 
+/// At fraction s of the way from a to b: linear in position, slerp in rotation.
+inline BodyPose interpolate(const BodyPose& a, const BodyPose& b, double s) {
+  return {a.position + (b.position - a.position) * s, slerp(a.rotation, b.rotation, s)};
+}
+
 struct Body {
   std::string name{};  // for messages
   BodyShape shape = BodyShape::sphere;

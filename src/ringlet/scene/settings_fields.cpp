@@ -249,6 +249,13 @@ Status checkContactSettings(const ContactSettings& settings) {
 }
 Status checkAirSettings(const AirSettings& settings) { return check(airFields(), settings, "air"); }
 
+std::string fixedDifference(const Settings& a, const Settings& b) {
+  if (a.integrator != b.integrator) return "integrator";
+  if (a.gravityPreload != b.gravityPreload) return "gravityPreload";
+  if (a.rootCount != b.rootCount) return "rootCount";
+  const std::string ofContacts = fixedDifference(a.contacts, b.contacts);
+  return ofContacts.empty() ? fixedDifference(a.air, b.air) : ofContacts;
+}
 std::string fixedDifference(const ContactSettings& a, const ContactSettings& b) {
   return differenceOf(contactFields(), a, b, "contacts");
 }

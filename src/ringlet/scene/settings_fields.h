@@ -8,6 +8,7 @@
 #include "ringlet/scene/air.h"
 #include "ringlet/scene/contact_settings.h"
 #include "ringlet/scene/setting_field.h"
+#include "ringlet/scene/settings.h"
 
 namespace ringlet {
 
@@ -18,8 +19,8 @@ std::span<const SettingField<AirSettings>> airFields();
 Status checkContactSettings(const ContactSettings& settings);
 Status checkAirSettings(const AirSettings& settings);
 
-/// The first setting that differs and may not change while hair moves, as a scene file names it
-/// ("contacts.radius"); "" for none.
+/// The first setting that differs and may not change while hair moves ("contacts.radius"); "" for none.
+std::string fixedDifference(const Settings& a, const Settings& b);
 std::string fixedDifference(const ContactSettings& a, const ContactSettings& b);
 std::string fixedDifference(const AirSettings& a, const AirSettings& b);
 

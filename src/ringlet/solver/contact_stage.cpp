@@ -354,6 +354,16 @@ Status ContactStage::makeRoom() {
   return writeControl();
 }
 
+Status ContactStage::setSettings(const Settings& settings) {
+  const bool sameSprings = settings.contacts.stiffness == settings_.stiffness &&
+                           settings.contacts.dampingRatio == settings_.dampingRatio;
+  settings_ = settings.contacts;
+  stepSeconds_ = settings.stepSeconds();
+  if (sameSprings) return {};
+  control_.isListed = 0;
+  return writeControl();
+}
+
 Status ContactStage::forget() {
   control_.isListed = control_.steps = 0;
   if (Status status = writeControl(); !status) return status;

@@ -70,6 +70,9 @@ class ContactStage {
   /// Pairs in the lists, each once; and how many contacts live.
   std::uint64_t listedCount() const { return control_.listed / 2; }
   Result<std::uint64_t> contactCount() const;
+  /// What may change while hair moves; recordings made before are no longer good. Other springs need other
+  /// lists.
+  Status setSettings(const Settings& settings);
   /// Forgets lists and lives: the hair was put somewhere else.
   Status forget();
   /// All that the next step depends on beside positions, velocities and what the solve left. Where the

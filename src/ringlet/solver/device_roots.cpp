@@ -58,6 +58,12 @@ std::vector<BodyPose> DeviceRoots::inOrder(std::span<const BodyPose> poses) cons
   return ordered;
 }
 
+void DeviceRoots::setStepSeconds(double seconds) {
+  for (std::size_t s = 0; s < now_.size(); ++s)
+    oneStepEarlier_[s] = interpolate(now_[s], oneStepEarlier_[s], seconds / stepSeconds_);
+  stepSeconds_ = seconds;
+}
+
 void DeviceRoots::place(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier) {
   now_ = inOrder(now);
   oneStepEarlier_ = inOrder(oneStepEarlier);

@@ -47,6 +47,8 @@ class DeviceRoots {
   const BodyPose& now(std::size_t s) const { return now_[s]; }
   const BodyPose& oneStepEarlier(std::size_t s) const { return oneStepEarlier_[s]; }
 
+  /// Steps of another length: roots are as fast and turning as before.
+  void setStepSeconds(double seconds);
   /// Before the next step and one step before that, in groom order.
   void place(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
   /// Poses of the frame of a slot. heads[0] is the head one step before the frame's start, heads[1] at its

@@ -46,6 +46,11 @@ class DeviceWorld {
 
   /// Where bodies are before the next step, in the world.
   void placeBodies(std::span<const BodyPose> poses) { now_.assign(poses.begin(), poses.end()); }
+  /// Other steps, and other air; its turbulence stays.
+  void setSettings(const Settings& settings) {
+    airSettings_ = settings.air;
+    stepSeconds_ = settings.stepSeconds();
+  }
   /// Poses and air of the frame of a slot. heads[0] is the head at the frame's start, heads[1 + k] at the end
   /// of step k; `poses` as bodyPosesOf gives them, or none: then the head carries all. `seconds`: since the
   /// simulation began.

@@ -28,6 +28,10 @@ class RigidHair {
   /// The same of a frame that is not stepped: roots are still, seen from the head.
   void jump(std::span<const BodyPose> poses);
 
+  /// Steps are now this share as long: roots are as fast and turning as before.
+  void rescale(double share) {
+    for (Poses& p : poses_) p.oneStepEarlier = interpolate(p.now, p.oneStepEarlier, share);
+  }
   /// Where roots are now, and were one step earlier.
   void archive(Archive& archive) { archive.values(std::span(poses_)); }
 

@@ -127,10 +127,10 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
       new Implementation{.asset = asset.self_,
                          .device = constant.device,
                          .rest = rest,
-                         .settings = settings,
                          .material = constant.material,
                          .choice = constant.choice,
                          .ranges = constant.ranges,
+                         .settings = settings,
                          .readsBack = initial.readsBack,
                          .head = {initial.oneStepEarlier.value_or(initial.head), initial.head},
                          .buffers = std::move(*buffers),
@@ -358,6 +358,8 @@ Status Simulation::Implementation::archive(Archive& archive) {
   if (Status status = finishFrames(); !status) return status;
   archive.value(head);
   archive.value(stepsDone);
+  archive.value(stepsBefore);
+  archive.value(secondsBefore);
   world.archive(archive);
   roots.archive(archive);
   rigidHair.archive(archive);

@@ -191,6 +191,16 @@ class Simulation {
   /// Fails, with this simulation spoilt, where the bytes are those of another.
   Status restore(std::span<const std::byte> checkpoint);
 
+  /// Other settings, from the next frame on. What may change: gravity (the rest pose stays balanced against
+  /// that of the asset), maxStretch, teleportDistance, loops and iterations; steps a frame, as many as the
+  /// asset has at most, none longer than the asset's, and with them frames a second; and of contacts and air
+  /// what scene/settings_fields.h says is live. Fails where anything else differs or is out of its range, and
+  /// changes nothing then. Cost: frames are recorded anew, some microseconds a dispatch. With contacts it
+  /// waits for frames under way; their stiffness and damping have lists made anew.
+  Status setSettings(const Settings& settings);
+  /// As they are now; at first the asset's. Checkpoints do not hold them.
+  const Settings& settings() const;
+
   const HeadPose& head() const;
   Result<SimulationReport> report() const;
   Result<ContactReport> contactReport() const;

@@ -255,7 +255,7 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
   const double T = settings.stepSeconds();
   std::vector<HeadPose> heads{head.oneStepEarlier, head.now};
   heads.insert(heads.end(), stepPoses.begin(), stepPoses.end());
-  world.writeFrame(slot, std::span(heads).subspan(1), bodyPoses, static_cast<double>(stepsDone) * T);
+  world.writeFrame(slot, std::span(heads).subspan(1), bodyPoses, seconds());
   roots.writeFrame(slot, heads, rootPoses);
   const auto poses = buffers.poses.of<layout::StepPose>(slot);
   poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};

@@ -1,5 +1,5 @@
-// What a Simulation holds, for the two files that implement it: simulation.cpp, all but its frames, and
-// simulation_frames.cpp.
+// What a Simulation holds, for the files that implement it: simulation_frames.cpp and hair_frames.cpp, its
+// frames; simulation_settings.cpp, what changes between them; simulation.cpp, all else.
 #pragma once
 
 #include <cstdint>
@@ -34,6 +34,9 @@ namespace ringlet {
 struct HeadHistory {
   HeadPose oneStepEarlier, now;
 
+  // Steps are now this share as long: as fast and turning as before.
+  void rescale(double share) { oneStepEarlier = interpolate(now, oneStepEarlier, share); }
+
   Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
   Quatd turn() const { return now.rotation * oneStepEarlier.rotation.conjugate(); }
   // To a place elsewhere, as fast and turning as before, seen from the head.
@@ -59,10 +62,10 @@ struct Simulation::Implementation {
   // Of the asset:
   const ComputeDevice& device;
   const RestState& rest;
-  const Settings& settings;
   const Material& material;
   const KernelChoice& choice;
   const std::vector<StrandRange>& ranges;
+  Settings settings;      // at first the asset's
   bool readsBack = true;  // every frame
 
   HeadHistory head;
@@ -81,6 +84,12 @@ struct Simulation::Implementation {
   ContactReport contactReport{};           // what is known of the rest pose
 
   std::uint64_t stepsDone = 0;
+  std::uint64_t stepsBefore = 0;  // done when a step became as long as it is, after so many seconds
+  double secondsBefore = 0;
+  // Since the simulation began.
+  double seconds() const {
+    return secondsBefore + static_cast<double>(stepsDone - stepsBefore) * settings.stepSeconds();
+  }
   std::map<std::string, double> stageMilliseconds{};
 
   double compileMilliseconds = 0;
@@ -102,6 +111,10 @@ struct Simulation::Implementation {
   DeviceGroom& changed();
   Status archive(Archive& archive);
   Result<std::vector<Vec3f>> inGroomOrder(DeviceGroom::Field field) const;
+
+  // simulation_settings.cpp
+  Status checkChange(const Settings& wanted) const;
+  Status change(const Settings& wanted);
 
   // simulation_frames.cpp
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;

@@ -63,17 +63,11 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   self.densities_ = volume.densities;
   const std::uint64_t count = volume.particles.size();
   const std::uint32_t capacity = cellCapacity(volume.cells);
-  const double T = settings.stepSeconds();
-  self.parameters_ = {.count = static_cast<std::uint32_t>(count),
-                      .cellCapacity = capacity,
-                      .step = 0,
-                      .seconds = static_cast<float>(T),
-                      .cell = static_cast<float>(volume.cell),
-                      .drag = static_cast<float>(settings.contacts.volumeDrag),
-                      .stiffness = static_cast<float>(settings.contacts.volumeStiffness),
-                      .kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds)),
-                      .warmth = static_cast<float>(kContactWarmth),
-                      .sortSteps = volumeSortSteps(T)};
+  self.parameters_.count = static_cast<std::uint32_t>(count);
+  self.parameters_.cellCapacity = capacity;
+  self.parameters_.cell = static_cast<float>(volume.cell);
+  self.parameters_.warmth = static_cast<float>(kContactWarmth);
+  self.setSettings(settings);
   if (self.particleGroups() > device.properties().maxGroupCount) {
     return Error{
         fmt::format("{} particles that meet as a volume are more than the {} this device takes at once; "
@@ -167,6 +161,15 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeBroughtTexels, brought},
           {kBindVolumeParcelTexels, parcels},
           {kBindVolumeNodeTexels, nodes}};
+}
+
+void VolumeStage::setSettings(const Settings& settings) {
+  const double T = settings.stepSeconds();
+  parameters_.seconds = static_cast<float>(T);
+  parameters_.drag = static_cast<float>(settings.contacts.volumeDrag);
+  parameters_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
+  parameters_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
+  parameters_.sortSteps = volumeSortSteps(T);
 }
 
 layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {

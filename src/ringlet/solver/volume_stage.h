@@ -43,6 +43,8 @@ class VolumeStage {
   void recordBegin(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
 
+  /// What may change while hair moves; recordings made before are no longer good.
+  void setSettings(const Settings& settings);
   /// Forgets displacements: the hair was put somewhere else.
   Status forget();
   /// All that the next step depends on beside positions, velocities and what the solve left.
