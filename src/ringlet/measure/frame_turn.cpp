@@ -41,7 +41,7 @@ FrameTurn::FrameTurn(const Groom& rest, const Material& material) : firstPoint_(
     std::vector<double> arcs(points.size() - 1);
     measureArcs(points, arcs);
     strands_.push_back({.firstEdge = points[1] - points[0],
-                        .beta = strandConstants(points, arcs, material, {}).bendBeta,
+                        .beta = strandConstants(strandGeometry(points, arcs), material, {}).bendBeta,
                         .frames = {}});
   }
 }

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <optional>
 
+#include "ringlet/rest/material_extremes.h"
 #include "ringlet/rest/material_parameters.h"
-#include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_curve.h"
 #include "ringlet/rest/rigid_strands.h"
 #include "ringlet/rest/strand_constants.h"
@@ -25,18 +25,6 @@ constexpr double kFarthest = 1e9;
 layout::vec4 packed(Vec3d v, double w) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
 }
-
-// Worst cases over all strands, for the warnings.
-struct Extremes {
-  std::size_t cappedStrands = 0;
-  double smallestCoreShare = 1;
-  std::size_t feedingStrands = 0;  // the step is too long for their bending
-  double longestCalmStep = 1;      // [s]
-  std::vector<double> calmSteps;   // that of each strand, in groom order; 0: it is carried rigidly [s]
-  std::size_t overloadedStrands = 0;
-  double largestLoad = 0;
-  std::size_t largestLoadStrand = 0;
-};
 
 // The sizes the strand is cut into: chords, floored lengths, masses, factors of the profiles.
 struct Cut {
@@ -53,7 +41,7 @@ struct Cut {
     for (Vec3f p : strand) points.push_back(static_cast<Vec3d>(p));
     arcs.resize(points.size() - 1);
     measureArcs(points, arcs);
-    constants = strandConstants(points, arcs, material, settings);
+    constants = strandConstants(strandGeometry(points, arcs), material, settings);
     massUnit = paper ? 1.0 : material.lineDensity * constants.meanEdgeLength;
     masses.resize(points.size(), paper ? 1.0 : 0.0);
     double arcBefore = 0;
@@ -133,7 +121,6 @@ double appendParticles(RestState& state, const Cut& cut, std::span<const Quatd> 
 layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, std::size_t firstParticle,
                               const Settings& settings) {
   const StrandConstants& c = cut.constants;
-  const auto perMass = [&](double x) { return static_cast<float>(x / cut.massUnit); };
   double restCoreLength = 0;
   for (Vec3d b : coreEdges) restCoreLength += length(b);
   layout::StrandRest rest;
@@ -141,12 +128,7 @@ layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, 
   rest.particleCount = static_cast<std::uint32_t>(cut.points.size());
   rest.bendBeta = static_cast<float>(c.bendBeta);
   rest.coreBeta = static_cast<float>(c.coreBeta);
-  rest.stretchStiffness = perMass(c.stretchStiffness);
-  rest.stretchDamping = perMass(c.stretchDamping);
-  rest.bendStiffness = perMass(c.bendStiffness);
-  rest.bendDamping = perMass(c.bendDamping);
-  rest.coreStiffness = perMass(c.coreStiffness);
-  rest.coreDamping = perMass(c.coreDamping);
+  setSprings(rest, c, cut.massUnit);
   rest.restCoreLength = static_cast<float>(std::max(restCoreLength, 1e-12));
   rest.jacobiGap = static_cast<float>(jacobiGap(cut, settings));
   rest.firstEdge = packed(cut.edges[0], cut.massUnit);
@@ -157,8 +139,8 @@ layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, 
 }
 
 // Appends one strand to the state, in device order.
-void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> strand, std::size_t groomIndex,
-                  const Material& material, const Settings& settings) {
+void appendStrand(RestState& state, MaterialExtremes& extremes, std::span<const Vec3f> strand,
+                  std::size_t groomIndex, const Material& material, const Settings& settings) {
   const Cut cut(strand, material, settings);
   const StrandConstants& c = cut.constants;
   // The device smooths with the float weights; the rest state must be at rest under exactly those.
@@ -169,57 +151,13 @@ void appendStrand(RestState& state, Extremes& extremes, std::span<const Vec3f> s
   state.points.insert(state.points.end(), strand.begin(), strand.end());
   state.strandInGroom.push_back(static_cast<std::uint32_t>(groomIndex));
 
-  if (c.coreStiffness < c.coreStiffnessAsked) {
-    ++extremes.cappedStrands;
-    extremes.smallestCoreShare = std::min(extremes.smallestCoreShare, c.coreStiffness / c.coreStiffnessAsked);
-  }
   const double stiffest = *std::max_element(cut.bendFactors.begin(), cut.bendFactors.end());
-  const double longestBendStep = c.longestBendStep / std::sqrt(stiffest);
-  if (settings.stepSeconds() > longestBendStep) ++extremes.feedingStrands;
-  extremes.calmSteps[groomIndex] = std::min(c.longestCoreStep, longestBendStep);
-  extremes.longestCalmStep = std::min(extremes.longestCalmStep, extremes.calmSteps[groomIndex]);
-  if (load > 0.5) ++extremes.overloadedStrands;
-  if (load > extremes.largestLoad) extremes.largestLoad = load, extremes.largestLoadStrand = groomIndex;
-}
-
-// Steps a frame that are no longer than this [s].
-int stepsOf(double longestStep, const Settings& settings) {
-  const double steps = std::ceil(1 / (std::max(settings.framesPerSecond, 1e-3) * longestStep) - 1e-6);
-  return static_cast<int>(std::min(steps, 1e9));
+  extremes.add(c, stiffest, load, groomIndex, settings);
 }
 
 // What the motion needs [s].
 double longestMotionStep(const Settings& settings) {
   return settings.integrator == Integrator::paper ? 1.0 / 720 : 1.0 / 192;
-}
-
-void addWarnings(RestState& state, const Extremes& extremes, const Material& material,
-                 const Settings& settings) {
-  const int needed = stepsOf(extremes.longestCalmStep, settings);
-  if (extremes.cappedStrands > 0) {
-    state.warnings.push_back(
-        fmt::format("the core spring of {} of {} strands is weakened (to {:.0f} % at least) to stay stable "
-                    "at {} steps per frame; "
-                    "{} steps per frame give it in full",
-                    extremes.cappedStrands, state.strands.size(), 100 * extremes.smallestCoreShare,
-                    settings.stepsPerFrame, needed));
-  }
-  if (extremes.feedingStrands > 0) {
-    state.warnings.push_back(fmt::format(
-        "{} steps per frame are too few for the bending of {} of {} strands, which may not come to rest; "
-        "{} steps per frame are enough, or a softer or more smoothed material",
-        settings.stepsPerFrame, extremes.feedingStrands, state.strands.size(), needed));
-  }
-  if (settings.integrator != Integrator::paper && material.bendDampingRatio < kLeastBendDampingRatio) {
-    state.warnings.push_back(fmt::format("a bend damping ratio of {} may not come to rest; {} and more does",
-                                         material.bendDampingRatio, kLeastBendDampingRatio));
-  }
-  if (extremes.overloadedStrands > 0) {
-    state.warnings.push_back(fmt::format(
-        "gravity preload bends the stored shape of {} of {} strands by more than 27 degrees (strand {} most: "
-        "load {:.2f}); use a stiffer material or less preload",
-        extremes.overloadedStrands, state.strands.size(), extremes.largestLoadStrand, extremes.largestLoad));
-  }
 }
 
 std::vector<std::uint32_t> deviceOrder(const Groom& groom) {
@@ -298,10 +236,9 @@ Result<std::vector<StrandSize>> sizesOf(const Groom& groom) {
 // All strands but those carried rigidly.
 RestState assemble(const Groom& groom, const Material& material, const Settings& settings,
                    std::span<const std::uint32_t> order, const std::vector<bool>& isRigid,
-                   Extremes& extremes) {
+                   MaterialExtremes& extremes) {
   RestState state;
-  extremes = {};
-  extremes.calmSteps.resize(groom.strandCount());
+  extremes = MaterialExtremes(groom.strandCount());
   // Doubling as they grow would take up to half as much again.
   state.strands.reserve(groom.strandCount());
   state.particles.reserve(groom.points.size());
@@ -324,6 +261,36 @@ RestState assemble(const Groom& groom, const Material& material, const Settings&
 
 }  // namespace
 
+void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit) {
+  const auto perMass = [&](double x) { return static_cast<float>(x / massUnit); };
+  rest.stretchStiffness = perMass(constants.stretchStiffness);
+  rest.stretchDamping = perMass(constants.stretchDamping);
+  rest.bendStiffness = perMass(constants.bendStiffness);
+  rest.bendDamping = perMass(constants.bendDamping);
+  rest.coreStiffness = perMass(constants.coreStiffness);
+  rest.coreDamping = perMass(constants.coreDamping);
+}
+
+Groom groomOf(const RestState& state) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  groom.points.resize(state.groomParticleCount);
+  std::vector<std::uint32_t> counts(state.groomStrandCount);
+  const auto put = [&](std::uint32_t strand, std::uint32_t first, std::span<const Vec3f> points) {
+    counts[strand] = static_cast<std::uint32_t>(points.size());
+    std::ranges::copy(points, groom.points.begin() + first);
+  };
+  for (std::size_t s = 0; s < state.strands.size(); ++s) {
+    const layout::StrandRest& strand = state.strands[s];
+    put(state.strandInGroom[s], state.firstInGroom[s],
+        std::span(state.points).subspan(strand.firstParticle, strand.particleCount));
+  }
+  for (const RigidStrand& strand : state.rigid) put(strand.strandInGroom, strand.firstInGroom, strand.points);
+  groom.firstPoint.assign(1, 0);
+  for (const std::uint32_t count : counts) groom.firstPoint.push_back(groom.firstPoint.back() + count);
+  return groom;
+}
+
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const std::uint32_t> order) {
   if (Status status = checkSettings(settings, material); !status) return status.error();
@@ -337,7 +304,7 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   std::vector<bool> isRigid(groom.strandCount());
   const auto tooFine = tooFineStrands(*sizes, settings.maxStretch);
   for (std::uint32_t s : tooFine) isRigid[s] = true;
-  Extremes extremes;
+  MaterialExtremes extremes;
   RestState state = assemble(groom, material, settings, order, isRigid, extremes);
   std::vector<double> longestSteps = extremes.calmSteps;
   for (double& step : longestSteps) step = std::min(step, longestMotionStep(settings));
@@ -345,7 +312,8 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   for (std::uint32_t s : tooQuick) isRigid[s] = true;
   if (!tooQuick.empty()) state = assemble(groom, material, settings, order, isRigid, extremes);
 
-  addWarnings(state, extremes, material, settings);
+  state.warnings = extremes.warnings(state.strands.size(), material, settings);
+  state.materialWarningCount = state.warnings.size();
   for (const auto& warnings : {roundingWarnings(*sizes, tooFine), tooFineWarnings(*sizes, tooFine),
                                tooQuickWarnings(*sizes, tooQuick, longestSteps, settings)})
     state.warnings.insert(state.warnings.end(), warnings.begin(), warnings.end());

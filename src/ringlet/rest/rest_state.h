@@ -11,6 +11,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
+#include "ringlet/rest/strand_constants.h"
 #include "ringlet/scene/settings.h"
 #include "shared/layout.h"
 
@@ -33,8 +34,9 @@ struct RestState {
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle
   std::vector<RigidStrand> rigid;            // all other strands, in groom order
   std::size_t groomStrandCount = 0, groomParticleCount = 0;
-  double longestCalmStep = 0;         // longest outer step that needs no warning [s]
-  std::vector<std::string> warnings;  // for the user: what the step or the load changed, with numbers
+  double longestCalmStep = 0;            // longest outer step that needs no warning [s]
+  std::vector<std::string> warnings;     // for the user: what the step or the load changed, with numbers
+  std::size_t materialWarningCount = 0;  // the first of them, which another material would not have
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and
@@ -43,6 +45,12 @@ struct RestState {
 /// count (rest/strand_order.h makes some); empty: groom order among equals.
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const std::uint32_t> order = {});
+
+/// A strand's springs as the device has them, per mass unit [kg].
+void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit);
+
+/// The groom that a rest state is of, in metres.
+Groom groomOf(const RestState& state);
 
 /// The fewest outer steps per frame that resolve the motion (1/192 s each; `paper` 1/720 s, its own) and need
 /// no warning: the core spring in full, bending calm, of all strands but those too quick to be simulated

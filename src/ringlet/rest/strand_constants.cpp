@@ -59,15 +59,24 @@ double smoothingLengthOf(std::span<const Vec3d> points, double arcLength) {
   return wanted.back().smoothingLength;
 }
 
-StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs,
-                                const Material& material, const Settings& settings) {
+StrandGeometry strandGeometry(std::span<const Vec3d> points, std::span<const double> arcs) {
+  StrandGeometry g;
+  g.arcLength = std::accumulate(arcs.begin(), arcs.end(), 0.0);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) g.meanEdgeLength += length(points[i + 1] - points[i]);
+  g.meanEdgeLength /= static_cast<double>(std::max<std::size_t>(1, arcs.size()));
+  g.smoothingLength = smoothingLengthOf(points, g.arcLength);
+  g.hasPerversions = measureCurl(points).perversions > 0;
+  return g;
+}
+
+StrandConstants strandConstants(const StrandGeometry& geometry, const Material& material,
+                                const Settings& settings) {
   StrandConstants c;
-  c.arcLength = std::accumulate(arcs.begin(), arcs.end(), 0.0);
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) c.meanEdgeLength += length(points[i + 1] - points[i]);
-  c.meanEdgeLength /= static_cast<double>(std::max<std::size_t>(1, arcs.size()));
+  c.arcLength = geometry.arcLength;
+  c.meanEdgeLength = geometry.meanEdgeLength;
   const double S = c.arcLength, l = c.meanEdgeLength, T = settings.stepSeconds();
 
-  const double fromShape = smoothingLengthOf(points, S);
+  const double fromShape = geometry.smoothingLength;
   c.bendSmoothingLength = material.bendSmoothingLength.value_or(fromShape);
   c.coreSmoothingLength = material.coreSmoothingLength.value_or(fromShape);
   c.bendBeta = smoothingWeight(l, c.bendSmoothingLength);
@@ -92,7 +101,7 @@ StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const d
   // a soft curl feeds on itself), 3 where the curl changes hand (at 3.5 a soft tight one does); capped
   // beyond.
   const double coreLength = c.coreSmoothingLength > 0 ? c.coreSmoothingLength : l;
-  const double calm = (measureCurl(points).perversions > 0 ? 3 : 4) * coreLength;
+  const double calm = (geometry.hasPerversions ? 3 : 4) * coreLength;
   c.coreStiffnessAsked = material.coreStiffness * weight;
   c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (calm / T) * (calm / T));
   c.longestCoreStep = calm * std::sqrt(lambda / std::max(c.coreStiffnessAsked, 1e-300));

@@ -37,8 +37,18 @@ double smoothingLengthOf(const CurlShape& shape, double arcLength);
 /// time and without its perversions, which are flat for half a turn and would ask for any length [unit].
 double smoothingLengthOf(std::span<const Vec3d> points, double arcLength);
 
-/// `points`: the strand at rest [m]; `arcs`: arc length of each edge [m].
-StrandConstants strandConstants(std::span<const Vec3d> points, std::span<const double> arcs,
-                                const Material& material, const Settings& settings);
+/// What of a strand's shape at rest its constants depend on.
+struct StrandGeometry {
+  double arcLength = 0;         // S [m]
+  double meanEdgeLength = 0;    // l, of the chords [m]
+  double smoothingLength = 0;   // that its curl asks for [m]
+  bool hasPerversions = false;  // its curl changes hand
+};
+
+/// `points`: the strand at rest [m]; `arcs`: arc length of each edge [m]. Cost: its curl is measured.
+StrandGeometry strandGeometry(std::span<const Vec3d> points, std::span<const double> arcs);
+
+StrandConstants strandConstants(const StrandGeometry& geometry, const Material& material,
+                                const Settings& settings);
 
 }  // namespace ringlet

@@ -11,14 +11,8 @@ namespace {
 using gpu::Buffer;
 using gpu::BufferKind;
 
-using SharedBuffer = std::shared_ptr<const Buffer>;
-
-// Of strands in device order.
-Result<SharedBuffer> createStrands(gpu::Device& device, std::span<const layout::StrandRest> all,
-                                   const GroomChunk& part) {
-  auto strands =
-      Buffer::create(device, part.strandCount() * sizeof(layout::StrandRest), BufferKind::storage, "strands");
-  if (!strands) return strands.error();
+// Of all strands, in device order, those of a chunk.
+Status uploadStrands(Buffer& strands, std::span<const layout::StrandRest> all, const GroomChunk& part) {
   constexpr std::size_t kPieceStrands = 1 << 16;  // 7 MiB
   std::vector<layout::StrandRest> piece;
   for (std::size_t done = 0; done < part.strandCount(); done += piece.size()) {
@@ -26,11 +20,20 @@ Result<SharedBuffer> createStrands(gpu::Device& device, std::span<const layout::
     const std::size_t count = std::min(kPieceStrands, part.strandCount() - done);
     piece.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
     for (layout::StrandRest& strand : piece) strand.firstParticle -= part.particleBegin;
-    if (Status status = strands->upload(std::as_bytes(std::span(piece)), done * sizeof(layout::StrandRest));
+    if (Status status = strands.upload(std::as_bytes(std::span(piece)), done * sizeof(layout::StrandRest));
         !status)
-      return status.error();
+      return status;
   }
-  return std::make_shared<const Buffer>(std::move(*strands));
+  return {};
+}
+
+Result<std::shared_ptr<Buffer>> createStrands(gpu::Device& device, std::span<const layout::StrandRest> all,
+                                              const GroomChunk& part) {
+  auto strands =
+      Buffer::create(device, part.strandCount() * sizeof(layout::StrandRest), BufferKind::storage, "strands");
+  if (!strands) return strands.error();
+  if (Status status = uploadStrands(*strands, all, part); !status) return status.error();
+  return std::make_shared<Buffer>(std::move(*strands));
 }
 
 Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& constants,
@@ -92,14 +95,40 @@ Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
   return chunks;
 }
 
-Result<ConstantChunk> ConstantChunk::create(gpu::Device& device, const RestState& rest,
+Result<ConstantChunk> ConstantChunk::create(gpu::Device& device, std::span<const layout::StrandRest> strands,
+                                            std::span<const layout::ParticleRest> particles,
                                             const GroomChunk& part) {
-  auto particles = createFilled(
-      device, std::span(rest.particles).subspan(part.particleBegin, part.particleCount()), "particles");
-  if (!particles) return particles.error();
-  auto strands = createStrands(device, rest.strands, part);
-  if (!strands) return strands.error();
-  return ConstantChunk{part, std::make_shared<const Buffer>(std::move(*particles)), std::move(*strands)};
+  auto ofParticles =
+      createFilled(device, particles.subspan(part.particleBegin, part.particleCount()), "particles");
+  if (!ofParticles) return ofParticles.error();
+  auto ofStrands = createStrands(device, strands, part);
+  if (!ofStrands) return ofStrands.error();
+  return ConstantChunk{part, std::make_shared<Buffer>(std::move(*ofParticles)), std::move(*ofStrands)};
+}
+
+Status ConstantChunk::upload(std::span<const layout::StrandRest> all,
+                             std::span<const layout::ParticleRest> allParticles) {
+  const auto mine = allParticles.subspan(part.particleBegin, part.particleCount());
+  if (Status status = particles->upload(std::as_bytes(mine)); !status) return status;
+  return uploadStrands(*strands, all, part);
+}
+
+Status DeviceGroom::setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
+                                 std::span<const layout::ParticleRest> particles) {
+  for (ConstantChunk& chunk : own) {
+    if (Status status = chunk.upload(strands, particles); !status) return status;
+  }
+  if (!own.empty()) return {};
+  std::vector<ConstantChunk> made;
+  for (const DeviceChunk& chunk : chunks) {
+    auto constants = ConstantChunk::create(device, strands, particles, chunk.part);
+    if (!constants) return constants.error();
+    made.push_back(std::move(*constants));
+  }
+  own = std::move(made);
+  for (std::size_t c = 0; c < chunks.size(); ++c)
+    chunks[c].strands = own[c].strands, chunks[c].particles = own[c].particles;
+  return {};
 }
 
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, std::span<const ConstantChunk> constants,
@@ -183,7 +212,8 @@ std::uint64_t DeviceGroom::strandBytes() const {
 std::uint64_t DeviceGroom::sharedBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
-    bytes += c.particles->bytes() + (hasOwnStrands ? 0 : c.strands->bytes());
+    bytes +=
+        (own.empty() ? c.particles->bytes() : 0) + (hasOwnStrands || !own.empty() ? 0 : c.strands->bytes());
   return bytes;
 }
 

@@ -25,10 +25,15 @@ namespace ringlet {
 /// heads with this hair.
 struct ConstantChunk {
   GroomChunk part;
-  std::shared_ptr<const gpu::Buffer> particles, strands;
+  std::shared_ptr<gpu::Buffer> particles, strands;
 
   /// Fails when the device lacks memory.
-  static Result<ConstantChunk> create(gpu::Device& device, const RestState& rest, const GroomChunk& part);
+  /// `strands`, `particles`: all of the groom, in device order.
+  static Result<ConstantChunk> create(gpu::Device& device, std::span<const layout::StrandRest> strands,
+                                      std::span<const layout::ParticleRest> particles,
+                                      const GroomChunk& part);
+  /// Others in their place, while no kernel reads them.
+  Status upload(std::span<const layout::StrandRest> all, std::span<const layout::ParticleRest> allParticles);
 };
 
 /// What kernels see of some of the strands of one head.
@@ -50,16 +55,22 @@ Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
 
 struct DeviceGroom {
   std::vector<DeviceChunk> chunks;
-  FrameInput poses;            // StepPose[kMaxStepPoses]
-  gpu::Buffer contactControl;  // empty without contacts
-  gpu::Buffer controlRead;     // as the last frame left it, in the host's memory
-  bool hasOwnStrands = false;  // which no other head sees
+  FrameInput poses;                  // StepPose[kMaxStepPoses]
+  gpu::Buffer contactControl;        // empty without contacts
+  gpu::Buffer controlRead;           // as the last frame left it, in the host's memory
+  bool hasOwnStrands = false;        // which no other head sees
+  std::vector<ConstantChunk> own{};  // in place of what heads share, of all chunks; none: that
 
   /// `shifted`: all strands in device order, of a head whose roots move beside it; else none. `slots`: frames
   /// in flight. Fails when the device lacks memory.
   static Result<DeviceGroom> create(gpu::Device& device, std::span<const ConstantChunk> constants,
                                     std::span<const layout::StrandRest> shifted, const GroomRecords& records,
                                     std::size_t slots);
+
+  /// Constants of this head's own in place of the others; kernels must be bound to them anew. Fails when the
+  /// device lacks memory.
+  Status setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
+                      std::span<const layout::ParticleRest> particles);
 
   /// A chunk's buffers, as strand kernels bind them.
   gpu::BufferTable bufferTable(std::size_t chunk) const;

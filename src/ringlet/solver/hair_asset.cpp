@@ -61,7 +61,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, strandGroupSize(*limits));
   if (!plan) return plan.error();  // before anything is made for it
   for (const GroomChunk& chunk : *chunks) {
-    auto constants = ConstantChunk::create(device.gpu(), self->rest, chunk);
+    auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles, chunk);
     if (!constants) return constants.error();
     self->constants.push_back(std::move(*constants));
   }

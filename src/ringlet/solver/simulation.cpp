@@ -104,8 +104,8 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
       planFrame(constant.ranges, limits, settings, initial.bodies.size(), strandGroupSize(limits));
   if (!plan) return plan.error();  // before anything is made for it
 
-  auto buffers = DeviceGroom::create(device, constant.constants, shiftedStrands(rest, initial.rootShifts),
-                                     constant.records, kFramesInFlight);
+  std::vector<layout::StrandRest> strands = shiftedStrands(rest, initial.rootShifts);
+  auto buffers = DeviceGroom::create(device, constant.constants, strands, constant.records, kFramesInFlight);
   if (!buffers) return buffers.error();
   auto world = DeviceWorld::create(device, initial.bodies, settings, initial.head, kFramesInFlight);
   if (!world) return world.error();
@@ -127,10 +127,12 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
       new Implementation{.asset = asset.self_,
                          .device = constant.device,
                          .rest = rest,
-                         .material = constant.material,
                          .choice = constant.choice,
                          .ranges = constant.ranges,
                          .settings = settings,
+                         .material = constant.material,
+                         .warnings = rest.warnings,
+                         .strands = std::move(strands),
                          .readsBack = initial.readsBack,
                          .head = {initial.oneStepEarlier.value_or(initial.head), initial.head},
                          .buffers = std::move(*buffers),
@@ -188,21 +190,28 @@ Status Simulation::Implementation::makeKernels() {
   auto made = createStrandKernels(device.gpu(), shapes, options);
   if (!made) return made.error();
   kernels = std::move(*made);
-  for (const StrandRange& range : ranges) {
+  for (const StrandRange& range : ranges)
     kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
-    gpu::BufferTable table = buffers.bufferTable(range.chunk);
-    table.merge(world.bufferTable());
-    table.merge(roots.bufferTable(range.chunk));
-    auto bound = gpu::Bindings::create(*kernels[kernelOf.back()], table);
-    if (!bound) return bound.error();
-    bindings.push_back(std::move(*bound));
-  }
+  if (Status status = bindKernels(); !status) return status;
 
   if (newCount > 0) {
     if (Status status = dispatchNothing(newKernels); !status) return status;
   }
   compileMilliseconds =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return {};
+}
+
+Status Simulation::Implementation::bindKernels() {
+  bindings.clear();
+  for (std::size_t r = 0; r < ranges.size(); ++r) {
+    gpu::BufferTable table = buffers.bufferTable(ranges[r].chunk);
+    table.merge(world.bufferTable());
+    table.merge(roots.bufferTable(ranges[r].chunk));
+    auto bound = gpu::Bindings::create(*kernels[kernelOf[r]], table);
+    if (!bound) return bound.error();
+    bindings.push_back(std::move(*bound));
+  }
   return {};
 }
 
@@ -448,7 +457,7 @@ Result<std::vector<ListedContact>> Simulation::listedContacts() const {
 }
 
 std::size_t Simulation::rigidStrandCount() const { return self_->rigidHair.strandCount(); }
-const std::vector<std::string>& Simulation::warnings() const { return self_->rest.warnings; }
+const std::vector<std::string>& Simulation::warnings() const { return self_->warnings; }
 std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }
 
 Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) const {

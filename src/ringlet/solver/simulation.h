@@ -198,8 +198,14 @@ class Simulation {
   /// changes nothing then. Cost: frames are recorded anew, some microseconds a dispatch. With contacts it
   /// waits for frames under way; their stiffness and damping have lists made anew.
   Status setSettings(const Settings& settings);
-  /// As they are now; at first the asset's. Checkpoints do not hold them.
+  /// Another material, from the next frame on: other stiffnesses, dampings, blend of the core, variation. Of
+  /// the integrator jacobi. Fails where anything else differs, or is out of its range, and changes nothing
+  /// then. warnings() are the material's. Cost: it waits for frames under way; constants of this head's own,
+  /// 32 bytes a particle and 112 a strand; the first time the asset's rest state twice.
+  Status setMaterial(const Material& material);
+  /// As they are now; at first the asset's. Checkpoints hold neither: set them before restore().
   const Settings& settings() const;
+  const Material& material() const;
 
   const HeadPose& head() const;
   Result<SimulationReport> report() const;

@@ -13,6 +13,7 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
+#include "ringlet/rest/live_material.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_groom.h"
@@ -62,11 +63,14 @@ struct Simulation::Implementation {
   // Of the asset:
   const ComputeDevice& device;
   const RestState& rest;
-  const Material& material;
   const KernelChoice& choice;
   const std::vector<StrandRange>& ranges;
-  Settings settings;      // at first the asset's
-  bool readsBack = true;  // every frame
+  Settings settings;  // at first the asset's
+  Material material;  // likewise
+  std::vector<std::string> warnings;
+  std::vector<layout::StrandRest> strands{};   // of a head whose roots are shifted; none: the asset's
+  std::optional<LiveMaterial> liveMaterial{};  // once it has changed
+  bool readsBack = true;                       // every frame
 
   HeadHistory head;
 
@@ -102,6 +106,7 @@ struct Simulation::Implementation {
 
   // simulation.cpp
   Status makeKernels();
+  Status bindKernels();
   Status dispatchNothing(std::span<const std::size_t> newKernels) const;
   ContactKinds contactKinds() const { return {contacts.has_value(), volume.has_value()}; }
   Status addContacts();
@@ -115,6 +120,7 @@ struct Simulation::Implementation {
   // simulation_settings.cpp
   Status checkChange(const Settings& wanted) const;
   Status change(const Settings& wanted);
+  Status change(const Material& wanted);
 
   // simulation_frames.cpp
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;

@@ -1,6 +1,7 @@
 // Implements what may change of solver/simulation.h between frames.
 #include <fmt/format.h>
 
+#include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
 #include "ringlet/solver/simulation_implementation.h"
 #include "ringlet/solver/strand_kernels.h"
@@ -53,11 +54,47 @@ Status Simulation::Implementation::change(const Settings& wanted) {
   return {};
 }
 
+Status Simulation::Implementation::change(const Material& wanted) {
+  if (Status status = finishFrames(); !status) return status;
+  if (!liveMaterial) {
+    auto made = LiveMaterial::create(rest, asset->material, asset->settings);
+    if (!made) return made.error();
+    liveMaterial = std::move(*made);
+  }
+  std::vector<layout::StrandRest> own = strands.empty() ? rest.strands : strands;
+  std::vector<std::string> sentences;
+  const std::vector<layout::ParticleRest> particles = liveMaterial->with(wanted, own, sentences);
+  if (Status status = buffers.setConstants(device.gpu(), own, particles); !status) return status;
+  if (Status status = bindKernels(); !status) return status;
+  warnings = std::move(sentences);
+  warnings.insert(warnings.end(),
+                  rest.warnings.begin() + static_cast<std::ptrdiff_t>(rest.materialWarningCount),
+                  rest.warnings.end());
+  material = wanted;
+  for (FrameSlot& slot : slots) slot.isRecorded = false;
+  return {};
+}
+
+Status Simulation::setMaterial(const Material& material) {
+  const Implementation& self = *self_;
+  if (self.settings.integrator != Integrator::jacobi)
+    return Error{"a material changes while hair moves with the integrator jacobi only"};
+  if (Status status = checkMaterial(material); !status) return status;
+  if (const std::string fixed = fixedDifference(self.asset->material, material); !fixed.empty()) {
+    return Error{fmt::format(
+        "the material's {} is not as the hair's asset was built with it, and does not change while hair "
+        "moves: build another asset",
+        fixed)};
+  }
+  return self_->change(material);
+}
+
 Status Simulation::setSettings(const Settings& settings) {
   if (Status status = self_->checkChange(settings); !status) return status;
   return self_->change(settings);
 }
 
 const Settings& Simulation::settings() const { return self_->settings; }
+const Material& Simulation::material() const { return self_->material; }
 
 }  // namespace ringlet

@@ -1,0 +1,107 @@
+// Implements rest/live_material.h.
+#include "ringlet/rest/live_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "ringlet/groom/curl_shape.h"
+#include "ringlet/rest/material_extremes.h"
+
+namespace ringlet {
+namespace {
+
+// All strands in the order of a rest state's, those that are rigid among the others of their length.
+std::vector<std::uint32_t> orderOf(const RestState& rest, const Groom& groom) {
+  std::vector<std::uint32_t> order = rest.strandInGroom;
+  for (const RigidStrand& strand : rest.rigid) order.push_back(strand.strandInGroom);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t s) { return groom.strand(s).size(); });
+  return order;
+}
+
+StrandGeometry geometryOf(std::span<const Vec3f> strand) {
+  std::vector<Vec3d> points;
+  for (const Vec3f p : strand) points.push_back(static_cast<Vec3d>(p));
+  std::vector<double> arcs(points.size() - 1);
+  measureArcs(points, arcs);
+  return strandGeometry(points, arcs);
+}
+
+layout::vec4 minus(const layout::vec4& a, const layout::vec4& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
+}
+
+}  // namespace
+
+std::string fixedDifference(const Material& a, const Material& b) {
+  if (a.lineDensity != b.lineDensity) return "line_density";
+  if (a.bendSmoothingLength != b.bendSmoothingLength) return "bend_smoothing_length";
+  if (a.coreSmoothingLength != b.coreSmoothingLength) return "core_smoothing_length";
+  if (!(a.bendStiffnessProfile == b.bendStiffnessProfile)) return "profile.bend_stiffness";
+  if (!(a.lineDensityProfile == b.lineDensityProfile)) return "profile.line_density";
+  return "";
+}
+
+Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material& material,
+                                          const Settings& settings) {
+  const Groom groom = groomOf(rest);
+  const std::vector<std::uint32_t> order = orderOf(rest, groom);
+  auto loaded = buildRestState(groom, material, settings, order);
+  if (!loaded) return loaded.error();
+  Settings unloaded = settings;
+  unloaded.gravityPreload = 0;
+  auto base = buildRestState(groom, material, unloaded, order);
+  if (!base) return base.error();
+
+  LiveMaterial self;
+  self.settings_ = settings;
+  self.lineDensity_ = material.lineDensity;
+  self.groomStrandCount_ = rest.groomStrandCount;
+  self.particles_ = std::move(base->particles);
+  for (std::size_t i = 0; i < self.particles_.size(); ++i)
+    self.loads_.push_back(minus(self.particles_[i].target, loaded->particles[i].target));
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    const std::uint32_t first = rest.strands[s].firstParticle, count = rest.strands[s].particleCount;
+    Strand strand{.geometry = geometryOf(std::span(rest.points).subspan(first, count)),
+                  .strandInGroom = rest.strandInGroom[s],
+                  .firstParticle = first,
+                  .particleCount = count};
+    strand.built =
+        strandConstants(strand.geometry, materialOfStrand(material, strand.strandInGroom), settings);
+    for (std::uint32_t i = first; i + 1 < first + count; ++i) {
+      const layout::vec4& load = self.loads_[i];
+      const double across = std::hypot(load.x, load.y, load.z) / self.particles_[i].edgeLength;
+      if (static_cast<int>(i - first) + 1 >= settings.rootCount) strand.load = std::max(strand.load, across);
+      strand.stiffest = std::max<double>(i == first ? 0 : strand.stiffest, self.particles_[i].bendFactor);
+    }
+    self.strands_.push_back(strand);
+  }
+  return self;
+}
+
+std::vector<layout::ParticleRest> LiveMaterial::with(const Material& material,
+                                                     std::span<layout::StrandRest> strands,
+                                                     std::vector<std::string>& warnings) const {
+  std::vector<layout::ParticleRest> particles = particles_;
+  MaterialExtremes extremes(groomStrandCount_);
+  for (std::size_t s = 0; s < strands_.size(); ++s) {
+    const Strand& strand = strands_[s];
+    const StrandConstants now =
+        strandConstants(strand.geometry, materialOfStrand(material, strand.strandInGroom), settings_);
+    setSprings(strands[s], now, lineDensity_ * strand.geometry.meanEdgeLength);
+    const double softer = strand.built.bendStiffness / now.bendStiffness;
+    const auto bend = static_cast<float>(softer);
+    const auto stretch = static_cast<float>(strand.built.stretchStiffness / now.stretchStiffness);
+    for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
+      const layout::vec4& load = loads_[i];
+      layout::vec4& target = particles[i].target;
+      target = {target.x - bend * load.x, target.y - bend * load.y, target.z - bend * load.z,
+                target.w - stretch * load.w};
+    }
+    extremes.add(now, strand.stiffest, softer * strand.load, strand.strandInGroom, settings_);
+  }
+  warnings = extremes.warnings(strands_.size(), material, settings_);
+  return particles;
+}
+
+}  // namespace ringlet
