@@ -245,8 +245,8 @@ TEST_F(LiveSettings, CarriedStrandsAreAsFastInShorterSteps) {
 TEST_F(LiveSettings, WhatMayNotChangeIsNamed) {
   const std::vector<std::pair<std::string, std::function<void(Settings&)>>> fixed{
       {"integrator", [](Settings& s) { s.integrator = Integrator::paper; }},
-      {"gravityPreload", [](Settings& s) { s.gravityPreload = 0.5; }},
-      {"rootCount", [](Settings& s) { s.rootCount = 2; }},
+      {"preload", [](Settings& s) { s.gravityPreload = 0.5; }},
+      {"roots", [](Settings& s) { s.rootCount = 2; }},
       {"contacts.radius", [](Settings& s) { s.contacts.radius = 0.01; }},
       {"contacts.on", [](Settings& s) { s.contacts.on = !s.contacts.on; }},
       {"air.on", [](Settings& s) { s.air.on = !s.air.on; }},

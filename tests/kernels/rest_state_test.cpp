@@ -143,11 +143,11 @@ TEST(RestState, RefusesWhatItCannotHold) {
   EXPECT_NE(errorOf(point, {}).find("length"), std::string::npos);
   Settings settings;
   settings.stepsPerFrame = 100000;
-  EXPECT_NE(errorOf(good, settings).find("stepsPerFrame is 100000; it must be from 1 to 340"),
+  EXPECT_NE(errorOf(good, settings).find("steps_per_frame is 100000; it must be from 1 to 340"),
             std::string::npos);
   settings = {};
   settings.maxStretch = NAN;
-  EXPECT_NE(errorOf(good, settings).find("maxStretch"), std::string::npos);
+  EXPECT_NE(errorOf(good, settings).find("max_stretch"), std::string::npos);
   settings = {};
   settings.contacts.spacing = 1.5;  // strands would slip between the spheres
   EXPECT_NE(errorOf(good, settings).find("contacts.spacing is 1.5; it must be from 0.01 to 1"),

@@ -17,17 +17,18 @@ names=$(nm -g --defined-only -- "${libraries[@]}" 2> /dev/null | grep -E ' (vk|v
 [ -z "$names" ] || fail "names of volk are shown: $names"
 if [ "$kind" = shared ]; then
   names=$(nm -D -C --defined-only -- "${libraries[@]}" | grep -E '^[0-9a-f]' |
-    grep -vE '^[0-9a-f]+ . (ringlet::|(typeinfo( name)?|vtable) for ringlet::)' | head -n 3 || true)
+    grep -vE '^[0-9a-f]+ . (ringlet_[a-uw-z][a-z_]*$|ringlet_v(ersion|elocities)$|ringlet::|(typeinfo( name)?|vtable) for ringlet::)' | head -n 3 || true)
   [ -z "$names" ] || fail "a shared library shows names that are not Ringlet's: $names"
 fi
 
 compilers=0
 for compiler in g++ clang++; do
   command -v $compiler > /dev/null || { echo "SKIPPED: $compiler is not installed"; continue; }
-  cmake -S "$here/installed" -B "$work/$compiler" -G "$generator" -DCMAKE_CXX_COMPILER=$compiler \
+  cc=$([ $compiler = g++ ] && echo gcc || echo clang)
+  cmake -S "$here/installed" -B "$work/$compiler" -G "$generator" -DCMAKE_CXX_COMPILER=$compiler -DCMAKE_C_COMPILER=$cc -DCMAKE_C_FLAGS="-Wall -Wextra -Werror" \
     -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror" > "$work/$compiler.txt" &&
     cmake --build "$work/$compiler" >> "$work/$compiler.txt" || { cat "$work/$compiler.txt"; fail "$compiler"; }
-  for program in simulates reads_and_writes includes_all; do
+  for program in simulates reads_and_writes includes_all plain_c; do
     (cd "$work" && "$work/$compiler/$program") || fail "$program, compiled with $compiler"
   done
   compilers=$((compilers + 1))

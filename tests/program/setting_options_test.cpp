@@ -61,7 +61,7 @@ TEST(SettingOptions, EachReachesItsSettingAndNoOther) {
     EXPECT_EQ(typedOption(contactFields(), found.typed), field.option);
     for (const SettingField<ContactSettings>& other : contactFields())
       EXPECT_EQ(isDefault(other, found.settings), other.key != field.key) << other.key;
-    EXPECT_TRUE(checkContactSettings(found.settings));
+    EXPECT_TRUE(checkNumbers(found.settings));
     EXPECT_NE(parse({field.option, refused}).problem, "");
   }
   EXPECT_GE(count, 9);

@@ -160,9 +160,9 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
     expectRange<double>({name, of, low, high, -INFINITY, NAN});
   };
   real(
-      "framesPerSecond", [](S& s) -> double& { return s.framesPerSecond; }, 1e-3, 1e6);
+      "fps", [](S& s) -> double& { return s.framesPerSecond; }, 1e-3, 1e6);
   real(
-      "gravityPreload", [](S& s) -> double& { return s.gravityPreload; }, 0, 1);
+      "preload", [](S& s) -> double& { return s.gravityPreload; }, 0, 1);
   real(
       "gravity.x", [](S& s) -> double& { return s.gravity.x; }, -1e4, 1e4);
   real(
@@ -170,9 +170,9 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
   real(
       "gravity.z", [](S& s) -> double& { return s.gravity.z; }, -1e4, 1e4);
   real(
-      "maxStretch", [](S& s) -> double& { return s.maxStretch; }, 1, 100);
+      "max_stretch", [](S& s) -> double& { return s.maxStretch; }, 1, 100);
   real(
-      "teleportDistance", [](S& s) -> double& { return s.teleportDistance; }, 0, 1e6);
+      "teleport_distance", [](S& s) -> double& { return s.teleportDistance; }, 0, 1e6);
   real(
       "contacts.radius", [](S& s) -> double& { return s.contacts.radius.emplace(); }, 1e-6, 1);
   real(
@@ -204,15 +204,15 @@ TEST(RestLimits, SettingsAreRefusedJustOutsideTheirRanges) {
     expectRange<int>({name, of, low, high, low - 1, high + 1});
   };
   whole(
-      "stepsPerFrame", [](S& s) -> int& { return s.stepsPerFrame; }, 1, 340);
+      "steps_per_frame", [](S& s) -> int& { return s.stepsPerFrame; }, 1, 340);
   whole(
-      "rootCount", [](S& s) -> int& { return s.rootCount; }, 1, layout::kMaxRootCount);
+      "roots", [](S& s) -> int& { return s.rootCount; }, 1, layout::kMaxRootCount);
   whole(
-      "pointIterations", [](S& s) -> int& { return s.pointIterations; }, 1, 60000);
+      "iterations", [](S& s) -> int& { return s.pointIterations; }, 1, 60000);
   whole(
-      "forceLoops", [](S& s) -> int& { return s.forceLoops; }, 1, 1000);
+      "force_loops", [](S& s) -> int& { return s.forceLoops; }, 1, 1000);
   whole(
-      "dampingLoops", [](S& s) -> int& { return s.dampingLoops; }, 1, 1000);
+      "damping_loops", [](S& s) -> int& { return s.dampingLoops; }, 1, 1000);
   whole(
       "contacts.min_overlaps", [](S& s) -> int& { return s.contacts.minOverlaps; }, 1, 1000000);
   whole(

@@ -330,31 +330,8 @@ Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Se
 }
 
 Status checkSettings(const Settings& s, const Material& material) {
-  struct Range {
-    const char* name;
-    double value, low, high;
-  };
-  const Range ranges[] = {
-      {"framesPerSecond", s.framesPerSecond, 1e-3, 1e6},
-      {"stepsPerFrame", double(s.stepsPerFrame), 1, double(layout::kMaxStepPoses - 1)},
-      {"gravityPreload", s.gravityPreload, 0, 1},
-      {"gravity.x", s.gravity.x, -1e4, 1e4},
-      {"gravity.y", s.gravity.y, -1e4, 1e4},
-      {"gravity.z", s.gravity.z, -1e4, 1e4},
-      {"maxStretch", s.maxStretch, 1, 100},
-      {"rootCount", double(s.rootCount), 1, double(layout::kMaxRootCount)},
-      {"teleportDistance", s.teleportDistance, 0, 1e6},
-      {"pointIterations", double(s.pointIterations), 1, 60000},
-      {"forceLoops", double(s.forceLoops), 1, 1000},
-      {"dampingLoops", double(s.dampingLoops), 1, 1000},
-  };
-  for (const Range& r : ranges) {
-    if (!(r.value >= r.low && r.value <= r.high)) {
-      return Error{fmt::format("{} is {}; it must be from {} to {}", r.name, r.value, r.low, r.high)};
-    }
-  }
-  if (Status status = checkContactSettings(s.contacts); !status) return status;
-  if (Status status = checkAirSettings(s.air); !status) return status;
+  static_assert(kMostStepsPerFrame + 1 == layout::kMaxStepPoses && kMostRoots == layout::kMaxRootCount);
+  if (Status status = checkNumbers(s); !status) return status;
   if (s.contacts.on && s.integrator != Integrator::jacobi) {
     return Error{fmt::format(
         "contacts are on with the integrator {}; contacts need jacobi: choose it, or turn contacts off",

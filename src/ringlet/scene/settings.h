@@ -15,6 +15,9 @@ enum class Integrator {
   paper,        // Iben et al. 2012, section 5: explicit force and damping loops, springs as printed
 };
 
+/// Bounds of what kernels hold.
+inline constexpr int kMostStepsPerFrame = 340, kMostRoots = 3;
+
 struct Settings {
   double framesPerSecond = 24;  // [1/s]
   int stepsPerFrame = 8;        // outer steps per frame; the step T is 1 / (framesPerSecond stepsPerFrame)

@@ -33,7 +33,7 @@ Status check(std::span<const SettingField<Owner>> fields, const Owner& settings,
         std::visit([&](auto member) { return numbersOf(settings.*member); }, field.member);
     for (const auto& [part, value] : numbers) {
       if (!field.allowed.contains(value))
-        return Error{fmt::format("{}.{}{} is {}; it must be from {} to {}", table, field.key, part, value,
+        return Error{fmt::format("{}{}{} is {}; it must be from {} to {}", table, field.key, part, value,
                                  field.allowed.low, field.allowed.high)};
     }
   }
@@ -45,7 +45,7 @@ std::string differenceOf(std::span<const SettingField<Owner>> fields, const Owne
                          const char* table) {
   for (const SettingField<Owner>& field : fields) {
     const bool isEqual = std::visit([&](auto member) { return a.*member == b.*member; }, field.member);
-    if (!isEqual && !field.isLive) return fmt::format("{}.{}", table, field.key);
+    if (!isEqual && !field.isLive) return fmt::format("{}{}", table, field.key);
   }
   return "";
 }
@@ -60,6 +60,37 @@ std::vector<std::string> namesIn(std::string_view list) {
     at = comma + 2;
   }
   return names;
+}
+
+std::span<const SettingField<Settings>> settingsFields() {
+  using S = Settings;
+  using F = SettingField<S>;
+  static const F all[] = {
+      F{"fps", "1/s", "", "Frames per second.", &S::framesPerSecond, {0.001, 1e6}}.live(),
+      F{"steps_per_frame", "", "", "Outer steps a frame.", &S::stepsPerFrame, {1, kMostStepsPerFrame}}.live(),
+      F{"gravity", "m/s^2", "", "What everything falls with.", &S::gravity, {-1e4, 1e4}}.live(),
+      F{"preload", "1", "", "Share of gravity balanced in the rest pose.", &S::gravityPreload, kShare},
+      F{"max_stretch",
+        "1",
+        "",
+        "Longest an edge may become, as a multiple of the groom's edge.",
+        &S::maxStretch,
+        {1, 100}}
+          .live(),
+      F{"teleport_distance",
+        "m",
+        "",
+        "A head that jumps further in one frame carries the hair along rigidly; 0: never.",
+        &S::teleportDistance,
+        {0, 1e6}}
+          .live(),
+      F{"roots", "", "", "Particles at the root that follow the head.", &S::rootCount, {1, kMostRoots}},
+      F{"iterations", "", "", "Of a step.", &S::pointIterations, {1, 60000}, "", "point_jacobi"}.live(),
+      F{"chebyshev", "", "", "Whether these are accelerated.", &S::chebyshev, {}, "", "point_jacobi"}.live(),
+      F{"force_loops", "", "", "Of a step.", &S::forceLoops, {1, 1000}, "", "paper"}.live(),
+      F{"damping_loops", "", "", "Of a force loop.", &S::dampingLoops, {1, 1000}, "", "paper"}.live(),
+  };
+  return all;
 }
 
 std::span<const SettingField<ContactSettings>> contactFields() {
@@ -244,23 +275,24 @@ std::span<const SettingField<AirSettings>> airFields() {
   return all;
 }
 
-Status checkContactSettings(const ContactSettings& settings) {
-  return check(contactFields(), settings, "contacts");
+Status checkNumbers(const ContactSettings& settings) { return check(contactFields(), settings, "contacts."); }
+Status checkNumbers(const Settings& settings) {
+  if (Status status = check(settingsFields(), settings, ""); !status) return status;
+  if (Status status = checkNumbers(settings.contacts); !status) return status;
+  return check(airFields(), settings.air, "air.");
 }
-Status checkAirSettings(const AirSettings& settings) { return check(airFields(), settings, "air"); }
 
 std::string fixedDifference(const Settings& a, const Settings& b) {
   if (a.integrator != b.integrator) return "integrator";
-  if (a.gravityPreload != b.gravityPreload) return "gravityPreload";
-  if (a.rootCount != b.rootCount) return "rootCount";
-  const std::string ofContacts = fixedDifference(a.contacts, b.contacts);
-  return ofContacts.empty() ? fixedDifference(a.air, b.air) : ofContacts;
+  std::string name = differenceOf(settingsFields(), a, b, "");
+  if (name.empty()) name = fixedDifference(a.contacts, b.contacts);
+  return name.empty() ? fixedDifference(a.air, b.air) : name;
 }
 std::string fixedDifference(const ContactSettings& a, const ContactSettings& b) {
-  return differenceOf(contactFields(), a, b, "contacts");
+  return differenceOf(contactFields(), a, b, "contacts.");
 }
 std::string fixedDifference(const AirSettings& a, const AirSettings& b) {
-  return differenceOf(airFields(), a, b, "air");
+  return differenceOf(airFields(), a, b, "air.");
 }
 
 }  // namespace ringlet

@@ -1,4 +1,4 @@
-// The settings of contacts and of the air, each once.
+// The settings of a run, of contacts and of the air, each once.
 #pragma once
 
 #include <span>
@@ -12,12 +12,14 @@
 
 namespace ringlet {
 
+/// All but the integrator, contacts and air.
+std::span<const SettingField<Settings>> settingsFields();
 std::span<const SettingField<ContactSettings>> contactFields();
 std::span<const SettingField<AirSettings>> airFields();
 
 /// The sentence that says which number is out of its range, if any is.
-Status checkContactSettings(const ContactSettings& settings);
-Status checkAirSettings(const AirSettings& settings);
+Status checkNumbers(const Settings& settings);
+Status checkNumbers(const ContactSettings& settings);
 
 /// The first setting that differs and may not change while hair moves ("contacts.radius"); "" for none.
 std::string fixedDifference(const Settings& a, const Settings& b);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "ringlet/base/assert.h"
 #include "ringlet/scene/motion.h"
 
 namespace ringlet {
@@ -19,6 +20,16 @@ constexpr NumberRange kSeconds{0, 3600};
 constexpr const char* kGenerated = "curl, swatch, head";
 constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";
+// A setting of a run as scene files have it, which may leave it open: then it is `standard`.
+SceneField<SceneSimulation> as(std::string_view key, auto member, const char* standard = "") {
+  const auto fields = settingsFields();
+  const auto found =
+      std::ranges::find(fields, key, [](const auto& field) { return std::string_view(field.key); });
+  RINGLET_ASSERT(found != fields.end(), "a scene's key is no setting");
+  return {found->key, found->unit,    standard,       found->effect,
+          member,     found->allowed, found->choices, found->onlyWith};
+}
+
 constexpr const char* kTurnHelp = "Turned about X first, then Y, then Z, the axes of what it is placed in.";
 
 }  // namespace
@@ -259,30 +270,15 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
 std::span<const SceneField<SceneSimulation>> simulationFields() {
   using S = SceneSimulation;
   static const SceneField<S> all[] = {
-      {"fps", "1/s", "", "Frames per second.", &S::framesPerSecond, {0.001, 1e6}},
+      as("fps", &S::framesPerSecond),
       {"frames", "", "48, or the length of the motion's file or keys", "How many.", &S::frames, {1, 1e6}},
       {"seconds", "s", "none", "In place of frames: how long.", &S::seconds, {0.001, 36000}},
-      {"steps_per_frame",
-       "",
-       "enough for this groom and material",
-       "Outer steps a frame.",
-       &S::stepsPerFrame,
-       {1, 340}},
+      as("steps_per_frame", &S::stepsPerFrame, "enough for this groom and material"),
       {"gravity", "m/s^2", "", "Downwards.", &S::gravity, {-1000, 1000}},
-      {"preload", "1", "1; 0 for paper", "Share of gravity balanced in the rest pose.", &S::preload, kShare},
-      {"max_stretch",
-       "1",
-       "1 + material.dials.bounce",
-       "Longest an edge may become, as a multiple of the groom's edge.",
-       &S::maxStretch,
-       {1, 100}},
-      {"teleport_distance",
-       "m",
-       "",
-       "A head that jumps further in one frame carries the hair along rigidly; 0: never.",
-       &S::teleportDistance,
-       {0, 1e6}},
-      {"roots", "", "", "Particles at the root that follow the head.", &S::roots, {1, 3}},
+      as("preload", &S::preload, "1; 0 for paper"),
+      as("max_stretch", &S::maxStretch, "1 + material.dials.bounce"),
+      as("teleport_distance", &S::teleportDistance),
+      as("roots", &S::roots),
       {"integrator",
        "",
        "",
@@ -290,10 +286,10 @@ std::span<const SceneField<SceneSimulation>> simulationFields() {
        &S::integrator,
        {},
        "jacobi, point_jacobi, paper"},
-      {"iterations", "", "", "Of a step.", &S::iterations, {1, 60000}, "", "point_jacobi"},
-      {"chebyshev", "", "", "Whether these are accelerated.", &S::chebyshev, {}, "", "point_jacobi"},
-      {"force_loops", "", "", "Of a step.", &S::forceLoops, {1, 1000}, "", "paper"},
-      {"damping_loops", "", "", "Of a force loop.", &S::dampingLoops, {1, 1000}, "", "paper"},
+      as("iterations", &S::iterations),
+      as("chebyshev", &S::chebyshev),
+      as("force_loops", &S::forceLoops),
+      as("damping_loops", &S::dampingLoops),
   };
   return all;
 }

@@ -1,6 +1,7 @@
 // Implements solver/hair_frames.h: each head records its frame into a part of one list.
 #include "ringlet/solver/hair_frames.h"
 
+#include <algorithm>
 #include <set>
 
 #include "ringlet/base/assert.h"
@@ -15,6 +16,9 @@ class HairFrames {
  public:
   static gpu::Device& device(std::span<const HairFrame> frames) { return of(frames.front()).device.gpu(); }
   static Status record(std::span<const HairFrame> frames, gpu::CommandList& list);
+  static bool areFree(std::span<const HairFrame> frames) {
+    return std::ranges::all_of(frames, [](const HairFrame& f) { return of(f).submitted == of(f).finished; });
+  }
   static void lose(std::span<const HairFrame> frames, const Error& why) {
     for (const HairFrame& frame : frames) of(frame).lostFrame = why;
   }
@@ -84,6 +88,7 @@ Status Simulation::frameIsOver() {
 
 Status stepFrames(std::span<const HairFrame> frames) {
   if (frames.empty()) return {};
+  RINGLET_ASSERT(HairFrames::areFree(frames), "stepFrames while frames are in flight");
   auto recorder = gpu::Recorder::create(HairFrames::device(frames), "frames of several heads");
   if (!recorder) return recorder.error();
   if (Status status = recorder->begin(); !status) return status;

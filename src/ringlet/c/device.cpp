@@ -1,0 +1,120 @@
+// Implements c/ringlet.h: errors and devices.
+#include <mutex>
+#include <set>
+
+#include "ringlet/c/handles.h"
+#include "ringlet/version.h"
+
+namespace ringlet::c {
+namespace {
+
+thread_local std::string message;
+thread_local const char* fixedMessage = nullptr;  // where there was no memory for one
+
+ringlet_result resultOf(Fault fault) {
+  switch (fault) {
+    case Fault::hostMemory:
+      return RINGLET_ERROR_OUT_OF_MEMORY;
+    case Fault::deviceMemory:
+      return RINGLET_ERROR_OUT_OF_DEVICE_MEMORY;
+    case Fault::deviceLost:
+      return RINGLET_ERROR_DEVICE_LOST;
+    case Fault::compile:
+      return RINGLET_ERROR_COMPILE;
+    default:
+      return RINGLET_ERROR;
+  }
+}
+
+HostVulkan hostOf(const ringlet_host_vulkan& host) {
+  return {.getInstanceProcAddr = host.get_instance_proc_addr,
+          .instance = host.instance,
+          .physicalDevice = host.physical_device,
+          .device = host.device,
+          .queue = host.queue,
+          .queueFamily = host.queue_family,
+          .apiVersion = host.api_version,
+          .subgroupSizeControl = host.subgroup_size_control != 0,
+          .computeFullSubgroups = host.compute_full_subgroups != 0};
+}
+
+ringlet_device* handleOf(ComputeDevice device) {
+  std::string name = device.name();
+  return new ringlet_device{std::move(device), std::move(name)};
+}
+
+// Names that are good as long as the program: there are few.
+const char* kept(const std::string& name) {
+  static std::mutex mutex;
+  static std::set<std::string> names;
+  const std::lock_guard lock(mutex);
+  return names.insert(name).first->c_str();
+}
+
+}  // namespace
+
+Outcome::Outcome(const Error& error) : result(resultOf(error.fault)), message(error.message) {}
+
+ringlet_result tell(Outcome outcome) noexcept {
+  if (outcome.result == RINGLET_OK) return RINGLET_OK;
+  message = std::move(outcome.message);
+  fixedMessage = nullptr;
+  return outcome.result;
+}
+
+ringlet_result tellOutOfMemory() noexcept {
+  fixedMessage = "there is no memory left; use fewer strands or close other programs";
+  return RINGLET_ERROR_OUT_OF_MEMORY;
+}
+
+}  // namespace ringlet::c
+
+using namespace ringlet;
+using namespace ringlet::c;
+
+const char* ringlet_version(void) { return RINGLET_VERSION; }
+
+const char* ringlet_error_message(void) { return fixedMessage ? fixedMessage : message.c_str(); }
+
+ringlet_result ringlet_device_open(const char* choice, ringlet_device** device) {
+  return guarded([&]() -> Outcome {
+    if (!device) return Outcome::invalid("ringlet_device_open has nowhere to put the device");
+    auto opened = ComputeDevice::open(choice ? choice : "");
+    if (!opened) return opened.error();
+    *device = handleOf(std::move(*opened));
+    return {};
+  });
+}
+
+ringlet_result ringlet_device_needs(const ringlet_host_vulkan* host, ringlet_host_needs* needs,
+                                    const char** extension_names, uint32_t capacity) {
+  return guarded([&]() -> Outcome {
+    if (!hasSize(host) || !hasSize(needs))
+      return Outcome::invalid("ringlet_device_needs takes two structs that say their size");
+    const auto found = ComputeDevice::needs(hostOf(taken(host)));
+    if (!found) return found.error();
+    give(needs, {.struct_size = 0,
+                 .queue_family = found->queueFamily,
+                 .subgroup_size_control = found->subgroupSizeControl,
+                 .compute_full_subgroups = found->computeFullSubgroups,
+                 .extension_count = static_cast<uint32_t>(found->extensions.size())});
+    for (uint32_t k = 0; extension_names && k < capacity && k < found->extensions.size(); ++k)
+      extension_names[k] = kept(found->extensions[k]);
+    return {};
+  });
+}
+
+ringlet_result ringlet_device_adopt(const ringlet_host_vulkan* host, ringlet_device** device) {
+  return guarded([&]() -> Outcome {
+    if (!hasSize(host) || !device)
+      return Outcome::invalid(
+          "ringlet_device_adopt takes a host that says its size, and a place for the device");
+    auto adopted = ComputeDevice::adopt(hostOf(taken(host)));
+    if (!adopted) return adopted.error();
+    *device = handleOf(std::move(*adopted));
+    return {};
+  });
+}
+
+const char* ringlet_device_name(const ringlet_device* device) { return device ? device->name.c_str() : ""; }
+void ringlet_device_release(ringlet_device* device) { delete device; }

@@ -1,0 +1,336 @@
+// Implements c/ringlet.h: assets, hair and its frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "ringlet/bodies/mesh_grid.h"
+#include "ringlet/c/handles.h"
+#include "ringlet/solver/hair_frames.h"
+
+namespace ringlet::c {
+namespace {
+
+std::optional<Quatd> rotationOf(const double (&r)[4]) {
+  if (r[0] == 0 && r[1] == 0 && r[2] == 0 && r[3] == 0) return Quatd{};
+  const double length = std::hypot(std::hypot(r[0], r[1]), std::hypot(r[2], r[3]));
+  if (!std::isfinite(length) || length == 0) return std::nullopt;
+  return Quatd{r[0] / length, r[1] / length, r[2] / length, r[3] / length};
+}
+
+template <class Pose>
+std::optional<Pose> poseOf(const ringlet_pose& pose) {
+  const auto rotation = rotationOf(pose.rotation);
+  const Vec3d position{pose.position[0], pose.position[1], pose.position[2]};
+  if (!rotation || !std::isfinite(dot(position, position))) return std::nullopt;
+  Pose made;
+  made.position = position, made.rotation = *rotation;
+  return made;
+}
+
+Outcome notFinite(const char* what) {
+  return Outcome::invalid(fmt::format("{} has a pose that is not finite", what));
+}
+
+// Poses of a frame; nothing to take is fine.
+template <class Pose>
+bool takePoses(const ringlet_pose* from, std::size_t count, std::vector<Pose>& poses) {
+  for (std::size_t k = 0; from && k < count; ++k) {
+    const auto pose = poseOf<Pose>(from[k]);
+    if (!pose) return false;
+    poses.push_back(*pose);
+  }
+  return true;
+}
+
+// A frame of the caller's, as the solver takes it.
+struct TakenFrame {
+  ringlet_hair* hair = nullptr;
+  std::vector<HeadPose> head;
+  std::vector<BodyPose> bodies, roots;
+};
+
+Outcome take(const ringlet_frame& frame, TakenFrame& taken) {
+  if (!frame.hair || !frame.step_poses)
+    return Outcome::invalid("a frame has no hair, or no poses of the head");
+  ringlet_hair& hair = *frame.hair;
+  const auto steps = static_cast<std::uint32_t>(hair.simulation.settings().stepsPerFrame);
+  if (frame.step_count != steps)
+    return Outcome::invalid(fmt::format(
+        "a frame has {} poses of the head; its settings have {} steps a frame", frame.step_count, steps));
+  if (frame.root_poses && !hair.movesRoots)
+    return Outcome::invalid(
+        "strands have poses of their own only where the asset's options say moving_roots");
+  taken.hair = &hair;
+  const std::size_t bodies = std::size_t{steps} * hair.bodyCount;
+  const std::size_t roots = std::size_t{steps} * hair.strandCount;
+  if (!takePoses(frame.step_poses, steps, taken.head) || !takePoses(frame.body_poses, bodies, taken.bodies) ||
+      !takePoses(frame.root_poses, roots, taken.roots))
+    return notFinite("a frame");
+  return {};
+}
+
+Outcome takeAll(const ringlet_frame* frames, uint32_t count, std::vector<TakenFrame>& taken) {
+  if (count == 0) return {};
+  if (!hasSize(frames)) return Outcome::invalid("there are no frames that say their size");
+  std::set<const ringlet_hair*> hairs;
+  taken.resize(count);
+  for (uint32_t k = 0; k < count; ++k) {
+    if (Outcome outcome = take(c::taken(frames, k), taken[k]); outcome.result != RINGLET_OK) return outcome;
+    if (!hairs.insert(taken[k].hair).second) return Outcome::invalid("a hair stands twice among the frames");
+    if (taken[k].hair->device != taken[0].hair->device)
+      return Outcome::invalid("the frames are of hair on several devices");
+  }
+  return {};
+}
+
+std::vector<HairFrame> hairFramesOf(const std::vector<TakenFrame>& taken) {
+  std::vector<HairFrame> frames;
+  for (const TakenFrame& frame : taken)
+    frames.push_back({&frame.hair->simulation, frame.head, frame.bodies, frame.roots});
+  return frames;
+}
+
+Outcome isRecorded() {
+  return Outcome::invalid("a frame of the hair is in a host's commands: call ringlet_frame_is_over first");
+}
+
+Result<Body> bodyOf(const ringlet_body& from, std::uint32_t index) {
+  Body body;
+  body.name = fmt::format("body {}", index);
+  body.radius = from.radius, body.length = from.length;
+  body.halfExtents = {from.half_extents[0], from.half_extents[1], from.half_extents[2]};
+  body.thickness = from.thickness, body.friction = from.friction;
+  const auto place = poseOf<BodyPose>(from.pose);
+  if (!place) return Error{fmt::format("{} has a pose that is not finite", body.name)};
+  body.place = *place;
+  if (from.shape < RINGLET_SPHERE || from.shape > RINGLET_MESH)
+    return Error{fmt::format("{} has a shape that is none: {}", body.name, static_cast<int>(from.shape))};
+  body.shape = static_cast<BodyShape>(from.shape);
+  if (from.shape != RINGLET_MESH) return body;
+  TriangleMesh mesh;
+  for (std::uint32_t v = 0; from.vertices && v < from.vertex_count; ++v)
+    mesh.points.push_back({from.vertices[3 * v], from.vertices[3 * v + 1], from.vertices[3 * v + 2]});
+  for (std::uint32_t t = 0; from.triangles && t < from.triangle_count; ++t)
+    mesh.triangles.push_back({from.triangles[3 * t], from.triangles[3 * t + 1], from.triangles[3 * t + 2]});
+  auto grid = makeDistanceGrid(mesh, {.cells = from.cells == 0 ? 64 : from.cells});
+  if (!grid) return Error{fmt::format("{}: {}", body.name, grid.error().message), grid.error().fault};
+  body.grid = std::make_shared<const DistanceGrid>(std::move(grid->grid));
+  return body;
+}
+
+Outcome fill(const std::vector<Vec3f>& values, float* xyz, std::uint64_t particleCount) {
+  if (!xyz || particleCount != values.size())
+    return Outcome::invalid(fmt::format("there is room for {} particles, and the hair has {}",
+                                        xyz ? particleCount : 0, values.size()));
+  for (const Vec3f& v : values) *xyz++ = v.x, *xyz++ = v.y, *xyz++ = v.z;
+  return {};
+}
+
+}  // namespace
+}  // namespace ringlet::c
+
+using namespace ringlet;
+using namespace ringlet::c;
+
+static_assert(int(BodyShape::sphere) == RINGLET_SPHERE && int(BodyShape::capsule) == RINGLET_CAPSULE &&
+              int(BodyShape::plane) == RINGLET_PLANE && int(BodyShape::box) == RINGLET_BOX &&
+              int(BodyShape::grid) == RINGLET_MESH);
+
+ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* groom,
+                                   const ringlet_settings* settings, const ringlet_material* material,
+                                   const ringlet_asset_options* options, ringlet_asset** asset) {
+  return guarded([&]() -> Outcome {
+    if (!device || !asset || !hasSize(groom))
+      return Outcome::invalid(
+          "ringlet_asset_build takes a device, a groom that says its size, and a place for the asset");
+    const ringlet_groom from = taken(groom);
+    if (!from.points || !from.strand_sizes)
+      return Outcome::invalid("the groom has no points, or no sizes of strands");
+    Groom made;
+    made.metresPerUnit = from.metres_per_unit == 0 ? 1 : from.metres_per_unit;
+    std::uint64_t count = 0;
+    for (std::uint32_t s = 0; s < from.strand_count; ++s) {
+      count += from.strand_sizes[s];
+      if (count > 0xffffffffu) return Outcome::invalid("the groom has more particles than 32 bits count");
+      made.firstPoint.push_back(static_cast<std::uint32_t>(count));
+    }
+    made.points.resize(count);
+    for (std::uint64_t i = 0; i < count; ++i)
+      made.points[i] = {from.points[3 * i], from.points[3 * i + 1], from.points[3 * i + 2]};
+
+    const ringlet_asset_options chosen = taken(options);
+    KernelChoice kernel;
+    kernel.movingRoots = chosen.moving_roots != 0;
+    kernel.heads = std::max(1, chosen.heads);
+    auto built = HairAsset::build(device->device, made, material ? material->material : Material{},
+                                  settings ? settings->settings : Settings{}, kernel,
+                                  chosen.has_bodies ? BodyUse::some : BodyUse::none);
+    if (!built) return built.error();
+    for (const std::string& warning : built->warnings())
+      if (chosen.warn) chosen.warn(warning.c_str(), chosen.user);
+    *asset = new ringlet_asset{std::move(*built), &device->device.gpu(), chosen.has_bodies != 0,
+                               kernel.movingRoots};
+    return {};
+  });
+}
+
+uint64_t ringlet_asset_particle_count(const ringlet_asset* asset) {
+  return asset ? asset->asset.particleCount() : 0;
+}
+uint32_t ringlet_asset_strand_count(const ringlet_asset* asset) {
+  return asset ? static_cast<uint32_t>(asset->asset.strandCount()) : 0;
+}
+void ringlet_asset_release(ringlet_asset* asset) { delete asset; }
+
+ringlet_result ringlet_hair_create(ringlet_asset* asset, const ringlet_initial_state* initial,
+                                   ringlet_hair** hair) {
+  return guarded([&]() -> Outcome {
+    if (!asset || !hair)
+      return Outcome::invalid("ringlet_hair_create takes an asset, and a place for the hair");
+    const ringlet_initial_state from = taken(initial);
+    const auto head = poseOf<HeadPose>(from.head);
+    if (!head) return notFinite("the head");
+    if (from.body_count > 0 && !hasSize(from.bodies))
+      return Outcome::invalid("there are no bodies that say their size");
+    std::vector<Body> bodies;
+    for (std::uint32_t b = 0; b < from.body_count; ++b) {
+      auto body = bodyOf(taken(from.bodies, b), b);
+      if (!body) return body.error();
+      bodies.push_back(std::move(*body));
+    }
+    auto made = Simulation::create(asset->asset,
+                                   {.head = *head, .bodies = bodies, .readsBack = from.keeps_on_device == 0});
+    if (!made) return made.error();
+    std::vector<DevicePositions> positions = made->devicePositions();
+    *hair = new ringlet_hair{std::move(*made),           asset->device,   asset->asset.particleCount(),
+                             asset->asset.strandCount(), from.body_count, asset->movesRoots,
+                             std::move(positions)};
+    return {};
+  });
+}
+
+void ringlet_hair_release(ringlet_hair* hair) { delete hair; }
+
+ringlet_result ringlet_step(const ringlet_frame* frames, uint32_t frame_count) {
+  return guarded([&]() -> Outcome {
+    std::vector<TakenFrame> all;
+    if (Outcome outcome = takeAll(frames, frame_count, all); outcome.result != RINGLET_OK) return outcome;
+    for (const TakenFrame& frame : all)
+      if (frame.hair->recordedFrames > 0) return isRecorded();
+    return stepFrames(hairFramesOf(all));
+  });
+}
+
+ringlet_result ringlet_step_to(ringlet_hair* hair, const ringlet_pose* head) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !head) return Outcome::invalid("ringlet_step_to takes hair and a pose");
+    if (hair->recordedFrames > 0) return isRecorded();
+    const auto end = poseOf<HeadPose>(*head);
+    if (!end) return notFinite("the head");
+    return hair->simulation.stepFrame(*end);
+  });
+}
+
+ringlet_result ringlet_record(const ringlet_frame* frames, uint32_t frame_count, void* command_buffer) {
+  return guarded([&]() -> Outcome {
+    if (!command_buffer) return Outcome::invalid("ringlet_record takes a command buffer");
+    std::vector<TakenFrame> all;
+    if (Outcome outcome = takeAll(frames, frame_count, all); outcome.result != RINGLET_OK) return outcome;
+    if (Status status = recordFrames(hairFramesOf(all), command_buffer); !status) return status;
+    for (const TakenFrame& frame : all) ++frame.hair->recordedFrames;
+    return {};
+  });
+}
+
+ringlet_result ringlet_frame_is_over(ringlet_hair* hair) {
+  return guarded([&]() -> Outcome {
+    if (!hair) return Outcome::invalid("ringlet_frame_is_over takes hair");
+    hair->recordedFrames = std::max(0, hair->recordedFrames - 1);
+    return hair->simulation.frameIsOver();
+  });
+}
+
+ringlet_result ringlet_positions(const ringlet_hair* hair, float* xyz, uint64_t particle_count) {
+  return guarded([&]() -> Outcome {
+    if (!hair) return Outcome::invalid("ringlet_positions takes hair");
+    const auto values = hair->simulation.positions();
+    return values ? fill(*values, xyz, particle_count) : values.error();
+  });
+}
+
+ringlet_result ringlet_velocities(const ringlet_hair* hair, float* xyz, uint64_t particle_count) {
+  return guarded([&]() -> Outcome {
+    if (!hair) return Outcome::invalid("ringlet_velocities takes hair");
+    const auto state = hair->simulation.state();
+    return state ? fill(state->velocities, xyz, particle_count) : state.error();
+  });
+}
+
+uint32_t ringlet_device_positions_count(const ringlet_hair* hair) {
+  return hair ? static_cast<uint32_t>(hair->devicePositions.size()) : 0;
+}
+
+ringlet_result ringlet_get_device_positions(const ringlet_hair* hair, uint32_t index,
+                                            ringlet_device_positions* positions) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !hasSize(positions) || index >= hair->devicePositions.size())
+      return Outcome::invalid(
+          "ringlet_get_device_positions takes hair, one of its buffers, and a struct that says its size");
+    const DevicePositions& from = hair->devicePositions[index];
+    give(positions, {0, from.buffer, from.bytes, from.particles.data(), from.particles.size()});
+    return {};
+  });
+}
+
+ringlet_result ringlet_hair_set_settings(ringlet_hair* hair, const ringlet_settings* settings) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !settings) return Outcome::invalid("ringlet_hair_set_settings takes hair and settings");
+    return hair->simulation.setSettings(settings->settings);
+  });
+}
+
+ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_material* material) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !material) return Outcome::invalid("ringlet_hair_set_material takes hair and a material");
+    return hair->simulation.setMaterial(material->material);
+  });
+}
+
+ringlet_result ringlet_get_report(const ringlet_hair* hair, ringlet_report* report) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !hasSize(report))
+      return Outcome::invalid("ringlet_get_report takes hair, and a report that says its size");
+    const auto told = hair->simulation.report();
+    if (!told) return told.error();
+    const auto contacts = hair->simulation.contactReport();
+    if (!contacts) return contacts.error();
+    give(report,
+         {0, told->maxEdgeStretch, told->nonfinite, contacts->contacts, hair->simulation.memory().total()});
+    return {};
+  });
+}
+
+ringlet_result ringlet_checkpoint(ringlet_hair* hair, void* bytes, size_t* size) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !size) return Outcome::invalid("ringlet_checkpoint takes hair, and a place for the size");
+    const auto made = hair->simulation.checkpoint();
+    if (!made) return made.error();
+    const std::size_t room = std::exchange(*size, made->size());
+    if (!bytes) return {};
+    if (room < made->size())
+      return Outcome::invalid(
+          fmt::format("a checkpoint has {} bytes, and there is room for {}", made->size(), room));
+    std::memcpy(bytes, made->data(), made->size());
+    return {};
+  });
+}
+
+ringlet_result ringlet_restore(ringlet_hair* hair, const void* bytes, size_t size) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !bytes) return Outcome::invalid("ringlet_restore takes hair and a checkpoint");
+    return hair->simulation.restore({static_cast<const std::byte*>(bytes), size});
+  });
+}

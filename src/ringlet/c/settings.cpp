@@ -1,0 +1,190 @@
+// Implements c/ringlet.h: settings and materials, by name.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <type_traits>
+
+#include "ringlet/base/nearest_name.h"
+#include "ringlet/c/handles.h"
+#include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
+#include "ringlet/scene/settings_fields.h"
+
+namespace ringlet::c {
+namespace {
+
+constexpr std::string_view kContacts = "contacts.", kAir = "air.", kVariation = "variation.";
+constexpr const char* kIntegrators[] = {"jacobi", "point_jacobi", "paper"};
+
+Outcome unknown(std::string_view what, std::string_view name, const std::vector<std::string>& names) {
+  const std::size_t nearest = nearestName(name, names);
+  return Outcome::invalid(
+      fmt::format("there is no {} '{}'{}", what, name,
+                  nearest < names.size() ? "; did you mean " + names[nearest] + "?" : ""));
+}
+
+template <class Fields>
+void addNames(std::vector<std::string>& names, std::string_view table, const Fields& fields) {
+  for (const auto& field : fields) names.push_back(fmt::format("{}{}", table, field.key));
+}
+std::vector<std::string> settingNames() {
+  std::vector<std::string> names{"integrator"};
+  addNames(names, "", settingsFields());
+  addNames(names, kContacts, contactFields());
+  addNames(names, kAir, airFields());
+  return names;
+}
+
+bool isWhole(double value) { return value == std::floor(value) && std::abs(value) < 2147483648.0; }
+
+// A value into a setting: nothing where the setting is of another type.
+bool put(double& to, double value) { return to = value, true; }
+bool put(std::optional<double>& to, double value) { return to = value, true; }
+bool put(int& to, double value) { return isWhole(value) && (to = static_cast<int>(value), true); }
+bool put(std::optional<int>& to, double value) {
+  return isWhole(value) && (to = static_cast<int>(value), true);
+}
+bool put(std::uint32_t& to, double value) {
+  const bool fits = value == std::floor(value) && value >= 0 && value <= 4294967295.0;
+  return fits && (to = static_cast<std::uint32_t>(value), true);
+}
+bool put(bool& to, double value) { return (value == 0 || value == 1) && (to = value == 1, true); }
+bool put(Vec3d& to, Vec3d value) { return to = value, true; }
+bool put(auto&, double) { return false; }
+bool put(auto&, Vec3d) { return false; }
+
+template <class Owner, class Put>
+Outcome setField(std::span<const SettingField<Owner>> fields, std::string_view key, Owner& owner,
+                 std::string_view name, const char* type, Put&& putInto) {
+  for (const SettingField<Owner>& field : fields) {
+    if (field.key != key) continue;
+    const bool fits = std::visit([&](auto member) { return putInto(field, owner.*member); }, field.member);
+    if (!fits) return Outcome::invalid(fmt::format("the setting {} does not take {}", name, type));
+    return {};
+  }
+  return unknown("setting", name, settingNames());
+}
+
+// Calls putInto(field, member) for the setting of this name.
+template <class Put>
+Outcome setNamed(Settings& settings, std::string_view name, const char* type, Put&& putInto) {
+  if (name.starts_with(kContacts))
+    return setField(contactFields(), name.substr(kContacts.size()), settings.contacts, name, type, putInto);
+  if (name.starts_with(kAir))
+    return setField(airFields(), name.substr(kAir.size()), settings.air, name, type, putInto);
+  return setField(settingsFields(), name, settings, name, type, putInto);
+}
+
+Outcome setWord(Settings& settings, std::string_view name, std::string_view word) {
+  const auto indexIn = [&](const auto& names) {
+    return static_cast<int>(std::ranges::find(names, word) - std::ranges::begin(names));
+  };
+  if (name == "integrator") {
+    const auto index = static_cast<std::size_t>(indexIn(kIntegrators));
+    if (index == std::size(kIntegrators))
+      return unknown("integrator", word, {std::begin(kIntegrators), std::end(kIntegrators)});
+    settings.integrator = static_cast<Integrator>(index);
+    return {};
+  }
+  std::vector<std::string> words;
+  const auto putWord = [&](const auto& field, auto& member) {
+    using Value = std::remove_cvref_t<decltype(member)>;
+    if constexpr (std::is_enum_v<Value>) {
+      words = namesIn(field.choices);
+      const int index = indexIn(words);
+      if (index < static_cast<int>(words.size())) member = static_cast<Value>(index), words.clear();
+      return true;
+    } else {
+      return false;
+    }
+  };
+  Outcome outcome = setNamed(settings, name, "a word", putWord);
+  return outcome.result == RINGLET_OK && !words.empty() ? unknown(name, word, words) : outcome;
+}
+
+template <class Owner>
+bool setParameter(std::span<const Parameter<Owner>> parameters, std::string_view key, Owner& owner,
+                  double value) {
+  const auto found =
+      std::ranges::find(parameters, key, [](const auto& p) { return std::string_view(p.key); });
+  if (found == parameters.end()) return false;
+  found->set(owner, value);
+  return true;
+}
+
+}  // namespace
+}  // namespace ringlet::c
+
+using namespace ringlet;
+using namespace ringlet::c;
+
+ringlet_result ringlet_settings_create(ringlet_settings** settings) {
+  return guarded([&]() -> Outcome {
+    if (!settings) return Outcome::invalid("ringlet_settings_create has nowhere to put the settings");
+    *settings = new ringlet_settings{};
+    return {};
+  });
+}
+
+ringlet_result ringlet_settings_set(ringlet_settings* settings, const char* name, double value) {
+  return guarded([&]() -> Outcome {
+    if (!settings || !name) return Outcome::invalid("ringlet_settings_set takes settings and a name");
+    return setNamed(settings->settings, name, "this number",
+                    [&](const auto&, auto& member) { return put(member, value); });
+  });
+}
+
+ringlet_result ringlet_settings_set_vector(ringlet_settings* settings, const char* name, double x, double y,
+                                           double z) {
+  return guarded([&]() -> Outcome {
+    if (!settings || !name) return Outcome::invalid("ringlet_settings_set_vector takes settings and a name");
+    return setNamed(settings->settings, name, "three numbers", [&](const auto&, auto& member) {
+      return put(member, Vec3d{x, y, z});
+    });
+  });
+}
+
+ringlet_result ringlet_settings_set_text(ringlet_settings* settings, const char* name, const char* value) {
+  return guarded([&]() -> Outcome {
+    if (!settings || !name || !value)
+      return Outcome::invalid("ringlet_settings_set_text takes settings, a name and a word");
+    return setWord(settings->settings, name, value);
+  });
+}
+
+void ringlet_settings_release(ringlet_settings* settings) { delete settings; }
+
+ringlet_result ringlet_material_create(const char* preset, ringlet_material** material) {
+  return guarded([&]() -> Outcome {
+    if (!material) return Outcome::invalid("ringlet_material_create has nowhere to put the material");
+    Material made;
+    if (preset && *preset) {
+      const auto found = materialPreset(preset);
+      if (!found) return unknown("material", preset, presetNames());
+      made = *found;
+    }
+    *material = new ringlet_material{std::move(made)};
+    return {};
+  });
+}
+
+ringlet_result ringlet_material_set(ringlet_material* material, const char* name, double value) {
+  return guarded([&]() -> Outcome {
+    if (!material || !name) return Outcome::invalid("ringlet_material_set takes a material and a name");
+    const std::string_view key = name;
+    Material& m = material->material;
+    const bool isKnown =
+        key.starts_with(kVariation)
+            ? setParameter(variationParameters(), key.substr(kVariation.size()), m.variation, value)
+            : setParameter(materialParameters(), key, m, value);
+    if (isKnown) return {};
+    std::vector<std::string> names;
+    addNames(names, "", materialParameters());
+    addNames(names, kVariation, variationParameters());
+    return unknown("number of a material", name, names);
+  });
+}
+
+void ringlet_material_release(ringlet_material* material) { delete material; }

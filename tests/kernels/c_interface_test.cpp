@@ -1,0 +1,307 @@
+// The C interface: the same bits as the C++ one, and an answer to whatever is handed over.
+#include "ringlet/c/ringlet.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ringlet/c/handles.h"
+#include "ringlet/rest/material_parameters.h"
+#include "ringlet/scene/settings_fields.h"
+#include "tests/kernels/sample_hairs.h"
+#include "tests/support/gpu_test.h"
+
+namespace ringlet::test {
+namespace {
+
+// Handles of C, released at the end.
+struct Handles {
+  ringlet_device* device = nullptr;
+  ringlet_settings* settings = nullptr;
+  ringlet_material* material = nullptr;
+  ringlet_asset* asset = nullptr;
+  std::vector<ringlet_hair*> hairs;
+  ~Handles() {
+    ringlet_device_release(device);  // in any order
+    for (ringlet_hair* hair : hairs) ringlet_hair_release(hair);
+    ringlet_asset_release(asset);
+    ringlet_material_release(material);
+    ringlet_settings_release(settings);
+  }
+};
+
+class CInterface : public GpuTest {
+ protected:
+  // Opened by the fixture, so that the validation layer is watched.
+  void open(Handles& c) {
+    c.device = new ringlet_device{device(), device().name()};
+    ASSERT_EQ(ringlet_settings_create(&c.settings), RINGLET_OK);
+    ASSERT_EQ(ringlet_material_create(nullptr, &c.material), RINGLET_OK);
+  }
+};
+
+struct CGroom {
+  std::vector<std::uint32_t> sizes;
+  ringlet_groom groom = RINGLET_INIT(ringlet_groom);
+  explicit CGroom(const Groom& from) {
+    for (std::size_t s = 0; s < from.strandCount(); ++s)
+      sizes.push_back(static_cast<std::uint32_t>(from.strand(s).size()));
+    groom.points = &from.points[0].x, groom.strand_sizes = sizes.data();
+    groom.strand_count = static_cast<std::uint32_t>(sizes.size());
+    groom.metres_per_unit = from.metresPerUnit;
+  }
+};
+
+ringlet_pose poseOf(const HeadPose& head) {
+  return {{head.position.x, head.position.y, head.position.z},
+          {head.rotation.x, head.rotation.y, head.rotation.z, head.rotation.w}};
+}
+
+std::vector<Vec3f> positionsOf(const ringlet_hair* hair, std::size_t count) {
+  std::vector<Vec3f> points(count);
+  EXPECT_EQ(ringlet_positions(hair, &points[0].x, count), RINGLET_OK) << ringlet_error_message();
+  return points;
+}
+
+void expectInvalid(ringlet_result result, const char* part) {
+  EXPECT_EQ(result, RINGLET_ERROR_INVALID_ARGUMENT) << part;
+  EXPECT_NE(std::string(ringlet_error_message()).find(part), std::string::npos) << ringlet_error_message();
+}
+
+// Two heads of one asset together, with contacts or not, changed on the way; and a checkpoint of it.
+TEST_F(CInterface, GivesTheSameBits) {
+  for (const Hair& hair : hairs()) {
+    if (hair.kernel.form != KernelChoice::Form::automatic || hair.kernel.mostBufferBytes > 0) continue;
+    SCOPED_TRACE(hair.name);
+    Handles c;
+    open(c);
+    c.settings->settings = hair.settings;
+    const CGroom groom(hair.groom);
+    ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
+    options.moving_roots = hair.kernel.movingRoots;
+    const Material material;
+    ASSERT_EQ(ringlet_asset_build(c.device, &groom.groom, c.settings, c.material, &options, &c.asset),
+              RINGLET_OK)
+        << ringlet_error_message();
+    EXPECT_EQ(ringlet_asset_particle_count(c.asset), hair.groom.points.size());
+    EXPECT_EQ(ringlet_asset_strand_count(c.asset), hair.groom.strandCount());
+    const auto asset = HairAsset::build(device(), hair.groom, material, hair.settings, hair.kernel);
+    std::vector<Simulation> expected;
+    for (const Head& head : kHeads) {
+      ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
+      initial.head = poseOf(head.at(0));
+      ASSERT_EQ(ringlet_hair_create(c.asset, &initial, &c.hairs.emplace_back()), RINGLET_OK);
+      HeadPose start = head.at(0);
+      start.shift = 0;
+      expected.push_back(*Simulation::create(*asset, {.head = start}));
+    }
+    for (int frame = 0; frame < 4; ++frame) {
+      if (frame == 2) {
+        ASSERT_EQ(ringlet_settings_set_vector(c.settings, "gravity", 1, -5, 0), RINGLET_OK);
+        ASSERT_EQ(ringlet_hair_set_settings(c.hairs[0], c.settings), RINGLET_OK) << ringlet_error_message();
+        Settings other = hair.settings;
+        other.gravity = {1, -5, 0};
+        ASSERT_TRUE(expected[0].setSettings(other));
+        ASSERT_EQ(ringlet_material_set(c.material, "bend_stiffness", 3), RINGLET_OK);
+        ASSERT_EQ(ringlet_hair_set_material(c.hairs[1], c.material), RINGLET_OK) << ringlet_error_message();
+        Material stiff;
+        stiff.bendStiffness = 3;
+        ASSERT_TRUE(expected[1].setMaterial(stiff));
+      }
+      std::vector<std::vector<ringlet_pose>> poses(2);
+      std::vector<ringlet_frame> frames;
+      for (int which = 0; which < 2; ++which) {
+        std::vector<HeadPose> heads;
+        for (int k = 1; k <= hair.settings.stepsPerFrame; ++k) {
+          HeadPose head = kHeads[which].at((frame + double(k) / hair.settings.stepsPerFrame) / 24);
+          head.shift = 0;
+          head.rotation = normalized(head.rotation);
+          heads.push_back(head);
+          poses[which].push_back(poseOf(head));
+        }
+        ASSERT_TRUE(expected[which].stepFrame(heads));
+      }
+      for (int which = 0; which < 2; ++which) {
+        frames.push_back(RINGLET_INIT(ringlet_frame));
+        frames.back().hair = c.hairs[which];
+        frames.back().step_poses = poses[which].data();
+        frames.back().step_count = static_cast<std::uint32_t>(poses[which].size());
+      }
+      ASSERT_EQ(ringlet_step(frames.data(), 2), RINGLET_OK) << ringlet_error_message();
+      for (int which = 0; which < 2; ++which)
+        EXPECT_TRUE(positionsOf(c.hairs[which], hair.groom.points.size()) == *expected[which].positions())
+            << which << ", frame " << frame;
+    }
+    std::vector<Vec3f> velocities(hair.groom.points.size());
+    ASSERT_EQ(ringlet_velocities(c.hairs[0], &velocities[0].x, velocities.size()), RINGLET_OK);
+    EXPECT_TRUE(velocities == expected[0].state()->velocities);
+    ringlet_report report = RINGLET_INIT(ringlet_report);
+    ASSERT_EQ(ringlet_get_report(c.hairs[0], &report), RINGLET_OK);
+    EXPECT_EQ(report.max_edge_stretch, expected[0].report()->maxEdgeStretch);
+    EXPECT_EQ(report.device_bytes, expected[0].memory().total());
+    ringlet_device_positions buffer = RINGLET_INIT(ringlet_device_positions);
+    ASSERT_EQ(ringlet_device_positions_count(c.hairs[0]), 1u);
+    ASSERT_EQ(ringlet_get_device_positions(c.hairs[0], 0, &buffer), RINGLET_OK);
+    EXPECT_TRUE(buffer.buffer && buffer.particles && buffer.particle_count == hair.groom.points.size());
+
+    std::size_t size = 0;
+    ASSERT_EQ(ringlet_checkpoint(c.hairs[0], nullptr, &size), RINGLET_OK);
+    std::vector<std::byte> kept(size);
+    ASSERT_EQ(ringlet_checkpoint(c.hairs[0], kept.data(), &size), RINGLET_OK);
+    const auto before = positionsOf(c.hairs[0], hair.groom.points.size());
+    const ringlet_pose away{{0.3, 0, 0}, {0, 0, 0, 0}};
+    ASSERT_EQ(ringlet_step_to(c.hairs[0], &away), RINGLET_OK);
+    EXPECT_FALSE(positionsOf(c.hairs[0], hair.groom.points.size()) == before);
+    ASSERT_EQ(ringlet_restore(c.hairs[0], kept.data(), size), RINGLET_OK) << ringlet_error_message();
+    EXPECT_TRUE(positionsOf(c.hairs[0], hair.groom.points.size()) == before);
+  }
+}
+
+// Every setting and every number of a material can be set by its name.
+TEST_F(CInterface, SetsEverythingByName) {
+  Handles c;
+  open(c);
+  const auto setAll = [&](const char* table, const auto& fields) {
+    for (const auto& field : fields) {
+      const std::string name = std::string(table) + field.key;
+      const ringlet_result number = ringlet_settings_set(c.settings, name.c_str(), 1);
+      const ringlet_result vector = ringlet_settings_set_vector(c.settings, name.c_str(), 1, 2, 3);
+      const ringlet_result word =
+          field.choices.empty()
+              ? RINGLET_ERROR
+              : ringlet_settings_set_text(c.settings, name.c_str(), namesIn(field.choices).back().c_str());
+      EXPECT_EQ((number == RINGLET_OK) + (vector == RINGLET_OK) + (word == RINGLET_OK), 1) << name;
+    }
+  };
+  setAll("", settingsFields());
+  setAll("contacts.", contactFields());
+  setAll("air.", airFields());
+  EXPECT_EQ(ringlet_settings_set_text(c.settings, "integrator", "paper"), RINGLET_OK);
+  const Settings& s = c.settings->settings;
+  EXPECT_EQ(s.gravity, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(s.framesPerSecond, 1);
+  EXPECT_EQ(s.contacts.friction, 1);
+  EXPECT_EQ(s.contacts.method, ContactMethod::volume);
+  EXPECT_EQ(s.contacts.taper, ContactTaper::time);
+  EXPECT_EQ(s.contacts.iterations, 1);
+  EXPECT_EQ(s.air.wind, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(s.integrator, Integrator::paper);
+  for (const auto& p : materialParameters())
+    EXPECT_EQ(ringlet_material_set(c.material, p.key, 0.5), RINGLET_OK);
+  for (const auto& p : variationParameters())
+    EXPECT_EQ(ringlet_material_set(c.material, ("variation." + std::string(p.key)).c_str(), 1), RINGLET_OK);
+  EXPECT_EQ(c.material->material.bendStiffness, 0.5);
+  EXPECT_EQ(c.material->material.variation.seed, 1u);
+}
+
+TEST_F(CInterface, AnswersWhateverIsHandedOver) {
+  Handles c;
+  open(c);
+  expectInvalid(ringlet_settings_set(c.settings, "contacts.frction", 1), "did you mean contacts.friction?");
+  expectInvalid(ringlet_settings_set(c.settings, "steps_per_frame", 1.5), "steps_per_frame does not take");
+  expectInvalid(ringlet_settings_set_text(c.settings, "contacts.taper", "tim"), "did you mean time?");
+  expectInvalid(ringlet_settings_set_text(c.settings, "gravity", "down"), "gravity does not take a word");
+  expectInvalid(ringlet_material_set(c.material, "bendstiffness", 1), "did you mean bend_stiffness?");
+  ringlet_material* none = nullptr;
+  expectInvalid(ringlet_material_create("coils", &none), "did you mean coil?");
+  expectInvalid(ringlet_settings_set(nullptr, "gravity", 1), "takes settings");
+  expectInvalid(ringlet_settings_create(nullptr), "nowhere");
+  expectInvalid(ringlet_device_open(nullptr, nullptr), "nowhere");
+  expectInvalid(ringlet_device_adopt(nullptr, &c.device), "says its size");
+
+  const Groom hair = randomGroom({8, 8}, 1);
+  CGroom groom(hair);
+  expectInvalid(ringlet_asset_build(c.device, nullptr, nullptr, nullptr, nullptr, &c.asset), "says its size");
+  ringlet_groom empty = RINGLET_INIT(ringlet_groom);
+  expectInvalid(ringlet_asset_build(c.device, &empty, nullptr, nullptr, nullptr, &c.asset), "no points");
+  ringlet_groom bare = groom.groom;
+  bare.strand_count = 0;
+  EXPECT_EQ(ringlet_asset_build(c.device, &bare, nullptr, nullptr, nullptr, &c.asset), RINGLET_ERROR);
+  EXPECT_NE(std::string(ringlet_error_message()).find("no strands"), std::string::npos);
+  ASSERT_EQ(ringlet_settings_set(c.settings, "fps", -1), RINGLET_OK);
+  EXPECT_EQ(ringlet_asset_build(c.device, &groom.groom, c.settings, nullptr, nullptr, &c.asset),
+            RINGLET_ERROR);
+  EXPECT_NE(std::string(ringlet_error_message()).find("fps is -1"), std::string::npos);
+
+  ASSERT_EQ(ringlet_asset_build(c.device, &groom.groom, nullptr, nullptr, nullptr, &c.asset), RINGLET_OK);
+  expectInvalid(ringlet_hair_create(nullptr, nullptr, &c.hairs.emplace_back()), "takes an asset");
+  ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs[0]), RINGLET_OK);
+  ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
+  initial.head.position[1] = NAN;
+  ringlet_hair* lost = nullptr;
+  expectInvalid(ringlet_hair_create(c.asset, &initial, &lost), "not finite");
+  ringlet_body body = RINGLET_INIT(ringlet_body);
+  body.shape = RINGLET_MESH;
+  initial = RINGLET_INIT(ringlet_initial_state);
+  initial.bodies = &body, initial.body_count = 1;
+  EXPECT_EQ(ringlet_hair_create(c.asset, &initial, &lost), RINGLET_ERROR);  // no triangles
+
+  std::vector<ringlet_pose> poses(8);
+  ringlet_frame frame = RINGLET_INIT(ringlet_frame);
+  expectInvalid(ringlet_step(&frame, 1), "no hair");
+  frame.hair = c.hairs[0], frame.step_poses = poses.data(), frame.step_count = 7;
+  expectInvalid(ringlet_step(&frame, 1), "7 poses of the head; its settings have 8");
+  frame.step_count = 8, frame.root_poses = poses.data();
+  expectInvalid(ringlet_step(&frame, 1), "moving_roots");
+  frame.root_poses = nullptr;
+  poses[3].rotation[0] = std::numeric_limits<double>::infinity();
+  expectInvalid(ringlet_step(&frame, 1), "not finite");
+  poses[3].rotation[0] = 0;
+  const ringlet_frame twice[2] = {frame, frame};
+  expectInvalid(ringlet_step(twice, 2), "twice");
+  expectInvalid(ringlet_record(&frame, 1, nullptr), "command buffer");
+  float few[3];
+  expectInvalid(ringlet_positions(c.hairs[0], few, 1), "room for 1 particles, and the hair has 16");
+  std::size_t size = 3;
+  expectInvalid(ringlet_checkpoint(c.hairs[0], few, &size), "room for 3");
+  EXPECT_EQ(ringlet_restore(c.hairs[0], few, 12), RINGLET_ERROR);
+  EXPECT_EQ(ringlet_step(nullptr, 0), RINGLET_OK);
+  EXPECT_EQ(ringlet_frame_is_over(c.hairs[0]), RINGLET_OK);
+  ringlet_asset_release(nullptr);
+  ringlet_hair_release(nullptr);
+}
+
+// A caller's struct may be shorter, of a version before, or longer, of one to come.
+TEST_F(CInterface, StructsMayBeOfOtherVersions) {
+  Handles c;
+  open(c);
+  const Groom hair = randomGroom({8, 8}, 1);
+  CGroom groom(hair);
+  groom.groom.struct_size = offsetof(ringlet_groom, metres_per_unit);
+  ASSERT_EQ(ringlet_asset_build(c.device, &groom.groom, nullptr, nullptr, nullptr, &c.asset), RINGLET_OK);
+  ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs.emplace_back()), RINGLET_OK);
+  struct {
+    ringlet_report report = RINGLET_INIT(ringlet_report);
+    std::uint64_t later = 77;
+  } longer;
+  longer.report.struct_size = sizeof(longer);
+  ASSERT_EQ(ringlet_get_report(c.hairs[0], &longer.report), RINGLET_OK);
+  EXPECT_GT(longer.report.device_bytes, 0u);
+  EXPECT_EQ(longer.later, 77u);
+  ringlet_report shorter = RINGLET_INIT(ringlet_report);
+  shorter.struct_size = offsetof(ringlet_report, device_bytes);
+  shorter.device_bytes = 5;
+  ASSERT_EQ(ringlet_get_report(c.hairs[0], &shorter), RINGLET_OK);
+  EXPECT_EQ(shorter.device_bytes, 5u);
+  std::vector<ringlet_pose> poses(8);
+  // An array of longer structs.
+  struct Longer {
+    ringlet_frame frame = RINGLET_INIT(ringlet_frame);
+    double later = 0;
+  };
+  ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs.emplace_back()), RINGLET_OK);
+  Longer frames[2];
+  for (int k = 0; k < 2; ++k) {
+    frames[k].frame.struct_size = sizeof(Longer);
+    frames[k].frame.hair = c.hairs[k], frames[k].frame.step_poses = poses.data(),
+    frames[k].frame.step_count = 8;
+  }
+  EXPECT_EQ(ringlet_step(&frames[0].frame, 2), RINGLET_OK) << ringlet_error_message();
+}
+
+}  // namespace
+}  // namespace ringlet::test
