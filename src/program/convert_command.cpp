@@ -17,6 +17,7 @@
 #include "program/convert_run.h"
 #include "program/exit_codes.h"
 #include "program/run_report.h"
+#include "ringlet/output/animation_writer.h"
 
 namespace ringlet::program {
 namespace {
@@ -79,8 +80,7 @@ CLI::Validator isRange() {
 // By the ending of its name; nothing where that says nothing.
 std::optional<ConvertTo> kindOf(const Typed& typed) {
   const std::string extension = typed.output.extension().string();
-  if (extension == ".usda") return ConvertTo::usd;
-  if (extension == ".rgc") return ConvertTo::cache;
+  if (animationFormatOf(typed.output)) return ConvertTo::animation;
   if (extension == ".png") return ConvertTo::sheet;
   if (extension == ".obj") return typed.frame ? ConvertTo::obj : ConvertTo::objSequence;
   std::error_code code;
@@ -103,7 +103,8 @@ void checkOptions(const Typed& typed) {
     throw CLI::ValidationError(
         "OUT", fmt::format("'{}' must end in .usda, .rgc, .obj or .png, or be a folder for .obj files",
                            typed.output.string()));
-  if (!typed.precision.empty() && kind != ConvertTo::cache)
+  const AnimationFormat* format = animationFormatOf(typed.output);
+  if (!typed.precision.empty() && !(format && format->hasPrecisions))
     throw CLI::ValidationError("--precision", "only a cache, .rgc, has one");
 }
 

@@ -9,9 +9,8 @@
 
 #include "program/progress_bar.h"
 #include "ringlet/groom/obj_file.h"
-#include "ringlet/output/cache_writer.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/output/sheet.h"
-#include "ringlet/output/usd_writer.h"
 
 namespace ringlet::program {
 namespace {
@@ -32,37 +31,29 @@ Status forEachFrame(AnimationSource& source, const ConvertPlan& plan,
   return {};
 }
 
-// All frames through a writer that is created, and finished.
-template <class Writer>
-Status throughWriter(AnimationSource& source, const ConvertPlan& plan, Result<Writer> writer) {
-  if (!writer) return writer.error();
-  const auto add = [&](int) { return writer->addFrame(source.groom().points); };
+Status toAnimation(AnimationSource& source, const ConvertPlan& plan) {
+  const CacheHeader& header = source.header();
+  const auto made = animationFormatOf(plan.output)
+                        ->resume(plan.output, source.groom(),
+                                 {.framesPerSecond = header.framesPerSecond,
+                                  .metresPerUnit = header.metresPerUnit,
+                                  .up = header.up,
+                                  .diameter = header.diameter,
+                                  .frameCount = frameCountOf(plan),
+                                  .precision = plan.precision},
+                                 0);
+  if (!made) return made.error();
+  AnimationWriter& writer = **made;
+  const auto add = [&](int) { return writer.addFrame(source.groom().points); };
   if (Status added = forEachFrame(source, plan, add); !added) {
     const std::string partial = plan.output.string() + ".partial";
     const bool isSaid = added.error().message.find(partial) != std::string::npos;  // by the writer
-    if (writer->frameCount() == 0 || isSaid) return added;
+    if (writer.frameCount() == 0 || isSaid) return added;
     return Error{fmt::format("{} (the {} frames before it are kept in {})", added.error().message,
-                             writer->frameCount(), partial),
+                             writer.frameCount(), partial),
                  added.error().fault};
   }
-  return writer->finish();
-}
-
-Status toUsd(AnimationSource& source, const ConvertPlan& plan) {
-  const CacheHeader& header = source.header();
-  return throughWriter(source, plan,
-                       UsdWriter::create(plan.output, source.groom(),
-                                         {.framesPerSecond = header.framesPerSecond,
-                                          .metresPerUnit = header.metresPerUnit,
-                                          .up = header.up,
-                                          .diameter = header.diameter,
-                                          .frameCount = frameCountOf(plan)}));
-}
-
-Status toCache(AnimationSource& source, const ConvertPlan& plan) {
-  CacheHeader header = source.header();
-  header.precision = plan.precision;
-  return throughWriter(source, plan, CacheWriter::create(plan.output, source.groom(), header));
+  return writer.finish();
 }
 
 Status toSheet(AnimationSource& source, const ConvertPlan& plan) {
@@ -115,15 +106,15 @@ fs::path framePath(const fs::path& output, int frame) {
 }
 
 Result<ConvertOutcome> convert(AnimationSource& source, const ConvertPlan& plan) {
-  const Status done = plan.to == ConvertTo::usd     ? toUsd(source, plan)
-                      : plan.to == ConvertTo::cache ? toCache(source, plan)
-                      : plan.to == ConvertTo::sheet ? toSheet(source, plan)
-                                                    : toObj(source, plan);
+  const Status done = plan.to == ConvertTo::animation ? toAnimation(source, plan)
+                      : plan.to == ConvertTo::sheet   ? toSheet(source, plan)
+                                                      : toObj(source, plan);
   if (!done) return done.error();
 
   ConvertOutcome outcome;
   outcome.errorBound = errorBoundOf(source, plan);
-  if (plan.to == ConvertTo::cache && plan.precision == CachePrecision::bits16) {
+  if (plan.to == ConvertTo::animation && animationFormatOf(plan.output)->hasPrecisions &&
+      plan.precision == CachePrecision::bits16) {
     // What was lost before and what is lost now may add up.
     auto written = AnimationSource::open(plan.output);
     if (!written) return written.error();

@@ -9,10 +9,10 @@
 
 namespace ringlet::program {
 
-enum class ConvertTo { usd, cache, obj, objSequence, sheet };
+enum class ConvertTo { animation, obj, objSequence, sheet };
 
 struct ConvertPlan {
-  ConvertTo to = ConvertTo::usd;
+  ConvertTo to = ConvertTo::animation;  // of the format that the output's name says
   std::filesystem::path output;
   int firstFrame = 1, lastFrame = 1;  // of the animation
   CachePrecision precision = CachePrecision::float32;

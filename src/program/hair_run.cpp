@@ -82,10 +82,10 @@ Status preRoll(Backend& backend, const RunInput& input, const RunOptions& option
 
 // A failure in the middle of a run, with what it leaves.
 Error afterFrames(int frameCount, const Error& cause, const RunOptions& options) {
-  if (frameCount == 0 || options.folder.empty() || (!options.writesUsd && !options.cache)) return cause;
-  const char* file = options.writesUsd ? "hair.usda.partial" : "hair.rgc.partial";
+  const std::vector<std::string> animations = animationsOf(options);
+  if (frameCount == 0 || options.folder.empty() || animations.empty()) return cause;
   return Error{fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount,
-                           (options.folder / file).string()),
+                           (options.folder / (animations.front() + ".partial")).string()),
                cause.fault};
 }
 
@@ -318,7 +318,7 @@ Status HairRun::finishFiles() {
     auto outputs = writers_->finish();
     if (!outputs) return outputs.error();
     outcome_.outputs = std::move(*outputs);
-    outcome_.cacheErrorBound = writers_->cacheErrorBound();
+    outcome_.cacheErrorBound = writers_->errorBound();
     folder_->finish();
   }
   outcome_.wall = {secondsBetween(start_, firstFrame_), secondsBetween(firstFrame_, lastFrame_),

@@ -1,6 +1,7 @@
 // Implements run_writers.h.
 #include "program/run_writers.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "ringlet/groom/obj_file.h"
@@ -14,28 +15,17 @@ Writers::Writers(const RunInput& input, const RunOptions& options, int frameCoun
 
 Status Writers::open() {
   const double metresPerUnit = input_.groom.metresPerUnit;
-  const auto diameter = static_cast<float>(options_.width / metresPerUnit);
-  if (options_.writesUsd) {
-    auto usd = UsdWriter::resume(options_.folder / "hair.usda", input_.groom,
-                                 {.framesPerSecond = input_.settings.framesPerSecond,
-                                  .metresPerUnit = metresPerUnit,
-                                  .up = options_.up,
-                                  .diameter = diameter,
-                                  .frameCount = options_.frameCount},
-                                 frameCount_);
-    if (!usd) return usd.error();
-    usd_.emplace(std::move(*usd));
-  }
-  if (options_.cache) {
-    auto cache = CacheWriter::resume(options_.folder / "hair.rgc", input_.groom,
-                                     {.precision = *options_.cache,
-                                      .up = options_.up,
-                                      .diameter = diameter,
-                                      .framesPerSecond = input_.settings.framesPerSecond,
-                                      .metresPerUnit = metresPerUnit},
-                                     frameCount_);
-    if (!cache) return cache.error();
-    cache_.emplace(std::move(*cache));
+  const AnimationOptions animation{.framesPerSecond = input_.settings.framesPerSecond,
+                                   .metresPerUnit = metresPerUnit,
+                                   .up = options_.up,
+                                   .diameter = static_cast<float>(options_.width / metresPerUnit),
+                                   .frameCount = options_.frameCount,
+                                   .precision = options_.cache.value_or(CachePrecision::float32)};
+  for (const std::string& name : animationsOf(options_)) {
+    const std::filesystem::path path = options_.folder / name;
+    auto writer = animationFormatOf(path)->resume(path, input_.groom, animation, frameCount_);
+    if (!writer) return writer.error();
+    animations_.push_back(std::move(*writer));
   }
   isOpen_ = true;
   return {};
@@ -47,17 +37,17 @@ Status Writers::addFrame(int frame, std::vector<Vec3f> points) {
   }
   if (sheet_) sheet_->offer(frame, points);
   lastPoints_ = std::move(points);
-  if (cache_) {
-    if (Status added = cache_->addFrame(lastPoints_); !added) return added;
+  for (const auto& animation : animations_) {
+    if (Status added = animation->addFrame(lastPoints_); !added) return added;
   }
-  return usd_ ? usd_->addFrame(lastPoints_) : Status{};
+  return {};
 }
 
 Status Writers::sync() {
-  if (usd_) {
-    if (Status done = usd_->sync(); !done) return done;
+  for (const auto& animation : animations_) {
+    if (Status done = animation->sync(); !done) return done;
   }
-  return cache_ ? cache_->sync() : Status{};
+  return {};
 }
 
 void Writers::archive(Archive& archive) {
@@ -68,11 +58,8 @@ Result<std::vector<std::filesystem::path>> Writers::finish() {
   if (!isOpen_) {
     if (Status opened = open(); !opened) return opened.error();
   }
-  if (usd_) {
-    if (Status done = usd_->finish(); !done) return done.error();
-  }
-  if (cache_) {
-    if (Status done = cache_->finish(); !done) return done.error();
+  for (const auto& animation : animations_) {
+    if (Status done = animation->finish(); !done) return done.error();
   }
   if (options_.writesLast) {
     if (Status done = writeObj(options_.folder / "last.obj", input_.groom, lastPoints_); !done)
@@ -84,15 +71,22 @@ Result<std::vector<std::filesystem::path>> Writers::finish() {
   return outputsOf(options_);
 }
 
-std::optional<double> Writers::cacheErrorBound() const {
-  if (!cache_) return std::nullopt;
-  return cache_->errorBound();
+std::optional<double> Writers::errorBound() const {
+  std::optional<double> largest;
+  for (const auto& animation : animations_) largest = std::max(largest, animation->errorBound());
+  return largest;
+}
+
+std::vector<std::string> animationsOf(const RunOptions& options) {
+  std::vector<std::string> names;
+  if (options.writesUsd) names.push_back("hair.usda");
+  if (options.cache) names.push_back("hair.rgc");
+  return names;
 }
 
 std::vector<std::filesystem::path> outputsOf(const RunOptions& options) {
   std::vector<std::filesystem::path> outputs;
-  if (options.writesUsd) outputs.push_back(options.folder / "hair.usda");
-  if (options.cache) outputs.push_back(options.folder / "hair.rgc");
+  for (const std::string& name : animationsOf(options)) outputs.push_back(options.folder / name);
   if (options.writesLast) outputs.push_back(options.folder / "last.obj");
   if (options.writesSheet) outputs.push_back(options.folder / "sheet.png");
   return outputs;

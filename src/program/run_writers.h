@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "program/simulate_run.h"
@@ -10,9 +12,8 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
-#include "ringlet/output/cache_writer.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/output/sheet.h"
-#include "ringlet/output/usd_writer.h"
 
 namespace ringlet::program {
 
@@ -33,8 +34,8 @@ class Writers {
   /// Closes the files, after at least one frame, and says which there are.
   Result<std::vector<std::filesystem::path>> finish();
 
-  /// How far a point of the cache may be from its particle; none where there is no cache [m].
-  std::optional<double> cacheErrorBound() const;
+  /// How far a point of an animation may be from its particle [m]; none where all keep every bit.
+  std::optional<double> errorBound() const;
 
  private:
   Status open();
@@ -43,12 +44,13 @@ class Writers {
   const RunOptions& options_;
   int frameCount_;
   bool isOpen_ = false;
-  std::optional<UsdWriter> usd_;
-  std::optional<CacheWriter> cache_;
+  std::vector<std::unique_ptr<AnimationWriter>> animations_;
   std::optional<Sheet> sheet_;
   std::vector<Vec3f> lastPoints_;  // [file unit]
 };
 
+/// The animations such a run writes, by their names in its folder.
+std::vector<std::string> animationsOf(const RunOptions& options);
 /// What such a run writes, finished.
 std::vector<std::filesystem::path> outputsOf(const RunOptions& options);
 

@@ -113,7 +113,7 @@ Status CacheWriter::finish() {
   return file_.closeAs(path_);
 }
 
-double CacheWriter::errorBound() const {
+std::optional<double> CacheWriter::errorBound() const {
   double largest = 0;
   for (const Entry& entry : index_) largest = std::max(largest, entry.errorBound);
   return largest;

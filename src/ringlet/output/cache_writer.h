@@ -12,6 +12,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/output/byte_file.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/cache_frame.h"
@@ -21,7 +22,7 @@ namespace ringlet {
 /// While frames come, the file is `PATH.partial`: a killed program leaves all finished frames in it, which
 /// CacheReader finds. finish() adds the index and renames it to PATH, so a PATH that is there is finished. A
 /// frame that fails (full disk) leaves the frames before it.
-class CacheWriter {
+class CacheWriter : public AnimationWriter {
  public:
   /// Creates the file and writes everything but the frames. Only the groom's strand lengths are used; it has
   /// a strand.
@@ -37,20 +38,20 @@ class CacheWriter {
   CacheWriter(CacheWriter&&) = default;
   CacheWriter& operator=(CacheWriter&&) = delete;
   /// Without finish(): leaves the partial file if it holds a frame, else removes it.
-  ~CacheWriter();
+  ~CacheWriter() override;
 
   /// Adds a frame; points in the file's unit, in groom order, finite (see finite_points.h). Cost: one write,
   /// and about 1 ms of processor time for 64,000 points.
-  Status addFrame(std::span<const Vec3f> points);
+  Status addFrame(std::span<const Vec3f> points) override;
   /// What was added is on the disk.
-  Status sync() { return file_.sync(); }
+  Status sync() override { return file_.sync(); }
   /// Writes the index, closes the file with the frames so far (at least one) and gives it its name.
-  Status finish();
+  Status finish() override;
 
-  int frameCount() const { return static_cast<int>(index_.size()); }
+  int frameCount() const override { return static_cast<int>(index_.size()); }
   std::uint64_t byteCount() const { return end_; }
   /// The farthest that any point of the file may be from the one that was added [m].
-  double errorBound() const;
+  std::optional<double> errorBound() const override;
 
  private:
   struct Entry {

@@ -11,6 +11,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/output/byte_file.h"
 #include "ringlet/output/up_axis.h"
 
@@ -28,7 +29,7 @@ struct UsdOptions {
 /// `PATH.partial`, and it is a whole, valid USD file at every moment, also in the middle of a frame: a killed
 /// program leaves all finished frames in it. finish() renames it to PATH, so a PATH that is there is
 /// finished. A frame that fails (full disk) leaves the frames before it.
-class UsdWriter {
+class UsdWriter : public AnimationWriter {
  public:
   /// Creates the file and writes everything but the samples. Only the groom's strand lengths are used.
   static Result<UsdWriter> create(const std::filesystem::path& path, const Groom& topology,
@@ -43,16 +44,16 @@ class UsdWriter {
   UsdWriter(UsdWriter&&) = default;
   UsdWriter& operator=(UsdWriter&&) = delete;
   /// Without finish(): leaves the partial file if it holds a frame, else removes it.
-  ~UsdWriter();
+  ~UsdWriter() override;
 
   /// Adds a frame; points in the file's unit, in groom order, finite (see finite_points.h).
-  Status addFrame(std::span<const Vec3f> points);
+  Status addFrame(std::span<const Vec3f> points) override;
   /// What was added is on the disk.
-  Status sync() { return file_.sync(); }
+  Status sync() override { return file_.sync(); }
   /// Closes the file with the frames so far (at least one) and gives it its name.
-  Status finish();
+  Status finish() override;
 
-  int frameCount() const { return frameCount_; }
+  int frameCount() const override { return frameCount_; }
   std::uint64_t byteCount() const { return end_; }
 
  private:
