@@ -15,18 +15,10 @@
 namespace ringlet::program {
 namespace {
 
-// What a member is without its owner, and what is in an optional.
-template <class T>
-struct Held {
-  using Type = T;
-};
-template <class T>
-struct Held<std::optional<T>> {
-  using Type = T;
-};
+// What a member holds, or may hold.
 template <class Owner, class Member>
 using ValueOf =
-    typename Held<std::remove_cvref_t<decltype(std::declval<Owner&>().*std::declval<Member>())>>::Type;
+    typename Unwrapped<std::remove_cvref_t<decltype(std::declval<Owner&>().*std::declval<Member>())>>::Type;
 
 template <class Owner>
 CLI::Validator validatorOf(const SettingField<Owner>& field) {

@@ -48,6 +48,16 @@ struct SettingField {
   }
 };
 
+/// What a setting's member holds, or may hold.
+template <class T>
+struct Unwrapped {
+  using Type = T;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> {
+  using Type = T;
+};
+
 /// "a, b, c" as a list.
 std::vector<std::string> namesIn(std::string_view list);
 

@@ -89,15 +89,6 @@ std::optional<std::array<double, count>> numbersOf(const toml::node& node, const
   return numbers;
 }
 
-template <class T>
-struct Unwrapped {
-  using Type = T;
-};
-template <class T>
-struct Unwrapped<std::optional<T>> {
-  using Type = T;
-};
-
 // Walks a parsed file.
 class SceneReader {
  public:
