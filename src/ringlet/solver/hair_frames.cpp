@@ -36,7 +36,10 @@ Status HairFrames::record(std::span<const HairFrame> frames, gpu::CommandList& l
     if (Status status = of(frame).checkFree(frame); !status) return status;
   }
   for (const HairFrame& frame : frames) {
-    if (Status status = of(frame).recordBeside(frame, list); !status) return status;
+    if (Status status = of(frame).recordBeside(frame, list); !status) {
+      lose(frames, status.error());
+      return status;
+    }
   }
   return {};
 }
