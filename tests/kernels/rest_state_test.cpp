@@ -174,15 +174,15 @@ TEST(RestState, RefusesAirOutOfRange) {
     double low, high;
   };
   const Range ranges[] = {
-      {"air.fallSpeed", [](AirSettings& air) -> double& { return air.fallSpeed; }, 0.01, 1000},
-      {"air.alongShare", [](AirSettings& air) -> double& { return air.alongShare; }, 0, 1},
+      {"air.fall_speed", [](AirSettings& air) -> double& { return air.fallSpeed; }, 0.01, 1000},
+      {"air.along_share", [](AirSettings& air) -> double& { return air.alongShare; }, 0, 1},
       {"air.wind.x", [](AirSettings& air) -> double& { return air.wind.x; }, -1000, 1000},
       {"air.wind.y", [](AirSettings& air) -> double& { return air.wind.y; }, -1000, 1000},
       {"air.wind.z", [](AirSettings& air) -> double& { return air.wind.z; }, -1000, 1000},
       {"air.gust", [](AirSettings& air) -> double& { return air.gust; }, 0, 10},
-      {"air.gustSeconds", [](AirSettings& air) -> double& { return air.gustSeconds; }, 0.01, 1000},
+      {"air.gust_seconds", [](AirSettings& air) -> double& { return air.gustSeconds; }, 0.01, 1000},
       {"air.turbulence", [](AirSettings& air) -> double& { return air.turbulence; }, 0, 1000},
-      {"air.eddySize", [](AirSettings& air) -> double& { return air.eddySize; }, 0.001, 1000},
+      {"air.eddy_size", [](AirSettings& air) -> double& { return air.eddySize; }, 0.001, 1000},
   };
   for (const Range& range : ranges) {
     Settings settings;
