@@ -43,7 +43,6 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
   std::vector<ListedKernel> kernels;
   for (Work& work : strandWorks()) {
     work.options.texels = texels && !work.options.contacts;
-    work.options.groupSize = strandGroupSize(device.limits());
     std::vector<StrandShape> shapes = plannedShapes(device.limits(), work.shapes, kUsualLengths, true);
     if (std::ranges::find(shapes, StrandShape{}) == shapes.end()) shapes.push_back(StrandShape{});
     for (const StrandShape& shape : shapes)

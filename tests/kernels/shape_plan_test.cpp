@@ -160,10 +160,11 @@ TEST(ShapePlan, FewStrandsOfManyHeadsGetTheKernelOfManyStrands) {
             rangesOf(std::vector(1000, 64u), kLavapipe).at(0).shape);
 }
 
-TEST(ShapePlan, ACpusWorkgroupsAreSubgroups) {
+TEST(ShapePlan, ACpusWorkgroupsAreSubgroupsWhereStrandsAreFew) {
   for (const std::uint32_t width : {4u, 8u, 16u, 32u}) {
-    EXPECT_EQ(strandGroupSize({.subgroupSize = width, .isCpu = true}), std::max(8u, width));
-    EXPECT_EQ(strandGroupSize({.subgroupSize = width}), kStrandGroupSize);
+    EXPECT_EQ(strandGroupSize({.subgroupSize = width, .isCpu = true}, 400), std::max(8u, width));
+    EXPECT_EQ(strandGroupSize({.subgroupSize = width, .isCpu = true}, 4000), kStrandGroupSize);
+    EXPECT_EQ(strandGroupSize({.subgroupSize = width}, 400), kStrandGroupSize);
   }
 }
 

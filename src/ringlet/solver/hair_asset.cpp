@@ -20,6 +20,13 @@ std::vector<std::uint32_t> particleCounts(const RestState& rest) {
   return counts;
 }
 
+std::uint64_t lanesOf(std::span<const StrandRange> ranges) {
+  std::uint64_t lanes = 0;
+  for (const StrandRange& range : ranges)
+    lanes += std::uint64_t{range.end - range.begin} * std::max(1u, range.shape.lanes);
+  return lanes;
+}
+
 // All strands may be rigid, and then none is on the device.
 Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts, const DeviceLimits& limits,
                                           const KernelChoice& choice, StrandWork work) {
@@ -42,7 +49,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   if (!limits) return limits.error();
 
   auto self = std::make_shared<Implementation>(Implementation{
-      device, material, settings, choice, bodies, *limits, std::move(*rest), {}, {}, {}, {}, {}});
+      device, material, settings, choice, bodies, *limits, {}, std::move(*rest), {}, {}, {}, {}, {}});
   self->choice.measured = {};
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   if (settings.contacts.on && !counts.empty()) {
@@ -58,7 +65,8 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   self->ranges = cutRanges(*ranges, *chunks);
-  const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, strandGroupSize(*limits));
+  self->groupSize = strandGroupSize(*limits, lanesOf(self->ranges));
+  const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
   if (!plan) return plan.error();  // before anything is made for it
   for (const GroomChunk& chunk : *chunks) {
     auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles, chunk);

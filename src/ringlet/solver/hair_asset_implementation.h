@@ -21,6 +21,7 @@ struct HairAsset::Implementation {
   KernelChoice choice;
   BodyUse bodies = BodyUse::none;
   DeviceLimits limits;                   // the device's, with the subgroups that were chosen
+  std::uint32_t groupSize = 0;           // of strand kernels
   RestState rest;                        // its particles are on the device
   std::optional<RestContacts> contacts;  // with contacts
   std::optional<RestVolume> volume;      // where strands meet as one

@@ -100,8 +100,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                      : "the hair's asset was built without bodies; build it with BodyUse::some"};
   }
   const DeviceLimits& limits = constant.limits;
-  const auto plan =
-      planFrame(constant.ranges, limits, settings, initial.bodies.size(), strandGroupSize(limits));
+  const auto plan = planFrame(constant.ranges, limits, settings, initial.bodies.size(), constant.groupSize);
   if (!plan) return plan.error();  // before anything is made for it
 
   std::vector<layout::StrandRest> strands = shiftedStrands(rest, initial.rootShifts);
@@ -178,7 +177,7 @@ Status Simulation::Implementation::makeKernels() {
                                     .turbulence = world.isTurbulent(),
                                     .movingRoots = choice.movingRoots,
                                     .subgroupSize = askedWidth(device.gpu().properties(), choice),
-                                    .groupSize = strandGroupSize(asset->limits)};
+                                    .groupSize = asset->groupSize};
   std::vector<std::size_t> newKernels;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     if (!gpu::Kernel::isCompiled(device.gpu(), describeStrandKernel(shapes[k], options)))

@@ -73,8 +73,8 @@ void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
 // The whole frame, once: what changes from frame to frame is in its inputs.
 Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
   if (contacts || volume) return recordContactFrame(frame, 0, true);
-  const auto plan = planFrame(ranges, asset->limits, settings, world.bodyCount(),
-                              strandGroupSize(asset->limits), frame.pace.mostParticleSteps());
+  const auto plan = planFrame(ranges, asset->limits, settings, world.bodyCount(), asset->groupSize,
+                              frame.pace.mostParticleSteps());
   if (!plan) return plan.error();
   beginFrame(frame);
   dispatchAll(frame, *plan);
@@ -83,8 +83,8 @@ Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
 }
 
 Status Simulation::Implementation::recordPass(FrameRecording& frame, const SolvePass& pass) const {
-  const auto dispatches = planPass(ranges, asset->limits, settings, world.bodyCount(),
-                                   strandGroupSize(asset->limits), pass, frame.pace.mostParticleSteps());
+  const auto dispatches = planPass(ranges, asset->limits, settings, world.bodyCount(), asset->groupSize, pass,
+                                   frame.pace.mostParticleSteps());
   if (!dispatches) return dispatches.error();
   dispatchAll(frame, *dispatches);
   frame.list.barrier();

@@ -29,8 +29,7 @@ Status Simulation::Implementation::checkChange(const Settings& wanted) const {
         "longer ones",
         wanted.stepsPerFrame, 1 / wanted.stepSeconds(), built.stepsPerFrame, 1 / built.stepSeconds())};
   }
-  const auto plan =
-      planFrame(ranges, asset->limits, wanted, world.bodyCount(), strandGroupSize(asset->limits));
+  const auto plan = planFrame(ranges, asset->limits, wanted, world.bodyCount(), asset->groupSize);
   return plan ? Status{} : plan.error();
 }
 

@@ -18,10 +18,11 @@ namespace ringlet {
 /// Invocations of a workgroup, at most.
 inline constexpr std::uint32_t kStrandGroupSize = 64;
 
-/// How many they are on a device. A CPU device takes a workgroup as a task for one of its cores: small ones
-/// share out few strands too.
-inline std::uint32_t strandGroupSize(const DeviceLimits& limits) {
-  return limits.isCpu ? std::max(8u, limits.subgroupSize) : kStrandGroupSize;
+/// How many they are, for strands that have so many lanes together. A CPU device takes a workgroup as a task
+/// for one of its cores: small ones share out few strands too, and cost more where strands are many.
+inline std::uint32_t strandGroupSize(const DeviceLimits& limits, std::uint64_t lanes) {
+  const bool isFew = lanes < 16 * kStrandGroupSize;
+  return limits.isCpu && isFew ? std::max(8u, limits.subgroupSize) : kStrandGroupSize;
 }
 
 /// What a strand kernel is specialized for besides its shape.
