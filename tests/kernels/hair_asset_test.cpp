@@ -96,8 +96,7 @@ TEST_F(HairAssetTest, IsBuiltWithBodiesOrWithout) {
   const auto wanting = make(*build(device(), without), with, kHeads[0]);
   EXPECT_EQ(wanting.error().message,
             "the hair's asset was built without bodies; build it with BodyUse::some");
-  const auto idle = make(*build(device(), with), without, kHeads[0]);
-  EXPECT_EQ(idle.error().message, "the hair's asset was built for bodies, and there are none");
+  EXPECT_TRUE(make(*build(device(), with), without, kHeads[0])) << "they may come later";
 }
 
 }  // namespace

@@ -121,6 +121,17 @@ Result<Body> bodyOf(const ringlet_body& from, std::uint32_t index) {
   return body;
 }
 
+// All of an array; an empty one may be null.
+Outcome takeBodies(const ringlet_body* from, std::uint32_t count, std::vector<Body>& bodies) {
+  if (count > 0 && !hasSize(from)) return Outcome::invalid("there are no bodies that say their size");
+  for (std::uint32_t b = 0; b < count; ++b) {
+    auto body = bodyOf(taken(from, b), b);
+    if (!body) return body.error();
+    bodies.push_back(std::move(*body));
+  }
+  return {};
+}
+
 Outcome fill(const std::vector<Vec3f>& values, float* xyz, std::uint64_t particleCount) {
   if (!xyz || particleCount != values.size())
     return Outcome::invalid(fmt::format("there is room for {} particles, and the hair has {}",
@@ -193,14 +204,9 @@ ringlet_result ringlet_hair_create(ringlet_asset* asset, const ringlet_initial_s
     const ringlet_initial_state from = taken(initial);
     const auto head = poseOf<HeadPose>(from.head);
     if (!head) return notFinite("the head");
-    if (from.body_count > 0 && !hasSize(from.bodies))
-      return Outcome::invalid("there are no bodies that say their size");
     std::vector<Body> bodies;
-    for (std::uint32_t b = 0; b < from.body_count; ++b) {
-      auto body = bodyOf(taken(from.bodies, b), b);
-      if (!body) return body.error();
-      bodies.push_back(std::move(*body));
-    }
+    if (Outcome outcome = takeBodies(from.bodies, from.body_count, bodies); outcome.result != RINGLET_OK)
+      return outcome;
     auto made = Simulation::create(asset->asset,
                                    {.head = *head, .bodies = bodies, .readsBack = from.keeps_on_device == 0});
     if (!made) return made.error();
@@ -296,6 +302,17 @@ ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_mater
   return guarded([&]() -> Outcome {
     if (!hair || !material) return Outcome::invalid("ringlet_hair_set_material takes hair and a material");
     return hair->simulation.setMaterial(material->material);
+  });
+}
+
+ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count) {
+  return guarded([&]() -> Outcome {
+    if (!hair) return Outcome::invalid("ringlet_hair_set_bodies takes hair");
+    std::vector<Body> taken;
+    if (Outcome outcome = takeBodies(bodies, body_count, taken); outcome.result != RINGLET_OK) return outcome;
+    if (Status status = hair->simulation.setBodies(taken); !status) return status;
+    hair->bodyCount = body_count;
+    return {};
   });
 }
 

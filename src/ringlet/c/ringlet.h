@@ -221,6 +221,9 @@ ringlet_result ringlet_get_device_positions(const ringlet_hair* hair, uint32_t i
 ringlet_result ringlet_hair_set_settings(ringlet_hair* hair, const ringlet_settings* settings);
 ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_material* material);
 
+/* Other bodies in place of those there are, any number, where their poses in the head's frame say. */
+ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count);
+
 typedef struct ringlet_report {
   size_t struct_size;
   double max_edge_stretch; /* longest edge over the groom's edge, since the beginning */

@@ -19,7 +19,8 @@
 
 namespace ringlet {
 
-/// Whether the hair stays out of bodies: other kernels, which are slower and take longer to compile.
+/// Whether the hair may have bodies to stay out of: other kernels, which are slower and take longer to
+/// compile.
 enum class BodyUse { none, some };
 
 /// A handle: copies are of the same asset, which lives as long as any of them, or any simulation of it.

@@ -94,11 +94,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   const Settings& settings = constant.settings;
   const RestState& rest = constant.rest;
   gpu::Device& device = constant.device.gpu();
-  if (initial.bodies.empty() != (constant.bodies == BodyUse::none)) {
-    return Error{initial.bodies.empty()
-                     ? "the hair's asset was built for bodies, and there are none"
-                     : "the hair's asset was built without bodies; build it with BodyUse::some"};
-  }
+  if (!initial.bodies.empty() && constant.bodies == BodyUse::none) return Error{kBuiltWithoutBodies};
   const DeviceLimits& limits = constant.limits;
   const auto plan = planFrame(constant.ranges, limits, settings, initial.bodies.size(), constant.groupSize);
   if (!plan) return plan.error();  // before anything is made for it

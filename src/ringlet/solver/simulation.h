@@ -203,7 +203,11 @@ class Simulation {
   /// then. warnings() are the material's. Cost: it waits for frames under way; constants of this head's own,
   /// 32 bytes a particle and 112 a strand; the first time the asset's rest state twice.
   Status setMaterial(const Material& material);
-  /// As they are now; at first the asset's. Checkpoints hold neither: set them before restore().
+  /// Other bodies in place of those there are, any number, from the next frame on; `places`: where they are
+  /// now in the world, or none: with the head. Fails where create does on bodies, and changes nothing then.
+  /// Cost: it waits for frames under way; bodies go to the device anew, with the grids of meshes.
+  Status setBodies(std::span<const Body> bodies, std::span<const BodyPose> places = {});
+  /// As they are now; at first the asset's. Checkpoints hold neither, nor bodies: set them before restore().
   const Settings& settings() const;
   const Material& material() const;
 

@@ -31,6 +31,9 @@
 
 namespace ringlet {
 
+inline constexpr const char* kBuiltWithoutBodies =
+    "the hair's asset was built without bodies; build it with BodyUse::some";
+
 // Where the head is and was one outer step before.
 struct HeadHistory {
   HeadPose oneStepEarlier, now;
@@ -121,6 +124,7 @@ struct Simulation::Implementation {
   Status checkChange(const Settings& wanted) const;
   Status change(const Settings& wanted);
   Status change(const Material& wanted);
+  Status change(std::span<const Body> bodies, std::span<const BodyPose> places);
 
   // simulation_frames.cpp
   layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;

@@ -74,6 +74,28 @@ Status Simulation::Implementation::change(const Material& wanted) {
   return {};
 }
 
+Status Simulation::Implementation::change(std::span<const Body> bodies, std::span<const BodyPose> places) {
+  const auto plan = planFrame(ranges, asset->limits, settings, bodies.size(), asset->groupSize);
+  if (!plan) return plan.error();
+  if (Status status = finishFrames(); !status) return status;
+  // As many steps a frame as there may ever be, and the air as it is.
+  Settings largest = settings;
+  largest.stepsPerFrame = asset->settings.stepsPerFrame;
+  auto made = DeviceWorld::create(device.gpu(), bodies, largest, head.now, kFramesInFlight);
+  if (!made) return made.error();
+  made->setSettings(settings);
+  if (!places.empty()) made->placeBodies(places);
+  world = std::move(*made);
+  for (FrameSlot& slot : slots) slot.isRecorded = false;
+  return bindKernels();
+}
+
+Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyPose> places) {
+  RINGLET_ASSERT(places.empty() || places.size() == bodies.size(), "every body has a place");
+  if (self_->asset->bodies == BodyUse::none && !bodies.empty()) return Error{kBuiltWithoutBodies};
+  return self_->change(bodies, places);
+}
+
 Status Simulation::setMaterial(const Material& material) {
   const Implementation& self = *self_;
   if (self.settings.integrator != Integrator::jacobi)

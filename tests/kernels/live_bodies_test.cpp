@@ -1,0 +1,160 @@
+// Bodies that change while hair moves: the hair meets those that are there.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "ringlet/c/handles.h"
+#include "tests/kernels/sample_hairs.h"
+#include "tests/support/gpu_test.h"
+
+namespace ringlet::test {
+namespace {
+
+using LiveBodies = GpuTest;
+
+HeadPose headAt(int frame) {
+  return {Vec3d{0.02 * frame, 0, 0}, fromRotationVector(Vec3d{0, 0.05 * frame, 0})};
+}
+
+// In turn: none, one sphere in the hair, all samples.
+std::vector<std::vector<Body>> sets() {
+  Body sphere;
+  sphere.radius = 0.03;
+  sphere.place.position = {0.01, -0.04, 0};
+  return {{}, {sphere}, sampleBodies()};
+}
+
+// Hair that meets bodies, by itself and pair by pair.
+std::vector<Settings> ways() {
+  Settings pairs;
+  pairs.contacts.on = true;
+  pairs.contacts.method = ContactMethod::explicitPairs;
+  return {Settings{}, pairs};
+}
+
+std::vector<HeadPose> posesOf(int frame, const Settings& settings) {
+  std::vector<HeadPose> poses;
+  for (int k = 1; k <= settings.stepsPerFrame; ++k)
+    poses.push_back(interpolate(headAt(frame), headAt(frame + 1), double(k) / settings.stepsPerFrame));
+  return poses;
+}
+
+// From any to any other, before the first frame: as hair that was born among them. And with two in flight.
+TEST_F(LiveBodies, AreAsIfHairHadBeenBornAmongThem) {
+  const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
+  for (const Settings& settings : ways()) {
+    const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+    ASSERT_TRUE(asset) << asset.error().message;
+    std::vector<std::vector<Vec3f>> ends;
+    for (const auto& to : sets()) {
+      for (const auto& from : sets()) {
+        SCOPED_TRACE(std::to_string(from.size()) + " to " + std::to_string(to.size()));
+        Simulation late = *Simulation::create(*asset, {.bodies = from});
+        const Status status = late.setBodies(to);
+        ASSERT_TRUE(status) << status.error().message;
+        for (int frame = 0; frame < 3; ++frame) ASSERT_TRUE(late.stepFrame(posesOf(frame, settings)));
+        if (to.empty()) ends.push_back(*late.positions());
+        Simulation early = *Simulation::create(*asset, {.bodies = to});
+        for (int frame = 0; frame < 3; ++frame) ASSERT_TRUE(early.stepFrame(posesOf(frame, settings)));
+        EXPECT_TRUE(late.state()->positions == early.state()->positions);
+        EXPECT_TRUE(late.state()->velocities == early.state()->velocities);
+        EXPECT_EQ(*late.positions() == ends.front(), to.empty()) << "the bodies are not in the way";
+      }
+    }
+  }
+}
+
+// In the middle of a run, also with a frame in flight: as hair that is put, as it is then, among the others.
+TEST_F(LiveBodies, ChangeBetweenFrames) {
+  const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
+  const Settings settings;
+  const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+  const std::vector<Body> first = sets()[1], second = sets()[2];
+  Simulation hair = *Simulation::create(*asset, {.bodies = first}),
+             flies = *Simulation::create(*asset, {.bodies = first});
+  for (int frame = 0; frame < 2; ++frame) ASSERT_TRUE(hair.stepFrame(posesOf(frame, settings)));
+  const HairState state = *hair.state();
+  ASSERT_TRUE(hair.setBodies(second));
+  ASSERT_TRUE(hair.stepFrame(posesOf(2, settings)));
+
+  ASSERT_TRUE(flies.submitFrame(posesOf(0, settings)));
+  ASSERT_TRUE(flies.submitFrame(posesOf(1, settings)));
+  ASSERT_TRUE(flies.setBodies(second));
+  for (int frame = 0; frame < 2; ++frame) ASSERT_TRUE(flies.waitFrame());
+  ASSERT_TRUE(flies.stepFrame(posesOf(2, settings)));
+  EXPECT_TRUE(*flies.positions() == *hair.positions());
+
+  const std::vector<HeadPose> before = posesOf(1, settings);
+  Simulation put = *Simulation::create(
+      *asset, {.head = before.back(), .oneStepEarlier = before[before.size() - 2], .bodies = second});
+  ASSERT_TRUE(put.setState(state));
+  ASSERT_TRUE(put.stepFrame(posesOf(2, settings)));
+  EXPECT_TRUE(*put.positions() == *hair.positions());
+}
+
+// Places say where bodies are when the next frame begins: from there on they are as fast as they move.
+TEST_F(LiveBodies, StandWhereTheyAreSaidToStand) {
+  const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
+  const Settings settings;
+  const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+  const std::vector<Body> bodies = sets()[1];
+  const BodyPose there{{0.02, -0.05, 0.01}, {}};
+  const std::vector<BodyPose> frame(settings.stepsPerFrame, there);
+  Simulation late = *Simulation::create(*asset, {.bodies = sets()[2]});
+  const std::vector<BodyPose> places{there};
+  Simulation early = *Simulation::create(*asset, {.bodies = bodies, .bodyPlaces = places});
+  ASSERT_TRUE(late.setBodies(bodies, places));
+  ASSERT_TRUE(late.stepFrame(posesOf(0, settings), frame));
+  ASSERT_TRUE(early.stepFrame(posesOf(0, settings), frame));
+  EXPECT_TRUE(*late.positions() == *early.positions());
+}
+
+TEST_F(LiveBodies, WrongOnesAreRefusedAndChangeNothing) {
+  const Groom groom = randomGroom({31, 5}, 3);
+  const auto asset = HairAsset::build(device(), groom, {}, {}, {}, BodyUse::some);
+  Simulation hair = *Simulation::create(*asset, {.bodies = sets()[1]}),
+             untouched = *Simulation::create(*asset, {.bodies = sets()[1]});
+  Body wrong;
+  wrong.radius = -1;
+  EXPECT_FALSE(hair.setBodies(std::vector<Body>{wrong}));
+  for (int frame = 0; frame < 2; ++frame) {
+    ASSERT_TRUE(hair.stepFrame(posesOf(frame, {})));
+    ASSERT_TRUE(untouched.stepFrame(posesOf(frame, {})));
+  }
+  EXPECT_TRUE(*hair.positions() == *untouched.positions());
+  Simulation bare = *Simulation::create(device(), groom, {}, {});
+  const Status status = bare.setBodies(sets()[1]);
+  ASSERT_FALSE(status);
+  EXPECT_NE(status.error().message.find("built without bodies"), std::string::npos);
+  EXPECT_TRUE(bare.setBodies({}));
+}
+
+// The same through the C interface.
+TEST_F(LiveBodies, ChangeThroughC) {
+  const Groom groom = randomGroom({31, 5, 64}, 3);
+  const auto asset = HairAsset::build(device(), groom, {}, {}, {}, BodyUse::some);
+  Simulation expected = *Simulation::create(*asset, {.bodies = sets()[1]});
+  ringlet_asset handle{*asset, &gpu(), true, false};
+  ringlet_body sphere = RINGLET_INIT(ringlet_body);
+  sphere.radius = 0.03, sphere.friction = Body{}.friction;
+  sphere.pose = {{0.01, -0.04, 0}, {0, 0, 0, 1}};
+  ringlet_body other = sphere;
+  other.radius = 0.001;
+  ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
+  initial.bodies = &other, initial.body_count = 1;
+  ringlet_hair* hair = nullptr;
+  ASSERT_EQ(ringlet_hair_create(&handle, &initial, &hair), RINGLET_OK) << ringlet_error_message();
+  ASSERT_EQ(ringlet_hair_set_bodies(hair, &sphere, 1), RINGLET_OK) << ringlet_error_message();
+  EXPECT_EQ(ringlet_hair_set_bodies(hair, nullptr, 2), RINGLET_ERROR_INVALID_ARGUMENT);
+  const ringlet_pose head{{0.02, 0, 0}, {0, 0, 0, 0}};
+  ASSERT_EQ(ringlet_step_to(hair, &head), RINGLET_OK);
+  ASSERT_TRUE(expected.stepFrame(HeadPose{{0.02, 0, 0}, {}}));
+  std::vector<Vec3f> found(groom.points.size());
+  ASSERT_EQ(ringlet_positions(hair, &found[0].x, found.size()), RINGLET_OK);
+  EXPECT_TRUE(found == *expected.positions());
+  ringlet_hair_release(hair);
+}
+
+}  // namespace
+}  // namespace ringlet::test
