@@ -98,8 +98,9 @@ TEST_F(LiveBodies, StandWhereTheyAreSaidToStand) {
   const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
   const Settings settings;
   const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
-  const std::vector<Body> bodies = sets()[1];
-  const BodyPose there{{0.02, -0.05, 0.01}, {}};
+  std::vector<Body> bodies = sets()[1];
+  bodies[0].radius = 0.1, bodies[0].place.position = {0, -0.05, 0.1};  // beside the hair, and would sweep it
+  const BodyPose there{{0, -0.1, 0}, {}};
   const std::vector<BodyPose> frame(settings.stepsPerFrame, there);
   Simulation late = *Simulation::create(*asset, {.bodies = sets()[2]});
   const std::vector<BodyPose> places{there};
@@ -108,6 +109,26 @@ TEST_F(LiveBodies, StandWhereTheyAreSaidToStand) {
   ASSERT_TRUE(late.stepFrame(posesOf(0, settings), frame));
   ASSERT_TRUE(early.stepFrame(posesOf(0, settings), frame));
   EXPECT_TRUE(*late.positions() == *early.positions());
+}
+
+// Whichever of settings and bodies changes first.
+TEST_F(LiveBodies, KeepTheSettings) {
+  const Groom groom = randomGroom({31, 5, 64, 2, 17}, 3);
+  Settings settings;
+  settings.air = {.on = true, .wind = {1, 0, 0}};
+  const auto asset = HairAsset::build(device(), groom, {}, settings, {}, BodyUse::some);
+  Simulation first = *Simulation::create(*asset, {.bodies = sets()[2]}),
+             second = *Simulation::create(*asset, {.bodies = sets()[2]});
+  settings.stepsPerFrame = 4, settings.framesPerSecond = 48, settings.air.wind = {0, 3, 0};
+  ASSERT_TRUE(first.setSettings(settings));
+  ASSERT_TRUE(first.setBodies(sets()[1]));
+  ASSERT_TRUE(second.setBodies(sets()[1]));
+  ASSERT_TRUE(second.setSettings(settings));
+  for (int frame = 0; frame < 2; ++frame) {
+    ASSERT_TRUE(first.stepFrame(posesOf(frame, settings)));
+    ASSERT_TRUE(second.stepFrame(posesOf(frame, settings)));
+  }
+  EXPECT_TRUE(*first.positions() == *second.positions());
 }
 
 TEST_F(LiveBodies, WrongOnesAreRefusedAndChangeNothing) {
