@@ -111,9 +111,9 @@ Result<Body> bodyOf(const ringlet_body& from, std::uint32_t index) {
   body.shape = static_cast<BodyShape>(from.shape);
   if (from.shape != RINGLET_MESH) return body;
   TriangleMesh mesh;
-  for (std::uint32_t v = 0; from.vertices && v < from.vertex_count; ++v)
+  for (std::size_t v = 0; from.vertices && v < from.vertex_count; ++v)
     mesh.points.push_back({from.vertices[3 * v], from.vertices[3 * v + 1], from.vertices[3 * v + 2]});
-  for (std::uint32_t t = 0; from.triangles && t < from.triangle_count; ++t)
+  for (std::size_t t = 0; from.triangles && t < from.triangle_count; ++t)
     mesh.triangles.push_back({from.triangles[3 * t], from.triangles[3 * t + 1], from.triangles[3 * t + 2]});
   auto grid = makeDistanceGrid(mesh, {.cells = from.cells == 0 ? 64 : from.cells});
   if (!grid) return Error{fmt::format("{}: {}", body.name, grid.error().message), grid.error().fault};
