@@ -48,7 +48,7 @@ Groom groomOf(int frame, int pointCount = 3) {
   return groom;
 }
 
-UsdOptions options(int frames) { return {.diameter = 0.05f, .frameCount = frames}; }
+AnimationOptions options(int frames) { return {.diameter = 0.05f, .frameCount = frames}; }
 
 // Bytes [begin, end) that differ between two states of a file, within the shorter; places closer than `gap`
 // are one.

@@ -17,13 +17,7 @@ Result<Writer> owned(Result<T> writer) {
 
 Result<Writer> resumeUsd(const std::filesystem::path& path, const Groom& topology, const AnimationOptions& o,
                          int frameCount) {
-  return owned(UsdWriter::resume(path, topology,
-                                 {.framesPerSecond = o.framesPerSecond,
-                                  .metresPerUnit = o.metresPerUnit,
-                                  .up = o.up,
-                                  .diameter = o.diameter,
-                                  .frameCount = o.frameCount},
-                                 frameCount));
+  return owned(UsdWriter::resume(path, topology, o, frameCount));
 }
 
 Result<Writer> resumeCache(const std::filesystem::path& path, const Groom& topology,

@@ -84,13 +84,13 @@ Result<std::uint64_t> lineEndAfter(const ByteFile& file, std::uint64_t begin) {
 }  // namespace
 
 UsdWriter::UsdWriter(ByteFile file, const std::filesystem::path& path, const Groom& topology,
-                     const UsdOptions& options)
+                     const AnimationOptions& options)
     : file_(std::move(file)), path_(path), firstPoint_(topology.firstPoint), options_(options) {
   RINGLET_ASSERT(options.frameCount >= 1, "at least one frame will come");
 }
 
 Result<UsdWriter> UsdWriter::create(const std::filesystem::path& path, const Groom& topology,
-                                    const UsdOptions& options) {
+                                    const AnimationOptions& options) {
   auto file = ByteFile::create(path.string() + ".partial");
   if (!file) return file.error();
   UsdWriter writer(std::move(*file), path, topology, options);
@@ -132,7 +132,7 @@ std::string UsdWriter::headerText() {
 }
 
 Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Groom& topology,
-                                    const UsdOptions& options, int frameCount) {
+                                    const AnimationOptions& options, int frameCount) {
   if (frameCount == 0) return create(path, topology, options);
   auto file = openPartial(path);
   if (!file) return file.error();

@@ -17,14 +17,6 @@
 
 namespace ringlet {
 
-struct UsdOptions {
-  double framesPerSecond = 24;  // time codes per second
-  double metresPerUnit = 0.01;  // unit of points and diameter
-  UpAxis up = UpAxis::y;
-  float diameter = 0.05f;  // of every strand [file unit]
-  int frameCount = 1;      // most frames that will come; fewer may
-};
-
 /// Frame k (1 for the first) becomes the sample at time code k. While frames come, the file is
 /// `PATH.partial`, and it is a whole, valid USD file at every moment, also in the middle of a frame: a killed
 /// program leaves all finished frames in it. finish() renames it to PATH, so a PATH that is there is
@@ -33,13 +25,13 @@ class UsdWriter : public AnimationWriter {
  public:
   /// Creates the file and writes everything but the samples. Only the groom's strand lengths are used.
   static Result<UsdWriter> create(const std::filesystem::path& path, const Groom& topology,
-                                  const UsdOptions& options);
+                                  const AnimationOptions& options);
 
   /// Goes on with PATH.partial after its first `frameCount` frames, dropping what follows, to the bytes of a
   /// file written in one go; with 0 it begins anew. Errors: the file is not that of such an animation, or has
   /// fewer whole frames.
   static Result<UsdWriter> resume(const std::filesystem::path& path, const Groom& topology,
-                                  const UsdOptions& options, int frameCount);
+                                  const AnimationOptions& options, int frameCount);
 
   UsdWriter(UsdWriter&&) = default;
   UsdWriter& operator=(UsdWriter&&) = delete;
@@ -58,7 +50,7 @@ class UsdWriter : public AnimationWriter {
 
  private:
   UsdWriter(ByteFile file, const std::filesystem::path& path, const Groom& topology,
-            const UsdOptions& options);
+            const AnimationOptions& options);
   std::string headerText();
   Status writeFrame(std::span<const Vec3f> points);
   Status writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& high);
@@ -71,7 +63,7 @@ class UsdWriter : public AnimationWriter {
   ByteFile file_;                          // PATH.partial
   std::filesystem::path path_;             // PATH
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
-  UsdOptions options_;
+  AnimationOptions options_;
   std::string buffer_;               // text on its way to the file
   std::uint64_t endTimeCodeAt_ = 0;  // where the header's reserved last time code stands [byte]
   std::uint64_t extentsAt_ = 0;      // where the reserved lines for the extents begin [byte]
