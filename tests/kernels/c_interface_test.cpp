@@ -215,7 +215,11 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
 
   const Groom hair = randomGroom({8, 8}, 1);
   CGroom groom(hair);
-  expectInvalid(ringlet_asset_build(c.device, nullptr, nullptr, nullptr, nullptr, &c.asset), "says its size");
+  expectInvalid(ringlet_asset_build(c.device, nullptr, nullptr, nullptr, nullptr, &c.asset),
+                "say their size");
+  ringlet_asset_options unsized{};
+  expectInvalid(ringlet_asset_build(c.device, &groom.groom, nullptr, nullptr, &unsized, &c.asset),
+                "say their size");
   ringlet_groom empty = RINGLET_INIT(ringlet_groom);
   expectInvalid(ringlet_asset_build(c.device, &empty, nullptr, nullptr, nullptr, &c.asset), "no points");
   ringlet_groom bare = groom.groom;
@@ -231,6 +235,9 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   expectInvalid(ringlet_hair_create(nullptr, nullptr, &c.hairs.emplace_back()), "takes an asset");
   ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs[0]), RINGLET_OK);
   ringlet_initial_state initial = RINGLET_INIT(ringlet_initial_state);
+  ringlet_initial_state sizeless{};
+  ringlet_hair* unmade = nullptr;
+  expectInvalid(ringlet_hair_create(c.asset, &sizeless, &unmade), "says its size");
   initial.head.position[1] = NAN;
   ringlet_hair* lost = nullptr;
   expectInvalid(ringlet_hair_create(c.asset, &initial, &lost), "not finite");

@@ -154,9 +154,10 @@ ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* 
                                    const ringlet_settings* settings, const ringlet_material* material,
                                    const ringlet_asset_options* options, ringlet_asset** asset) {
   return guarded([&]() -> Outcome {
-    if (!device || !asset || !hasSize(groom))
+    if (!device || !asset || !hasSize(groom) || !hasSizeOrIsNull(options))
       return Outcome::invalid(
-          "ringlet_asset_build takes a device, a groom that says its size, and a place for the asset");
+          "ringlet_asset_build takes a device, a groom and options that say their size, and a place for the "
+          "asset");
     const ringlet_groom from = taken(groom);
     if (!from.points || !from.strand_sizes)
       return Outcome::invalid("the groom has no points, or no sizes of strands");
@@ -199,8 +200,9 @@ void ringlet_asset_release(ringlet_asset* asset) { delete asset; }
 ringlet_result ringlet_hair_create(ringlet_asset* asset, const ringlet_initial_state* initial,
                                    ringlet_hair** hair) {
   return guarded([&]() -> Outcome {
-    if (!asset || !hair)
-      return Outcome::invalid("ringlet_hair_create takes an asset, and a place for the hair");
+    if (!asset || !hair || !hasSizeOrIsNull(initial))
+      return Outcome::invalid(
+          "ringlet_hair_create takes an asset, a state that says its size, and a place for the hair");
     const ringlet_initial_state from = taken(initial);
     const auto head = poseOf<HeadPose>(from.head);
     if (!head) return notFinite("the head");

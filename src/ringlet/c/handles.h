@@ -1,6 +1,7 @@
 // What is behind the handles of c/ringlet.h, and how its functions fail.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -96,6 +97,11 @@ void give(T* to, T value) {
 template <class T>
 bool hasSize(const T* from) {
   return from && from->struct_size >= sizeof(std::size_t);
+}
+/// Of one that may be left out.
+template <class T>
+bool hasSizeOrIsNull(const T* from) {
+  return !from || hasSize(from);
 }
 
 }  // namespace ringlet::c

@@ -58,13 +58,10 @@ bool put(auto&, Vec3d) { return false; }
 template <class Owner, class Put>
 Outcome setField(std::span<const SettingField<Owner>> fields, std::string_view key, Owner& owner,
                  std::string_view name, const char* type, Put&& putInto) {
-  for (const SettingField<Owner>& field : fields) {
-    if (field.key != key) continue;
-    const bool fits = std::visit([&](auto member) { return putInto(field, owner.*member); }, field.member);
-    if (!fits) return Outcome::invalid(fmt::format("the setting {} does not take {}", name, type));
-    return {};
-  }
-  return unknown("setting", name, settingNames());
+  const SettingField<Owner>* field = fieldNamed(fields, key);
+  if (!field) return unknown("setting", name, settingNames());
+  const bool fits = std::visit([&](auto member) { return putInto(*field, owner.*member); }, field->member);
+  return fits ? Outcome{} : Outcome::invalid(fmt::format("the setting {} does not take {}", name, type));
 }
 
 // Calls putInto(field, member) for the setting of this name.
