@@ -5,7 +5,6 @@
 #include <charconv>
 #include <iterator>
 #include <string>
-#include <string_view>
 
 #include "program/command_line.h"
 #include "ringlet/scene/settings_fields.h"
@@ -17,17 +16,10 @@ constexpr const char* kGroup = "Contacts";
 // Either asks for pruning.
 constexpr const char *kMaxNeighbours = "max_neighbours", *kDropShare = "drop_share";
 
-NumberRange overlapsRange() {
-  const auto fields = contactFields();
-  const auto found = std::ranges::find(fields, std::string_view("min_overlaps"),
-                                       [](const auto& field) { return std::string_view(field.key); });
-  return found->allowed;
-}
-
 // A level of pruning: none, or overlaps from 1 on.
 CLI::Validator pruneLevel() {
-  const CLI::Validator number =
-      wholeBetween(static_cast<int>(overlapsRange().low), static_cast<int>(overlapsRange().high));
+  const NumberRange allowed = fieldNamed(contactFields(), "min_overlaps")->allowed;
+  const CLI::Validator number = wholeBetween(static_cast<int>(allowed.low), static_cast<int>(allowed.high));
   return CLI::Validator(
       [number](std::string& text) {
         if (text == "none") return std::string();

@@ -93,9 +93,7 @@ void addSettingOptions(CLI::App* command, std::span<const SettingField<Owner>> f
   for (const SettingField<Owner>& field : fields) {
     if (!*field.option) continue;
     const auto keep = [&typed, key = std::string(field.key)](const std::string& text) { typed[key] = text; };
-    command
-        ->add_option_function<std::string>(
-            field.option, keep, fmt::format("{} {}", field.effect, rangeAndDefault(table, field.key)))
+    command->add_option_function<std::string>(field.option, keep, helpOf(field, table))
         ->check(validatorOf(field))
         ->type_name(typeNameOf(field))
         ->group(group);

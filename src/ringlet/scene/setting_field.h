@@ -48,6 +48,14 @@ struct SettingField {
   }
 };
 
+/// The one of a table that has this key; null for none.
+template <class Owner>
+const SettingField<Owner>* fieldNamed(std::span<const SettingField<Owner>> fields, std::string_view key) {
+  for (const SettingField<Owner>& field : fields)
+    if (field.key == key) return &field;
+  return nullptr;
+}
+
 /// What a setting's member holds, or may hold.
 template <class T>
 struct Unwrapped {

@@ -22,10 +22,8 @@ constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";
 // A setting of a run as scene files have it, which may leave it open: then it is `standard`.
 SceneField<SceneSimulation> as(std::string_view key, auto member, const char* standard = "") {
-  const auto fields = settingsFields();
-  const auto found =
-      std::ranges::find(fields, key, [](const auto& field) { return std::string_view(field.key); });
-  RINGLET_ASSERT(found != fields.end(), "a scene's key is no setting");
+  const auto* found = fieldNamed(settingsFields(), key);
+  RINGLET_ASSERT(found, "a scene's key is no setting");
   return {found->key, found->unit,    standard,       found->effect,
           member,     found->allowed, found->choices, found->onlyWith};
 }

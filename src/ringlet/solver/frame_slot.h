@@ -21,7 +21,7 @@ struct FrameSlot {
   gpu::Recorder recorder;              // goes first, waiting for what it writes
   bool isRecorded = false;             // as a whole frame
   double particleSteps = 0;            // of strands, in what is recorded
-  bool isHosts = false;                // the frame is in commands of a host's, which says when it is over
+  bool isHosts = false;  // the frame is in others' commands (hair_frames.h): they say when it is over
 
   /// Fails when the device lacks memory.
   static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom, bool readsBack);

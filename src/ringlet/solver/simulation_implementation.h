@@ -68,6 +68,7 @@ struct Simulation::Implementation {
   const RestState& rest;
   const KernelChoice& choice;
   const std::vector<StrandRange>& ranges;
+
   Settings settings;  // at first the asset's
   Material material;  // likewise
   std::vector<std::string> warnings;
@@ -150,14 +151,14 @@ struct Simulation::Implementation {
   Status finishFrames(std::uint64_t end);
   Status finishFrames() { return finishFrames(submitted); }
   Status runToEnd(std::size_t slot);
-
-  // hair_frames.cpp
-  Status checkFree(const HairFrame& frame) const;
-  Status recordBeside(const HairFrame& frame, gpu::CommandList& list);
   void writePoses(std::size_t slot, std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                   std::span<const BodyPose> rootPoses);
   Status jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
                 std::span<const BodyPose> rootPoses);
+
+  // hair_frames.cpp
+  Status checkFree(const HairFrame& frame) const;
+  Status recordBeside(const HairFrame& frame, gpu::CommandList& list);
 };
 
 }  // namespace ringlet
