@@ -109,6 +109,13 @@ void Simulation<Real>::setRootShifts(std::span<const Vec3d> shifts) {
 }
 
 template <class Real>
+void Simulation<Real>::setForces(std::span<const Vec3f> forces) {
+  RINGLET_ASSERT(forces.size() == positions_.size(), "every particle has a force");
+  forces_.clear();
+  for (const Vec3f& force : forces) forces_.push_back(toEigen<double>(force));
+}
+
+template <class Real>
 Report Simulation<Real>::report() const {
   Report report = report_;
   report.contacts = static_cast<std::size_t>(std::ranges::count_if(contacts_.live, [&](const auto& contact) {
@@ -185,8 +192,12 @@ void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> 
     if (isRigid_[s]) continue;
     const HeadStep<Real> head = headStep(next, s, roots[s]);
     const auto positions = strandOf(positions_, s), velocities = strandOf(velocities_, s);
-    prepareStrand(rest_[s], settings_, head, air, positions, velocities, scratch_, taps_[s], systems_[s]);
-    solveVelocities(rest_[s], settings_, head, bodies, systems_[s], scratch_, taps_[s], positions,
+    const OutsideForces forces =
+        forces_.empty() ? OutsideForces{}
+                        : OutsideForces(forces_).subspan(firstPoint_[s], rest_[s].particleCount());
+    prepareStrand(rest_[s], settings_, head, air, forces, positions, velocities, scratch_, taps_[s],
+                  systems_[s]);
+    solveVelocities(rest_[s], settings_, head, forces, bodies, systems_[s], scratch_, taps_[s], positions,
                     velocities);
   }
   if (settings_.contacts.on) {

@@ -64,6 +64,9 @@ class Simulation {
   /// axes [m]. Before the first frame.
   void setRootShifts(std::span<const Vec3d> shifts);
 
+  /// Forces from outside on each kilogram of every particle, groom order [m/s^2], until others are set.
+  void setForces(std::span<const Vec3f> forces);
+
   /// These strands are carried by their roots in their rest shape, and take no part in anything. The list is
   /// the caller's (RestState::rigid). Before all else; puts the hair at rest.
   void carryRigidly(std::span<const std::uint32_t> strands);
@@ -122,6 +125,7 @@ class Simulation {
   std::vector<bool> isRigid_;                            // of each strand
   std::vector<Body> bodies_;
   std::vector<WindMode> windModes_;
+  Field<double> forces_;             // from outside; empty: none
   std::vector<BodyPose> bodyPoses_;  // at pose n, in the world
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;

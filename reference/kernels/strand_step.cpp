@@ -81,11 +81,18 @@ void computeForces(const RestStrand<Real>& rest, bool isPaper, StepScratch<Real>
   for (Vector3<Real>& force : taps.coreForces) force *= taps.coreScale;
 }
 
-// (M + T C + T^2 K) v+ = M v + T (f + m g), the strand's own system.
+// What pulls on a kilogram of particle i: gravity, and forces from outside [m/s^2].
+Vector3<double> pullOn(const Settings& settings, OutsideForces forces, std::size_t i) {
+  const Vector3<double> gravity = toEigen<double>(settings.gravity);
+  return forces.empty() ? gravity : gravity + forces[i];
+}
+
+// (M + T C + T^2 K) v+ = M v + T (f + m (g + a)), the strand's own system; a from outside.
 template <class Real>
-void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, const Field<Real>& directions,
-                    const Vector3<double>& gravity, double T, FieldView<Real> velocities,
+void assembleSystem(const RestStrand<Real>& rest, const Settings& settings, OutsideForces forces,
+                    const StrandTaps<Real>& taps, const Field<Real>& directions, FieldView<Real> velocities,
                     StrandSystem& system) {
+  const double T = settings.stepSeconds();
   system.rootCount = rest.rootCount;
   system.contactWeights.clear();
   system.contactMomenta.clear();
@@ -96,8 +103,9 @@ void assembleSystem(const RestStrand<Real>& rest, const StrandTaps<Real>& taps, 
   system.directions.resize(rest.edgeCount());
   for (std::size_t i = 0; i < rest.particleCount(); ++i) {
     const double m = system.masses[i];
-    system.momenta[i] = m * velocities[i].template cast<double>() +
-                        T * (particleForce(taps, i).template cast<double>() + m * gravity);
+    system.momenta[i] =
+        m * velocities[i].template cast<double>() +
+        T * (particleForce(taps, i).template cast<double>() + m * pullOn(settings, forces, i));
   }
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
     const double stretchStiffness = rest.stretchStiffness[i], stretchDamp = rest.stretchDamping[i];
@@ -140,14 +148,15 @@ void addAir(const RestStrand<Real>& rest, const AirStep<Real>& air, const Field<
 // steps. In each, damping from the velocities as they are, then the limit on rates.
 template <class Real>
 void runPaperLoops(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                   StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> velocities) {
-  const Vector3<Real> gravity = toEigen<Real>(settings.gravity);
+                   OutsideForces forces, StepScratch<Real>& scratch, const StrandTaps<Real>& taps,
+                   FieldView<Real> velocities) {
   const Real maxStretch = static_cast<Real>(settings.maxStretch);
   const Real forceSeconds = head.seconds / static_cast<Real>(settings.forceLoops);
   const Real dampingSeconds = forceSeconds / static_cast<Real>(settings.dampingLoops);
   for (int forceLoop = 0; forceLoop < settings.forceLoops; ++forceLoop) {
     for (std::size_t i = rest.rootCount; i < rest.particleCount(); ++i) {
-      velocities[i] += forceSeconds * (particleForce(taps, i) / rest.masses[i] + gravity);
+      const Vector3<Real> pull = pullOn(settings, forces, i).template cast<Real>();
+      velocities[i] += forceSeconds * (particleForce(taps, i) / rest.masses[i] + pull);
     }
     for (int dampingLoop = 0; dampingLoop < settings.dampingLoops; ++dampingLoop) {
       differences(velocities, scratch.velocityDifferences);
@@ -224,8 +233,9 @@ Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i) {
 
 template <class Real>
 void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                   const AirStep<Real>& air, FieldView<Real> positions, FieldView<Real> velocities,
-                   StepScratch<Real>& scratch, StrandTaps<Real>& taps, StrandSystem& system) {
+                   const AirStep<Real>& air, OutsideForces forces, FieldView<Real> positions,
+                   FieldView<Real> velocities, StepScratch<Real>& scratch, StrandTaps<Real>& taps,
+                   StrandSystem& system) {
   const bool isPaper = settings.integrator == Integrator::paper;
 
   // The head's new translation is the new frame of reference.
@@ -243,8 +253,7 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
     velocities[i] = head.carriedVelocity(rest.points[i]);
   }
   if (!isPaper) {
-    assembleSystem(rest, taps, scratch.directions, toEigen<double>(settings.gravity), settings.stepSeconds(),
-                   velocities, system);
+    assembleSystem<Real>(rest, settings, forces, taps, scratch.directions, velocities, system);
   }
 }
 
@@ -270,12 +279,12 @@ void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<R
 
 template <class Real>
 void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                     const std::vector<BodyStep<Real>>& bodies, const StrandSystem& system,
-                     StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> positions,
-                     FieldView<Real> velocities) {
+                     OutsideForces forces, const std::vector<BodyStep<Real>>& bodies,
+                     const StrandSystem& system, StepScratch<Real>& scratch, const StrandTaps<Real>& taps,
+                     FieldView<Real> positions, FieldView<Real> velocities) {
   if (rest.particleCount() <= rest.rootCount) return;
   if (settings.integrator == Integrator::paper) {
-    runPaperLoops(rest, settings, head, scratch, taps, velocities);
+    runPaperLoops<Real>(rest, settings, head, forces, scratch, taps, velocities);
     return;
   }
   scratch.solved.resize(velocities.size());
@@ -319,16 +328,17 @@ void moveStrand(const RestStrand<Real>& rest, const Settings& settings, const He
 #define RINGLET_INSTANTIATE(Real)                                                                         \
   template Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);                      \
   template void prepareStrand(const RestStrand<Real>& rest, const Settings& settings,                     \
-                              const HeadStep<Real>& head, const AirStep<Real>& air,                       \
+                              const HeadStep<Real>& head, const AirStep<Real>& air, OutsideForces forces, \
                               FieldView<Real> positions, FieldView<Real> velocities,                      \
                               StepScratch<Real>& scratch, StrandTaps<Real>& taps, StrandSystem& system);  \
   template void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies, \
                                  FieldView<Real> positions, const StrandSystem& system,                   \
                                  StepScratch<Real>& scratch, FieldView<double> velocities);               \
-  template void solveVelocities(                                                                          \
-      const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,                 \
-      const std::vector<BodyStep<Real>>& bodies, const StrandSystem& system, StepScratch<Real>& scratch,  \
-      const StrandTaps<Real>& taps, FieldView<Real> positions, FieldView<Real> velocities);               \
+  template void solveVelocities(const RestStrand<Real>& rest, const Settings& settings,                   \
+                                const HeadStep<Real>& head, OutsideForces forces,                         \
+                                const std::vector<BodyStep<Real>>& bodies, const StrandSystem& system,    \
+                                StepScratch<Real>& scratch, const StrandTaps<Real>& taps,                 \
+                                FieldView<Real> positions, FieldView<Real> velocities);                   \
   template void moveStrand(const RestStrand<Real>& rest, const Settings& settings,                        \
                            const HeadStep<Real>& head, const std::vector<BodyStep<Real>>& bodies,         \
                            FieldView<Real> positions, FieldView<Real> velocities,                         \

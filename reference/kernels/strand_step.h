@@ -98,6 +98,9 @@ void differences(FieldView<Real> values, Field<Real>& result) {
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = values[i + 1] - values[i];
 }
 
+/// Forces from outside on a strand's particles, on each kilogram [m/s^2]; or none.
+using OutsideForces = std::span<const Vector3<double>>;
+
 /// Sum of the forces on particle i [N]: +f_i of the edge below it, -f_{i-1} of the edge above.
 template <class Real>
 Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);
@@ -106,8 +109,9 @@ Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);
 /// forces, the velocities of pinned particles and, but for the paper's loops, the system.
 template <class Real>
 void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                   const AirStep<Real>& air, FieldView<Real> positions, FieldView<Real> velocities,
-                   StepScratch<Real>& scratch, StrandTaps<Real>& taps, StrandSystem& system);
+                   const AirStep<Real>& air, OutsideForces forces, FieldView<Real> positions,
+                   FieldView<Real> velocities, StepScratch<Real>& scratch, StrandTaps<Real>& taps,
+                   StrandSystem& system);
 
 /// Integrator::jacobi: the strand as block; where that would go into a body once more, and again with
 /// friction.
@@ -119,9 +123,9 @@ void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<R
 /// The new velocities of the free particles; the pinned ones are already there.
 template <class Real>
 void solveVelocities(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                     const std::vector<BodyStep<Real>>& bodies, const StrandSystem& system,
-                     StepScratch<Real>& scratch, const StrandTaps<Real>& taps, FieldView<Real> positions,
-                     FieldView<Real> velocities);
+                     OutsideForces forces, const std::vector<BodyStep<Real>>& bodies,
+                     const StrandSystem& system, StepScratch<Real>& scratch, const StrandTaps<Real>& taps,
+                     FieldView<Real> positions, FieldView<Real> velocities);
 
 /// p += T v with the new velocities, then the stretch limit, then out of bodies.
 template <class Real>

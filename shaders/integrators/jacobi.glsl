@@ -9,10 +9,10 @@ ImplicitEdge implicitEdgeOf(int k) {
                       bendStiffnessOf(k), bendDampingOf(k));
 }
 
-// M v + T (springs + gravity) of particle k.
+// M v + T (springs + gravity + forces from outside) of particle k.
 vec3 rightHandSide(int k, vec3 forceBefore) {
   float m = restEdge[k].x;
-  return m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * (force[k] - forceBefore);
+  return m * (v[k] + stepSeconds() * pullOnRun(k)) + stepSeconds() * (force[k] - forceBefore);
 }
 
 // What is added to particle k's mass, and to its right-hand side: by contacts, 2 D + g and a momentum, read where they
@@ -50,7 +50,7 @@ vec3 addedMomentum(int k) {
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
-  vec3 sum = m * (v[k] + stepSeconds() * parameters.gravity.xyz) + stepSeconds() * pull;
+  vec3 sum = m * (v[k] + stepSeconds() * pullOnRun(k)) + stepSeconds() * pull;
   if (kAddsMass) sum += addedMomentum(k);
   return sum;
 }

@@ -69,7 +69,7 @@ void loopAsThePaper(vec3 pinned[3]) {
   for (uint loop = 0; loop < parameters.forceLoops; ++loop) {
     [[unroll]] for (int k = 0; k < RUN; ++k) {
       vec3 pull = force[k] - (k > 0 ? force[max(k - 1, 0)] : forceBefore);
-      if (isFree(k)) v[k] += dtForce * (pull / restEdge[k].x + parameters.gravity.xyz);
+      if (isFree(k)) v[k] += dtForce * (pull / restEdge[k].x + pullOnRun(k));
     }
     for (uint inner = 0; inner < parameters.dampingLoops; ++inner) {
       dampOnce(dtDamping, coreDirection);

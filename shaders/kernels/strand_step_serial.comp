@@ -177,7 +177,7 @@ vec3 forceOn(uint i) {
 }
 vec3 rightHandSide(uint i) {
   float m = mass(i);
-  vec3 sum = m * (velocity(i) - headChange) + stepSeconds() * (forceOn(i) + m * parameters.gravity.xyz);
+  vec3 sum = m * (velocity(i) - headChange) + stepSeconds() * (forceOn(i) + m * pullOn(strand.firstParticle + i));
 #ifdef RINGLET_CONTACTS
   if (withContacts()) sum += contactMomentum(strand.firstParticle + i);
 #endif
@@ -289,7 +289,7 @@ void loopAsThePaper() {
   float dtDamping = dtForce / float(parameters.dampingLoops);
   for (uint loop = parameters.loopBegin; loop < parameters.loopEnd; ++loop) {
     for (uint i = parameters.rootCount; i < count; ++i) {
-      setVelocity(i, velocity(i) + dtForce * (forceOn(i) / mass(i) + parameters.gravity.xyz));
+      setVelocity(i, velocity(i) + dtForce * (forceOn(i) / mass(i) + pullOn(strand.firstParticle + i)));
     }
     for (uint inner = 0; inner < parameters.dampingLoops; ++inner) {
       vec3 start = velocity(1) - velocity(0);

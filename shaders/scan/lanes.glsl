@@ -9,8 +9,8 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-layout(constant_id = 1) const uint kLanes = 1;
-layout(constant_id = 12) const int RUN = 16;  // 4 to 64; arrays of such a size GLSL copies only element by element
+layout(constant_id = kSpecLanes) const uint kLanes = 1;
+layout(constant_id = kSpecRun) const int RUN = 16;  // 4 to 64; arrays of such a size GLSL copies only element by element
 
 uint lane;  // this invocation's place along its strand, 0 at the root
 

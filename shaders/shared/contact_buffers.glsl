@@ -5,7 +5,7 @@
 #include "shared/layout.h"
 #include "shared/texels.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(set = 0, binding = kBindContactPositions) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindContactVelocities) readonly buffer Velocities { vec4 velocities[]; };
@@ -38,7 +38,7 @@ layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
 layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
-layout(constant_id = 9) const bool kBesideVolume = false;  // some strands meet as a volume as well
+layout(constant_id = kSpecBesideVolume) const bool kBesideVolume = false;  // some strands meet as a volume as well
 
 uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
 /// Strands of one group do not meet pair by pair (rest/volume_strands.h).

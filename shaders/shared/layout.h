@@ -18,6 +18,27 @@ struct alignas(16) uvec4 {
 #define RINGLET_CONSTANT const
 #endif
 
+// Specialization constants: of every kernel that has one;
+RINGLET_CONSTANT uint kSpecGroupSize = 0;  // invocations of a workgroup
+RINGLET_CONSTANT uint kSpecTexels = 1;     // records are read as texels (shared/texels.glsl)
+// of the strand kernels, whose shaders say what each means;
+RINGLET_CONSTANT uint kSpecLanes = 2;
+RINGLET_CONSTANT uint kSpecRun = 3;
+RINGLET_CONSTANT uint kSpecIntegrator = 4;
+RINGLET_CONSTANT uint kSpecOneSmoothing = 5;
+RINGLET_CONSTANT uint kSpecResidual = 6;
+RINGLET_CONSTANT uint kSpecBendVaries = 7;
+RINGLET_CONSTANT uint kSpecForces = 8;
+RINGLET_CONSTANT uint kSpecMovingRoots = 9;
+RINGLET_CONSTANT uint kSpecContacts = 10;
+RINGLET_CONSTANT uint kSpecPairs = 11;
+RINGLET_CONSTANT uint kSpecVolume = 12;
+RINGLET_CONSTANT uint kSpecBodies = 13;
+RINGLET_CONSTANT uint kSpecAir = 14;
+RINGLET_CONSTANT uint kSpecTurbulent = 15;
+// and of the contact kernels.
+RINGLET_CONSTANT uint kSpecBesideVolume = 2;
+
 // Bindings of the strand_step kernels, all in set 0.
 RINGLET_CONSTANT uint kBindPositions = 0;   // vec4[particles]: position relative to the head [m], 0
 RINGLET_CONSTANT uint kBindVelocities = 1;  // vec4[particles]: velocity relative to the head's translation [m/s], 0
@@ -55,8 +76,11 @@ RINGLET_CONSTANT uint kBindRootPoseTexels = 26;  // 4 a pose
 RINGLET_CONSTANT uint kBindAddedByVolume = 27;   // vec4[particles]: xyz: to the right-hand side [mass unit m/s]; w: to
                                                  // the mass, g [mass unit]
 RINGLET_CONSTANT uint kBindAddedByVolumeTexels = 28;
+// And forces from outside:
+RINGLET_CONSTANT uint kBindOutsideForces = 29;   // vec4[particles]: xyz: on each kilogram of the particle [m/s^2], 0
+RINGLET_CONSTANT uint kBindOutsideForceTexels = 30;
 
-// Integrators (specialization constant 2).
+// Integrators (kSpecIntegrator).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
 RINGLET_CONSTANT uint kIntegratorPointJacobi = 1;
 RINGLET_CONSTANT uint kIntegratorPaper = 2;

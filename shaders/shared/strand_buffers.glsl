@@ -12,29 +12,30 @@
 #include "shared/layout.h"
 #include "shared/texels.glsl"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 2) const uint kIntegrator = kIntegratorJacobi;
-layout(constant_id = 3) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
-layout(constant_id = 4) const bool kMeasureResidual = false;
-layout(constant_id = 5) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorJacobi;
+layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
+layout(constant_id = kSpecResidual) const bool kMeasureResidual = false;
+layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
 #ifdef RINGLET_CONTACTS
-layout(constant_id = 6) const bool kContacts = false;    // the solve is iterated with the contacts' systems
-layout(constant_id = 13) const bool kPairs = true;       // of which there are of pairs of contact particles
-layout(constant_id = 14) const bool kVolume = false;     // and of hair as a volume
+layout(constant_id = kSpecContacts) const bool kContacts = false;    // the solve is iterated with the contacts' systems
+layout(constant_id = kSpecPairs) const bool kPairs = true;       // of which there are of pairs of contact particles
+layout(constant_id = kSpecVolume) const bool kVolume = false;     // and of hair as a volume
 #else
 const bool kContacts = false;
 const bool kPairs = false;
 const bool kVolume = false;
 #endif
 #ifdef RINGLET_SURROUNDINGS
-layout(constant_id = 8) const bool kBodies = false;      // there are some
-layout(constant_id = 9) const bool kAir = false;         // hair feels it
-layout(constant_id = 10) const bool kTurbulent = false;  // and it has waves
+layout(constant_id = kSpecBodies) const bool kBodies = false;      // there are some
+layout(constant_id = kSpecAir) const bool kAir = false;         // hair feels it
+layout(constant_id = kSpecTurbulent) const bool kTurbulent = false;  // and it has waves
 #else
 const bool kBodies = false;
 const bool kAir = false;
 #endif
-layout(constant_id = 11) const bool kMovingRoots = false;  // strands have poses of their own
+layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own
+layout(constant_id = kSpecForces) const bool kForces = false;            // forces from outside act on particles
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -43,10 +44,12 @@ layout(set = 0, binding = kBindStrands) readonly buffer Strands { StrandRest str
 layout(set = 0, binding = kBindReports) buffer Reports { StrandReport reports[]; };
 layout(set = 0, binding = kBindScratch) buffer Scratch { vec4 scratch[]; };
 layout(set = 0, binding = kBindPoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
+layout(set = 0, binding = kBindOutsideForces) readonly buffer Forces { vec4 forces[]; };
 layout(set = 0, binding = kBindPositionTexels) uniform usamplerBuffer positionTexels;
 layout(set = 0, binding = kBindVelocityTexels) uniform usamplerBuffer velocityTexels;
 layout(set = 0, binding = kBindParticleTexels) uniform usamplerBuffer particleTexels;
 layout(set = 0, binding = kBindStrandTexels) uniform usamplerBuffer strandTexels;
+layout(set = 0, binding = kBindOutsideForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { StepParameters parameters; };
 
 // Positions and velocities as they were when the dispatch began.
@@ -56,6 +59,11 @@ ParticleRest particleRest(uint i) {
   if (!kTexels) return particles[i];
   vec4 rest = vectorAt(particleTexels, 2 * i + 1);
   return ParticleRest(vectorAt(particleTexels, 2 * i), rest.x, rest.y, rest.z, rest.w);
+}
+// What pulls on a kilogram of particle i [m/s^2]: gravity, and forces from outside.
+vec3 pullOn(uint i) {
+  if (!kForces) return parameters.gravity.xyz;
+  return parameters.gravity.xyz + (kTexels ? vectorAt(forceTexels, i) : forces[i]).xyz;
 }
 StrandRest strandRest(uint s) {
   if (!kTexels) return strands[s];

@@ -4,7 +4,9 @@
 #ifndef RINGLET_TEXELS
 #define RINGLET_TEXELS
 
-layout(constant_id = 7) const bool kTexels = false;
+#include "shared/layout.h"
+
+layout(constant_id = kSpecTexels) const bool kTexels = false;
 
 uvec4 recordAt(usamplerBuffer texels, uint i) { return texelFetch(texels, int(i)); }
 vec4 vectorAt(usamplerBuffer texels, uint i) { return uintBitsToFloat(texelFetch(texels, int(i))); }

@@ -7,7 +7,7 @@
 #include "shared/layout.h"
 #include "shared/texels.glsl"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(set = 0, binding = kBindVolumePositions) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVolumeVelocities) readonly buffer Velocities { vec4 velocities[]; };

@@ -208,6 +208,19 @@ class RootWays {
 
 }  // namespace
 
+namespace {
+
+// None where they are not asked for.
+std::vector<Vec3f> randomForces(const ParityCase& c) {
+  std::vector<Vec3f> forces;
+  Random random(c.seed + 3000);
+  for (std::size_t i = 0; c.kernel.forces && i < c.groom.points.size(); ++i)
+    forces.push_back(static_cast<Vec3f>(random.vector() * 30.0));
+  return forces;
+}
+
+}  // namespace
+
 std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c, SimulationReport* report) {
   c.settings.framesPerSecond *= c.settings.stepsPerFrame;
   c.settings.stepsPerFrame = 1;
@@ -227,6 +240,10 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
                                        c.kernel);
   if (!simulation) return {failed("create", simulation.error())};
   if (Status set = simulation->setState(start); !set) return {failed("setState", set.error())};
+  const std::vector<Vec3f> forces = randomForces(c);
+  if (!forces.empty()) {
+    if (Status set = simulation->setForces(forces); !set) return {failed("setForces", set.error())};
+  }
   const std::vector<double> end{T};
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
   if (Status stepped = simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext); !stepped)
@@ -238,6 +255,7 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
   if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
   expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
+  if (!forces.empty()) expected.setForces(forces);
   expected.stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext);
 
   double largestSpeed = 0;
@@ -303,6 +321,11 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
   if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
   if (Status set = simulation->setState(start); !set) return failed("setState", set.error());
   expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
+  const std::vector<Vec3f> forces = randomForces(c);
+  if (!forces.empty()) {
+    if (Status set = simulation->setForces(forces); !set) return failed("setForces", set.error());
+    expected.setForces(forces);
+  }
   for (int frame = 0; frame < frameCount; ++frame) {
     std::vector<BodyPose> rootPoses;
     std::vector<HeadPose> poses;

@@ -50,7 +50,9 @@ struct ParityCase {
   Settings settings;  // stepsPerFrame is taken as 1
   KernelChoice kernel;
   std::uint32_t seed = 1;
-  std::vector<Body> bodies{};  // with kernel.movingRoots every strand has small poses of its own, at random
+  // With kernel.movingRoots every strand has small poses of its own, with kernel.forces every particle a
+  // force of a few times its weight, at random.
+  std::vector<Body> bodies{};
 };
 
 /// All fields of one step, device against reference::Simulation<float>, from the same random state. `report`:

@@ -244,6 +244,9 @@ void checkSurroundings(const ConformCases& cases, const Tell& tell) {
     parity::ParityCase c{parity::randomGroom({64, 31, 50, 64, 2, 33}, 13), {}, usualSettings(), {}, 4};
     if (isSerial) c.kernel.form = KernelChoice::Form::serial;
     const char* form = isSerial ? ", serial" : "";
+    parity::ParityCase pulled = c;
+    pulled.kernel.forces = true;
+    checkStep(cases.device, pulled, fmt::format("forces from outside{}", form), parity::kOneStep, tell);
     parity::ParityCase airy = c;
     airy.settings.air = {.on = true, .fallSpeed = 2, .wind = {5, 0, 1}, .gust = 0.5, .turbulence = 2};
     checkStep(cases.device, airy, fmt::format("air{}", form), parity::kOneStep, tell);

@@ -83,6 +83,7 @@ TEST_F(CInterface, GivesTheSameBits) {
     const CGroom groom(hair.groom);
     ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
     options.moving_roots = hair.kernel.movingRoots;
+    options.has_forces = hair.kernel.forces;
     const Material material;
     ASSERT_EQ(ringlet_asset_build(c.device, &groom.groom, c.settings, c.material, &options, &c.asset),
               RINGLET_OK)
@@ -111,6 +112,13 @@ TEST_F(CInterface, GivesTheSameBits) {
         Material stiff;
         stiff.bendStiffness = 3;
         ASSERT_TRUE(expected[1].setMaterial(stiff));
+        std::vector<Vec3f> forces(hair.groom.points.size(), Vec3f{3, 0, -2});
+        forces.back() = {0, 50, 0};
+        EXPECT_EQ(ringlet_hair_set_forces(c.hairs[0], &forces[0].x, forces.size()) == RINGLET_OK,
+                  hair.kernel.forces);
+        if (hair.kernel.forces) {
+          ASSERT_TRUE(expected[0].setForces(forces));
+        }
       }
       std::vector<std::vector<ringlet_pose>> poses(2);
       std::vector<ringlet_frame> frames;
@@ -261,7 +269,13 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   const ringlet_frame twice[2] = {frame, frame};
   expectInvalid(ringlet_step(twice, 2), "twice");
   expectInvalid(ringlet_record(&frame, 1, nullptr), "command buffer");
-  float few[3];
+  float few[3] = {0, 0, 0};
+  expectInvalid(ringlet_hair_set_forces(c.hairs[0], few, 1), "forces for its 16 particles");
+  expectInvalid(ringlet_hair_set_forces(c.hairs[0], nullptr, 16), "forces for its 16 particles");
+  std::vector<float> endless(48);
+  EXPECT_EQ(ringlet_hair_set_forces(c.hairs[0], endless.data(), 16), RINGLET_ERROR);  // built without
+  endless[47] = INFINITY;
+  expectInvalid(ringlet_hair_set_forces(c.hairs[0], endless.data(), 16), "a force");
   expectInvalid(ringlet_positions(c.hairs[0], few, 1), "room for 1 particles, and the hair has 16");
   std::size_t size = 3;
   expectInvalid(ringlet_checkpoint(c.hairs[0], few, &size), "room for 3");

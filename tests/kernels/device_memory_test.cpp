@@ -47,6 +47,9 @@ TEST_F(Memory, OfAParticleAndAStrand) {
   const DeviceMemory moving = of({}, {.movingRoots = true});
   EXPECT_EQ(moving.rootPoses, 64 * (8 + 1) * strandCount_);
   EXPECT_EQ(moving.frames, plain.frames + 2 * moving.rootPoses);
+  const DeviceMemory pulled = of({}, {.forces = true});
+  EXPECT_EQ(pulled.particles, plain.particles + 16 * particleCount_);
+  EXPECT_EQ(pulled.frames, plain.frames + 2 * 16 * particleCount_);
   EXPECT_EQ(of({}, {.taps = true}).particles, (64 + 128) * particleCount_);
 }
 

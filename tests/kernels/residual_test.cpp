@@ -28,8 +28,10 @@ double residualOfReference(std::span<const Vec3f> points, const Settings& settin
   reference::StepScratch<double> scratch;
   reference::StrandTaps<double> taps;
   reference::StrandSystem system;
-  reference::prepareStrand<double>(rest, settings, head, {}, positions, velocities, scratch, taps, system);
-  reference::solveVelocities<double>(rest, settings, head, {}, system, scratch, taps, positions, velocities);
+  reference::prepareStrand<double>(rest, settings, head, {}, {}, positions, velocities, scratch, taps,
+                                   system);
+  reference::solveVelocities<double>(rest, settings, head, {}, {}, system, scratch, taps, positions,
+                                     velocities);
   double residualSquared = 0, scaleSquared = 0;
   for (std::size_t i = system.rootCount; i < system.particleCount(); ++i) {
     reference::Vector3<double> residual = system.momenta[i] - system.particleBlock(i) * velocities[i];

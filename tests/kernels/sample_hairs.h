@@ -34,6 +34,7 @@ inline std::vector<Hair> hairs() {
   return {{"lanes", groom},
           {"serial", groom, {}, {KernelChoice::Form::serial}},
           {"roots that move", groom, {}, {.movingRoots = true}},
+          {"forces", groom, {}, {.forces = true}},
           {"chunks", randomGroom(std::vector<int>(40, 30), 3), {}, {.mostBufferBytes = kSmallBuffer}},
           {"pairs", parity::denseSwatch(16), pairs},
           {"volume", parity::denseSwatch(16), volume},
@@ -51,10 +52,15 @@ inline const Head kHeads[] = {{{1, 0, 0}}, {{-0.5, 0.3, 0.2}, 1}};
 
 inline Result<Simulation> make(const HairAsset& asset, const Hair& hair, const Head& head) {
   const std::vector<Vec3d> shifts(head.shift != 0 ? hair.groom.strandCount() : 0, {0.01, 0, 0.02});
-  return Simulation::create(asset, {.head = head.at(0),
-                                    .oneStepEarlier = head.at(-hair.settings.stepSeconds()),
-                                    .bodies = hair.bodies,
-                                    .rootShifts = shifts});
+  auto simulation = Simulation::create(asset, {.head = head.at(0),
+                                               .oneStepEarlier = head.at(-hair.settings.stepSeconds()),
+                                               .bodies = hair.bodies,
+                                               .rootShifts = shifts});
+  if (simulation && hair.kernel.forces) {
+    const std::vector<Vec3f> forces(hair.groom.points.size(), static_cast<Vec3f>(head.way * 20.0));
+    if (Status status = simulation->setForces(forces); !status) return status.error();
+  }
+  return simulation;
 }
 
 inline Result<HairAsset> build(const ComputeDevice& device, const Hair& hair) {

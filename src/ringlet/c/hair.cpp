@@ -176,6 +176,7 @@ ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* 
     const ringlet_asset_options chosen = taken(options);
     KernelChoice kernel;
     kernel.movingRoots = chosen.moving_roots != 0;
+    kernel.forces = chosen.has_forces != 0;
     kernel.heads = std::max(1, chosen.heads);
     auto built = HairAsset::build(device->device, made, material ? material->material : Material{},
                                   settings ? settings->settings : Settings{}, kernel,
@@ -315,6 +316,22 @@ ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* b
     if (Status status = hair->simulation.setBodies(taken); !status) return status;
     hair->bodyCount = body_count;
     return {};
+  });
+}
+
+ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uint64_t particle_count) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !xyz || particle_count != hair->particleCount)
+      return Outcome::invalid(
+          fmt::format("ringlet_hair_set_forces takes hair, and forces for its {} particles",
+                      hair ? hair->particleCount : 0));
+    std::vector<Vec3f> forces(particle_count);
+    for (Vec3f& force : forces) {
+      force = {xyz[0], xyz[1], xyz[2]};
+      xyz += 3;
+      if (!std::isfinite(force.x + force.y + force.z)) return notFinite("a force");
+    }
+    return hair->simulation.setForces(forces);
   });
 }
 

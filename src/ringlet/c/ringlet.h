@@ -127,6 +127,7 @@ typedef struct ringlet_asset_options {
   /* Told a sentence for the user of everything the asset warns of, before build returns; or NULL. */
   void (*warn)(const char* sentence, void* user);
   void* user;
+  int has_forces; /* from outside, ringlet_hair_set_forces */
 } ringlet_asset_options;
 
 /* settings, material and options may be NULL. Nothing of what is handed over is needed afterwards. Cost: as
@@ -223,6 +224,10 @@ ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_mater
 
 /* Other bodies in place of those there are, any number, where their poses in the head's frame say. */
 ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count);
+
+/* Forces from outside: on each kilogram of every particle, x y z, groom order [m/s^2], until others are set
+   (Simulation::setForces). Of an asset whose options say has_forces. */
+ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uint64_t particle_count);
 
 typedef struct ringlet_report {
   size_t struct_size;

@@ -27,6 +27,8 @@ enum class BodyShape {
 struct BodyPose {
   Vec3d position;  // [m]
   Quatd rotation;
+
+  bool operator==(const BodyPose&) const = default;
 };
 
 /// At fraction s of the way from a to b: linear in position, slerp in rotation.

@@ -29,6 +29,8 @@ struct Settings {
   int rootCount = 1;  // particles at the root that follow the head, 1..3
   double teleportDistance = 1;  // [m a frame], 0: never; a head that jumps further in one frame carries the
                                 // hair along rigidly
+  double sleepSpeed = 0;        // [m/s], 0: never; hair that is slower everywhere, while nothing acts on it
+                                // anew, sleeps until something does
   int pointIterations = 100;    // pointJacobi: iterations per outer step
   bool chebyshev = true;        // pointJacobi: Chebyshev-accelerated rather than plain
   int forceLoops = 15;          // paper: force loops per outer step

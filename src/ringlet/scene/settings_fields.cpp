@@ -84,6 +84,15 @@ std::span<const SettingField<Settings>> settingsFields() {
         &S::teleportDistance,
         {0, 1e6}}
           .live(),
+      F{"sleep_speed",
+        "m/s",
+        "",
+        "Hair that is slower than this everywhere for some frames, while nothing acts on it anew, is not "
+        "stepped "
+        "until something does; 0: never. Not of the reference.",
+        &S::sleepSpeed,
+        {0, 1}}
+          .live(),
       F{"roots", "", "", "Particles at the root that follow the head.", &S::rootCount, {1, kMostRoots}},
       F{"iterations", "", "", "Of a step.", &S::pointIterations, {1, 60000}, "", "point_jacobi"}.live(),
       F{"chebyshev", "", "", "Whether these are accelerated.", &S::chebyshev, {}, "", "point_jacobi"}.live(),

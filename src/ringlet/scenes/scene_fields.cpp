@@ -276,6 +276,7 @@ std::span<const SceneField<SceneSimulation>> simulationFields() {
       as("preload", &S::preload, "1; 0 for paper"),
       as("max_stretch", &S::maxStretch, "1 + material.dials.bounce"),
       as("teleport_distance", &S::teleportDistance),
+      as("sleep_speed", &S::sleepSpeed),
       as("roots", &S::roots),
       {"integrator",
        "",

@@ -111,6 +111,7 @@ struct SceneSimulation {
   std::string integrator = "jacobi";
   int roots = Settings{}.rootCount;
   double teleportDistance = Settings{}.teleportDistance;
+  double sleepSpeed = Settings{}.sleepSpeed;
   int iterations = Settings{}.pointIterations;
   bool chebyshev = Settings{}.chebyshev;
   int forceLoops = Settings{}.forceLoops, dampingLoops = Settings{}.dampingLoops;

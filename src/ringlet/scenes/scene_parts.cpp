@@ -114,6 +114,7 @@ Settings settingsOf(const SceneFile& scene) {
   settings.gravityPreload = simulation.preload.value_or(settings.integrator == Integrator::paper ? 0 : 1);
   settings.rootCount = simulation.roots;
   settings.teleportDistance = simulation.teleportDistance;
+  settings.sleepSpeed = simulation.sleepSpeed;
   settings.pointIterations = simulation.iterations;
   settings.chebyshev = simulation.chebyshev;
   settings.forceLoops = simulation.forceLoops;
@@ -187,6 +188,7 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
                                                                            : "jacobi";
   simulation.roots = settings.rootCount;
   simulation.teleportDistance = settings.teleportDistance;
+  simulation.sleepSpeed = settings.sleepSpeed;
   simulation.iterations = settings.pointIterations;
   simulation.chebyshev = settings.chebyshev;
   simulation.forceLoops = settings.forceLoops;

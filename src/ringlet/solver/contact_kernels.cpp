@@ -61,7 +61,9 @@ gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper t
   description.spirv = compiled.spirv;
   description.remedy = "take another device, or leave out contacts";
   description.pushConstantBytes = sizeof(layout::ContactParameters);
-  description.constants = {{0, groupSize}, {7, texels ? 1u : 0u}, {9, besideVolume ? 1u : 0u}};
+  description.constants = {{layout::kSpecGroupSize, groupSize},
+                           {layout::kSpecTexels, texels ? 1u : 0u},
+                           {layout::kSpecBesideVolume, besideVolume ? 1u : 0u}};
   description.groupSize = groupSize;
   return description;
 }

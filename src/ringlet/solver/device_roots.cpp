@@ -97,6 +97,13 @@ void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
   }
 }
 
+bool DeviceRoots::areStill(std::span<const BodyPose> poses) const {
+  if (now_ != oneStepEarlier_) return false;
+  for (std::size_t first = 0; first < poses.size(); first += groomStrandCount_)
+    if (inOrder(poses.subspan(first, groomStrandCount_)) != now_) return false;
+  return true;
+}
+
 void DeviceRoots::endFrame(std::span<const BodyPose> poses) {
   if (!poses.empty()) now_ = inOrder(poses.last(groomStrandCount_));
   oneStepEarlier_ = now_;

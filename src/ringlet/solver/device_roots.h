@@ -55,6 +55,8 @@ class DeviceRoots {
   /// start, heads[2 + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then
   /// they stay.
   void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses);
+  /// Whether they stay where they are in a frame, `poses` as above.
+  bool areStill(std::span<const BodyPose> poses) const;
   /// A frame of this slot begins with it.
   void record(gpu::CommandList& list, std::size_t slot) const {
     for (const FrameInput& poses : poses_) poses.record(list, slot);

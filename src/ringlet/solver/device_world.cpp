@@ -141,6 +141,13 @@ void DeviceWorld::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
   }
 }
 
+bool DeviceWorld::isQuiet(std::span<const BodyPose> poses) const {
+  if (airSettings_.on && (airSettings_.gust > 0 || !waves_.empty())) return false;
+  for (std::size_t k = 0; k < poses.size(); ++k)
+    if (poses[k] != now_[k % now_.size()]) return false;
+  return true;
+}
+
 void DeviceWorld::endFrame(const HeadPose& head, std::span<const BodyPose> poses) {
   const std::size_t count = bodies_.size();
   for (std::size_t b = 0; b < count; ++b)

@@ -63,6 +63,8 @@ class DeviceWorld {
   }
   /// Where bodies are now.
   void archive(Archive& archive) { archive.values(std::span(now_)); }
+  /// Whether bodies stay where they are in a frame, `poses` as above, in air that does not change.
+  bool isQuiet(std::span<const BodyPose> poses) const;
   /// A frame that is not stepped: bodies are at once where they end, `poses` as above.
   void endFrame(const HeadPose& head, std::span<const BodyPose> poses);
 

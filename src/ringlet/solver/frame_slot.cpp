@@ -34,16 +34,26 @@ Status FrameSlot::downloadPositions(const DeviceGroom& groom) {
   return {};
 }
 
+std::vector<std::span<const layout::vec4>> FrameSlot::readPositions() const {
+  std::vector<std::span<const layout::vec4>> chunks;
+  for (const gpu::Buffer& buffer : positions) {
+    const auto bytes = buffer.mapped();
+    chunks.emplace_back(reinterpret_cast<const layout::vec4*>(bytes.data()),
+                        bytes.size() / sizeof(layout::vec4));
+  }
+  return chunks;
+}
+
 std::vector<Vec3f> FrameSlot::inGroomOrder(const RestState& rest, const DeviceGroom& groom,
                                            const RigidHair& rigidHair) const {
   std::vector<Vec3f> values(rest.groomParticleCount);
-  for (std::size_t c = 0; c < positions.size(); ++c) {
+  const auto chunks = readPositions();
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
     const GroomChunk& part = groom.chunks[c].part;
-    const auto* read = reinterpret_cast<const layout::vec4*>(positions[c].mapped().data());
     for (std::size_t s = part.strandBegin; s < part.strandEnd; ++s) {
       const std::size_t from = rest.strands[s].firstParticle - part.particleBegin, to = rest.firstInGroom[s];
       for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
-        values[to + i] = unpacked(read[from + i]);
+        values[to + i] = unpacked(chunks[c][from + i]);
     }
   }
   rigidHair.scatter(rigid, values);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
@@ -12,6 +13,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/rigid_hair.h"
+#include "shared/layout.h"
 
 namespace ringlet {
 
@@ -19,8 +21,9 @@ struct FrameSlot {
   std::vector<gpu::Buffer> positions;  // of each chunk, as the frame left them, in the host's memory; or none
   std::vector<Vec3f> rigid{};          // positions of rigid strands then, as RigidHair gives them
   gpu::Recorder recorder;              // goes first, waiting for what it writes
-  bool isRecorded = false;             // as a whole frame
-  double particleSteps = 0;            // of strands, in what is recorded
+  enum class Recorded { nothing, frame, sleep };
+  Recorded recorded = Recorded::nothing;  // sleep: a frame without steps
+  double particleSteps = 0;               // of strands, in what is recorded
   bool isHosts = false;  // the frame is in others' commands (hair_frames.h): they say when it is over
 
   /// Fails when the device lacks memory.
@@ -32,6 +35,8 @@ struct FrameSlot {
   Status downloadPositions(const DeviceGroom& groom);
   std::vector<Vec3f> inGroomOrder(const RestState& rest, const DeviceGroom& groom,
                                   const RigidHair& rigidHair) const;
+  /// As they came back, chunk by chunk, in device order; none where they do not.
+  std::vector<std::span<const layout::vec4>> readPositions() const;
   std::uint64_t bytes() const;
 };
 

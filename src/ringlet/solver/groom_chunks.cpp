@@ -11,8 +11,8 @@ namespace ringlet {
 namespace {
 
 std::uint64_t largestOfParticle(const GroomRecords& r) {
-  return std::max(
-      {r.position, r.velocity, r.particleRest, r.scratch, r.solved, r.contactSystem, r.addedByVolume});
+  return std::max({r.position, r.velocity, r.particleRest, r.scratch, r.solved, r.contactSystem,
+                   r.addedByVolume, r.force});
 }
 std::uint64_t largestOfStrand(const GroomRecords& r) {
   return std::max({r.strandRest, r.report, r.rootPoses});
@@ -37,6 +37,7 @@ GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, 
   if (kinds.any() || (anySerial && anyBodies)) records.solved = sizeof(layout::vec4);
   if (kinds.pairs) records.contactSystem = sizeof(layout::ContactSystem);
   if (kinds.volume) records.addedByVolume = sizeof(layout::vec4);
+  if (choice.forces) records.force = sizeof(layout::vec4);
   records.strandRest = sizeof(layout::StrandRest);
   records.report = sizeof(layout::StrandReport);
   if (choice.movingRoots)

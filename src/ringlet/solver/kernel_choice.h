@@ -32,6 +32,7 @@ struct KernelChoice {
   CompileObserver* observer = nullptr;  // needed as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have poses of their own (Simulation::stepFrame)
+  bool forces = false;       // particles are pulled from outside (Simulation::setForces)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
   // [s] of one submission, about: a desktop whose device works longer at one piece takes it for hung. 0: 0.3,
   // and on a CPU device without bound.

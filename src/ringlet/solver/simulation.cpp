@@ -111,6 +111,9 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   auto roots = DeviceRoots::create(device, rest, settings, constant.choice.movingRoots, constant.chunks(),
                                    kFramesInFlight);
   if (!roots) return roots.error();
+  auto forces =
+      DeviceForces::create(device, rest, constant.choice.forces, constant.chunks(), kFramesInFlight);
+  if (!forces) return forces.error();
   RigidHair rigidHair(rest.rigid, rest.groomStrandCount);
   if (!initial.rootShifts.empty()) rigidHair.setRootShifts(initial.rootShifts);
   if (!initial.roots.empty()) {
@@ -133,6 +136,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                          .buffers = std::move(*buffers),
                          .world = std::move(*world),
                          .roots = std::move(*roots),
+                         .forces = std::move(*forces),
                          .rigidHair = std::move(rigidHair),
                          .pace = SubmissionPace(longestSubmission(constant.choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
@@ -157,8 +161,9 @@ Status Simulation::Implementation::makeKernels() {
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
-  const bool fitsTexels = isSeenAsTexels(
-      device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer()}));
+  const bool fitsTexels =
+      isSeenAsTexels(device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(),
+                                             roots.largestBuffer(), forces.largestBuffer()}));
   const StrandKernelOptions options{.integrator = settings.integrator,
                                     .oneSmoothing = oneSmoothing,
                                     .bendVaries = bendVaries,
@@ -172,6 +177,7 @@ Status Simulation::Implementation::makeKernels() {
                                     .air = settings.air.on,
                                     .turbulence = world.isTurbulent(),
                                     .movingRoots = choice.movingRoots,
+                                    .forces = choice.forces,
                                     .subgroupSize = askedWidth(device.gpu().properties(), choice),
                                     .groupSize = asset->groupSize};
   std::vector<std::size_t> newKernels;
@@ -203,6 +209,7 @@ Status Simulation::Implementation::bindKernels() {
     gpu::BufferTable table = buffers.bufferTable(ranges[r].chunk);
     table.merge(world.bufferTable());
     table.merge(roots.bufferTable(ranges[r].chunk));
+    table.merge(forces.bufferTable(ranges[r].chunk));
     auto bound = gpu::Bindings::create(*kernels[kernelOf[r]], table);
     if (!bound) return bound.error();
     bindings.push_back(std::move(*bound));
@@ -349,6 +356,7 @@ Status Simulation::setState(const HairState& state) {
   RINGLET_ASSERT(state.positions.size() == count && state.velocities.size() == count,
                  "a state has one position and velocity a particle");
   if (Status status = self_->finishFrames(); !status) return status;
+  self_->stillness.wake();
   if (Status status = self_->forgetContacts(); !status) return status;
   const auto upload = [&](DeviceGroom::Field field, const std::vector<Vec3f>& values) {
     GroomPlaces place(self_->rest);
@@ -364,6 +372,7 @@ Status Simulation::Implementation::archive(Archive& archive) {
   archive.value(stepsDone);
   archive.value(stepsBefore);
   archive.value(secondsBefore);
+  stillness.archive(archive);
   world.archive(archive);
   roots.archive(archive);
   rigidHair.archive(archive);
@@ -395,7 +404,7 @@ Status Simulation::restore(std::span<const std::byte> checkpoint) {
   if (Status status = self_->archive(archive); !status) return status;
   if (!archive.isWhole()) return Error{kForeignCheckpoint};
   self_->isReadBack = false;
-  for (FrameSlot& slot : self_->slots) slot.isRecorded = false;
+  self_->forgetRecordings();
   return {};
 }
 
@@ -470,14 +479,15 @@ Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) c
 DeviceMemory Simulation::memory() const {
   const Implementation& s = *self_;
   DeviceMemory memory;
-  memory.particles = s.buffers.particleBytes();
+  memory.particles = s.buffers.particleBytes() + s.forces.bytes();
   memory.strands = s.buffers.strandBytes();
   memory.shared = s.buffers.sharedBytes();
   memory.rootPoses = s.roots.bytes();
   if (s.contacts) memory.contacts = s.contacts->bytes(), memory.contactLists = s.contacts->listBytes();
   if (s.volume) memory.volume = s.volume->bytes();
   memory.world = s.buffers.poses.bytes() + s.buffers.contactControl.bytes() + s.world.bytes();
-  memory.frames = s.buffers.poses.writtenBytes() + s.world.writtenBytes() + s.roots.writtenBytes();
+  memory.frames = s.buffers.poses.writtenBytes() + s.world.writtenBytes() + s.roots.writtenBytes() +
+                  s.forces.writtenBytes();
   for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();
   return memory;
 }

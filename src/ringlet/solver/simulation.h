@@ -207,7 +207,15 @@ class Simulation {
   /// now in the world, or none: with the head. Fails where create does on bodies, and changes nothing then.
   /// Cost: it waits for frames under way; bodies go to the device anew, with the grids of meshes.
   Status setBodies(std::span<const Body> bodies, std::span<const BodyPose> places = {});
-  /// As they are now; at first the asset's. Checkpoints hold neither, nor bodies: set them before restore().
+  /// Forces from outside, of hair built with KernelChoice::forces: on each kilogram of every particle, groom
+  /// order [m/s^2], along world axes; they add to gravity. They hold in every step of the frames submitted
+  /// from now on, until others are set; none act at first. The solve takes them as they are (explicit): no
+  /// force that pulls towards a place may be stiffer than about 1/T^2 a metre, T the step. Fails where the
+  /// asset was built without. Cost: 16 bytes a particle to write, and to copy
+  /// in each frame; 68 of memory.
+  Status setForces(std::span<const Vec3f> forces);
+  /// As they are now; at first the asset's. Checkpoints hold neither, nor bodies and forces: set them before
+  /// restore().
   const Settings& settings() const;
   const Material& material() const;
 

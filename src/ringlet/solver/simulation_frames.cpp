@@ -67,11 +67,16 @@ void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
   buffers.poses.record(frame.list, frame.slot);
   world.record(frame.list, frame.slot);
   roots.record(frame.list, frame.slot);
+  forces.record(frame.list, frame.slot);
   frame.list.barrier();
 }
 
-// The whole frame, once: what changes from frame to frame is in its inputs.
+// The whole frame, once: what changes from frame to frame is in its inputs. Hair that sleeps has no steps.
 Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
+  if (stillness.sleeps()) {
+    slots[frame.slot].recordPositions(frame.list, buffers);
+    return {};
+  }
   if (contacts || volume) return recordContactFrame(frame, 0, true);
   const auto plan = planFrame(ranges, asset->limits, settings, world.bodyCount(), asset->groupSize,
                               frame.pace.mostParticleSteps());
@@ -149,14 +154,14 @@ Status Simulation::Implementation::recordSlot(std::size_t slot) {
   FrameRecording frame{of.recorder, pace, slot};
   if (Status status = recordFrame(frame); !status) return status;
   of.particleSteps = frame.particleSteps;
-  of.isRecorded = true;
+  of.recorded = wantedRecording();
   return {};
 }
 
 // What is left of a frame that halted.
 Status Simulation::Implementation::recordRest(std::size_t slot) {
   FrameSlot& of = slots[slot];
-  of.isRecorded = false;
+  of.recorded = FrameSlot::Recorded::nothing;
   if (Status status = of.recorder.begin(); !status) return status;
   FrameRecording frame{of.recorder, pace, slot};
   if (Status status = recordContactFrame(frame, contacts->haltedStep(), false); !status) return status;
@@ -164,14 +169,28 @@ Status Simulation::Implementation::recordRest(std::size_t slot) {
   return {};
 }
 
+// Whether all that acts on the hair in a frame did so in the one before.
+bool Simulation::Implementation::isQuiet(std::span<const HeadPose> stepPoses,
+                                         std::span<const BodyPose> bodyPoses,
+                                         std::span<const BodyPose> rootPoses) const {
+  const auto isThere = [&](const HeadPose& pose) {
+    return pose.position == head.now.position && normalized(pose.rotation) == head.now.rotation &&
+           pose.shift == head.now.shift;
+  };
+  return isThere(head.oneStepEarlier) && std::ranges::all_of(stepPoses, isThere) &&
+         world.isQuiet(bodyPoses) && roots.areStill(rootPoses);
+}
+
 // What the host does before a frame. Whether the device has something to do: not where the head jumps.
 Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> stepPoses,
                                                       std::span<const BodyPose> bodyPoses,
                                                       std::span<const BodyPose> rootPoses) {
   const bool jumps = isJump(stepPoses);
+  stillness.begin(settings.sleepSpeed > 0 && !jumps && isQuiet(stepPoses, bodyPoses, rootPoses));
   const std::size_t slot = submitted % kFramesInFlight;
   if (jumps) {
     if (Status status = jumpTo(stepPoses.back(), bodyPoses, rootPoses); !status) return status.error();
+    stillness.observe({}, 0);
   } else {
     writePoses(slot, stepPoses, bodyPoses, rootPoses);
     rigidHair.endFrame(rootPoses);
@@ -195,7 +214,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   if (!works) return works.error();
   if (*works) {
     const std::size_t slot = submitted % kFramesInFlight;
-    if (!slots[slot].isRecorded) {
+    if (slots[slot].recorded != wantedRecording()) {
       if (Status status = recordSlot(slot); !status) return status;
     }
     if (Status status = slots[slot].recorder.submit(); !status) return status;
@@ -238,11 +257,18 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
           "contact radius or volume cell, or fewer strands in one place"};
     }
     const bool isHalted = contacts && contacts->isHalted();
-    // A frame that stopped says nothing of how long its work takes.
-    if (isHalted || (!isHosts && pace.learn(recorder.stageMilliseconds(), slots[slot].particleSteps))) {
-      for (FrameSlot& other : slots) other.isRecorded = false;
+    // A frame that stopped, or sleeps, says nothing of how long its work takes.
+    const double work = slots[slot].particleSteps;
+    if (isHalted || (!isHosts && work > 0 && pace.learn(recorder.stageMilliseconds(), work))) {
+      forgetRecordings();
     }
-    if (!isHalted) return {};
+    if (!isHalted) {
+      const bool isWatched = settings.sleepSpeed > 0;
+      stillness.observe(
+          isWatched ? slots[slot].readPositions() : std::vector<std::span<const layout::vec4>>{},
+          settings.sleepSpeed / settings.framesPerSecond);
+      return {};
+    }
     if (Status status = contacts->makeRoom(); !status) return status;
     if (Status status = recordRest(slot); !status) return status;
     if (Status status = recorder.submit(); !status) return status;
@@ -257,6 +283,7 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
   heads.insert(heads.end(), stepPoses.begin(), stepPoses.end());
   world.writeFrame(slot, std::span(heads).subspan(1), bodyPoses, seconds());
   roots.writeFrame(slot, heads, rootPoses);
+  forces.writeFrame(slot);
   const auto poses = buffers.poses.of<layout::StepPose>(slot);
   poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {

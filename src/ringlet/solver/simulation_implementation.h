@@ -16,6 +16,7 @@
 #include "ringlet/rest/live_material.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/contact_stage.h"
+#include "ringlet/solver/device_forces.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/device_roots.h"
 #include "ringlet/solver/device_world.h"
@@ -25,6 +26,7 @@
 #include "ringlet/solver/hair_frames.h"
 #include "ringlet/solver/rigid_hair.h"
 #include "ringlet/solver/simulation.h"
+#include "ringlet/solver/stillness.h"
 #include "ringlet/solver/submission_pace.h"
 #include "ringlet/solver/volume_stage.h"
 #include "shared/layout.h"
@@ -81,6 +83,7 @@ struct Simulation::Implementation {
   DeviceGroom buffers;
   DeviceWorld world;
   DeviceRoots roots;
+  DeviceForces forces;
   RigidHair rigidHair;
   SubmissionPace pace;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
@@ -91,6 +94,7 @@ struct Simulation::Implementation {
   std::optional<VolumeStage> volume{};     // of strands that meet as a volume
   ContactReport contactReport{};           // what is known of the rest pose
 
+  Stillness stillness{};
   std::uint64_t stepsDone = 0;
   std::uint64_t stepsBefore = 0;  // done when a step became as long as it is, after so many seconds
   double secondsBefore = 0;
@@ -134,6 +138,12 @@ struct Simulation::Implementation {
                    "a frame takes one pose per outer step");
     return settings.jumps(length(stepPoses.back().position - head.now.position));
   }
+  bool isQuiet(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+               std::span<const BodyPose> rootPoses) const;
+  // What they hold has changed.
+  void forgetRecordings() {
+    for (FrameSlot& slot : slots) slot.recorded = FrameSlot::Recorded::nothing;
+  }
   FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
   void beginFrame(FrameRecording& frame) const;
   Status recordFrame(FrameRecording& frame) const;
@@ -142,6 +152,9 @@ struct Simulation::Implementation {
   Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
   Status recordPass(FrameRecording& frame, const SolvePass& pass) const;
   void dispatchAll(FrameRecording& frame, std::span<const PlannedDispatch> dispatches) const;
+  FrameSlot::Recorded wantedRecording() const {
+    return stillness.sleeps() ? FrameSlot::Recorded::sleep : FrameSlot::Recorded::frame;
+  }
   Status recordSlot(std::size_t slot);
   Status recordRest(std::size_t slot);
   Result<bool> prepareFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,

@@ -49,7 +49,8 @@ Status Simulation::Implementation::change(const Settings& wanted) {
   }
   world.setSettings(wanted);
   settings = wanted;
-  for (FrameSlot& slot : slots) slot.isRecorded = false;
+  stillness.wake();
+  forgetRecordings();
   return {};
 }
 
@@ -70,7 +71,8 @@ Status Simulation::Implementation::change(const Material& wanted) {
                   rest.warnings.begin() + static_cast<std::ptrdiff_t>(rest.materialWarningCount),
                   rest.warnings.end());
   material = wanted;
-  for (FrameSlot& slot : slots) slot.isRecorded = false;
+  stillness.wake();
+  forgetRecordings();
   return {};
 }
 
@@ -86,7 +88,8 @@ Status Simulation::Implementation::change(std::span<const Body> bodies, std::spa
   made->setSettings(settings);
   if (!places.empty()) made->placeBodies(places);
   world = std::move(*made);
-  for (FrameSlot& slot : slots) slot.isRecorded = false;
+  stillness.wake();
+  forgetRecordings();
   return bindKernels();
 }
 
@@ -113,6 +116,17 @@ Status Simulation::setMaterial(const Material& material) {
 Status Simulation::setSettings(const Settings& settings) {
   if (Status status = self_->checkChange(settings); !status) return status;
   return self_->change(settings);
+}
+
+Status Simulation::setForces(std::span<const Vec3f> forces) {
+  RINGLET_ASSERT(forces.size() == self_->rest.groomParticleCount, "every particle has a force");
+  if (!self_->forces.areThere()) {
+    return Error{
+        "the hair's asset was built without forces from outside; build it with KernelChoice::forces"};
+  }
+  self_->forces.set(forces);
+  self_->stillness.wake();
+  return {};
 }
 
 const Settings& Simulation::settings() const { return self_->settings; }

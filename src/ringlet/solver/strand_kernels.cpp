@@ -71,25 +71,26 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
   description.spirv = spirvOf(shape, options);
   description.remedy = "take another device, or leave out contacts, bodies and air";
   description.pushConstantBytes = sizeof(layout::StepParameters);
-  description.constants = {{0, options.groupSize},
-                           {2, integratorConstant(options.integrator)},
-                           {3, options.oneSmoothing ? 1u : 0u},
-                           {4, options.residual ? 1u : 0u},
-                           {5, options.bendVaries ? 1u : 0u},
-                           {6, options.contacts ? 1u : 0u},
-                           {7, options.texels ? 1u : 0u},
-                           {8, options.bodies ? 1u : 0u},
-                           {9, options.air ? 1u : 0u},
-                           {10, options.turbulence ? 1u : 0u},
-                           {11, options.movingRoots ? 1u : 0u}};
+  description.constants = {{layout::kSpecGroupSize, options.groupSize},
+                           {layout::kSpecTexels, options.texels ? 1u : 0u},
+                           {layout::kSpecIntegrator, integratorConstant(options.integrator)},
+                           {layout::kSpecOneSmoothing, options.oneSmoothing ? 1u : 0u},
+                           {layout::kSpecResidual, options.residual ? 1u : 0u},
+                           {layout::kSpecBendVaries, options.bendVaries ? 1u : 0u},
+                           {layout::kSpecForces, options.forces ? 1u : 0u},
+                           {layout::kSpecMovingRoots, options.movingRoots ? 1u : 0u},
+                           {layout::kSpecContacts, options.contacts ? 1u : 0u},
+                           {layout::kSpecBodies, options.bodies ? 1u : 0u},
+                           {layout::kSpecAir, options.air ? 1u : 0u},
+                           {layout::kSpecTurbulent, options.turbulence ? 1u : 0u}};
   if (options.contacts) {
-    description.constants.push_back({13, options.pairs ? 1u : 0u});
-    description.constants.push_back({14, options.volume ? 1u : 0u});
+    description.constants.push_back({layout::kSpecPairs, options.pairs ? 1u : 0u});
+    description.constants.push_back({layout::kSpecVolume, options.volume ? 1u : 0u});
   }
   description.groupSize = options.groupSize;
   if (!shape.serial()) {
-    description.constants.push_back({1, shape.lanes});
-    description.constants.push_back({12, shape.particlesPerLane});
+    description.constants.push_back({layout::kSpecLanes, shape.lanes});
+    description.constants.push_back({layout::kSpecRun, shape.particlesPerLane});
     description.wantsFullSubgroups = true;
     description.subgroupSize = options.subgroupSize;
   }

@@ -40,6 +40,7 @@ struct StrandKernelOptions {
   bool air = false;       // hair feels it
   bool turbulence = false;
   bool movingRoots = false;        // strands have poses of their own
+  bool forces = false;             // forces from outside act on particles
   std::uint32_t subgroupSize = 0;  // of the lanes form, one the device can be asked for; 0: its default
   std::uint32_t groupSize = kStrandGroupSize;
 };

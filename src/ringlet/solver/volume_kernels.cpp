@@ -43,7 +43,8 @@ gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels) {
   description.spirv = compiled.spirv;
   description.remedy = "take another device, or contacts by pairs (--contacts explicit)";
   description.pushConstantBytes = sizeof(layout::VolumeParameters);
-  description.constants = {{0, kVolumeGroupSize}, {7, texels ? 1u : 0u}};
+  description.constants = {{layout::kSpecGroupSize, kVolumeGroupSize},
+                           {layout::kSpecTexels, texels ? 1u : 0u}};
   description.groupSize = kVolumeGroupSize;
   return description;
 }
