@@ -10,7 +10,8 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 
 layout(constant_id = kSpecLanes) const uint kLanes = 1;
-layout(constant_id = kSpecRun) const int RUN = 16;  // 4 to 64; arrays of such a size GLSL copies only element by element
+// 4 to 64; arrays of such a size GLSL copies only element by element.
+layout(constant_id = kSpecRun) const int RUN = 16;
 
 uint lane;  // this invocation's place along its strand, 0 at the root
 

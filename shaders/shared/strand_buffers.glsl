@@ -16,7 +16,7 @@ layout(local_size_x_id = kSpecGroupSize) in;
 layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorJacobi;
 layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
 layout(constant_id = kSpecResidual) const bool kMeasureResidual = false;
-layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // along some strand: bendFactor is not 1 everywhere
+layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // bendFactor is not 1 along some strand
 #ifdef RINGLET_CONTACTS
 layout(constant_id = kSpecContacts) const bool kContacts = false;    // the solve is iterated with the contacts' systems
 layout(constant_id = kSpecPairs) const bool kPairs = true;       // of which there are of pairs of contact particles
