@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "ringlet/c/ringlet.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/solver/hair_frames.h"
 #include "ringlet/solver/simulation.h"
@@ -17,9 +18,9 @@ HeadPose headAt(int which, double t) {
   return {Vec3d{which ? -0.3 : 0.5, 0.1, 0} * t, fromRotationVector(Vec3d{0, 4, 1} * t)};
 }
 
-Result<HairAsset> assetOn(const ComputeDevice& device, bool contacts = true) {
+Result<HairAsset> assetOn(const ComputeDevice& device, bool contacts = true, int strandCount = 40) {
   HeadParameters parameters;
-  parameters.strandCount = 40;
+  parameters.strandCount = strandCount;
   parameters.curl.particleCount = 24;
   Settings settings;
   settings.contacts.on = contacts;
@@ -216,6 +217,96 @@ TEST(AdoptedDevice, AHostIsToldWhatItCannotRecord) {
     }
     EXPECT_EQ(*host.messages(), std::vector<std::string>{});
   }
+}
+
+// Buffers lie in pieces of the host's memory; each comes back, and the bits are those of memory by the
+// driver.
+TEST(AdoptedDevice, AHostGivesTheMemory) {
+  constexpr std::uint64_t kBlock = 16ull << 20;
+  auto host = std::make_unique<Host>(true);
+  const auto messages = host->messages();
+  HostPool pool(*host, kBlock);
+  {
+    HostVulkan handles = host->handles();
+    pool.serve(handles);
+    const auto device = ComputeDevice::adopt(handles), own = ComputeDevice::open();
+    ASSERT_TRUE(device) << device.error().message;
+    for (const bool contacts : {false, true}) {
+      Simulation hair = *Simulation::create(*assetOn(*device, contacts)),
+                 expected = *Simulation::create(*assetOn(*own, contacts));
+      for (int frame = 1; frame <= 8; ++frame) {
+        ASSERT_TRUE(hair.stepFrame(headAt(0, frame / 24.0)));
+        ASSERT_TRUE(expected.stepFrame(headAt(0, frame / 24.0)));
+      }
+      EXPECT_TRUE(hair.state()->positions == expected.state()->positions);
+      EXPECT_TRUE(hair.state()->velocities == expected.state()->velocities);
+    }
+    EXPECT_GT(pool.given(), 40u);
+    const auto tooMuch = assetOn(*device, false, 20'000);
+    ASSERT_FALSE(tooMuch);
+    EXPECT_EQ(tooMuch.error().fault, Fault::deviceMemory) << tooMuch.error().message;
+  }
+  EXPECT_EQ(pool.kept(), 0u);
+  EXPECT_EQ(*messages, std::vector<std::string>{});
+}
+
+// The same through the C interface.
+TEST(AdoptedDevice, AHostInCGivesTheMemory) {
+  Host host(true);
+  HostPool pool(host, 16ull << 20);
+  HostVulkan handles = host.handles();
+  pool.serve(handles);
+  ringlet_host_vulkan c = RINGLET_INIT(ringlet_host_vulkan);
+  c.get_instance_proc_addr = handles.getInstanceProcAddr, c.instance = handles.instance;
+  c.physical_device = handles.physicalDevice, c.device = handles.device, c.queue = handles.queue;
+  c.queue_family = handles.queueFamily, c.api_version = handles.apiVersion;
+  c.user = &handles;
+  c.allocate = [](void* user, uint64_t bytes, uint64_t alignment, uint32_t type, ringlet_memory* memory) {
+    HostMemory given;
+    const int result = static_cast<HostVulkan*>(user)->allocate(bytes, alignment, type, given);
+    *memory = {given.memory, given.offset, given.mapped, given.own};
+    return result;
+  };
+  c.free = [](void* user, const ringlet_memory* memory) {
+    static_cast<HostVulkan*>(user)->free({memory->memory, memory->offset, memory->mapped, memory->own});
+  };
+  ringlet_device* device = nullptr;
+  ASSERT_EQ(ringlet_device_adopt(&c, &device), RINGLET_OK) << ringlet_error_message();
+  const float points[] = {0, 0, 0, 0, -0.01f, 0, 0, -0.02f, 0, 0, -0.03f, 0};
+  const uint32_t size = 4;
+  ringlet_groom groom = RINGLET_INIT(ringlet_groom);
+  groom.points = points, groom.strand_sizes = &size, groom.strand_count = 1;
+  ringlet_asset* asset = nullptr;
+  ASSERT_EQ(ringlet_asset_build(device, &groom, nullptr, nullptr, nullptr, &asset), RINGLET_OK)
+      << ringlet_error_message();
+  EXPECT_GT(pool.kept(), 0u);
+  ringlet_asset_release(asset);
+  ringlet_device_release(device);
+  EXPECT_GT(pool.given(), 0u);
+  EXPECT_EQ(pool.kept(), 0u);
+  EXPECT_EQ(*host.messages(), std::vector<std::string>{});
+}
+
+TEST(AdoptedDevice, RefusesAnAllocatorThatIsHalfOne) {
+  Host host(true);
+  HostVulkan handles = host.handles();
+  handles.free = [](const HostMemory&) {};
+  auto refused = ComputeDevice::adopt(handles);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "a host's allocator either allocates and frees, or does neither");
+  HostPool pool(host, 1 << 20);
+  pool.serve(handles);
+  const auto allocate = handles.allocate;
+  handles.allocate = [&](auto bytes, auto alignment, auto type, HostMemory& piece) {
+    const int result = allocate(bytes, alignment, type, piece);
+    piece.mapped = nullptr;
+    return result;
+  };
+  const auto asset = assetOn(*ComputeDevice::adopt(handles));
+  ASSERT_FALSE(asset);
+  EXPECT_NE(asset.error().message.find("the host's allocator gave memory of a type that can be mapped"),
+            std::string::npos)
+      << asset.error().message;
 }
 
 TEST(AdoptedDevice, SaysWhatAHostLacks) {

@@ -139,6 +139,54 @@ Host::Owned Host::makeBuffer(std::uint64_t bytes, VkBufferUsageFlags usage) {
   return owned;
 }
 
+VkResult Host::allocate(std::uint64_t bytes, std::uint32_t type, VkDeviceMemory& memory, std::byte*& mapped) {
+  VkPhysicalDeviceMemoryProperties types;
+  CALL(vkGetPhysicalDeviceMemoryProperties)(physical_, &types);
+  VkMemoryAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.allocationSize = bytes;
+  info.memoryTypeIndex = type;
+  if (const VkResult result = CALL(vkAllocateMemory)(device_, &info, nullptr, &memory); result != VK_SUCCESS)
+    return result;
+  if (!(types.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT)) return VK_SUCCESS;
+  void* address = nullptr;
+  const VkResult result = CALL(vkMapMemory)(device_, memory, 0, VK_WHOLE_SIZE, 0, &address);
+  mapped = static_cast<std::byte*>(address);
+  return result;
+}
+void Host::free(VkDeviceMemory memory) { CALL(vkFreeMemory)(device_, memory, nullptr); }
+
+HostPool::~HostPool() {
+  for (const auto& [type, block] : blocks_) host_->free(block.memory);
+}
+
+void HostPool::serve(HostVulkan& handles) {
+  handles.allocate = [this](auto bytes, auto alignment, auto type, HostMemory& piece) {
+    return allocate(bytes, alignment, type, piece);
+  };
+  handles.free = [this](const HostMemory& piece) {
+    const std::scoped_lock lock(mutex_);
+    EXPECT_EQ(kept_.erase(piece.own), 1u) << "a piece comes back that was not given";
+  };
+}
+
+int HostPool::allocate(std::uint64_t bytes, std::uint64_t alignment, std::uint32_t type, HostMemory& piece) {
+  const std::scoped_lock lock(mutex_);
+  Block& block = blocks_[type];
+  if (!block.memory) {
+    const VkResult result = host_->allocate(bytes_, type, block.memory, block.mapped);
+    if (result != VK_SUCCESS) return result;
+  }
+  const std::uint64_t offset = (block.used + alignment - 1) / alignment * alignment;
+  if (offset + bytes > bytes_) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  block.used = offset + bytes;
+  void* const own = reinterpret_cast<void*>(++given_);
+  kept_.insert(own);
+  piece = {reinterpret_cast<void*>(block.memory), offset, block.mapped ? block.mapped + offset : nullptr,
+           own};
+  return VK_SUCCESS;
+}
+
 Host::Work Host::submit(const Record& record) {
   Work work;
   VkCommandPoolCreateInfo commandInfo{};

@@ -6,10 +6,13 @@
 #include <gtest/gtest.h>
 #include <vulkan/vulkan.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +53,9 @@ class Host {
   };
   Work submit(const Record& record);
   void wait(const Work& work);
+  // Memory of this type, mapped where it can be; and back.
+  VkResult allocate(std::uint64_t bytes, std::uint32_t type, VkDeviceMemory& memory, std::byte*& mapped);
+  void free(VkDeviceMemory memory);
   // What the host's own kernel finds in a buffer, after other commands of the same submission: it reads every
   // number, and a copy of it comes back.
   std::vector<std::uint32_t> read(
@@ -74,6 +80,34 @@ class Host {
   VkQueue queue_ = VK_NULL_HANDLE;
   std::mutex queueMutex_;
   HostVulkan handles_;
+};
+
+// A host's own allocator: pieces of one block of memory for each type, each kept until it comes back.
+class HostPool {
+ public:
+  HostPool(Host& host, std::uint64_t bytesOfABlock) : host_(&host), bytes_(bytesOfABlock) {}
+  ~HostPool();
+  HostPool(const HostPool&) = delete;
+
+  // Into handles that are then adopted with it.
+  void serve(HostVulkan& handles);
+  std::size_t given() const { return given_; }
+  std::size_t kept() const { return kept_.size(); }  // of these
+
+ private:
+  struct Block {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    std::byte* mapped = nullptr;
+    std::uint64_t used = 16;  // so that no piece is all of the memory
+  };
+  int allocate(std::uint64_t bytes, std::uint64_t alignment, std::uint32_t type, HostMemory& piece);
+
+  Host* host_;
+  std::uint64_t bytes_;
+  std::mutex mutex_;
+  std::map<std::uint32_t, Block> blocks_;
+  std::set<void*> kept_;
+  std::size_t given_ = 0;
 };
 
 }  // namespace ringlet::test

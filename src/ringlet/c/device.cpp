@@ -27,15 +27,31 @@ ringlet_result resultOf(Fault fault) {
 }
 
 HostVulkan hostOf(const ringlet_host_vulkan& host) {
-  return {.getInstanceProcAddr = host.get_instance_proc_addr,
-          .instance = host.instance,
-          .physicalDevice = host.physical_device,
-          .device = host.device,
-          .queue = host.queue,
-          .queueFamily = host.queue_family,
-          .apiVersion = host.api_version,
-          .subgroupSizeControl = host.subgroup_size_control != 0,
-          .computeFullSubgroups = host.compute_full_subgroups != 0};
+  HostVulkan taken{.getInstanceProcAddr = host.get_instance_proc_addr,
+                   .instance = host.instance,
+                   .physicalDevice = host.physical_device,
+                   .device = host.device,
+                   .queue = host.queue,
+                   .queueFamily = host.queue_family,
+                   .apiVersion = host.api_version,
+                   .subgroupSizeControl = host.subgroup_size_control != 0,
+                   .computeFullSubgroups = host.compute_full_subgroups != 0};
+  if (host.allocate) {
+    taken.allocate = [host](std::uint64_t bytes, std::uint64_t alignment, std::uint32_t type,
+                            HostMemory& to) {
+      ringlet_memory memory{};
+      const int result = host.allocate(host.user, bytes, alignment, type, &memory);
+      to = {memory.memory, memory.offset, memory.mapped, memory.own};
+      return result;
+    };
+  }
+  if (host.free) {
+    taken.free = [host](const HostMemory& from) {
+      const ringlet_memory memory{from.memory, from.offset, from.mapped, from.own};
+      host.free(host.user, &memory);
+    };
+  }
+  return taken;
 }
 
 ringlet_device* handleOf(ComputeDevice device) {

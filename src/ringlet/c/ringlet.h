@@ -59,6 +59,14 @@ ringlet_result ringlet_device_open(const char* choice, ringlet_device** device);
 
 /* A host's Vulkan; handles as <vulkan/vulkan.h> has them. The host keeps instance and device until everything
    made of them here is released. */
+/* Device memory for one buffer, from a host's allocator. */
+typedef struct ringlet_memory {
+  void* memory; /* VkDeviceMemory */
+  uint64_t offset;
+  void* mapped; /* where the host sees the piece; of memory types that can be mapped, which must be */
+  void* own;    /* whatever the host knows it by */
+} ringlet_memory;
+
 typedef struct ringlet_host_vulkan {
   size_t struct_size;
   void* get_instance_proc_addr; /* PFN_vkGetInstanceProcAddr */
@@ -70,6 +78,12 @@ typedef struct ringlet_host_vulkan {
   uint32_t api_version;         /* of the host's VkApplicationInfo, 1.1 at least */
   int subgroup_size_control;    /* whether the device was opened with these features */
   int compute_full_subgroups;
+  /* In place of vkAllocateMemory, both or neither; allocate returns a VkResult. Any thread that makes
+     something on the device calls them. */
+  int (*allocate)(void* user, uint64_t bytes, uint64_t alignment, uint32_t memory_type,
+                  ringlet_memory* memory);
+  void (*free)(void* user, const ringlet_memory* memory);
+  void* user;
 } ringlet_host_vulkan;
 
 /* Before vkCreateDevice, of all but device and queue: what the device should be opened with. It works

@@ -74,28 +74,23 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind ki
     return Error{fmt::format("could not {}: the driver offers no {} memory for it", attempt(),
                              kind == BufferKind::stream ? "host-coherent" : "device")};
   }
-  VkDeviceMemory memory = VK_NULL_HANDLE;
   const auto allocate = [&](std::uint32_t type) {
-    auto allocation = zeroed<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
-    allocation.allocationSize = requirements.size;
-    allocation.memoryTypeIndex = type;
-    return device.vk().vkAllocateMemory(device.handle(), &allocation, nullptr, &memory);
+    return Allocation::make(device, requirements, type, self.memory_);
   };
   const auto type = allocateInFirst(device.memory(), types, requirements.size, attempt(), allocate);
   if (!type) return type.error();
   const VkMemoryType& chosen = device.memory().memoryTypes[*type];
-  self.memory_ = OwnedMemory(device.shared_from_this(), memory);
   self.counted_ = device.countBytes(chosen.heapIndex, requirements.size);
-  RINGLET_VK_CHECK(device.vk().vkBindBufferMemory(device.handle(), buffer, memory, 0), attempt());
+  RINGLET_VK_CHECK(
+      device.vk().vkBindBufferMemory(device.handle(), buffer, self.memory_.memory(), self.memory_.offset()),
+      attempt());
 
-  // Stays mapped: coherent memory needs no flush, and unmapping comes with freeing.
   const bool isMapped = kind == BufferKind::stream ||
                         (!device.options().alwaysStage && (chosen.propertyFlags & kMappable) == kMappable);
   if (isMapped) {
-    void* address = nullptr;
-    RINGLET_VK_CHECK(device.vk().vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &address),
-                     attempt());
-    self.mapped_ = static_cast<std::byte*>(address);
+    const auto address = self.memory_.map(attempt());
+    if (!address) return address.error();
+    self.mapped_ = *address;
   }
   return self;
 }

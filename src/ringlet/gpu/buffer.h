@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ringlet/base/result.h"
+#include "ringlet/gpu/allocation.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/owned.h"
 
@@ -48,7 +49,7 @@ class Buffer {
   Buffer() = default;
 
   Device* device_ = nullptr;  // held open by what follows
-  OwnedMemory memory_;
+  Allocation memory_;
   std::shared_ptr<void> counted_;  // among what is taken of the device's memory
   OwnedBuffer buffer_;
   std::byte* mapped_ = nullptr;

@@ -396,6 +396,8 @@ Result<std::shared_ptr<Device>> Device::adopt(const HostDevice& host,
   if (!instance) return instance.error();
   if (!host.physical || !host.device || !host.queue)
     return Error{"a host hands over no physical device, no device or no queue"};
+  if (bool(host.allocator.allocate) != bool(host.allocator.free))
+    return Error{"a host's allocator either allocates and frees, or does neither"};
   Candidate candidate = inspect(**instance, host.physical, 0, {});
   DeviceProperties& p = candidate.listing.properties;
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(host.physical);
@@ -417,6 +419,7 @@ Result<std::shared_ptr<Device>> Device::adopt(const HostDevice& host,
   self->take(std::move(*instance), host.physical, host.queueFamily, candidate.hasMemoryBudget, p);
   self->device_ = host.device;
   if (host.queueMutex) self->queueMutex_ = host.queueMutex;
+  self->hostAllocator_ = host.allocator;
   volkLoadDeviceTable(&self->table_, self->device_);
   self->queue_ = host.queue;
   if (Status opened = self->openPipelineCache(host.physical, cacheFolder); !opened) return opened.error();

@@ -90,6 +90,20 @@ struct DeviceOptions {
   std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has
 };
 
+/// Memory that a host gives for one buffer.
+struct HostAllocation {
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;
+  void* mapped = nullptr;  // where the host sees it; of types that can be mapped
+  void* own = nullptr;     // the host's
+};
+
+/// A host's allocator in place of vkAllocateMemory; both or neither. Any thread that makes buffers calls it.
+struct HostAllocator {
+  std::function<VkResult(const VkMemoryRequirements&, std::uint32_t type, HostAllocation&)> allocate{};
+  std::function<void(const HostAllocation&)> free{};
+};
+
 /// A device that a host opened, and closes when everything made on it is gone.
 struct HostDevice {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
@@ -102,6 +116,7 @@ struct HostDevice {
   bool subgroupSizeControl = false;   // features that the device was opened with
   bool computeFullSubgroups = false;  // likewise
   std::mutex* queueMutex = nullptr;   // held while something is handed to the queue; none: nobody else does
+  HostAllocator allocator{};
 };
 
 /// What a device must be opened with, to be adopted: all it has of what kernels use.
@@ -146,6 +161,7 @@ class Device : public std::enable_shared_from_this<Device> {
   // For the other files of gpu/.
   const VolkDeviceTable& vk() const { return table_; }
   VkDevice handle() const { return device_; }
+  const HostAllocator& hostAllocator() const { return hostAllocator_; }
   std::uint32_t queueFamily() const { return queueFamily_; }
   /// The kernels compiled so far.
   KernelCache& kernels() const { return *kernels_; }
@@ -184,6 +200,7 @@ class Device : public std::enable_shared_from_this<Device> {
   VkQueue queue_ = VK_NULL_HANDLE;
   std::mutex ownMutex_;
   std::mutex* queueMutex_ = &ownMutex_;
+  HostAllocator hostAllocator_;
   std::atomic<std::uint64_t> submissionCount_ = 0;
   std::chrono::steady_clock::time_point lastWait_{};
   std::uint32_t queueFamily_ = 0;

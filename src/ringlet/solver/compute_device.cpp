@@ -34,6 +34,25 @@ PFN_vkGetInstanceProcAddr loaderOf(const HostVulkan& host) {
   return reinterpret_cast<PFN_vkGetInstanceProcAddr>(host.getInstanceProcAddr);
 }
 
+gpu::HostAllocator allocatorOf(const HostVulkan& host) {
+  gpu::HostAllocator allocator;
+  if (host.allocate) {
+    allocator.allocate = [allocate = host.allocate](const VkMemoryRequirements& wanted, std::uint32_t type,
+                                                    gpu::HostAllocation& piece) {
+      HostMemory given;
+      const auto result = static_cast<VkResult>(allocate(wanted.size, wanted.alignment, type, given));
+      piece = {reinterpret_cast<VkDeviceMemory>(given.memory), given.offset, given.mapped, given.own};
+      return result;
+    };
+  }
+  if (host.free) {
+    allocator.free = [free = host.free](const gpu::HostAllocation& piece) {
+      free({reinterpret_cast<void*>(piece.memory), piece.offset, piece.mapped, piece.own});
+    };
+  }
+  return allocator;
+}
+
 }  // namespace
 
 Result<ComputeDevice> ComputeDevice::open(const std::string& choice,
@@ -53,7 +72,8 @@ Result<ComputeDevice> ComputeDevice::adopt(const HostVulkan& host, const std::fi
                                      .apiVersion = host.apiVersion,
                                      .subgroupSizeControl = host.subgroupSizeControl,
                                      .computeFullSubgroups = host.computeFullSubgroups,
-                                     .queueMutex = host.queueMutex},
+                                     .queueMutex = host.queueMutex,
+                                     .allocator = allocatorOf(host)},
                                     cacheFolder);
   if (!adopted) return adopted.error();
   return over(std::move(*adopted));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -29,6 +30,14 @@ struct DeviceSummary {
   std::string why;                           // if not usable: what is missing
 };
 
+/// Device memory for one buffer, from a host's own allocator.
+struct HostMemory {
+  void* memory = nullptr;  // VkDeviceMemory; where handles are 64 bits
+  std::uint64_t offset = 0;
+  void* mapped = nullptr;  // where the host sees the piece; of memory types that can be mapped, which must be
+  void* own = nullptr;     // whatever the host knows it by: a VmaAllocation
+};
+
 /// A Vulkan device that a host opened: handles as <vulkan/vulkan.h> has them, which this header does not
 /// show. The host keeps the instance and the device until everything that was made with them here is gone.
 struct HostVulkan {
@@ -44,6 +53,12 @@ struct HostVulkan {
   // Ringlet holds it while it hands work to the queue. Without it, the host hands over none during calls of
   // Ringlet.
   std::mutex* queueMutex = nullptr;
+  // The host's allocator, in place of vkAllocateMemory: both or neither. allocate returns a VkResult; after
+  // VK_ERROR_OUT_OF_DEVICE_MEMORY it is asked for memory of the next type that will do. Any thread that makes
+  // something on the device calls them.
+  std::function<int(std::uint64_t bytes, std::uint64_t alignment, std::uint32_t memoryType, HostMemory&)>
+      allocate{};
+  std::function<void(const HostMemory&)> free{};
 };
 
 /// What a host opens a device with, so that Ringlet can use all the device has. It works without extensions
