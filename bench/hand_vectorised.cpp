@@ -15,6 +15,9 @@ constexpr float kAnyLength = 1e20f;  // of an edge beyond the tip [m]
 layout::vec4 packed(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
+layout::vec3 packed3(Vec3d v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
 layout::vec4 packed(Quatd q) {
   return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
 }
@@ -48,7 +51,7 @@ SweepRun runOf(const RestState& rest, const Material& material, const Settings& 
 
 void fillLane(StrandsRest& to, std::size_t lane, const layout::StrandRest& strand, float T) {
   const auto set = [lane](Eight& eight, float value) { eight.lane[lane] = value; };
-  const auto set3 = [&](Eight(&to3)[3], const layout::vec4& v) {
+  const auto set3 = [&](Eight(&to3)[3], const auto& v) {
     set(to3[0], v.x);
     set(to3[1], v.y);
     set(to3[2], v.z);
@@ -74,7 +77,7 @@ void fillLane(EdgeRest& to, std::size_t lane, const layout::ParticleRest& rest, 
   to.target[0].lane[lane] = rest.target.x;
   to.target[1].lane[lane] = rest.target.y;
   to.target[2].lane[lane] = rest.target.z;
-  to.restLength.lane[lane] = rest.target.w;
+  to.restLength.lane[lane] = rest.stretchRestLength;
   to.longest.lane[lane] = isEdge ? maxStretch * rest.edgeLength : kAnyLength;
   to.coreLength.lane[lane] = rest.coreEdgeLength;
   to.scale.lane[lane] = isEdge ? 1 / rest.edgeLength : 0;
@@ -134,13 +137,13 @@ Result<HandVectorised> HandVectorised::create(const Groom& groom, const Material
 
 std::vector<layout::StepPose> HandVectorised::advance(std::span<const HeadPose> poses) {
   const auto turn = [&] { return now_.rotation * oneStepEarlier_.rotation.conjugate(); };
-  std::vector<layout::StepPose> device{{packed(now_.rotation), packed(turn()), {}}};
+  std::vector<layout::StepPose> device{{packed(now_.rotation), packed(turn()), {}, 0}};
   for (const HeadPose& next : poses) {
     const Vec3d travelBefore = now_.position - oneStepEarlier_.position;
     oneStepEarlier_ = now_;
     now_ = next;
     const Vec3d change = (now_.position - oneStepEarlier_.position - travelBefore) / stepSeconds_;
-    device.push_back({packed(now_.rotation), packed(turn()), packed(change)});
+    device.push_back({packed(now_.rotation), packed(turn()), packed3(change), 0});
   }
   return device;
 }
@@ -174,7 +177,7 @@ void HandVectorised::stepFrameAlone(std::span<const HeadPose> poses) {
 }
 
 std::uint64_t HandVectorised::operations(std::uint32_t steps) const {
-  const layout::StepPose still{{0, 0, 0, 1}, {0, 0, 0, 1}, {}};
+  const layout::StepPose still{{0, 0, 0, 1}, {0, 0, 0, 1}, {}, 0};
   const std::vector<layout::StepPose> poses(steps + 1, still);
   SweepRun run = run_;
   run.poses = poses.data();

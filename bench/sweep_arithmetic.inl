@@ -25,6 +25,7 @@ inline void store3(Eight* to, V3 a) {
   store(to[1], a.y);
   store(to[2], a.z);
 }
+inline V3 all(const layout::vec3& a) { return {all(a.x), all(a.y), all(a.z)}; }
 inline V3 all(const layout::vec4& a) { return {all(a.x), all(a.y), all(a.z)}; }
 
 struct Q {

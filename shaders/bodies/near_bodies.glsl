@@ -25,8 +25,8 @@ uint nextNear(Room room, float reach, uint step, uint bodyCount, uint b) {
     vec4 bounds = bodyBounds(b);
     BodyPose before = bodyPose(step * bodyCount + b);
     float moves = kTexels ? vectorAt(bodyPoseTexels, 4 * ((step + 1) * bodyCount + b)).w
-                          : bodyPoses[(step + 1) * bodyCount + b].position.w;
-    vec3 there = before.position.xyz + rotate(before.rotation, bounds.xyz);
+                          : bodyPoses[(step + 1) * bodyCount + b].moves;
+    vec3 there = before.position + rotate(before.rotation, bounds.xyz);
     isNear = length(there - middle) <= radius + bounds.w + moves;
     if (!isNear) ++b;
   } while (b < bodyCount && !isNear);

@@ -45,7 +45,7 @@ void liveOn(ContactLife before) {
   // 2 zeta sqrt(k m_c), m_c by k.
   float damping =
       2.0 * parameters.dampingRatio * before.stiffness *
-      sqrt((rest.point.w + other.w) / max(parameters.stiffness, 1e-30));
+      sqrt((rest.radius + other.w) / max(parameters.stiffness, 1e-30));
   float gap = r0 - meeting.distance;
   ContactWeights weights =
       contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters.seconds);

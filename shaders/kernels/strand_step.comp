@@ -62,7 +62,7 @@ bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.r
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 
 // Of the strand's first edge; frames are the rest pose's there.
-vec3 restDirection() { return directionOf(strand.firstEdge.xyz); }
+vec3 restDirection() { return directionOf(strand.firstEdge); }
 
 // What lies beyond the tip is void: its springs are zero (edge scale), its edges of any length, so nothing reaches back
 // from it and no stage needs to ask.
@@ -76,8 +76,8 @@ void loadStrand() {
     p[k] = real ? positionAtStart(i) : vec3(0);
     v[k] = real ? velocityAtStart(i) : vec3(0);
     ParticleRest rest = particleRest(i);
-    restTarget[k] = vec4(dot(rest.target.xyz, direction), dot(rest.target.xyz, normal), dot(rest.target.xyz, binormal),
-                         rest.target.w);
+    restTarget[k] = vec4(dot(rest.target, direction), dot(rest.target, normal), dot(rest.target, binormal),
+                         rest.stretchRestLength);
     bool edge = isEdge(k);
     restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? parameters.maxStretch * rest.edgeLength : 1e30,
                        rest.coreEdgeLength, edge ? edgeScaleOf(rest.edgeLength) : 0.0);
@@ -214,7 +214,7 @@ void coreForces() {
 }
 
 // What pulls on a kilogram of particle k [m/s^2]; beyond the tip gravity.
-vec3 pullOnRun(int k) { return isParticle(k) ? pullOn(strand.firstParticle + first + k) : parameters.gravity.xyz; }
+vec3 pullOnRun(int k) { return isParticle(k) ? pullOn(strand.firstParticle + first + k) : parameters.gravity; }
 
 // Elastic force on particle k: its edge pulls it on, the edge before pulls it back.
 vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
@@ -376,7 +376,7 @@ void storeSolved() {
 void computeForces(uint step) {
   [[unroll]] for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
   measureEdges();
-  vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge.xyz);
+  vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge);
   vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
   vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
   smoothCurves(edgeStart, velocityStart, directionOf(firstEdge),

@@ -102,7 +102,7 @@ vec4 measuredEdge(uint i) {
 // curve. Returns the blend of the core's constants.
 float springSweep(uint step) {
   vec4 frame = rotationAtStart(step);
-  vec3 firstEdge = rotate(frame, strand.firstEdge.xyz);
+  vec3 firstEdge = rotate(frame, strand.firstEdge);
   vec3 edgeStart = firstEdge;
   vec3 velocityStart = turningVelocityBefore(step, firstEdge);
   if (kIntegrator == kIntegratorPaper) {
@@ -124,12 +124,12 @@ float springSweep(uint step) {
     smoothNext(core, e, strand.coreBeta);
     smoothNext(coreVelocity, velocity(i + 1) - velocity(i), strand.coreBeta);
 
-    vec3 target = rotate(frame, rest.target.xyz);
+    vec3 target = rotate(frame, rest.target);
     vec3 next = directionOf(bendCurve.d);
     frame = turned(smallestTurn(direction, next), frame);
     if (i % 16 == 15) frame = renormalized(frame);
     direction = next;
-    vec3 stretch = stretchForce(strand.stretchStiffness * scale, edge.w, rest.target.w, edge.xyz);
+    vec3 stretch = stretchForce(strand.stretchStiffness * scale, edge.w, rest.stretchRestLength, edge.xyz);
     vec3 bend = bendForce(strand.bendStiffness * scale * (kBendVaries ? rest.bendFactor : 1.0), e, target);
     setScratch(i, kForce, stretch + bend);
 

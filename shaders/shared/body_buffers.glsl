@@ -18,33 +18,36 @@ BodyRest bodyRest(uint b) {
   if (!kTexels) return bodies[b];
   uvec4 grid = recordAt(bodyTexels, 5 * b + 3);
   uvec4 last = recordAt(bodyTexels, 5 * b + 4);
-  return BodyRest(vectorAt(bodyTexels, 5 * b), vectorAt(bodyTexels, 5 * b + 1), vectorAt(bodyTexels, 5 * b + 2),
+  vec4 box = vectorAt(bodyTexels, 5 * b);
+  vec4 origin = vectorAt(bodyTexels, 5 * b + 2);
+  return BodyRest(box.xyz, box.w, vectorAt(bodyTexels, 5 * b + 1), origin.xyz, origin.w,
                   uint[3](grid.x, grid.y, grid.z), grid.w, uintBitsToFloat(last.x), last.y, uint[2](0, 0));
 }
 vec4 bodyBounds(uint b) { return kTexels ? vectorAt(bodyTexels, 5 * b + 1) : bodies[b].bounds; }
 BodyPose bodyPose(uint i) {
   if (!kTexels) return bodyPoses[i];
-  return BodyPose(vectorAt(bodyPoseTexels, 4 * i), vectorAt(bodyPoseTexels, 4 * i + 1),
+  vec4 place = vectorAt(bodyPoseTexels, 4 * i);
+  return BodyPose(place.xyz, place.w, vectorAt(bodyPoseTexels, 4 * i + 1),
                   vectorAt(bodyPoseTexels, 4 * i + 2), vectorAt(bodyPoseTexels, 4 * i + 3));
 }
 
 /// y in the body's frame.
 Surface bodyDistance(BodyRest body, vec3 y) {
-  if (body.shape == kShapeBox) return boxDistance(body.halfExtents.xyz, body.halfExtents.w, y);
+  if (body.shape == kShapeBox) return boxDistance(body.halfExtents, body.rounding, y);
   if (body.shape == kShapePlane) {
     Surface plane = planeDistance(y);
-    plane.distance -= body.halfExtents.w;
+    plane.distance -= body.rounding;
     return plane;
   }
   vec3 counts = vec3(body.cells[0], body.cells[1], body.cells[2]);
-  vec3 wanted = (y - body.gridOrigin.xyz) / body.gridOrigin.w;
+  vec3 wanted = (y - body.gridOrigin) / body.cell;
   vec3 nearest = clamp(wanted, vec3(0), counts);
   vec3 base = min(floor(nearest), counts - 1.0);
   uvec3 at = uvec3(base);
   uint cell = body.firstCell + at.x + body.cells[0] * (at.y + body.cells[1] * at.z);
   uvec4 corners = kTexels ? recordAt(gridCellTexels, cell) : gridCells[cell];
-  Surface surface = gridDistance(corners, nearest - base, wanted - nearest, body.gridOrigin.w);
-  surface.distance -= body.halfExtents.w;
+  Surface surface = gridDistance(corners, nearest - base, wanted - nearest, body.cell);
+  surface.distance -= body.rounding;
   return surface;
 }
 
@@ -58,14 +61,14 @@ BodyStep bodyStep(uint step, uint bodyCount, uint b) {
   return BodyStep(bodyRest(b), bodyPose(step * bodyCount + b), bodyPose((step + 1) * bodyCount + b));
 }
 vec3 placeAtStart(BodyStep body, vec3 p) {
-  return rotate(conjugate(body.before.rotation), p - body.before.position.xyz);
+  return rotate(conjugate(body.before.rotation), p - body.before.position);
 }
-vec3 placeAtEnd(BodyStep body, vec3 p) { return rotate(conjugate(body.after.rotation), p - body.after.position.xyz); }
-vec3 outOfBody(BodyStep body, vec3 y) { return rotate(body.after.rotation, y) + body.after.position.xyz; }
+vec3 placeAtEnd(BodyStep body, vec3 p) { return rotate(conjugate(body.after.rotation), p - body.after.position); }
+vec3 outOfBody(BodyStep body, vec3 y) { return rotate(body.after.rotation, y) + body.after.position; }
 vec3 outward(BodyStep body, vec3 normal) { return rotate(body.after.rotation, normal); }
 /// Of the place of the body that is at p when the step starts [m/s].
 vec3 bodyVelocityAt(BodyStep body, vec3 p, float T) {
-  return body.after.velocity.xyz + displacement(body.after.turn, p - body.before.position.xyz) / T;
+  return body.after.velocity.xyz + displacement(body.after.turn, p - body.before.position) / T;
 }
 
 #endif

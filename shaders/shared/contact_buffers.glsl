@@ -53,7 +53,8 @@ vec3 velocityOf(uint particle) { return kTexels ? vectorAt(solvedTexels, particl
 ContactRest contactOf(uint c) {
   if (!kTexels) return contacts[c];
   uvec4 b = recordAt(contactTexels, 2 * c + 1);
-  return ContactRest(vectorAt(contactTexels, 2 * c), b.x, b.y, uintBitsToFloat(b.z), uintBitsToFloat(b.w));
+  vec4 sphere = vectorAt(contactTexels, 2 * c);
+  return ContactRest(sphere.xyz, sphere.w, b.x, b.y, uintBitsToFloat(b.z), uintBitsToFloat(b.w));
 }
 uint contactAt(uint particle) {
   uvec4 four = kTexels ? recordAt(indexTexels, particle / 4) : indices[particle / 4];

@@ -46,7 +46,7 @@ bool search(uint place, float skin) {
   x = here;
   v = uintBitsToFloat(moving.xyz);
   // No pair's reach is larger: by the radii, and by the fastest there is.
-  float mostR = rest.point.w + parameters.largestRadius;
+  float mostR = rest.radius + parameters.largestRadius;
   precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);
   ivec3 cell = cellOf(x);
   uint placed = placedCount();
@@ -101,8 +101,8 @@ bool search(uint place, float skin) {
         ivec3 away = cellOf(foundAt) - middle;
         bool isCandidate = away.y == 0 && away.z == 0 && abs(away.x) <= 1 &&
                            !(rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0);
-        float R = rest.point.w + other.point.w;
-        float r0 = contactRestLength(R, distance(rest.point.xyz, other.point.xyz));
+        float R = rest.radius + other.radius;
+        float r0 = contactRestLength(R, distance(rest.point, other.point));
         if (!isCandidate || !isSought(foundAt, otherVelocity, other.particle, r0)) continue;
         if (parameters.everyPair == 0 && !mayTouch(ownNeighbours, other.strand)) continue;
         take(other, R, r0);

@@ -10,6 +10,10 @@ using uint = std::uint32_t;
 struct alignas(16) vec4 {
   float x = 0, y = 0, z = 0, w = 0;
 };
+// In GLSL it is aligned to 16 bytes, and a float behind it fills them.
+struct alignas(4) vec3 {
+  float x = 0, y = 0, z = 0;
+};
 struct alignas(16) uvec4 {
   uint x = 0, y = 0, z = 0, w = 0;
 };
@@ -118,7 +122,8 @@ RINGLET_CONSTANT uint kTapCount = 8;
 // Constant per particle i and its edge i (to i + 1). Forces are per mass unit: the strand's line density times its mean
 // edge length, so that masses are about 1 and float32 keeps its digits.
 struct ParticleRest {
-  vec4 target;     // xyz: rest vector of the edge in frame F_{i-1} [m]; w: rest length of the stretch spring [m]
+  vec3 target;              // rest vector of the edge in frame F_{i-1} [m]
+  float stretchRestLength;  // [m]
   float mass;      // [mass unit]
   float edgeLength;      // the groom's edge [m]: the stretch limit refers to it
   float coreEdgeLength;  // |b_i| at rest [m]
@@ -141,7 +146,8 @@ struct StrandRest {
   float restCoreLength;  // sum of |b_i| at rest [m]
   float jacobiGap;       // 1 - mu^2, mu a bound on the spectral radius of the point Jacobi iteration: the gap keeps its
                          // digits
-  vec4 firstEdge;        // xyz: e_0 at rest [m]; w: mass unit [kg]
+  vec3 firstEdge;        // e_0 at rest [m]
+  float massUnit;        // [kg]
   vec4 pins[kMaxRootCount];  // xyz: rest positions of the first particles, which the head carries [m]; the three w: the
                              // strand's shift beside the head, x, y and z [m]
 };
@@ -162,8 +168,8 @@ struct StepPose {
   vec4 rotation;        // quaternion (x, y, z, w)
   vec4 turn;            // quaternion that takes the pose one step before to this; as the difference of two rotations it
                         // would have lost its digits
-  vec4 velocityChange;  // xyz: how much faster the head travels in this step than in the one before [m/s]; w: share of
-                        // their shift that shifted roots have gone
+  vec3 velocityChange;  // how much faster the head travels in this step than in the one before [m/s]
+  float shiftedShare;   // of their shift that shifted roots have gone
 };
 
 // What carries a strand's roots, the head and the strand's own pose in the head's frame together: where it brings the
@@ -178,9 +184,11 @@ struct RootPose {
 
 // A body, constant. Boxes, spheres and capsules are boxes with rounded edges.
 struct BodyRest {
-  vec4 halfExtents;  // xyz: of the box within [m]; w: its rounding, or what hair keeps away from a plane or grid [m]
-  vec4 bounds;       // xyz: middle of a sphere about it, its own axes [m]; w: radius [m]
-  vec4 gridOrigin;   // xyz [m]; w: cell [m]
+  vec3 halfExtents;  // of the box within [m]
+  float rounding;    // of the box, or what hair keeps away from a plane or grid [m]
+  vec4 bounds;       // a sphere about it: xyz: middle, its own axes [m]; w: radius [m]
+  vec3 gridOrigin;   // [m]
+  float cell;        // of the grid [m]
   uint cells[3];     // of the grid
   uint firstCell;
   float friction;
@@ -194,7 +202,8 @@ RINGLET_CONSTANT uint kShapeGrid = 2;
 // Where a body is, relative to the head's origin, along world axes. Pose 0 is the frame's start, 1 + k the end of step
 // k.
 struct BodyPose {
-  vec4 position;  // xyz [m]; w: how far any of it moves in the step that ends here [m]
+  vec3 position;  // [m]
+  float moves;    // how far any of it does in the step that ends here [m]
   vec4 rotation;  // quaternion (x, y, z, w)
   vec4 turn;      // from the pose before to this
   vec4 velocity;  // xyz: of its origin in that step, relative to the head's translation [m/s]
@@ -212,7 +221,8 @@ struct WindWave {
 };
 
 struct StepParameters {
-  vec4 gravity;  // xyz [m/s^2]; w: the outer step T [s]
+  vec3 gravity;   // [m/s^2]
+  float seconds;  // the outer step T
   float maxStretch;
   float coreRelaxedShare;
   float coreElongationLow;
@@ -285,7 +295,8 @@ RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of w
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {
-  vec4 point;  // xyz: at rest [m]; w: radius [m]
+  vec3 point;    // at rest [m]
+  float radius;  // [m]
   uint particle;
   uint strand;
   float mass;             // m_c [kg]

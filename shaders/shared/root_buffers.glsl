@@ -40,7 +40,7 @@ vec4 turnTo(uint pose) {
 
 vec4 rotationAtStart(uint step) { return rotationAt(step); }
 vec4 rotationAtEnd(uint step) { return rotationAt(step + 1); }
-vec3 headVelocityChange(uint step) { return poses[step + 1].velocityChange.xyz; }
+vec3 headVelocityChange(uint step) { return poses[step + 1].velocityChange; }
 
 /// How fast x, as it is at the step's start, goes by the turning in this step.
 vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), x) / stepSeconds(); }
@@ -49,7 +49,7 @@ vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(t
 
 // Pinned particle k of the strand: it is carried, and its shift beside.
 vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
-float shiftedShare(uint step) { return poses[step].velocityChange.w; }
+float shiftedShare(uint step) { return poses[step].shiftedShare; }
 // From the carried origin of the groom.
 vec3 pinArm(uint pose, uint k) {
   return rotate(rotationAt(pose), strand.pins[k].xyz + shiftedShare(pose) * rootShift());

@@ -57,23 +57,25 @@ vec3 positionAtStart(uint i) { return kTexels ? vectorAt(positionTexels, i).xyz 
 vec3 velocityAtStart(uint i) { return kTexels ? vectorAt(velocityTexels, i).xyz : velocities[i].xyz; }
 ParticleRest particleRest(uint i) {
   if (!kTexels) return particles[i];
+  vec4 spring = vectorAt(particleTexels, 2 * i);
   vec4 rest = vectorAt(particleTexels, 2 * i + 1);
-  return ParticleRest(vectorAt(particleTexels, 2 * i), rest.x, rest.y, rest.z, rest.w);
+  return ParticleRest(spring.xyz, spring.w, rest.x, rest.y, rest.z, rest.w);
 }
 // What pulls on a kilogram of particle i [m/s^2]: gravity, and forces from outside.
 vec3 pullOn(uint i) {
-  if (!kForces) return parameters.gravity.xyz;
-  return parameters.gravity.xyz + (kTexels ? vectorAt(forceTexels, i) : forces[i]).xyz;
+  if (!kForces) return parameters.gravity;
+  return parameters.gravity + (kTexels ? vectorAt(forceTexels, i) : forces[i]).xyz;
 }
 StrandRest strandRest(uint s) {
   if (!kTexels) return strands[s];
   uvec4 a = recordAt(strandTexels, 7 * s);
   vec4 b = vectorAt(strandTexels, 7 * s + 1);
   vec4 c = vectorAt(strandTexels, 7 * s + 2);
+  vec4 d = vectorAt(strandTexels, 7 * s + 3);
   vec4 pins[kMaxRootCount];
   [[unroll]] for (uint k = 0; k < kMaxRootCount; ++k) pins[k] = vectorAt(strandTexels, 7 * s + 4 + k);
   return StrandRest(a.x, a.y, uintBitsToFloat(a.z), uintBitsToFloat(a.w), b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w,
-                    vectorAt(strandTexels, 7 * s + 3), pins);
+                    d.xyz, d.w, pins);
 }
 
 #ifdef RINGLET_CONTACTS
@@ -108,7 +110,7 @@ vec3 contactMomentum(uint i) {
 StrandRest strand;  // this invocation's
 uint strandAt;      // and which it is, device order
 
-float stepSeconds() { return parameters.gravity.w; }
+float stepSeconds() { return parameters.seconds; }
 
 #include "shared/root_buffers.glsl"
 

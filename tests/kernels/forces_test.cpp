@@ -47,8 +47,9 @@ std::vector<KernelChoice> forms() {
 TEST_F(Forces, AgreeInEveryFormAndIntegrator) {
   for (const Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
     for (KernelChoice kernel : forms()) {
-      // The baselines' integrators ask for the same right-hand side in every shape.
-      if (integrator != Integrator::jacobi && kernel.lanes > 0) continue;
+      // Few lanes solve in a way of their own, in jacobi only.
+      const bool isFew = kernel.lanes == 1 || kernel.lanes == 2;
+      if (integrator != Integrator::jacobi && isFew) continue;
       kernel.forces = true;
       ParityCase c{randomGroom({2, 3, 31, 64, 100, 16, 17, 65}, 7), {}, {}, kernel};
       c.settings.integrator = integrator;
@@ -142,7 +143,7 @@ TEST_F(Forces, ActWhereTheySay) {
 TEST_F(Forces, AreTheFramesTheyWereSetFor) {
   for (const Hair& hair : pulledHairs()) {
     SCOPED_TRACE(hair.name);
-    Simulation one = simulationOf(device(), hair, true), flies = simulationOf(device(), hair, true);
+    Simulation falls = simulationOf(device(), hair, false), flies = simulationOf(device(), hair, true);
     std::vector<std::vector<Vec3f>> expected, found;
     const auto posesOf = [&](int frame) {
       std::vector<HeadPose> poses;
@@ -151,15 +152,15 @@ TEST_F(Forces, AreTheFramesTheyWereSetFor) {
         poses.push_back(interpolate(headAt(frame), headAt(frame + 1), double(k) / steps));
       return poses;
     };
-    const auto forcesOf = [&](int frame) { return sameForce(hair, {float(10 * frame), 0, 5}); };
+    const auto forceOf = [](int frame) { return Vec3d{10.0 * (frame == 3 ? 2 : frame), 0, 5}; };
     for (int frame = 0; frame < 5; ++frame) {
+      Settings heavy = hair.settings;  // as by another gravity in each frame
+      heavy.gravity += forceOf(frame);
+      ASSERT_TRUE(falls.setSettings(heavy));
+      ASSERT_TRUE(falls.stepFrame(posesOf(frame)));
+      expected.push_back(*falls.positions());
       if (frame != 3) {
-        ASSERT_TRUE(one.setForces(forcesOf(frame)));
-      }
-      ASSERT_TRUE(one.stepFrame(posesOf(frame)));
-      expected.push_back(*one.positions());
-      if (frame != 3) {
-        ASSERT_TRUE(flies.setForces(forcesOf(frame)));
+        ASSERT_TRUE(flies.setForces(sameForce(hair, static_cast<Vec3f>(forceOf(frame)))));
       }
       ASSERT_TRUE(flies.submitFrame(posesOf(frame)));
       if (frame == 0) continue;

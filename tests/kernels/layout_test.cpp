@@ -28,10 +28,11 @@ struct CppStruct {
 const std::vector<CppStruct> kCppStructs = {
     [] {
       using S = layout::ParticleRest;
-      return CppStruct{"ParticleRest",
-                       sizeof(S),
-                       {RINGLET_MEMBER(target), RINGLET_MEMBER(mass), RINGLET_MEMBER(edgeLength),
-                        RINGLET_MEMBER(coreEdgeLength), RINGLET_MEMBER(bendFactor)}};
+      return CppStruct{
+          "ParticleRest",
+          sizeof(S),
+          {RINGLET_MEMBER(target), RINGLET_MEMBER(stretchRestLength), RINGLET_MEMBER(mass),
+           RINGLET_MEMBER(edgeLength), RINGLET_MEMBER(coreEdgeLength), RINGLET_MEMBER(bendFactor)}};
     }(),
     [] {
       using S = layout::StrandRest;
@@ -42,7 +43,7 @@ const std::vector<CppStruct> kCppStructs = {
            RINGLET_MEMBER(coreBeta), RINGLET_MEMBER(stretchStiffness), RINGLET_MEMBER(stretchDamping),
            RINGLET_MEMBER(bendStiffness), RINGLET_MEMBER(bendDamping), RINGLET_MEMBER(coreStiffness),
            RINGLET_MEMBER(coreDamping), RINGLET_MEMBER(restCoreLength), RINGLET_MEMBER(jacobiGap),
-           RINGLET_MEMBER(firstEdge), RINGLET_MEMBER(pins)}};
+           RINGLET_MEMBER(firstEdge), RINGLET_MEMBER(massUnit), RINGLET_MEMBER(pins)}};
     }(),
     [] {
       using S = layout::StrandReport;
@@ -56,7 +57,8 @@ const std::vector<CppStruct> kCppStructs = {
       using S = layout::StepPose;
       return CppStruct{"StepPose",
                        sizeof(S),
-                       {RINGLET_MEMBER(rotation), RINGLET_MEMBER(turn), RINGLET_MEMBER(velocityChange)}};
+                       {RINGLET_MEMBER(rotation), RINGLET_MEMBER(turn), RINGLET_MEMBER(velocityChange),
+                        RINGLET_MEMBER(shiftedShare)}};
     }(),
     [] {
       using S = layout::RootPose;
@@ -67,18 +69,19 @@ const std::vector<CppStruct> kCppStructs = {
     }(),
     [] {
       using S = layout::BodyRest;
-      return CppStruct{"BodyRest",
-                       sizeof(S),
-                       {RINGLET_MEMBER(halfExtents), RINGLET_MEMBER(bounds), RINGLET_MEMBER(gridOrigin),
-                        RINGLET_MEMBER(cells), RINGLET_MEMBER(firstCell), RINGLET_MEMBER(friction),
-                        RINGLET_MEMBER(shape), RINGLET_MEMBER(unused)}};
+      return CppStruct{
+          "BodyRest",
+          sizeof(S),
+          {RINGLET_MEMBER(halfExtents), RINGLET_MEMBER(rounding), RINGLET_MEMBER(bounds),
+           RINGLET_MEMBER(gridOrigin), RINGLET_MEMBER(cell), RINGLET_MEMBER(cells), RINGLET_MEMBER(firstCell),
+           RINGLET_MEMBER(friction), RINGLET_MEMBER(shape), RINGLET_MEMBER(unused)}};
     }(),
     [] {
       using S = layout::BodyPose;
       return CppStruct{"BodyPose",
                        sizeof(S),
-                       {RINGLET_MEMBER(position), RINGLET_MEMBER(rotation), RINGLET_MEMBER(turn),
-                        RINGLET_MEMBER(velocity)}};
+                       {RINGLET_MEMBER(position), RINGLET_MEMBER(moves), RINGLET_MEMBER(rotation),
+                        RINGLET_MEMBER(turn), RINGLET_MEMBER(velocity)}};
     }(),
     [] {
       using S = layout::StepAir;
@@ -93,6 +96,7 @@ const std::vector<CppStruct> kCppStructs = {
       return CppStruct{"StepParameters",
                        sizeof(S),
                        {RINGLET_MEMBER(gravity),
+                        RINGLET_MEMBER(seconds),
                         RINGLET_MEMBER(maxStretch),
                         RINGLET_MEMBER(coreRelaxedShare),
                         RINGLET_MEMBER(coreElongationLow),
@@ -119,8 +123,8 @@ const std::vector<CppStruct> kCppStructs = {
       using S = layout::ContactRest;
       return CppStruct{"ContactRest",
                        sizeof(S),
-                       {RINGLET_MEMBER(point), RINGLET_MEMBER(particle), RINGLET_MEMBER(strand),
-                        RINGLET_MEMBER(mass), RINGLET_MEMBER(inverseMassUnit)}};
+                       {RINGLET_MEMBER(point), RINGLET_MEMBER(radius), RINGLET_MEMBER(particle),
+                        RINGLET_MEMBER(strand), RINGLET_MEMBER(mass), RINGLET_MEMBER(inverseMassUnit)}};
     }(),
     [] {
       using S = layout::ContactPair;

@@ -28,7 +28,7 @@ void expectSameRest(const Groom& groom, const Settings& settings, const Material
     const std::size_t s = rest->strandInGroom[d];
     const auto& expected = reference.restStrands()[s];
     const std::string label = "strand " + std::to_string(s);
-    const double unit = strand.firstEdge.w;  // kg per mass unit
+    const double unit = strand.massUnit;  // kg per mass unit
     ASSERT_EQ(strand.particleCount, expected.particleCount());
     EXPECT_EQ(rest->firstInGroom[d], groom.firstPoint[s]);
     expectNear(strand.bendBeta, expected.bendSmoothingShare, label + " bendBeta");
@@ -52,7 +52,7 @@ void expectSameRest(const Groom& groom, const Settings& settings, const Material
       expectNear(paper ? damping : compensated, expected.bendDamping[i], at + " bendDamping");
       expectNear(strand.coreStiffness * scale, expected.coreStiffness[i], at + " coreStiffness");
       expectNear(strand.coreDamping * scale, expected.coreDamping[i], at + " coreDamping");
-      expectNear(particle.target.w, expected.stretchRestLengths[i], at + " stretch rest length");
+      expectNear(particle.stretchRestLength, expected.stretchRestLengths[i], at + " stretch rest length");
       const Eigen::Vector3d target(particle.target.x, particle.target.y, particle.target.z);
       EXPECT_LE((target - expected.restTargets[i]).norm(),
                 kRestState * std::max(l, expected.restTargets[i].norm()))

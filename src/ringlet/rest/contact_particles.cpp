@@ -71,7 +71,7 @@ double massOf(const RestState& rest, std::size_t strand) {
   const layout::StrandRest& s = rest.strands[strand];
   double units = 0;
   for (std::uint32_t i = 0; i < s.particleCount; ++i) units += rest.particles[s.firstParticle + i].mass;
-  return units * s.firstEdge.w;
+  return units * s.massUnit;
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 template <class Tell>
 void eachParticle(const RestState& rest, const layout::StrandRest& strand, Tell&& tell) {
   for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i)
-    tell(i, double(rest.particles[i].mass) * strand.firstEdge.w);
+    tell(i, double(rest.particles[i].mass) * strand.massUnit);
 }
 
 // Of each strand, in strands like itself.

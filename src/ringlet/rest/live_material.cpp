@@ -27,9 +27,7 @@ StrandGeometry geometryOf(std::span<const Vec3f> strand) {
   return strandGeometry(points, arcs);
 }
 
-layout::vec4 minus(const layout::vec4& a, const layout::vec4& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w};
-}
+layout::vec3 minus(const layout::vec3& a, const layout::vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 }  // namespace
 
@@ -59,7 +57,8 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
   self.groomStrandCount_ = rest.groomStrandCount;
   self.particles_ = std::move(base->particles);
   for (std::size_t i = 0; i < self.particles_.size(); ++i)
-    self.loads_.push_back(minus(self.particles_[i].target, loaded->particles[i].target));
+    self.loads_.push_back({minus(self.particles_[i].target, loaded->particles[i].target),
+                           self.particles_[i].stretchRestLength - loaded->particles[i].stretchRestLength});
   for (std::size_t s = 0; s < rest.strands.size(); ++s) {
     const std::uint32_t first = rest.strands[s].firstParticle, count = rest.strands[s].particleCount;
     Strand strand{.geometry = geometryOf(std::span(rest.points).subspan(first, count)),
@@ -69,7 +68,7 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
     strand.built =
         strandConstants(strand.geometry, materialOfStrand(material, strand.strandInGroom), settings);
     for (std::uint32_t i = first; i + 1 < first + count; ++i) {
-      const layout::vec4& load = self.loads_[i];
+      const layout::vec3& load = self.loads_[i].bend;
       const double across = std::hypot(load.x, load.y, load.z) / self.particles_[i].edgeLength;
       if (static_cast<int>(i - first) + 1 >= settings.rootCount) strand.load = std::max(strand.load, across);
       strand.stiffest = std::max<double>(i == first ? 0 : strand.stiffest, self.particles_[i].bendFactor);
@@ -93,10 +92,10 @@ std::vector<layout::ParticleRest> LiveMaterial::with(const Material& material,
     const auto bend = static_cast<float>(softer);
     const auto stretch = static_cast<float>(strand.built.stretchStiffness / now.stretchStiffness);
     for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
-      const layout::vec4& load = loads_[i];
-      layout::vec4& target = particles[i].target;
-      target = {target.x - bend * load.x, target.y - bend * load.y, target.z - bend * load.z,
-                target.w - stretch * load.w};
+      const Load& load = loads_[i];
+      layout::vec3& target = particles[i].target;
+      target = minus(target, {bend * load.bend.x, bend * load.bend.y, bend * load.bend.z});
+      particles[i].stretchRestLength -= stretch * load.stretch;
     }
     extremes.add(now, strand.stiffest, softer * strand.load, strand.strandInGroom, settings_);
   }

@@ -40,12 +40,18 @@ class LiveMaterial {
     std::uint32_t strandInGroom = 0, firstParticle = 0, particleCount = 0;
   };
 
+  // What it takes from a particle's target and its edge's rest length.
+  struct Load {
+    layout::vec3 bend;
+    float stretch = 0;
+  };
+
   Settings settings_;
   double lineDensity_ = 0;
   std::size_t groomStrandCount_ = 0;
   std::vector<Strand> strands_;                  // device order
   std::vector<layout::ParticleRest> particles_;  // without load
-  std::vector<layout::vec4> loads_;              // what it takes from their targets
+  std::vector<Load> loads_;
 };
 
 }  // namespace ringlet

@@ -22,8 +22,8 @@ namespace {
 // Further away [m] nothing is: squares of such numbers, and of speeds between them, are still floats.
 constexpr double kFarthest = 1e9;
 
-layout::vec4 packed(Vec3d v, double w) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+layout::vec3 packed3(Vec3d v) {
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 // The sizes the strand is cut into: chords, floored lengths, masses, factors of the profiles.
@@ -104,8 +104,8 @@ double appendParticles(RestState& state, const Cut& cut, std::span<const Quatd> 
     const double along = dot(carried, direction);
     const Vec3d across = carried - direction * along;
     const Vec3d target = cut.edges[i] - across / bendStiffness;
-    particles[i].target =
-        packed(rotate(frames[i].conjugate(), target), length(cut.edges[i]) - along / stretchStiffness);
+    particles[i].target = packed3(rotate(frames[i].conjugate(), target));
+    particles[i].stretchRestLength = static_cast<float>(length(cut.edges[i]) - along / stretchStiffness);
     particles[i].mass = static_cast<float>(cut.masses[i] / cut.massUnit);
     particles[i].edgeLength = static_cast<float>(cut.edgeLengths[i]);
     particles[i].coreEdgeLength = static_cast<float>(length(coreEdges[i]));
@@ -131,9 +131,11 @@ layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, 
   setSprings(rest, c, cut.massUnit);
   rest.restCoreLength = static_cast<float>(std::max(restCoreLength, 1e-12));
   rest.jacobiGap = static_cast<float>(jacobiGap(cut, settings));
-  rest.firstEdge = packed(cut.edges[0], cut.massUnit);
+  rest.firstEdge = packed3(cut.edges[0]);
+  rest.massUnit = static_cast<float>(cut.massUnit);
   for (std::size_t k = 0; k < layout::kMaxRootCount; ++k) {
-    rest.pins[k] = packed(cut.points[std::min(k, cut.points.size() - 1)], 0);
+    const layout::vec3 pin = packed3(cut.points[std::min(k, cut.points.size() - 1)]);
+    rest.pins[k] = {pin.x, pin.y, pin.z, 0};
   }
   return rest;
 }

@@ -56,7 +56,7 @@ RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts) 
     const std::uint32_t stride = volumeStride(rest, strand, volume.cell);
     for (std::uint32_t k = rest.strandInGroom[s] % stride; k < strand.particleCount; k += stride) {
       const std::uint32_t i = strand.firstParticle + k;
-      const float mass = static_cast<float>(stride) * rest.particles[i].mass * strand.firstEdge.w;
+      const float mass = static_cast<float>(stride) * rest.particles[i].mass * strand.massUnit;
       volume.particles.push_back(i);
       volume.strands.push_back(s);
       volume.masses.push_back(mass);

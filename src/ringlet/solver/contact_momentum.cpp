@@ -37,7 +37,7 @@ Result<double> contactMomentumError(const DeviceChunk& hair, const RestState& re
         const layout::vec4& g = (*added)[i];
         J = J + Vec3d{g.x, g.y, g.z} - v * static_cast<double>(g.w);
       }
-      J = J * static_cast<double>(strand.firstEdge.w);
+      J = J * static_cast<double>(strand.massUnit);
       sum = sum + J;
       sizes += length(J);
     }

@@ -43,11 +43,12 @@ std::vector<layout::ContactRest> contactRests(const RestState& rest, const Setti
     const layout::StrandRest& s = rest.strands[strand];
     const bool isPinned = particle - s.firstParticle < static_cast<std::uint32_t>(settings.rootCount);
     const Vec3f p = rest.points[particle];
-    rests.push_back({.point = {p.x, p.y, p.z, particles.radii[strand]},
+    rests.push_back({.point = {p.x, p.y, p.z},
+                     .radius = particles.radii[strand],
                      .particle = particle,
                      .strand = strand,
                      .mass = particles.masses[strand],
-                     .inverseMassUnit = isPinned ? 0.0f : 1 / s.firstEdge.w});
+                     .inverseMassUnit = isPinned ? 0.0f : 1 / s.massUnit});
   }
   return rests;
 }

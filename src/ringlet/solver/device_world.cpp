@@ -24,20 +24,24 @@ layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
   const double kept = body.thickness;
   switch (body.shape) {
     case BodyShape::sphere:
-      rest.halfExtents = packed({}, body.radius + kept);
+      rest.halfExtents = packed3({});
+      rest.rounding = static_cast<float>(body.radius + kept);
       rest.bounds = packed({}, body.radius + kept);
       break;
     case BodyShape::capsule:
-      rest.halfExtents = packed({0, body.length / 2, 0}, body.radius + kept);
+      rest.halfExtents = packed3({0, body.length / 2, 0});
+      rest.rounding = static_cast<float>(body.radius + kept);
       rest.bounds = packed({}, body.length / 2 + body.radius + kept);
       break;
     case BodyShape::box:
-      rest.halfExtents = packed(body.halfExtents, kept);
+      rest.halfExtents = packed3(body.halfExtents);
+      rest.rounding = static_cast<float>(kept);
       rest.bounds = packed({}, length(body.halfExtents) + kept);
       break;
     case BodyShape::plane:
       rest.shape = layout::kShapePlane;
-      rest.halfExtents = packed({}, kept);
+      rest.halfExtents = packed3({});
+      rest.rounding = static_cast<float>(kept);
       rest.bounds = packed({}, kEndless);
       break;
     case BodyShape::grid: {
@@ -45,9 +49,11 @@ layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
       const Vec3d size =
           Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell;
       rest.shape = layout::kShapeGrid;
-      rest.halfExtents = packed({}, kept);
+      rest.halfExtents = packed3({});
+      rest.rounding = static_cast<float>(kept);
       rest.bounds = packed(grid.origin + size * 0.5, length(size) / 2 + kept);
-      rest.gridOrigin = packed(grid.origin, grid.cell);
+      rest.gridOrigin = packed3(grid.origin);
+      rest.cell = static_cast<float>(grid.cell);
       std::copy(grid.counts.begin(), grid.counts.end(), rest.cells);
       rest.firstCell = firstCell;
       break;
@@ -123,7 +129,8 @@ void DeviceWorld::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
                  "every body has a pose in every step");
   const auto out = poses_.of<layout::BodyPose>(slot);
   for (std::size_t b = 0; b < count; ++b) {
-    out[b] = {packed(now_[b].position - heads[0].position), packed(now_[b].rotation), packed(Quatd{}), {}};
+    out[b] = {
+        packed3(now_[b].position - heads[0].position), 0, packed(now_[b].rotation), packed(Quatd{}), {}};
   }
   for (std::size_t k = 1; k < heads.size(); ++k) {
     for (std::size_t b = 0; b < count; ++b) {
@@ -134,7 +141,7 @@ void DeviceWorld::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
       const layout::vec4& bounds = packed_[b].bounds;
       const double arm = length(Vec3d{bounds.x, bounds.y, bounds.z}) + bounds.w;
       const double moves = length(to - from) + 2 * arm * length(Vec3d{turn.x, turn.y, turn.z});
-      out[k * count + b] = {packed(to, moves), packed(next.rotation), packed(turn),
+      out[k * count + b] = {packed3(to), static_cast<float>(moves), packed(next.rotation), packed(turn),
                             packed((to - from) / stepSeconds_)};
       now_[b] = next;
     }

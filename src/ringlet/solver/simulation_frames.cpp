@@ -12,8 +12,8 @@ namespace ringlet {
 
 layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDispatch& dispatch) const {
   layout::StepParameters p{};
-  p.gravity = packed(settings.gravity);
-  p.gravity.w = static_cast<float>(settings.stepSeconds());
+  p.gravity = packed3(settings.gravity);
+  p.seconds = static_cast<float>(settings.stepSeconds());
   p.maxStretch = static_cast<float>(settings.maxStretch);
   p.coreRelaxedShare = static_cast<float>(material.coreRelaxedShare);
   p.coreElongationLow = static_cast<float>(material.coreElongationLow);
@@ -285,13 +285,13 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
   roots.writeFrame(slot, heads, rootPoses);
   forces.writeFrame(slot);
   const auto poses = buffers.poses.of<layout::StepPose>(slot);
-  poses[0] = {packed(head.now.rotation), packed(head.turn()), {0, 0, 0, static_cast<float>(head.now.shift)}};
+  poses[0] = {packed(head.now.rotation), packed(head.turn()), {}, static_cast<float>(head.now.shift)};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const Vec3d before = head.velocity(T);
     head = {head.now, stepPoses[k]};
     head.now.rotation = normalized(head.now.rotation);
-    poses[1 + k] = {packed(head.now.rotation), packed(head.turn()), packed(head.velocity(T) - before)};
-    poses[1 + k].velocityChange.w = static_cast<float>(head.now.shift);
+    poses[1 + k] = {packed(head.now.rotation), packed(head.turn()), packed3(head.velocity(T) - before),
+                    static_cast<float>(head.now.shift)};
   }
 }
 

@@ -36,7 +36,7 @@ std::vector<layout::VolumeParticle> volumeParticles(const RestState& rest, const
     particles.push_back({.particle = volume.particles[i],
                          .mass = volume.masses[i],
                          .ownDensity = volume.ownDensities[i],
-                         .inverseMassUnit = isPinned ? 0.0f : 1 / strand.firstEdge.w});
+                         .inverseMassUnit = isPinned ? 0.0f : 1 / strand.massUnit});
   }
   return particles;
 }
