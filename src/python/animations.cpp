@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -77,9 +78,15 @@ class WriterObject {
   const GroomHandle& groom() const { return groom_; }
   const std::filesystem::path& path() const { return path_; }
   int frameCount() const { return frameCount_; }
-  bool isOpen() const { return writer_ != nullptr; }
+  bool isOpen() const {
+    const std::scoped_lock lock(mutex_);
+    return writer_ != nullptr;
+  }
   double metresPerUnit() const { return options_.metresPerUnit; }
-  std::optional<double> errorBound() const { return writer_ ? writer_->errorBound() : errorBound_; }
+  std::optional<double> errorBound() const {
+    const std::scoped_lock lock(mutex_);
+    return writer_ ? writer_->errorBound() : errorBound_;
+  }
 
  private:
   void demandOpen() const {
@@ -89,9 +96,9 @@ class WriterObject {
   std::filesystem::path path_;
   GroomHandle groom_;
   AnimationOptions options_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::unique_ptr<AnimationWriter> writer_;
-  int frameCount_ = 0;
+  std::atomic<int> frameCount_ = 0;
   std::optional<double> errorBound_;
 };
 using WriterHandle = std::shared_ptr<WriterObject>;

@@ -1,6 +1,7 @@
 # Hair on the device: the bits of the program's, views, frames in flight, several heads, what changes while it moves.
 import gc
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -281,20 +282,25 @@ def test_threads_may_use_one_hair_and_hairs_of_one_device(asset):
 
 def test_other_threads_run_while_the_device_works(device):
     groom = ringlet.make_swatch(columns=20, rows=20, particles=64)
-    hair = ringlet.Hair(ringlet.Asset(device, groom, settings=ringlet.Settings(steps_per_frame=200)))
-    counted, done = [0], threading.Event()
+    hair = ringlet.Hair(ringlet.Asset(device, groom, settings=ringlet.Settings(steps_per_frame=340)))
+    done, longest = threading.Event(), [0.0]
 
-    def count():
+    def watch():
+        last = time.perf_counter()
         while not done.is_set():
-            counted[0] += 1
+            now = time.perf_counter()
+            longest[0], last = max(longest[0], now - last), now
 
-    thread = threading.Thread(target=count)
+    thread = threading.Thread(target=watch)
     thread.start()
     try:
-        before = counted[0]
-        hair.step()
-        during = counted[0] - before
+        shares = []  # of a frame, in which the other thread stood still
+        for _ in range(3):  # a busy machine may hold it up, too
+            longest[0] = 0
+            start = time.perf_counter()
+            hair.step()
+            shares.append(longest[0] / (time.perf_counter() - start))
     finally:
         done.set()
         thread.join()
-    assert during > 1000  # without it the count stands still
+    assert min(shares) < 0.5, shares
