@@ -37,7 +37,7 @@ SCENES = {
     "roots": SWATCH + '[motion]\nkind = "shake"\n[motion.roots]\nshift = [0.01, 0, 0]\nease = 0.1\n',
     "paper": SWATCH.replace("steps_per_frame = 4", 'steps_per_frame = 30\nintegrator = "paper"') +
              '[motion]\nkind = "shake"\n',
-    "steps": SWATCH.replace("steps_per_frame = 4\n", "max_stretch = 1.3\n") + '[motion]\nkind = "shake"\n',
+    "steps": SWATCH.replace("steps_per_frame = 4\n", "max_stretch = 1.005\n") + '[motion]\nkind = "shake"\n',
     "placed": SWATCH.replace("particles = 32", "particles = 32\nscale = 0.5\nrotate_degrees = [0, 0, 30]\n"
                                                "offset = [0.1, 0, 0]\nup = \"Z\"") + '[motion]\nkind = "walk"\n',
 }
