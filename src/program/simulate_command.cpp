@@ -18,12 +18,12 @@
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
-#include "program/load_scene.h"
 #include "program/material_command.h"
 #include "program/run_facts.h"
 #include "program/run_report.h"
 #include "program/run_writers.h"
 #include "program/simulate_run.h"
+#include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_fields.h"
 #include "ringlet/scenes/scene_parts.h"
 

@@ -6,23 +6,12 @@
 #include <optional>
 #include <utility>
 
-#include "program/load_scene.h"
 #include "program/run_facts.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
-namespace {
-
-// Where keys are further apart than a head goes, it jumps: on a smooth way it would only be fast.
-void cutJumps(const Settings& settings, Motion& motion) {
-  if (!motion.keyframes || settings.teleportDistance <= 0) return;
-  Keyframes keys = *motion.keyframes;
-  keys.cutSpeed = settings.teleportDistance * settings.framesPerSecond;
-  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
-}
-
-}  // namespace
 
 Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
   auto loaded = loadGroom(options.groom);
@@ -34,7 +23,7 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
   if (!material) return material.error();
   if (options.motionFile) {
     const Motion stated = options.motion;
-    auto motion = readMotionFile(*options.motionFile, options.up, warnings);
+    auto motion = readMotionFile(*options.motionFile, options.up == UpAxis::z, warnings);
     if (!motion) return motion.error();
     options.motion = std::move(*motion);
     options.motion.start = stated.start;
@@ -54,8 +43,8 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
   const std::vector<Vec3d> shifts = rootShiftsOf(options.rootShift, loaded->groom.strandCount());
   std::optional<HeadScalp> scalp;
   if (!options.scalp.file.empty()) {
-    auto bound =
-        loadScalp(options.scalp, loaded->groom, options.motion, options.motionFile, options.up, warnings);
+    auto bound = loadScalp(options.scalp, loaded->groom, options.motion, options.motionFile,
+                           options.up == UpAxis::z, warnings);
     if (!bound) return bound.error();
     scalp = std::move(*bound);
   }

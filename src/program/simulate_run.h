@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "program/material_command.h"
-#include "program/motion_file.h"
 #include "program/run_folder.h"
 #include "ringlet/base/result.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/motion/head_scalp.h"
+#include "ringlet/motion/motion_file.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/body.h"

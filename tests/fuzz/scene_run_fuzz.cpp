@@ -1,9 +1,9 @@
 // Two frames of whatever a scene file says, by the CPU reference: sanitizers see all of its code, and none of
 // a kernel's. Scenes beyond kMost... are left aside, so that a file takes milliseconds.
 #include "program/backend.h"
-#include "program/load_scene.h"
 #include "ringlet/output/finite_points.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_parts.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -86,8 +86,8 @@ void tryBytes(std::span<const std::byte> bytes) {
   const auto scene = parseScene(textOf(bytes), "fuzz.toml", kNoFolder);
   if (!scene || !isSmall(*scene)) return;
   std::vector<std::string> warnings;
-  const auto loaded = program::loadGroom(scene->groom);
-  const auto bodies = program::loadBodies(*scene, warnings);
+  const auto loaded = loadGroom(scene->groom);
+  const auto bodies = loadBodies(*scene, warnings);
   if (!loaded || !bodies) return;
   Settings settings = settingsOf(*scene);
   Material material = scene->material.material;

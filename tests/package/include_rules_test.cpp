@@ -53,7 +53,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"bodies", {"base", "groom", "scene", "bodies"}},
       {"motion", {"base", "scene", "bodies", "motion"}},
       {"rest", {"base", "groom", "scene", "rest"}},
-      {"scenes", {"base", "groom", "scene", "rest", "bodies", "scenes"}},
+      {"scenes", {"base", "groom", "scene", "rest", "bodies", "motion", "scenes"}},
       {"gpu", {"base", "gpu"}},
       {"solver", {"base", "groom", "scene", "rest", "gpu", "solver"}},
       {"c", {"base", "groom", "scene", "bodies", "rest", "solver", "c"}},
@@ -76,6 +76,24 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       }
     }
   }
+}
+
+// It is written as a program of a user's would be, but for what is not installed.
+TEST(IncludeRules, ThePythonModuleKnowsTheLibraryOnly) {
+  const std::set<std::string> allowed = {"base",   "groom", "scene",   "scenes", "bodies",
+                                         "motion", "rest",  "measure", "output", "solver"};
+  for (const fs::path& file : sourcesBelow("src/python")) {
+    for (const std::string& include : includesOf(file)) {
+      const std::string module = moduleOf(include);
+      EXPECT_TRUE(module.empty() || allowed.count(module)) << file << " includes " << include;
+      for (const char* other : {"program/", "reference/", "parity/", "shared/", "Eigen"})
+        EXPECT_NE(include.rfind(other, 0), 0u) << file << " includes " << include;
+    }
+  }
+  for (const char* folder : {"src/ringlet", "src/program"})
+    for (const fs::path& file : sourcesBelow(folder))
+      for (const std::string& include : includesOf(file))
+        EXPECT_NE(include.rfind("python/", 0), 0u) << file << " includes " << include;
 }
 
 // Paths below src, from a list that CMake wrote: "a.h|b.h".

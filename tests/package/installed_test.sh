@@ -49,6 +49,11 @@ export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 flags=$([ "$kind" = static ] && echo --static || true)
 g++ -std=c++20 "$here/installed/reads_and_writes.cpp" $(pkg-config --cflags --libs $flags ringlet-io) -o "$work/by_pkg_config"
 (cd "$work" && LD_LIBRARY_PATH=$prefix/lib ./by_pkg_config) || fail "what pkg-config says"
+for module in "$prefix"/lib/python3*/*-packages; do
+  [ -d "$module" ] || continue  # it was not built
+  (cd "$work" && PYTHONPATH=$module /usr/bin/python3 -c 'import ringlet; ringlet.make_curl().write("module.obj")') || fail "the Python module"
+  [ -s "$module/ringlet-stubs/__init__.pyi" ] || fail "the Python module has no stubs"
+done
 if [ -x "$prefix/bin/ringlet" ]; then
   (cd "$work" && "$prefix/bin/ringlet" make curl -o curl.obj > make.txt) || fail "the installed command"
 fi

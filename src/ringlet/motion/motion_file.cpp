@@ -1,5 +1,5 @@
-// Implements program/motion_file.h.
-#include "program/motion_file.h"
+// Implements motion/motion_file.h.
+#include "ringlet/motion/motion_file.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "ringlet/motion/gltf_file.h"
 #include "ringlet/motion/joint_name.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr double kTall = 1.7;        // of a skeleton in no known unit [m]
@@ -25,7 +25,7 @@ HeadPose uprightAlongZ(const HeadPose& pose) {
   return {rotate(lift, pose.position), lift * pose.rotation * lift.conjugate()};
 }
 
-Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, UpAxis up,
+Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, bool upIsZ,
                                 std::vector<std::string>& warnings) {
   auto file = readBvh(choice.path);
   if (!file) return file.error();
@@ -43,7 +43,7 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, UpAxis up,
   const double unit = choice.metresPerUnit.value_or(height > 0 ? kTall / height : 0.01);
   if (!choice.metresPerUnit) {
     warn(fmt::format(
-        "{} names no unit; its skeleton of {:.4g} units is taken to be {} m tall, --motion-unit {:.4g}",
+        "{} names no unit; its skeleton of {:.4g} units is taken to be {} m tall, a unit {:.4g} m",
         choice.path.string(), height, kTall, unit));
   }
 
@@ -52,16 +52,16 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, UpAxis up,
     warn(
         fmt::format("{}: from frame {} to the next {} turns at {:.0f} rad/s; where the first frame is a pose "
                     "apart from the "
-                    "motion, leave it out with --skip-frames 1",
+                    "motion, skip it",
                     choice.path.string(), fastest.key + skipped + 1, choice.joint, fastest.speed));
   }
-  if (up == UpAxis::z) {
+  if (upIsZ) {
     for (HeadPose& pose : keys.poses) pose = uprightAlongZ(pose);
   }
   return keys;
 }
 
-Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, UpAxis up,
+Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, bool upIsZ,
                                std::vector<std::string>& warnings) {
   const std::string name = choice.path.string();
   const auto file = readGltf(choice.path);
@@ -72,15 +72,15 @@ Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, UpAxis up,
   const auto animation = file->animationNamed(choice.animation);
   if (!animation) return Error{fmt::format("{}: {}", name, animation.error().message)};
   if (choice.animation.empty() && file->animations.size() > 1) {
-    warnings.push_back(fmt::format("{} has {} animations; the first, {}, is taken (--animation)", name,
-                                   file->animations.size(), (*animation)->name));
+    warnings.push_back(fmt::format("{} has {} animations; the first, {}, is taken; name another to have that",
+                                   name, file->animations.size(), (*animation)->name));
   }
   if (!file->moves(*node, *animation)) {
     warnings.push_back(fmt::format("{}: nothing in its animation {} moves {}; it stands still", name,
                                    (*animation)->name, choice.joint));
   }
-  auto keys = file->motionOf(
-      *node, *animation, {.metresPerUnit = choice.metresPerUnit.value_or(1), .upIsZ = up == UpAxis::z}, {});
+  auto keys = file->motionOf(*node, *animation,
+                             {.metresPerUnit = choice.metresPerUnit.value_or(1), .upIsZ = upIsZ}, {});
   if (!keys) return Error{fmt::format("{}: {}", name, keys.error().message)};
   if (keys->poses.size() < 2)
     return Error{fmt::format("{}: its animation {} takes no time", name, (*animation)->name)};
@@ -101,12 +101,13 @@ MotionFileKind motionFileKind(const std::string& word) {
   return extension == ".gltf" || extension == ".glb" ? MotionFileKind::gltf : MotionFileKind::none;
 }
 
-Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings) {
+Result<Motion> readMotionFile(const MotionFileChoice& choice, bool upIsZ,
+                              std::vector<std::string>& warnings) {
   const bool isGltf = motionFileKind(choice.path.string()) == MotionFileKind::gltf;
-  auto keys = isGltf ? readGltfKeys(choice, up, warnings) : readBvhMotion(choice, up, warnings);
+  auto keys = isGltf ? readGltfKeys(choice, upIsZ, warnings) : readBvhMotion(choice, upIsZ, warnings);
   if (!keys) return keys.error();
   return Motion{.kind = MotionKind::keyframes,
                 .keyframes = std::make_shared<const Keyframes>(std::move(*keys))};
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

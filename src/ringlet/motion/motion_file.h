@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/output/usd_writer.h"
 #include "ringlet/scene/motion.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 struct MotionFileChoice {
   std::filesystem::path path;
@@ -22,12 +21,12 @@ struct MotionFileChoice {
 
 enum class MotionFileKind { none, bvh, gltf };
 
-/// What a word after --motion names, by its extension: .bvh, .gltf, .glb; or no file but a built-in motion.
+/// What a name stands for, by its extension: .bvh, .gltf, .glb; or no file but a built-in motion.
 MotionFileKind motionFileKind(const std::string& word);
 
-/// The joint's way, upright along `up`. Warnings, of which none is said twice, say what was taken for granted
-/// (a unit, one animation of several), where the head turns faster than any, and that it does not move at
-/// all. Fails with the names of the joints where the joint is not there.
-Result<Motion> readMotionFile(const MotionFileChoice& choice, UpAxis up, std::vector<std::string>& warnings);
+/// The joint's way, in a world whose up axis is Y, or Z. Warnings, of which none is said twice, say what was
+/// taken for granted (a unit, one animation of several), where the head turns faster than any, and that it
+/// does not move at all. Fails with the names of the joints where the joint is not there.
+Result<Motion> readMotionFile(const MotionFileChoice& choice, bool upIsZ, std::vector<std::string>& warnings);
 
-}  // namespace ringlet::program
+}  // namespace ringlet

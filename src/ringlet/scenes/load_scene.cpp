@@ -1,8 +1,10 @@
-// Implements load_scene.h.
-#include "program/load_scene.h"
+// Implements scenes/load_scene.h.
+#include "ringlet/scenes/load_scene.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -11,12 +13,15 @@
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
+#include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/motion/skinned_mesh.h"
-#include "ringlet/output/up_axis.h"
+#include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
+#include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/scene_parts.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 // Of a glTF file the only mesh, where it is at the first key; it does not bend.
@@ -71,14 +76,66 @@ Status loadMotion(const SceneBody& scene, const SceneFile& file, Body& body,
   } else {
     return {};
   }
-  auto motion = readMotionFile(choice, file.groom.up == "Z" ? UpAxis::z : UpAxis::y, warnings);
+  auto motion = readMotionFile(choice, file.groom.up == "Z", warnings);
   if (!motion) return motion.error();
   motion->start = scene.joint.empty() ? scene.motion->start : file.motion.start;
   body.motion = std::move(*motion);
   return {};
 }
 
+// The file's material with its dials, and how far hair may lengthen.
+Result<Material> loadedMaterial(const SceneFile& scene, Settings& settings,
+                                std::vector<std::string>& warnings) {
+  Material material = scene.material.material;
+  const MaterialDials& dials = scene.material.dials;
+  if (scene.hasMaterial && settings.integrator == Integrator::paper) {
+    warnings.push_back(
+        "the paper's integrator has spring constants of its own; of the material only its smoothing lengths "
+        "and core elongations count");
+  }
+  for (const std::string& warning : scene.material.warnings) warnings.push_back(warning);
+  if (const auto warning = applyDials(dials, material, settings)) warnings.push_back(*warning);
+  settings.maxStretch = scene.simulation.maxStretch.value_or(settings.maxStretch);
+  if (Status checked = checkMaterial(material); !checked) {
+    return Error{fmt::format("{}, with the dials hold {}, spring_back {}, curl_keep {} worked in",
+                             checked.error().message, dials.hold, dials.springBack, dials.curlKeep)};
+  }
+  return material;
+}
+
+// The motion, from its file where it has one.
+Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
+                            std::vector<std::string>& warnings) {
+  Motion motion = motionOf(scene.motion, upOf(scene.groom));
+  if (!scene.motion.file.empty()) {
+    auto read = readMotionFile(motionFileOf(scene.motion), scene.groom.up == "Z", warnings);
+    if (!read) return read.error();
+    read->start = motion.start;
+    read->roots = motion.roots;
+    motion = std::move(*read);
+  }
+  cutJumps(settings, motion);
+  return motion;
+}
+
+int frameCountOf(const SceneFile& scene, const Motion& motion) {
+  const SceneSimulation& simulation = scene.simulation;
+  const double framesPerSecond = simulation.framesPerSecond;
+  if (simulation.frames) return *simulation.frames;
+  if (simulation.seconds)
+    return std::max(1, static_cast<int>(std::lround(*simulation.seconds * framesPerSecond)));
+  if (!motion.keyframes) return LoadedScene{}.frameCount;
+  return static_cast<int>(std::clamp(motion.keyframes->seconds() * framesPerSecond + 1e-6, 1.0, 1e6));
+}
+
 }  // namespace
+
+void cutJumps(const Settings& settings, Motion& motion) {
+  if (!motion.keyframes || settings.teleportDistance <= 0) return;
+  Keyframes keys = *motion.keyframes;
+  keys.cutSpeed = settings.teleportDistance * settings.framesPerSecond;
+  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
+}
 
 Result<LoadedGroom> loadGroom(const SceneGroom& scene) {
   LoadedGroom loaded;
@@ -117,7 +174,7 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, std::vector<std::st
 }
 
 Result<HeadScalp> loadScalp(const SceneScalp& scene, const Groom& groom, const Motion& head,
-                            const std::optional<MotionFileChoice>& headFile, UpAxis up,
+                            const std::optional<MotionFileChoice>& headFile, bool upIsZ,
                             std::vector<std::string>& warnings) {
   const std::string name = scene.file.string();
   std::error_code code;  // files that are not there are no error of this
@@ -126,7 +183,7 @@ Result<HeadScalp> loadScalp(const SceneScalp& scene, const Groom& groom, const M
   if (isHeads && choice.animation.empty()) choice.animation = headFile->animation;
   choice.placement.metresPerUnit =
       scene.metresPerUnit.value_or(isHeads ? headFile->metresPerUnit.value_or(1) : 1);
-  choice.placement.upIsZ = up == UpAxis::z;
+  choice.placement.upIsZ = upIsZ;
   auto read = readSkinnedMesh(scene.file, choice);
   if (!read) return Error{fmt::format("the scalp: {}", read.error().message)};
   const auto mesh = std::make_shared<const SkinnedMesh>(std::move(*read));
@@ -143,4 +200,40 @@ Result<HeadScalp> loadScalp(const SceneScalp& scene, const Groom& groom, const M
   return scalp;
 }
 
-}  // namespace ringlet::program
+Result<LoadedScene> loadScene(const SceneFile& scene) {
+  LoadedScene loaded;
+  loaded.warnings = scene.warnings;
+  auto groom = loadGroom(scene.groom);
+  if (!groom) return groom.error();
+  loaded.groom = std::move(groom->groom);
+  loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());
+  loaded.settings = settingsOf(scene);
+  auto material = loadedMaterial(scene, loaded.settings, loaded.warnings);
+  if (!material) return material.error();
+  loaded.material = std::move(*material);
+  auto motion = loadedMotion(scene, loaded.settings, loaded.warnings);
+  if (!motion) return motion.error();
+  loaded.motion = std::move(*motion);
+  auto bodies = loadBodies(scene, loaded.warnings);
+  if (!bodies) return bodies.error();
+  loaded.bodies = std::move(*bodies);
+  if (!scene.simulation.stepsPerFrame) {
+    const auto steps = chooseStepsPerFrame(loaded.groom, loaded.material, loaded.settings);
+    if (!steps) return steps.error();
+    loaded.settings.stepsPerFrame = *steps;
+  }
+  loaded.rootShifts = rootShiftsOf(scene.motion.roots.shift, loaded.groom.strandCount());
+  if (!scene.scalp.file.empty()) {
+    std::optional<MotionFileChoice> headFile;
+    if (!scene.motion.file.empty()) headFile = motionFileOf(scene.motion);
+    auto scalp =
+        loadScalp(scene.scalp, loaded.groom, loaded.motion, headFile, scene.groom.up == "Z", loaded.warnings);
+    if (!scalp) return scalp.error();
+    loaded.scalp = std::move(*scalp);
+  }
+  loaded.preRollSeconds = scene.motion.preRollSeconds;
+  loaded.frameCount = frameCountOf(scene, loaded.motion);
+  return loaded;
+}
+
+}  // namespace ringlet

@@ -1,0 +1,283 @@
+// Animations: written frame by frame, and read.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "python/arrays.h"
+#include "python/grooms.h"
+#include "python/hair.h"
+#include "python/poses.h"
+#include "ringlet/output/animation_writer.h"
+#include "ringlet/output/cache_reader.h"
+#include "ringlet/output/usd_reader.h"
+
+namespace ringlet::python {
+namespace {
+
+// A writer takes as many frames as it was told, all finite, until it is finished; this sees to it.
+class WriterObject {
+ public:
+  WriterObject(std::filesystem::path path, GroomHandle groom, const AnimationOptions& options)
+      : path_(std::move(path)), groom_(std::move(groom)), options_(options) {
+    const AnimationFormat* format = animationFormatOf(path_);
+    if (!format) {
+      std::string known;
+      for (const AnimationFormat& each : animationFormats())
+        known += (known.empty() ? "" : ", ") + std::string(each.extension);
+      throw py::value_error(fmt::format("an animation ends in one of {}; got {}", known, path_.string()));
+    }
+    writer_ = withoutGil([&] { return valueOf(format->resume(path_, groom_->groom(), options_, 0)); });
+  }
+
+  void add(std::span<const Vec3f> points) {
+    withoutGil([&] {
+      const std::scoped_lock lock(mutex_);
+      demandOpen();
+      if (writer_->frameCount() >= options_.frameCount)
+        throw Failure({fmt::format("{} was made for {} frames, and has them: say more as frames=",
+                                   path_.string(), options_.frameCount),
+                       Fault::output});
+      demand(writer_->addFrame(points));
+      frameCount_ = writer_->frameCount();
+    });
+  }
+  void sync() {
+    withoutGil([&] {
+      const std::scoped_lock lock(mutex_);
+      demandOpen();
+      demand(writer_->sync());
+    });
+  }
+  void finish() {
+    withoutGil([&] {
+      const std::scoped_lock lock(mutex_);
+      demandOpen();
+      if (writer_->frameCount() == 0)
+        throw Failure(
+            {fmt::format("{} has no frame: write() one before finish()", path_.string()), Fault::output});
+      demand(writer_->finish());
+      errorBound_ = writer_->errorBound();
+      writer_.reset();
+    });
+  }
+  // What there is stays as PATH.partial.
+  void drop() {
+    const std::scoped_lock lock(mutex_);
+    writer_.reset();
+  }
+
+  const GroomHandle& groom() const { return groom_; }
+  const std::filesystem::path& path() const { return path_; }
+  int frameCount() const { return frameCount_; }
+  bool isOpen() const {
+    const std::scoped_lock lock(mutex_);
+    return writer_ != nullptr;
+  }
+  double metresPerUnit() const { return options_.metresPerUnit; }
+  std::optional<double> errorBound() const {
+    const std::scoped_lock lock(mutex_);
+    return writer_ ? writer_->errorBound() : errorBound_;
+  }
+
+ private:
+  void demandOpen() const {
+    if (!writer_) throw Failure({fmt::format("{} is closed", path_.string()), Fault::output});
+  }
+
+  std::filesystem::path path_;
+  GroomHandle groom_;
+  AnimationOptions options_;
+  mutable std::mutex mutex_;
+  std::unique_ptr<AnimationWriter> writer_;
+  std::atomic<int> frameCount_ = 0;
+  std::optional<double> errorBound_;
+};
+using WriterHandle = std::shared_ptr<WriterObject>;
+
+WriterHandle makeWriter(const std::filesystem::path& path, const GroomHandle& groom, double fps, int frames,
+                        const std::optional<double>& metresPerUnit, const std::string& up, double width,
+                        const std::string& precision) {
+  const auto demandAbove = [](const char* name, double value) {
+    if (!(value > 0) || !std::isfinite(value))
+      throw py::value_error(fmt::format("{} must be above 0, got {}", name, value));
+    return value;
+  };
+  constexpr int kMostFrames = 1'000'000;
+  if (frames < 1 || frames > kMostFrames)
+    throw py::value_error(fmt::format("frames must be from 1 to {}, got {}", kMostFrames, frames));
+  if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
+  if (precision != "float32" && precision != "16bit")
+    throw py::value_error(unknownName("precision", precision, {"float32", "16bit"}));
+  AnimationOptions options;
+  options.framesPerSecond = demandAbove("fps", fps);
+  options.metresPerUnit =
+      demandAbove("metres_per_unit", metresPerUnit.value_or(groom->groom().metresPerUnit));
+  options.up = up == "Z" ? UpAxis::z : UpAxis::y;
+  options.diameter = static_cast<float>(demandAbove("width", width) / options.metresPerUnit);
+  options.frameCount = frames;
+  options.precision = precision == "16bit" ? CachePrecision::bits16 : CachePrecision::float32;
+  return std::make_shared<WriterObject>(path, groom, options);
+}
+
+void writePoints(WriterObject& self, const py::object& points) {
+  const PointsIn in(points, "points", self.groom()->particleCount());
+  demandFinite(in.points(), "points");
+  self.add(in.points());
+}
+
+void writePositions(WriterObject& self, const py::object& positions, const py::object& head) {
+  const PointsIn in(positions, "positions", self.groom()->particleCount());
+  demandFinite(in.points(), "positions");
+  std::vector<Vec3f> points(in.points().begin(), in.points().end());
+  placeInWorld(points, head.is_none() ? HeadPose{} : poseOf(head, "head"), self.metresPerUnit());
+  demandFinite(points, "positions in the file's unit");
+  self.add(points);
+}
+
+void addWriter(py::module_& module) {
+  py::class_<WriterObject, WriterHandle>(
+      module, "AnimationWriter",
+      "An animation on its way into a .usda or .rgc file, frame by frame. Until it is finished the file is "
+      "PATH.partial, whole at every moment. As a context manager it finishes at the end; after an exception "
+      "the .partial stays, with the frames so far:\n\n"
+      "    with ringlet.AnimationWriter(\"hair.usda\", groom, frames=48) as animation:\n"
+      "        scene.run(lambda frame: animation.write(frame.positions, frame.head), frames=48)")
+      .def(py::init(&makeWriter), py::arg("path"), py::arg("groom").none(false), py::kw_only(),
+           py::arg("fps") = 24.0, py::arg("frames") = 1000, py::arg("metres_per_unit") = py::none(),
+           py::arg("up") = "Y", py::arg("width") = 0.0005, py::arg("precision") = "float32",
+           "fps: frames per second; frames: the most that will come, for which .usda keeps room; "
+           "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
+           "precision: of .rgc, \"float32\" or \"16bit\". ringlet.Error where the file cannot be written.")
+      .def(
+          "write", &writePositions, py::arg("positions"), py::arg("head") = py::none(),
+          "Adds a frame: (particles, 3) float32 [m] seen from the head, as positions() gives them, and where "
+          "the head is, a Pose; None: at the world's origin.")
+      .def("write_points", &writePoints, py::arg("points"),
+           "Adds a frame: (particles, 3) float32 in the world, in the file's unit, as points() gives them.")
+      .def("sync", &WriterObject::sync, "Returns when all frames so far are on the disk.")
+      .def("finish", &WriterObject::finish, "Closes the file, of one frame at least, and gives it its name.")
+      .def_property_readonly("frame_count", &WriterObject::frameCount, "How many frames were added.")
+      .def_property_readonly(
+          "error_bound", &WriterObject::errorBound,
+          "The farthest a point of the file may be from its own [m]; None: every bit is kept.")
+      .def(
+          "__enter__", [](const WriterHandle& self) { return self; }, "Itself.")
+      .def(
+          "__exit__",
+          [](WriterObject& self, const py::object& type, const py::object&, const py::object&) {
+            if (!self.isOpen()) return;
+            if (type.is_none() && self.frameCount() > 0) return self.finish();
+            self.drop();
+            if (type.is_none())
+              throw Failure({fmt::format("no frame was written to {}", self.path().string()), Fault::output});
+          },
+          py::arg("type"), py::arg("value"), py::arg("traceback"),
+          "Finishes the file; after an exception leaves it as PATH.partial.");
+}
+
+// Frames one after the other, from the first. Of a .usda the reader goes forward only.
+class FramesObject {
+ public:
+  explicit FramesObject(const std::filesystem::path& path) : path_(path) {
+    const auto whole = path.extension() == ".partial" ? path.stem() : path;
+    if (whole.extension() == ".rgc") {
+      cache_ = std::make_unique<CacheReader>(withoutGil([&] { return valueOf(CacheReader::open(path)); }));
+    } else {
+      usd_ = std::make_unique<UsdReader>(withoutGil([&] { return valueOf(UsdReader::open(path)); }));
+    }
+  }
+
+  py::object next() {
+    std::vector<Vec3f> points;
+    const bool isThere = withoutGil([&] {
+      const std::scoped_lock lock(mutex_);
+      if (usd_) return valueOf(usd_->readFrame(points));
+      if (frame_ == cache_->frameCount()) return false;
+      demand(cache_->readFrame(++frame_, points));
+      return true;
+    });
+    if (!isThere) throw py::stop_iteration();
+    return arrayOf(std::move(points));
+  }
+
+  int frameCount() const { return cache_ ? cache_->frameCount() : usd_->frameCount(); }
+  double framesPerSecond() const {
+    return cache_ ? cache_->header().framesPerSecond : usd_->framesPerSecond();
+  }
+  double metresPerUnit() const { return cache_ ? cache_->header().metresPerUnit : usd_->metresPerUnit(); }
+  bool isUpZ() const { return (cache_ ? cache_->header().up : usd_->up()) == UpAxis::z; }
+  double width() const {
+    return double(cache_ ? cache_->header().diameter : usd_->diameter()) * metresPerUnit();
+  }
+  std::vector<std::uint32_t> counts() const {
+    if (usd_) return usd_->particleCounts();
+    std::vector<std::uint32_t> counts;
+    const auto& first = cache_->firstPoint();
+    for (std::size_t s = 0; s + 1 < first.size(); ++s) counts.push_back(first[s + 1] - first[s]);
+    return counts;
+  }
+  const std::vector<std::string>& warnings() const { return cache_ ? cache_->warnings() : usd_->warnings(); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  std::mutex mutex_;
+  std::unique_ptr<CacheReader> cache_;
+  std::unique_ptr<UsdReader> usd_;
+  int frame_ = 0;
+};
+
+void addReader(py::module_& module) {
+  py::class_<FramesObject>(
+      module, "AnimationReader",
+      "The frames of a .usda file that Ringlet wrote, or of an .rgc, one after the other: "
+      "`for points in ringlet.AnimationReader(path)` gives (particles, 3) float32 in the "
+      "file's unit. Of a .partial those that are whole. Goes through once.")
+      .def(py::init([](const std::filesystem::path& path) { return std::make_unique<FramesObject>(path); }),
+           py::arg("path"),
+           "ringlet.Error for a file that is missing or damaged, or that another program wrote.")
+      .def_property_readonly("frame_count", &FramesObject::frameCount, "How many frames there are.")
+      .def_property_readonly("fps", &FramesObject::framesPerSecond, "Frames per second.")
+      .def_property_readonly("metres_per_unit", &FramesObject::metresPerUnit, "The unit of points [m].")
+      .def_property_readonly(
+          "up", [](const FramesObject& self) { return self.isUpZ() ? "Z" : "Y"; }, "\"Y\" or \"Z\".")
+      .def_property_readonly("width", &FramesObject::width, "Of strands [m].")
+      .def_property_readonly(
+          "counts",
+          [](const FramesObject& self) {
+            const std::vector<std::uint32_t> counts = self.counts();
+            return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(counts.size()), counts.data());
+          },
+          "(strands,) uint32: the particles of each strand.")
+      .def_property_readonly("warnings", &FramesObject::warnings,
+                             "What was lost of its end: a list of sentences.")
+      .def(
+          "__iter__", [](const py::object& self) { return self; }, "Itself.")
+      .def("__next__", &FramesObject::next, "The next frame.")
+      .def("__len__", &FramesObject::frameCount, "How many frames there are.")
+      .def(
+          "__repr__",
+          [](const FramesObject& self) {
+            return fmt::format("<ringlet.AnimationReader {}: {} frames>", self.path().string(),
+                               self.frameCount());
+          },
+          "What it is, in a line.");
+}
+
+}  // namespace
+
+void addAnimations(py::module_& module) {
+  addWriter(module);
+  addReader(module);
+}
+
+}  // namespace ringlet::python

@@ -1,0 +1,60 @@
+// What all parts of the Python module share: how they fail, and how they let other threads of Python run.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <exception>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ringlet/base/result.h"
+
+namespace ringlet::python {
+
+namespace py = pybind11;
+
+/// An Error of the library on its way to Python, where it is a ringlet.Error.
+class Failure : public std::exception {
+ public:
+  explicit Failure(Error why) : error(std::move(why)) {}
+  const char* what() const noexcept override { return error.message.c_str(); }
+
+  Error error;
+};
+
+/// What a Result holds; throws Failure.
+template <class T>
+T valueOf(Result<T> result) {
+  if (!result) throw Failure(result.error());
+  return std::move(*result);
+}
+inline void demand(const Status& status) {
+  if (!status) throw Failure(status.error());
+}
+
+/// Work of the library's during which other threads of Python run. It touches nothing of Python's.
+template <class Work>
+auto withoutGil(Work&& work) {
+  const py::gil_scoped_release released;
+  return work();
+}
+
+/// "there is no setting 'gravty'; did you mean gravity?"
+std::string unknownName(std::string_view what, std::string_view name, const std::vector<std::string>& names);
+
+// The parts of the module, in the order in which they know each other.
+void addGrooms(py::module_& module);
+void addMaterials(py::module_& module);
+void addSettings(py::module_& module);
+void addMotions(py::module_& module);
+void addBodies(py::module_& module);
+void addDevices(py::module_& module);
+void addHair(py::module_& module);
+void addScenes(py::module_& module);
+void addMeasures(py::module_& module);
+void addAnimations(py::module_& module);
+
+}  // namespace ringlet::python

@@ -1,0 +1,673 @@
+// Devices, assets, hair and its frames.
+#include "python/hair.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "python/arrays.h"
+#include "python/settings.h"
+#include "ringlet/output/positions_hash.h"
+#include "ringlet/solver/hair_frames.h"
+#include "ringlet/version.h"
+
+namespace ringlet::python {
+namespace {
+
+// Checkpoints: magic 8 | hash of all after it 8 | hash of the asset's facts 8 | bodies 8 | the library's
+// bytes
+constexpr std::string_view kMagic = "RGLPYCP1";
+
+std::string_view textOf(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+template <class T>
+std::string_view bytesOf(const std::vector<T>& list) {
+  return textOf(std::as_bytes(std::span(list)));
+}
+std::string number(std::uint64_t value) {
+  std::string bytes(sizeof value, '\0');
+  std::memcpy(bytes.data(), &value, sizeof value);
+  return bytes;
+}
+
+std::string fingerprintOf(const AssetObject& asset) {
+  const Groom& groom = asset.groom->groom();
+  return number(
+      fnv1a(fmt::format("{} {} {} {} {} {} {} {} {}\n{}\n{}", RINGLET_VERSION, asset.device->device.name(),
+                        asset.device->device.driver(), asset.hasBodies, asset.movesRoots, groom.metresPerUnit,
+                        fnv1a(bytesOf(groom.points)), fnv1a(bytesOf(groom.firstPoint)), groom.strandCount(),
+                        python::textOf(asset.material), python::textOf(asset.settings))));
+}
+
+KernelChoice kernelOf(const AssetChoice& choice) {
+  KernelChoice kernel;
+  if (choice.kernel == "lanes") {
+    kernel.form = KernelChoice::Form::lanes;
+  } else if (choice.kernel == "serial") {
+    kernel.form = KernelChoice::Form::serial;
+  } else if (choice.kernel != "auto") {
+    throw py::value_error(unknownName("kernel", choice.kernel, {"auto", "lanes", "serial"}));
+  }
+  if (choice.heads < 1) throw py::value_error(fmt::format("heads must be 1 or more, got {}", choice.heads));
+  kernel.movingRoots = choice.movesRoots;
+  kernel.heads = choice.heads;
+  return kernel;
+}
+
+Error refused(std::string message) { return Error{std::move(message)}; }
+
+}  // namespace
+
+AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
+                       Settings settings, const AssetChoice& choice) {
+  const KernelChoice kernel = kernelOf(choice);
+  std::vector<std::string> warnings;
+  const Material made = dialled(material, settings, warnings);
+  HairAsset built = withoutGil([&] {
+    return valueOf(HairAsset::build(device->device, groom->groom(), made, settings, kernel,
+                                    choice.hasBodies ? BodyUse::some : BodyUse::none));
+  });
+  warnings.insert(warnings.end(), built.warnings().begin(), built.warnings().end());
+  return std::make_shared<AssetObject>(AssetObject{.device = std::move(device),
+                                                   .groom = std::move(groom),
+                                                   .material = made,
+                                                   .settings = settings,
+                                                   .asset = std::move(built),
+                                                   .hasBodies = choice.hasBodies,
+                                                   .movesRoots = choice.movesRoots,
+                                                   .warnings = std::move(warnings)});
+}
+
+void HairObject::demandThere() const {
+  if (lost_)
+    throw Failure(
+        {"this hair was lost with an earlier error; create another: " + lost_->message, lost_->fault});
+}
+
+void HairObject::demandNoneInFlight(const char* what) const {
+  if (inFlight_ > 0)
+    throw Failure(refused(fmt::format("{} while {} submitted frame(s) were not waited for: call wait() first",
+                                      what, inFlight_)));
+}
+
+void HairObject::losing(const Status& status) {
+  if (status) return;
+  lost_ = status.error();
+  throw Failure(status.error());
+}
+
+HairObject::Poses HairObject::posesOf(const Frame& frame) const {
+  const auto steps = static_cast<std::size_t>(simulation_.settings().stepsPerFrame);
+  Poses poses{stepPosesOf(frame.head, simulation_.head(), static_cast<int>(steps)), frame.bodies,
+              frame.roots};
+  if (!frame.bodies.empty() && frame.bodies.size() != steps * bodyCount_)
+    throw py::value_error(
+        fmt::format("body_poses must have a pose for each of {} steps and {} bodies, got {}", steps,
+                    bodyCount_, frame.bodies.size()));
+  if (frame.roots.empty()) return poses;
+  if (!asset_->movesRoots)
+    throw py::value_error("root_poses are for hair whose asset was built with moving_roots=True");
+  if (frame.roots.size() != steps * asset_->asset.strandCount())
+    throw py::value_error(
+        fmt::format("root_poses must have a pose for each of {} steps and {} strands, got {}", steps,
+                    asset_->asset.strandCount(), frame.roots.size()));
+  return poses;
+}
+
+void HairObject::step(const Frame& frame) {
+  withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    demandNoneInFlight("step");
+    const Poses poses = posesOf(frame);
+    losing(simulation_.stepFrame(poses.heads, poses.bodies, poses.roots));
+    isWaitedFor_ = true;
+  });
+}
+
+void HairObject::submit(const Frame& frame) {
+  withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    if (inFlight_ == Simulation::kFramesInFlight)
+      throw Failure(
+          refused(fmt::format("at most {} frames are under way: call wait() before the next submit()",
+                              Simulation::kFramesInFlight)));
+    const Poses poses = posesOf(frame);
+    losing(simulation_.submitFrame(poses.heads, poses.bodies, poses.roots));
+    ++inFlight_;
+  });
+}
+
+void HairObject::wait() {
+  withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    if (inFlight_ == 0) throw Failure(refused("there is no frame to wait for: submit() one first"));
+    losing(simulation_.waitFrame());
+    --inFlight_;
+    isWaitedFor_ = true;
+  });
+}
+
+std::vector<Vec3f> HairObject::positions() {
+  return withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    if (inFlight_ == 0) return valueOf(simulation_.positions());
+    if (!isWaitedFor_ || inFlight_ == Simulation::kFramesInFlight)
+      throw Failure(refused("no frame was waited for whose positions are still there: call wait() first"));
+    return simulation_.framePositions();
+  });
+}
+
+std::vector<Vec3f> HairObject::points() {
+  return withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    demandNoneInFlight("points");
+    std::vector<Vec3f> points = valueOf(simulation_.positions());
+    placeInWorld(points, simulation_.head(), asset_->groom->groom().metresPerUnit);
+    return points;
+  });
+}
+
+std::vector<Vec3f> HairObject::velocities() {
+  return ask([](Simulation& simulation) { return valueOf(simulation.state()).velocities; });
+}
+
+void HairObject::setState(HairState state) {
+  withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    demandNoneInFlight("set_state");
+    losing(simulation_.setState(state));
+  });
+}
+
+std::vector<std::byte> HairObject::checkpoint() {
+  if (asset_->fingerprint.empty()) asset_->fingerprint = fingerprintOf(*asset_);
+  return withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    const std::vector<std::byte> state = valueOf(simulation_.checkpoint());
+    std::string after = asset_->fingerprint + number(bodyCount_);
+    after += textOf(state);
+    const std::string whole = std::string(kMagic) + number(fnv1a(after)) + after;
+    const auto bytes = std::as_bytes(std::span(whole));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  });
+}
+
+void HairObject::restore(std::span<const std::byte> bytes) {
+  if (asset_->fingerprint.empty()) asset_->fingerprint = fingerprintOf(*asset_);
+  withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    demandNoneInFlight("restore");
+    const std::string_view text = textOf(bytes);
+    constexpr std::size_t kHeader = 4 * 8;
+    if (text.size() < kHeader || !text.starts_with(kMagic) ||
+        text.substr(8, 8) != number(fnv1a(text.substr(16))))
+      throw Failure({fmt::format("these {} bytes are no checkpoint, or a damaged one: hand over what "
+                                 "checkpoint() returned, whole",
+                                 text.size()),
+                     Fault::input});
+    if (text.substr(16, 8) != asset_->fingerprint)
+      throw Failure(
+          {"the checkpoint is of other hair: it takes the groom, material, settings, device and "
+           "version of ringlet that it was made with",
+           Fault::input});
+    if (text.substr(24, 8) != number(bodyCount_))
+      throw Failure(
+          {"the checkpoint is of hair with another number of bodies: set_bodies() first", Fault::input});
+    losing(simulation_.restore(bytes.subspan(kHeader)));
+  });
+}
+
+void HairObject::setSettings(const Settings& settings) {
+  ask([&](Simulation& simulation) { demand(simulation.setSettings(settings)); });
+}
+void HairObject::setMaterial(const Material& material) {
+  ask([&](Simulation& simulation) { demand(simulation.setMaterial(material)); });
+}
+void HairObject::setBodies(std::span<const Body> bodies, std::span<const BodyPose> places) {
+  if (!places.empty() && places.size() != bodies.size())
+    throw py::value_error(
+        fmt::format("places has {} poses and there are {} bodies", places.size(), bodies.size()));
+  withoutGil([&] {
+    const std::scoped_lock lock(mutex_);
+    demandThere();
+    demand(simulation_.setBodies(bodies, places));
+    bodyCount_ = bodies.size();
+  });
+}
+
+void HairObject::stepTogether(std::span<const std::pair<HairObject*, Frame>> frames) {
+  std::set<HairObject*> hairs;  // in an order that all threads keep
+  for (const auto& [hair, frame] : frames) {
+    if (!hairs.insert(hair).second) throw py::value_error("a hair stands twice among the frames");
+    if (hair->asset_->device != frames.front().first->asset_->device)
+      throw py::value_error("the frames are of hair on several devices");
+  }
+  withoutGil([&] {
+    std::vector<std::unique_lock<std::mutex>> locks;
+    for (HairObject* hair : hairs) locks.emplace_back(hair->mutex_);
+    std::vector<Poses> poses;
+    std::vector<HairFrame> handed;
+    poses.reserve(frames.size());
+    for (const auto& [hair, frame] : frames) {
+      hair->demandThere();
+      hair->demandNoneInFlight("step_frames");
+      poses.push_back(hair->posesOf(frame));
+      handed.push_back({&hair->simulation_, poses.back().heads, poses.back().bodies, poses.back().roots});
+    }
+    const Status status = stepFrames(handed);
+    for (const auto& [hair, frame] : frames) {
+      if (!status) hair->lost_ = status.error();
+      hair->isWaitedFor_ = true;
+    }
+    demand(status);
+  });
+}
+
+void placeInWorld(std::vector<Vec3f>& positions, const HeadPose& head, double metresPerUnit) {
+  for (Vec3f& p : positions) p = Vec3f((head.position + Vec3d(p)) / metresPerUnit);
+}
+
+HairHandle makeHair(const AssetHandle& asset, const InitialState& initial) {
+  Simulation made = withoutGil([&] { return valueOf(Simulation::create(asset->asset, initial)); });
+  return std::make_shared<HairObject>(asset, std::move(made), initial.bodies.size());
+}
+
+namespace {
+
+HairObject::Frame frameOf(const py::object& head, const py::object& bodyPoses, const py::object& rootPoses) {
+  return {headWayOf(head), bodyPosesOf(bodyPoses, "body_poses"), bodyPosesOf(rootPoses, "root_poses")};
+}
+
+HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::object& oneStepEarlier,
+                   const std::vector<BodyObject>& given, const py::object& bodyPlaces,
+                   const py::object& roots, const py::object& rootsEarlier, const py::object& rootShifts) {
+  const std::size_t strands = asset->asset.strandCount();
+  const std::vector<Body> bodies = bodiesOf(given);
+  InitialState initial;
+  if (!head.is_none()) initial.head = poseOf(head, "head");
+  if (!oneStepEarlier.is_none()) initial.oneStepEarlier = poseOf(oneStepEarlier, "one_step_earlier");
+  initial.bodies = bodies;
+  const auto fits = [](const char* name, std::size_t count, std::size_t wanted, const char* what) {
+    if (count != 0 && count != wanted)
+      throw py::value_error(
+          fmt::format("{} must have one row for each of {} {}, got {}", name, wanted, what, count));
+  };
+  const std::vector<BodyPose> places = bodyPosesOf(bodyPlaces, "body_places");
+  fits("body_places", places.size(), bodies.size(), "bodies");
+  initial.bodyPlaces = places;
+  const std::vector<BodyPose> now = bodyPosesOf(roots, "roots");
+  std::vector<BodyPose> earlier = bodyPosesOf(rootsEarlier, "roots_earlier");
+  fits("roots", now.size(), strands, "strands");
+  fits("roots_earlier", earlier.size(), strands, "strands");
+  if ((!now.empty() || !earlier.empty()) && !asset->movesRoots)
+    throw py::value_error("roots are for hair whose asset was built with moving_roots=True");
+  if (now.empty() && !earlier.empty()) throw py::value_error("roots_earlier takes roots, where they are now");
+  if (earlier.empty()) earlier = now;
+  initial.roots = now, initial.rootsEarlier = earlier;
+  std::vector<Vec3d> shifts;
+  if (!rootShifts.is_none()) {
+    const Rows rows = rowsOf(rootShifts, "root_shifts", 3);
+    for (std::size_t s = 0; s < rows.count(3); ++s)
+      shifts.push_back({rows.values[3 * s], rows.values[3 * s + 1], rows.values[3 * s + 2]});
+    fits("root_shifts", shifts.size(), strands, "strands");
+  }
+  initial.rootShifts = shifts;
+  return makeHair(asset, initial);
+}
+
+py::dict reportOf(HairObject& self) {
+  const SimulationReport r = self.ask([](Simulation& s) { return valueOf(s.report()); });
+  py::dict report;
+  report["max_edge_stretch"] = r.maxEdgeStretch;
+  report["limited_share"] = r.limitedShare;
+  report["nonfinite"] = r.nonfinite;
+  report["first_nonfinite_strand"] = r.firstNonfiniteStrand;
+  report["first_nonfinite_particle"] = r.firstNonfiniteParticle;
+  report["degenerate_edges"] = r.degenerateEdges;
+  return report;
+}
+
+py::dict contactReportOf(HairObject& self) {
+  const ContactReport r = self.ask([](Simulation& s) { return valueOf(s.contactReport()); });
+  py::dict report;
+  report["contact_particles"] = r.contactParticles;
+  report["pairs_unpruned"] = r.pairsUnpruned;
+  report["pairs"] = r.pairs;
+  report["volume_strands"] = r.volumeStrands;
+  report["listed"] = r.listed;
+  report["contacts"] = r.contacts;
+  report["pair_tests"] = r.pairTests;
+  report["rebuilds"] = r.rebuilds;
+  report["momentum_error"] = r.momentumError;
+  return report;
+}
+
+py::dict memoryOf(HairObject& self) {
+  const DeviceMemory m = self.ask([](Simulation& s) { return s.memory(); });
+  py::dict memory;
+  memory["particles"] = m.particles, memory["strands"] = m.strands, memory["root_poses"] = m.rootPoses;
+  memory["contacts"] = m.contacts, memory["contact_lists"] = m.contactLists, memory["volume"] = m.volume;
+  memory["world"] = m.world, memory["frames"] = m.frames, memory["shared"] = m.shared;
+  memory["total"] = m.total();
+  return memory;
+}
+
+py::object pointsOf(HairObject& self, const py::object& out) {
+  demandOut(out, self.asset()->groom->particleCount());
+  return givePoints(self.points(), out);
+}
+
+void changeMaterial(HairObject& self, const py::object& material, const py::kwargs& numbers) {
+  MaterialObject changed;
+  if (material.is_none()) {
+    changed.material = self.ask([](Simulation& s) { return s.material(); });
+  } else if (py::isinstance<MaterialObject>(material)) {
+    changed = material.cast<const MaterialObject&>();
+  } else {
+    throw py::type_error("set_material takes a ringlet.Material, got " + describe(material));
+  }
+  const py::object holder = py::cast(changed);
+  for (const auto& [key, value] : numbers) {
+    if (!holder.contains(key)) (void)holder[key];  // raises the KeyError that names the nearest
+    holder[key] = value;
+  }
+  Settings unused;
+  std::vector<std::string> warnings;
+  self.setMaterial(dialled(holder.cast<const MaterialObject&>(), unused, warnings));
+}
+
+void addDevice(py::module_& module) {
+  py::class_<DeviceSummary>(module, "DeviceSummary", "A Vulkan device that there is, as devices() lists it.")
+      .def_readonly("index", &DeviceSummary::index, "By which Device() can be asked for it, as text.")
+      .def_readonly("name", &DeviceSummary::name, "As the driver states it.")
+      .def_readonly("type", &DeviceSummary::type, "discrete, integrated, virtual, cpu or other.")
+      .def_readonly("driver", &DeviceSummary::driver, "Name and version.")
+      .def_readonly("memory_bytes", &DeviceSummary::memoryBytes, "How much memory it has.")
+      .def_readonly("subgroup_sizes", &DeviceSummary::subgroupSizes,
+                    "That kernels can have, the default first: a list.")
+      .def_readonly("usable", &DeviceSummary::usable, "Whether it has what the solver needs.")
+      .def_readonly("why", &DeviceSummary::why, "If not: what is missing.")
+      .def(
+          "__repr__",
+          [](const DeviceSummary& d) {
+            return fmt::format("<ringlet.DeviceSummary {}: {}, {}{}>", d.index, d.name, d.driver,
+                               d.usable ? "" : ", not usable: " + d.why);
+          },
+          "What it is, in a line.");
+  module.def(
+      "devices", [] { return withoutGil([] { return ComputeDevice::list(); }); },
+      "The Vulkan devices there are: a list of DeviceSummary; empty where there is no Vulkan.");
+  py::class_<DeviceObject, DeviceHandle>(
+      module, "Device", "A Vulkan device that is open. It closes with the last that uses it.")
+      .def(py::init([](const std::optional<std::string>& name, const std::filesystem::path& cacheFolder) {
+             return std::make_shared<DeviceObject>(DeviceObject{
+                 withoutGil([&] { return valueOf(ComputeDevice::open(name.value_or(""), cacheFolder)); })});
+           }),
+           py::arg("name") = py::none(), py::kw_only(), py::arg("cache_folder") = "",
+           "Opens a device by part of its name or by index (\"0\"); None: $RINGLET_DEVICE, else the best. "
+           "cache_folder: where compiled kernels are kept between programs, so that the next starts sooner; "
+           "\"\": nowhere. ringlet.Error where there is no Vulkan or no such device.")
+      .def_property_readonly(
+          "name", [](const DeviceObject& d) { return d.device.name(); }, "As the driver states it.")
+      .def_property_readonly(
+          "driver", [](const DeviceObject& d) { return d.device.driver(); }, "Name and version.")
+      .def(
+          "validation_messages", [](const DeviceObject& d) { return d.device.validationMessages(); },
+          "What the validation layer said, where RINGLET_VALIDATION=1 is set: a list, empty as it should be.")
+      .def(
+          "__repr__",
+          [](const DeviceObject& d) { return fmt::format("<ringlet.Device: {}>", d.device.name()); },
+          "What it is, in a line.");
+}
+
+void addAsset(py::module_& module) {
+  py::class_<AssetObject, AssetHandle>(
+      module, "Asset",
+      "All of some hair that does not change, for one device; any number of Hair share it. Constant.")
+      .def(
+          py::init([](const DeviceHandle& device, const GroomHandle& groom,
+                      const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
+                      bool bodies, bool movingRoots, int heads, const std::string& kernel) {
+            return buildAsset(device, groom, material.value_or(MaterialObject{}),
+                              settings.value_or(Settings{}), {bodies, movingRoots, heads, kernel});
+          }),
+          py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
+          py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
+          py::arg("moving_roots") = false, py::arg("heads") = 1, py::arg("kernel") = "auto",
+          "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
+          "is slower; moving_roots: whether strands will have poses of their own; heads: about how many will "
+          "have this hair; kernel: \"auto\", \"lanes\" or \"serial\". ringlet.Error, with what to do, for "
+          "settings that do not go together or a device without enough memory.")
+      .def_property_readonly(
+          "device", [](const AssetObject& a) { return a.device; }, "The Device.")
+      .def_property_readonly(
+          "groom", [](const AssetObject& a) { return a.groom; }, "The Groom.")
+      .def_property_readonly(
+          "material",
+          [](const AssetObject& a) {
+            return MaterialObject{a.material, {}};
+          },
+          "A copy of the Material, its dials worked in.")
+      .def_property_readonly(
+          "settings", [](const AssetObject& a) { return a.settings; }, "A copy of the Settings.")
+      .def_property_readonly(
+          "strand_count", [](const AssetObject& a) { return a.asset.strandCount(); }, "Strands of the groom.")
+      .def_property_readonly(
+          "particle_count", [](const AssetObject& a) { return a.asset.particleCount(); },
+          "Particles of the groom.")
+      .def_property_readonly(
+          "rigid_strand_count", [](const AssetObject& a) { return a.asset.rigidStrandCount(); },
+          "Strands that are carried rigidly, since they cannot be simulated.")
+      .def_readonly("warnings", &AssetObject::warnings, "What one should know of it: a list of sentences.");
+}
+
+void addHairClass(py::module_& module) {
+  py::class_<HairObject, HairHandle>(
+      module, "Hair",
+      "The hair of one head. It is at rest when it is made. A frame is as many steps as the settings say.\n\n"
+      "An error of the device loses it: everything that is asked of it then raises ringlet.Error again.")
+      .def(
+          py::init(&newHair), py::arg("asset").none(false), py::kw_only(), py::arg("head") = py::none(),
+          py::arg("one_step_earlier") = py::none(), py::arg("bodies") = std::vector<BodyObject>{},
+          py::arg("body_places") = py::none(), py::arg("roots") = py::none(),
+          py::arg("roots_earlier") = py::none(), py::arg("root_shifts") = py::none(),
+          "head: where the head is, a Pose; one_step_earlier: where it was one step before, so that hair "
+          "moves with it. bodies: a list of Body, of an asset with bodies=True; body_places: where they are "
+          "in the world, (bodies, 7); None: where they are at t = 0. roots, roots_earlier: of an asset with "
+          "moving_roots=True, strands' own poses now and one step before, (strands, 7). root_shifts: how far "
+          "each root moves beside the head at shift 1, (strands, 3) [m].")
+      .def(
+          "step",
+          [](HairObject& self, const py::object& head, const py::object& bodyPoses,
+             const py::object& rootPoses) { self.step(frameOf(head, bodyPoses, rootPoses)); },
+          py::arg("head") = py::none(), py::kw_only(), py::arg("body_poses") = py::none(),
+          py::arg("root_poses") = py::none(),
+          "A frame, until it is done. head: a Pose, to which it goes by a smooth way; or a pose at the end "
+          "of each step, a list or an array (steps, 7); None: it stays. body_poses: (steps, bodies, 7) in "
+          "the "
+          "world; None: bodies go with the head. root_poses: (steps, strands, 7) in the head's frame; None: "
+          "roots stay where they are on it.")
+      .def(
+          "submit",
+          [](HairObject& self, const py::object& head, const py::object& bodyPoses,
+             const py::object& rootPoses) { self.submit(frameOf(head, bodyPoses, rootPoses)); },
+          py::arg("head") = py::none(), py::kw_only(), py::arg("body_poses") = py::none(),
+          py::arg("root_poses") = py::none(),
+          "Hands a frame to the device and returns: wait() for it later. Two may be under way. Takes what "
+          "step takes, and gives the same bits.")
+      .def("wait", &HairObject::wait,
+           "Waits for the oldest frame that was submitted; positions() then are that one's.")
+      .def(
+          "positions",
+          [](HairObject& self, const py::object& out) {
+            demandOut(out, self.asset()->groom->particleCount());
+            return givePoints(self.positions(), out);
+          },
+          py::arg("out") = py::none(),
+          "(particles, 3) float32 [m] in the groom's order, seen from the head's position, along the world's "
+          "axes: world = hair.head.position + positions. Of the last frame that was waited for. out: an "
+          "array "
+          "to fill, which is returned.")
+      .def("points", &pointsOf, py::arg("out") = py::none(),
+           "The same as points in the world, in the groom's unit, as files hold them; with no frame under "
+           "way.")
+      .def(
+          "velocities",
+          [](HairObject& self, const py::object& out) {
+            demandOut(out, self.asset()->groom->particleCount());
+            return givePoints(self.velocities(), out);
+          },
+          py::arg("out") = py::none(),
+          "(particles, 3) float32 [m/s], seen from the head. Waits for all frames.")
+      .def(
+          "set_state",
+          [](HairObject& self, const py::object& positions, const py::object& velocities) {
+            const std::size_t count = self.asset()->groom->particleCount();
+            const PointsIn p(positions, "positions", count), v(velocities, "velocities", count);
+            demandFinite(p.points(), "positions");
+            demandFinite(v.points(), "velocities");
+            self.setState({{p.points().begin(), p.points().end()}, {v.points().begin(), v.points().end()}});
+          },
+          py::arg("positions"), py::arg("velocities"),
+          "Puts all particles where positions() and velocities() say, (particles, 3) float32 each.")
+      .def_property_readonly(
+          "settings", [](HairObject& self) { return self.ask([](Simulation& s) { return s.settings(); }); },
+          "A copy of the Settings now: change it and hand it to set_settings.")
+      .def_property_readonly(
+          "material",
+          [](HairObject& self) {
+            return MaterialObject{self.ask([](Simulation& s) { return s.material(); }), {}};
+          },
+          "A copy of the Material now: change it and hand it to set_material.")
+      .def(
+          "set_settings",
+          [](HairObject& self, const py::object& settings, const py::kwargs& named) {
+            Settings changed = self.ask([](Simulation& s) { return s.settings(); });
+            if (py::isinstance<Settings>(settings)) {
+              changed = settings.cast<const Settings&>();
+            } else if (!settings.is_none()) {
+              throw py::type_error("set_settings takes ringlet.Settings, got " + describe(settings));
+            }
+            setAll(changed, named);
+            self.setSettings(changed);
+          },
+          py::arg("settings") = py::none(),
+          "Other settings from the next frame on: all, or those that are named: set_settings(gravity=(0, 0, "
+          "0)). ringlet.Error for one that is not live (Settings.fields()), and nothing changes.")
+      .def("set_material", &changeMaterial, py::arg("material") = py::none(),
+           "Another material from the next frame on: all, or the numbers that are named: set_material("
+           "bend_stiffness=8). How far hair may lengthen is a setting, max_stretch. ringlet.Error for a "
+           "number that cannot change while hair moves, and nothing changes.")
+      .def(
+          "set_bodies",
+          [](HairObject& self, const std::vector<BodyObject>& bodies, const py::object& places) {
+            self.setBodies(bodiesOf(bodies), bodyPosesOf(places, "places"));
+          },
+          py::arg("bodies"), py::arg("places") = py::none(),
+          "Other bodies from the next frame on, any number. places: where they are now in the world, "
+          "(bodies, 7); None: with the head.")
+      .def(
+          "checkpoint",
+          [](HairObject& self) {
+            const std::vector<std::byte> bytes = self.checkpoint();
+            return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+          },
+          "All that later frames depend on, as bytes for restore(). Neither live settings nor material nor "
+          "bodies: set them before it.")
+      .def(
+          "restore",
+          [](HairObject& self, const py::bytes& bytes) {
+            const auto text = static_cast<std::string_view>(bytes);
+            self.restore(std::as_bytes(std::span(text.data(), text.size())));
+          },
+          py::arg("checkpoint"),
+          "Goes on from a checkpoint of hair of such an asset: the same bits as if it had stepped all frames "
+          "itself. ringlet.Error for bytes that are damaged or of other hair.")
+      .def("report", &reportOf,
+           "What happened to the numbers since it was made: a dict of max_edge_stretch (longest edge over "
+           "the groom's), limited_share (of edges that the stretch limit touched), nonfinite (particles "
+           "without a finite place now), first_nonfinite_strand, first_nonfinite_particle, degenerate_edges.")
+      .def("contact_report", &contactReportOf,
+           "What contacts did: a dict of contact_particles, pairs_unpruned, pairs, volume_strands, listed, "
+           "contacts, pair_tests, rebuilds, momentum_error. Without contacts all is 0.")
+      .def("memory", &memoryOf,
+           "Bytes of its buffers on the device, by what they are for, and their total: a dict.")
+      .def(
+          "stage_milliseconds",
+          [](HairObject& self) { return self.ask([](Simulation& s) { return s.stageMilliseconds(); }); },
+          "Time spent on the device so far, by stage [ms]: a dict. Frames of step_frames are not counted.")
+      .def_property_readonly(
+          "head", [](HairObject& self) { return self.ask([](Simulation& s) { return s.head(); }); },
+          "Where the head is after the last frame: a Pose.")
+      .def_property_readonly(
+          "warnings", [](HairObject& self) { return self.ask([](Simulation& s) { return s.warnings(); }); },
+          "What one should know of it: a list of sentences.")
+      .def_property_readonly(
+          "kernel",
+          [](HairObject& self) { return self.ask([](Simulation& s) { return s.kernelDescription(); }); },
+          "The kernels in use, as \"lanes 4 x 16 (subgroup 8)\".")
+      .def_property_readonly(
+          "compile_milliseconds",
+          [](HairObject& self) { return self.ask([](Simulation& s) { return s.compileMilliseconds(); }); },
+          "What it took to make the kernels [ms].")
+      .def_property_readonly(
+          "asset", [](const HairObject& self) { return self.asset(); }, "The Asset.");
+}
+
+// Each is (hair, head), (hair, head, body_poses) or (hair, head, body_poses, root_poses).
+void stepAll(const py::iterable& frames) {
+  std::vector<py::object> keptAlive;
+  std::vector<std::pair<HairObject*, HairObject::Frame>> all;
+  for (const py::handle entry : frames) {
+    const char* expected =
+        "a frame is a tuple (hair, head), (hair, head, body_poses) or (hair, head, body_poses, "
+        "root_poses)";
+    if (!py::isinstance<py::tuple>(entry))
+      throw py::type_error(fmt::format("{}, got {}", expected, describe(entry)));
+    const auto frame = py::reinterpret_borrow<py::tuple>(entry);
+    if (frame.size() < 2 || frame.size() > 4 || !py::isinstance<HairObject>(frame[0]))
+      throw py::type_error(fmt::format("{}, got {}", expected, describe(entry)));
+    const auto at = [&](std::size_t i) { return i < frame.size() ? py::object(frame[i]) : py::none(); };
+    keptAlive.push_back(at(0));
+    all.emplace_back(&at(0).cast<HairObject&>(), frameOf(at(1), at(2), at(3)));
+  }
+  HairObject::stepTogether(all);
+}
+
+}  // namespace
+
+void addDevices(py::module_& module) { addDevice(module); }
+
+void addHair(py::module_& module) {
+  addAsset(module);
+  addHairClass(module);
+  module.def(
+      "step_frames", &stepAll, py::arg("frames"),
+      "A frame of each of several heads, in one submission, which fills a device better than one after "
+      "the other; the same bits. frames: tuples (hair, head), (hair, head, body_poses) or (hair, head, "
+      "body_poses, root_poses), as step takes them; all on one device, each hair once.");
+  module.def(
+      "positions_hash",
+      [](const py::object& positions) { return positionsHash(PointsIn(positions, "positions").points()); },
+      py::arg("positions"),
+      "A fingerprint of positions, (particles, 3) float32: those that agree in every bit share it, as "
+      "`ringlet simulate --json` tells it.");
+}
+
+}  // namespace ringlet::python

@@ -1,0 +1,112 @@
+// Devices, assets and hair as Python holds them.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "python/binding.h"
+#include "python/grooms.h"
+#include "python/materials.h"
+#include "python/poses.h"
+#include "ringlet/solver/compute_device.h"
+#include "ringlet/solver/hair_asset.h"
+#include "ringlet/solver/simulation.h"
+
+namespace ringlet::python {
+
+struct DeviceObject {
+  ComputeDevice device;
+};
+using DeviceHandle = std::shared_ptr<DeviceObject>;
+
+struct AssetObject {
+  DeviceHandle device;
+  GroomHandle groom;
+  Material material;  // its dials worked in
+  Settings settings;
+  HairAsset asset;
+  bool hasBodies = false, movesRoots = false;
+  std::vector<std::string> warnings{};
+  std::string fingerprint{};  // of all that a checkpoint of its hair depends on
+};
+using AssetHandle = std::shared_ptr<AssetObject>;
+
+struct AssetChoice {
+  bool hasBodies = false, movesRoots = false;
+  int heads = 1;
+  std::string kernel = "auto";  // or lanes, serial
+};
+AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
+                       Settings settings, const AssetChoice& choice);
+
+/// The solver takes hair from one thread at a time, and rules that the caller keeps; this keeps them. What
+/// works, works without the GIL. Throws Failure, and py::value_error for poses that do not fit.
+class HairObject {
+ public:
+  HairObject(AssetHandle asset, Simulation simulation, std::size_t bodyCount)
+      : asset_(std::move(asset)), simulation_(std::move(simulation)), bodyCount_(bodyCount) {}
+
+  struct Frame {
+    HeadWay head{};
+    std::vector<BodyPose> bodies{}, roots{};
+  };
+  void step(const Frame& frame);
+  void submit(const Frame& frame);
+  void wait();
+  /// Of the frame that was waited for last.
+  std::vector<Vec3f> positions();
+  /// The same in the world, in the groom's unit; with no frame under way.
+  std::vector<Vec3f> points();
+  std::vector<Vec3f> velocities();
+  void setState(HairState state);
+  std::vector<std::byte> checkpoint();
+  void restore(std::span<const std::byte> bytes);
+  void setSettings(const Settings& settings);
+  void setMaterial(const Material& material);
+  void setBodies(std::span<const Body> bodies, std::span<const BodyPose> places);
+
+  /// Of what only looks.
+  template <class Look>
+  auto ask(Look&& look) {
+    return withoutGil([&] {
+      const std::scoped_lock lock(mutex_);
+      demandThere();
+      return look(simulation_);
+    });
+  }
+
+  const AssetHandle& asset() const { return asset_; }
+
+  /// All in one submission.
+  static void stepTogether(std::span<const std::pair<HairObject*, Frame>> frames);
+
+ private:
+  struct Poses {
+    std::vector<HeadPose> heads;
+    std::span<const BodyPose> bodies, roots;
+  };
+  void demandThere() const;
+  void demandNoneInFlight(const char* what) const;
+  Poses posesOf(const Frame& frame) const;
+  void losing(const Status& status);
+
+  AssetHandle asset_;
+  std::mutex mutex_;
+  Simulation simulation_;
+  std::size_t bodyCount_;
+  std::size_t inFlight_ = 0;     // submitted and not waited for
+  bool isWaitedFor_ = false;     // some frame was
+  std::optional<Error> lost_{};  // after which nothing can be told of it
+};
+using HairHandle = std::shared_ptr<HairObject>;
+
+/// From the solver's metres, seen from the head, to a unit of the world's.
+void placeInWorld(std::vector<Vec3f>& positions, const HeadPose& head, double metresPerUnit);
+
+HairHandle makeHair(const AssetHandle& asset, const InitialState& initial);
+
+}  // namespace ringlet::python

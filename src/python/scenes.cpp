@@ -1,0 +1,301 @@
+// Whole scenes: built-in ones and files, and their runs.
+#include <fmt/format.h>
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "python/arrays.h"
+#include "python/grooms.h"
+#include "python/hair.h"
+#include "python/materials.h"
+#include "python/poses.h"
+#include "ringlet/scenes/builtin_scene.h"
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_file.h"
+
+namespace ringlet::python {
+namespace {
+
+struct SceneObject {
+  std::string name, summary;
+  GroomHandle groom;
+  LoadedScene loaded;  // but its groom, which is the one above
+};
+
+SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded) {
+  auto groom = std::make_shared<GroomObject>(LoadedGroom{std::move(loaded.groom), {}});
+  loaded.groom = {};
+  return {std::move(name), std::move(summary), std::move(groom), std::move(loaded)};
+}
+
+SceneObject loadFile(const std::filesystem::path& path) {
+  return withoutGil(
+      [&] { return sceneOf(path.stem().string(), "", valueOf(loadScene(valueOf(readScene(path))))); });
+}
+SceneObject parseText(const std::string& text, const std::filesystem::path& folder) {
+  return withoutGil([&] {
+    return sceneOf("text", "", valueOf(loadScene(valueOf(parseScene(text, "the scene", folder)))));
+  });
+}
+
+SceneObject builtin(const std::string& name, const SceneOptions& options) {
+  return withoutGil([&] {
+    BuiltinScene made = valueOf(makeScene(name, options));
+    LoadedScene loaded;
+    loaded.frameCount = made.frameCount();
+    loaded.groom = std::move(made.groom);
+    loaded.material = std::move(made.material);
+    loaded.settings = made.settings;
+    loaded.motion = std::move(made.motion);
+    loaded.rootShifts = std::move(made.rootShifts);
+    loaded.bodies = std::move(made.bodies);
+    loaded.warnings = std::move(made.warnings);
+    return sceneOf(std::move(made.name), std::move(made.summary), std::move(loaded));
+  });
+}
+
+// Where everything is at the end of every step of a frame, 0 the first. Times are exact quotients, so they do
+// not drift.
+HairObject::Frame frameOf(const LoadedScene& scene, int frame) {
+  const Settings& settings = scene.settings;
+  HairObject::Frame poses;
+  std::vector<HeadPose> heads;
+  std::vector<double> times;
+  for (int step = 1; step <= settings.stepsPerFrame; ++step) {
+    const double steps = static_cast<double>(frame) * settings.stepsPerFrame + step;
+    times.push_back(steps / (settings.framesPerSecond * settings.stepsPerFrame));
+    heads.push_back(scene.motion.poseAt(times.back()));
+    if (!scene.scalp) continue;
+    const std::vector<BodyPose> roots = scene.scalp->rootPosesAt(times.back());
+    poses.roots.insert(poses.roots.end(), roots.begin(), roots.end());
+  }
+  poses.bodies = ringlet::bodyPosesOf(scene.bodies, heads, times);
+  poses.head = std::move(heads);
+  return poses;
+}
+
+HeadPose headAtEnd(const HairObject::Frame& frame) {
+  return std::get<std::vector<HeadPose>>(frame.head).back();
+}
+
+int preRollFrames(const LoadedScene& scene) {
+  return static_cast<int>(std::ceil(scene.preRollSeconds * scene.settings.framesPerSecond - 1e-6));
+}
+
+// The hair as it begins the first frame.
+HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::string& kernel) {
+  if (!device)
+    device = std::make_shared<DeviceObject>(
+        DeviceObject{withoutGil([] { return valueOf(ComputeDevice::open()); })});
+  const LoadedScene& scene = self.loaded;
+  const AssetHandle asset =
+      buildAsset(std::move(device), self.groom, MaterialObject{scene.material, {}}, scene.settings,
+                 {.hasBodies = !scene.bodies.empty(),
+                  .movesRoots = scene.scalp.has_value(),
+                  .heads = 1,
+                  .kernel = kernel});
+  const double start = -preRollFrames(scene) / scene.settings.framesPerSecond;
+  const double earlier = start - scene.settings.stepSeconds();
+  const HeadPose head = scene.motion.poseAt(start);
+  const std::vector<BodyPose> bodies =
+      ringlet::bodyPosesOf(scene.bodies, std::span(&head, 1), std::span(&start, 1));
+  std::vector<BodyPose> roots, rootsEarlier;
+  if (scene.scalp) roots = scene.scalp->rootPosesAt(start), rootsEarlier = scene.scalp->rootPosesAt(earlier);
+  HairHandle hair = makeHair(asset, {.head = head,
+                                     .oneStepEarlier = scene.motion.poseAt(earlier),
+                                     .bodies = scene.bodies,
+                                     .bodyPlaces = bodies,
+                                     .roots = roots,
+                                     .rootsEarlier = rootsEarlier,
+                                     .rootShifts = scene.rootShifts});
+  for (int frame = -preRollFrames(scene); frame < 0; ++frame) hair->step(frameOf(scene, frame));
+  return hair;
+}
+
+// What a callback sees of a frame.
+struct FrameObject {
+  int number = 0;  // 1 for the first
+  double seconds = 0;
+  HeadPose head;
+  double metresPerUnit = 1;
+  py::object positions;
+};
+
+py::object pointsOf(const FrameObject& frame) {
+  const PointsIn in(frame.positions, "positions");
+  std::vector<Vec3f> points(in.points().begin(), in.points().end());
+  placeInWorld(points, frame.head, frame.metresPerUnit);
+  return arrayOf(std::move(points));
+}
+
+// While a frame computes, the one before it is seen. Whether to go on.
+bool show(const SceneObject& self, HairObject& hair, int number, const HeadPose& head,
+          const py::object& callback) {
+  hair.wait();
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (callback.is_none()) return true;
+  const py::object answer =
+      callback(FrameObject{number, number / self.loaded.settings.framesPerSecond, head,
+                           self.groom->groom().metresPerUnit, arrayOf(hair.positions())});
+  return !answer.is(py::bool_(false));
+}
+
+HairHandle run(const SceneObject& self, const py::object& callback, const std::optional<int>& frames,
+               const DeviceHandle& device, const std::string& kernel) {
+  const int count = frames.value_or(self.loaded.frameCount);
+  if (count < 0) throw py::value_error(fmt::format("frames must be 0 or more, got {}", count));
+  if (!callback.is_none() && !PyCallable_Check(callback.ptr()))
+    throw py::type_error("callback must be callable, got " + describe(callback));
+  const HairHandle hair = startHair(self, device, kernel);
+  std::optional<HeadPose> underWay;
+  bool goesOn = true;
+  for (int frame = 0; frame < count && goesOn; ++frame) {
+    const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+    hair->submit(poses);
+    if (underWay) goesOn = show(self, *hair, frame, *underWay, callback);
+    underWay = headAtEnd(poses);
+    if (!goesOn) {
+      hair->wait();
+      return hair;
+    }
+  }
+  if (underWay) show(self, *hair, count, *underWay, callback);
+  return hair;
+}
+
+py::tuple posesOf(const SceneObject& self, int frame) {
+  const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+  const auto& heads = std::get<std::vector<HeadPose>>(poses.head);
+  const auto given = [&](const std::vector<BodyPose>& each) {
+    return each.empty() ? py::object(py::none()) : arrayOf(each, heads.size());
+  };
+  return py::make_tuple(arrayOf(heads), given(poses.bodies), given(poses.roots));
+}
+
+void addFrame(py::module_& module) {
+  py::class_<FrameObject>(module, "Frame", "A frame of a scene's run, as its callback sees it.")
+      .def_readonly("number", &FrameObject::number, "1 for the first.")
+      .def_readonly("seconds", &FrameObject::seconds, "Its end, since the start [s].")
+      .def_readonly("head", &FrameObject::head, "Where the head is at its end: a Pose.")
+      .def_readonly(
+          "positions", &FrameObject::positions,
+          "(particles, 3) float32 [m], seen from the head, along the world's axes: the callback's own.")
+      .def("points", &pointsOf,
+           "(particles, 3) float32: the same in the world, in the groom's unit, as files hold them.")
+      .def(
+          "__repr__", [](const FrameObject& f) { return fmt::format("<ringlet.Frame {}>", f.number); },
+          "What it is, in a line.");
+}
+
+}  // namespace
+
+void addScenes(py::module_& module) {
+  addFrame(module);
+  py::class_<SceneObject>(module, "Scene",
+                          "All that a run starts from: groom, material, settings, motion, bodies. Constant.")
+      .def_static(
+          "load", &loadFile, py::arg("path"),
+          "Reads a scene file (TOML) and all that it names: the groom, a motion by .bvh or glTF, meshes. "
+          "ringlet.Error with file and line for what is wrong.")
+      .def_static("parse", &parseText, py::arg("text"), py::arg("folder") = "",
+                  "The same from text; its paths are relative to folder.")
+      .def_static(
+          "builtin",
+          [](const std::string& name, std::optional<int> particles, std::optional<int> strands,
+             std::optional<double> preload, std::optional<double> bendStiffness, std::optional<bool> contacts,
+             std::optional<int> stepsPerFrame, std::optional<double> seconds) {
+            return builtin(name, {.particles = particles,
+                                  .strands = strands,
+                                  .preload = preload,
+                                  .bendStiffness = bendStiffness,
+                                  .contacts = contacts,
+                                  .stepsPerFrame = stepsPerFrame,
+                                  .seconds = seconds});
+          },
+          py::arg("name"), py::kw_only(), py::arg("particles") = py::none(), py::arg("strands") = py::none(),
+          py::arg("preload") = py::none(), py::arg("bend_stiffness") = py::none(),
+          py::arg("contacts") = py::none(), py::arg("steps_per_frame") = py::none(),
+          py::arg("seconds") = py::none(),
+          "One of names(). What is None is the scene's own: particles of a strand, strands, the share of "
+          "gravity balanced at rest, the material's bend_stiffness [w], contacts on or off, steps_per_frame, "
+          "its length in seconds. ringlet.Error for another name, or a number out of its range.")
+      .def_static(
+          "names",
+          [] {
+            py::dict names;
+            for (const std::string& name : sceneNames()) names[name.c_str()] = sceneSummary(name);
+            return names;
+          },
+          "The built-in scenes by name, with what each shows: a dict.")
+      .def_readonly("name", &SceneObject::name, "The built-in scene's, or the file's without its ending.")
+      .def_readonly("summary", &SceneObject::summary, "What a built-in scene shows.")
+      .def_readonly("groom", &SceneObject::groom, "The Groom, placed in the head's frame.")
+      .def_property_readonly(
+          "material",
+          [](const SceneObject& s) {
+            return MaterialObject{s.loaded.material, {}};
+          },
+          "A copy of the Material, its dials worked in.")
+      .def_property_readonly(
+          "settings", [](const SceneObject& s) { return s.loaded.settings; }, "A copy of the Settings.")
+      .def_property_readonly(
+          "motion", [](const SceneObject& s) { return MotionObject{s.loaded.motion}; }, "The head's Motion.")
+      .def_property_readonly(
+          "bodies",
+          [](const SceneObject& s) {
+            std::vector<BodyObject> bodies;
+            for (const Body& body : s.loaded.bodies) bodies.push_back({body});
+            return bodies;
+          },
+          "What hair stays out of: a list of Body.")
+      .def_property_readonly(
+          "root_shifts",
+          [](const SceneObject& s) -> py::object {
+            if (s.loaded.rootShifts.empty()) return py::none();
+            return arrayOf(s.loaded.rootShifts);
+          },
+          "(strands, 3) [m], how far each root moves beside the head at shift 1; or None.")
+      .def_property_readonly(
+          "pre_roll_seconds", [](const SceneObject& s) { return s.loaded.preRollSeconds; },
+          "How long the head moves before the first frame [s].")
+      .def_property_readonly(
+          "frame_count", [](const SceneObject& s) { return s.loaded.frameCount; },
+          "How many frames a run has, unless it is told.")
+      .def_property_readonly(
+          "warnings", [](const SceneObject& s) { return s.loaded.warnings; },
+          "What one should know of it: a list of sentences.")
+      .def("frame_poses", &posesOf, py::arg("frame"),
+           "Where everything is at the end of each step of a frame, 0 the first: (head, body_poses, "
+           "root_poses), as Hair.step takes them; None where there are none.")
+      .def(
+          "start",
+          [](const SceneObject& self, const DeviceHandle& device, const std::string& kernel) {
+            return startHair(self, device, kernel);
+          },
+          py::arg("device") = py::none(), py::kw_only(), py::arg("kernel") = "auto",
+          "The scene's Hair as it begins the first frame, to be stepped with frame_poses. device: None: "
+          "Device().")
+      .def("run", &run, py::arg("callback") = py::none(), py::kw_only(), py::arg("frames") = py::none(),
+           py::arg("device") = py::none(), py::arg("kernel") = "auto",
+           "Steps frame after frame; returns the Hair after the last. callback: is given a Frame after each, "
+           "while the device computes the next; where it returns False, the run ends with the one under way, "
+           "and what "
+           "it raises ends it too. frames: None: frame_count. device: None: Device().")
+      .def(
+          "__repr__",
+          [](const SceneObject& s) {
+            return fmt::format("<ringlet.Scene {}: {} strands, {} frames>", s.name,
+                               s.groom->groom().strandCount(), s.loaded.frameCount);
+          },
+          "What it is, in a line.");
+}
+
+}  // namespace ringlet::python

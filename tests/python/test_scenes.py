@@ -1,0 +1,136 @@
+# Whole scenes: the bits of `ringlet simulate` and `ringlet scene` in every kind of scene, and callbacks.
+import numpy as np
+import pytest
+
+import ringlet
+from test_motion import BVH, gltf
+
+SWATCH = """
+[groom]
+generate = "swatch"
+columns = 3
+rows = 2
+particles = 32
+[simulation]
+frames = 5
+steps_per_frame = 4
+"""
+SCENES = {
+    "shake": SWATCH + '[motion]\nkind = "shake"\n',
+    "pre-roll": SWATCH + '[motion]\nkind = "nod"\npre_roll = 0.1\nstart = [0.5, 1, 0]\n',
+    "keys": SWATCH + '[motion]\n[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 0.15\nposition = [0.05, 0, 0]\n',
+    "material": SWATCH + '[motion]\nkind = "shake"\n[material]\npreset = "coil"\n'
+                         '[material.dials]\nhold = 0.5\nbounce = 0.02\n',
+    "air": SWATCH + '[motion]\nkind = "still"\n[air]\nwind = [3, 0, 0]\nturbulence = 0.5\ngust = 1\n',
+    "contacts": SWATCH + '[motion]\nkind = "shake"\n[contacts]\nradius = 0.008\n',
+    "bodies": SWATCH + '[motion]\nkind = "shake"\n[[body]]\nshape = "sphere"\nradius = 0.05\n'
+                       'position = [0, -0.2, 0]\n[[body]]\nshape = "plane"\nposition = [0, -0.24, 0]\n'
+                       'moves = { kind = "nod" }\n',
+    "bvh": SWATCH + '[motion]\nfile = "walk.bvh"\nunit = 0.01\nstart = [0, 0, 1]\n',
+    "jump": SWATCH + '[motion]\n[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 0.1\nposition = [9, 0, 0]\n',
+    "length": SWATCH.replace("frames = 5\n", "") + '[motion]\n[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 0.3\n'
+                                                  'position = [0.05, 0, 0]\n',
+    "seconds": SWATCH.replace("frames = 5", "seconds = 0.15") + '[motion]\nkind = "nod"\n',
+    "scalp": SWATCH + '[motion]\nkind = "shake"\n[scalp]\nfile = "walk.gltf"\nfarthest = 0.1\n',
+    "gltf": SWATCH + '[motion]\nfile = "walk.gltf"\n[[body]]\nshape = "sphere"\nradius = 0.04\njoint = "Head"\n'
+                     'position = [0, -0.2, 0]\n',
+    "roots": SWATCH + '[motion]\nkind = "shake"\n[motion.roots]\nshift = [0.01, 0, 0]\nease = 0.1\n',
+    "paper": SWATCH.replace("steps_per_frame = 4", 'steps_per_frame = 30\nintegrator = "paper"') +
+             '[motion]\nkind = "shake"\n',
+    "steps": SWATCH.replace("steps_per_frame = 4\n", "max_stretch = 1.005\n") + '[motion]\nkind = "shake"\n',
+    "placed": SWATCH.replace("particles = 32", "particles = 32\nscale = 0.5\nrotate_degrees = [0, 0, 30]\n"
+                                               "offset = [0.1, 0, 0]\nup = \"Z\"") + '[motion]\nkind = "walk"\n',
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_scene_file_has_the_bits_of_the_program(device, program, name):
+    (program.folder / "walk.bvh").write_text(BVH)
+    gltf(program.folder / "walk.gltf")
+    (program.folder / "scene.toml").write_text(SCENES[name])
+    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet")
+    scene = ringlet.Scene.load(program.folder / "scene.toml")
+    numbers = []
+    hair = scene.run(lambda frame: numbers.append((frame.number, ringlet.positions_hash(frame.positions),
+                                                   frame.points())), device=device)
+    assert [number for number, _, _ in numbers] == list(range(1, told["frames"] + 1))
+    assert numbers[-1][1] == told["positions_hash"] == ringlet.positions_hash(hair.positions())
+    assert hair.kernel == told["kernel"] and scene.settings.steps_per_frame == told["steps_per_frame"]
+    assert set(told["warnings"]) >= set(scene.warnings)
+    # Every frame, as the files have it.
+    frames = list(ringlet.AnimationReader(program.folder / "out/hair.usda"))
+    assert len(frames) == len(numbers)
+    for points, (_, _, seen) in zip(frames, numbers):
+        assert np.array_equal(points, seen)
+    last = ringlet.read_groom(program.folder / "out/last.obj", scene.groom.metres_per_unit)
+    assert np.array_equal(last.points, hair.points())
+
+
+@pytest.mark.parametrize("name", ["hanging_curl", "two_curls", "walk_head"])
+def test_a_built_in_scene_has_the_bits_of_the_program(device, program, name):
+    small = {} if name == "two_curls" else {"strands": 4}
+    told = program("scene", name, "--untuned", "--quiet", "--seconds", "0.2", "--particles", "16", "--contacts", "off",
+                   *(["--strands", "4"] if small else []))
+    scene = ringlet.Scene.builtin(name, seconds=0.2, particles=16, contacts=False, **small)
+    assert scene.frame_count == told["frames"]
+    assert ringlet.positions_hash(scene.run(device=device).positions()) == told["positions_hash"]
+
+
+def test_scenes_have_names_and_parts():
+    assert "hanging_curl" in ringlet.Scene.names()
+    scene = ringlet.Scene.builtin("walk_head", strands=10)
+    assert scene.groom.strand_count == 10 and [body.shape for body in scene.bodies] == ["mesh"]
+    assert scene.motion.kind == "walk" and scene.summary == ringlet.Scene.names()["walk_head"]
+    shifts = ringlet.Scene.builtin("two_curls").root_shifts
+    assert shifts.shape == (2, 3) and np.array_equal(shifts[0], -shifts[1])
+    assert ringlet.Scene.parse(SCENES["pre-roll"]).pre_roll_seconds == 0.1
+
+
+def test_a_scene_stepped_by_hand_has_the_bits_of_its_run(device):
+    scene = ringlet.Scene.parse(SCENES["bodies"])
+    expected = scene.run(device=device).positions()
+    hair = scene.start(device)
+    for frame in range(scene.frame_count):
+        head, bodies, roots = scene.frame_poses(frame)
+        assert head.shape == (4, 8) and bodies.shape == (4, 2, 7) and roots is None
+        hair.step(head, body_poses=bodies)
+    assert np.array_equal(hair.positions(), expected)
+
+
+def test_a_callback_may_end_the_run(device):
+    scene = ringlet.Scene.parse(SCENES["shake"])
+    seen = []
+
+    def stop(frame):
+        seen.append((frame.number, frame.seconds, frame.head))
+        return frame.number < 2
+
+    scene.run(stop, device=device, frames=5)
+    assert [number for number, _, _ in seen] == [1, 2]
+    assert seen[1][1] == pytest.approx(2 / 24) and seen[1][2] == scene.motion.pose_at(2 / 24)
+
+    def fail(frame):
+        raise LookupError("mine")
+
+    with pytest.raises(LookupError, match="mine"):
+        scene.run(fail, device=device)
+    scene.run(lambda frame: seen.append(0), device=device, frames=0)
+    assert len(seen) == 2
+
+
+def test_every_frame_has_an_array_of_its_own(device):
+    scene = ringlet.Scene.parse(SCENES["shake"])
+    kept, copies = [], []
+    scene.run(lambda frame: (kept.append(frame.positions), copies.append(frame.positions.copy())), device=device)
+    assert all(np.array_equal(a, b) for a, b in zip(kept, copies))
+    assert not np.array_equal(kept[0], kept[-1])
+
+
+def test_a_broken_scene_is_told_with_file_and_line(tmp_path):
+    (tmp_path / "scene.toml").write_text('[groom]\ngenerate = "curl"\n[simulation]\nfraems = 3\n')
+    with pytest.raises(ringlet.Error, match=r"scene.toml.*4.*did you mean simulation.frames"):
+        ringlet.Scene.load(tmp_path / "scene.toml")
+    (tmp_path / "scene.toml").write_text('[groom]\nfile = "missing.obj"\n')
+    with pytest.raises(ringlet.Error, match="missing.obj") as error:
+        ringlet.Scene.load(tmp_path / "scene.toml")
+    assert error.value.fault == "input"

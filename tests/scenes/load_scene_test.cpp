@@ -1,0 +1,85 @@
+// scenes/load_scene.h: everything a run of a scene file starts from. That whole runs have the bits of the
+// command's is tests/python/test_scenes.py.
+#include "ringlet/scenes/load_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace ringlet {
+namespace {
+
+const std::string kCurl = "[groom]\ngenerate = \"curl\"\nparticles = 16\n";
+
+LoadedScene loaded(const std::string& text) {
+  const auto scene = parseScene(kCurl + text, "the scene");
+  EXPECT_TRUE(scene) << scene.error().message;
+  auto made = loadScene(*scene);
+  EXPECT_TRUE(made) << made.error().message;
+  return std::move(*made);
+}
+
+TEST(LoadScene, FramesAreCountedSecondsOrTheLengthOfKeys) {
+  EXPECT_EQ(loaded("").frameCount, 48);
+  EXPECT_EQ(loaded("[simulation]\nframes = 7\n").frameCount, 7);
+  EXPECT_EQ(loaded("[simulation]\nseconds = 0.5\nfps = 30\n").frameCount, 15);
+  const std::string keys =
+      "[motion]\n[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 2\nposition = [1, 0, 0]\n";
+  EXPECT_EQ(loaded(keys + "[simulation]\nfps = 30\n").frameCount, 60);
+  EXPECT_EQ(loaded(keys + "[simulation]\nframes = 3\n").frameCount, 3);
+}
+
+// Of 24 frames a second, a metre a frame: keys further apart than 24 m/s are jumps.
+TEST(LoadScene, KeysFurtherApartThanAHeadGoesAreCut) {
+  const std::string keys =
+      "[motion]\n[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 1\nposition = [23, 0, 0]\n"
+      "[[motion.key]]\ntime = 2\nposition = [48, 0, 0]\n";
+  const auto cut = loaded(keys).motion.keyframes;
+  EXPECT_EQ(cut->cutSpeed, 24);
+  EXPECT_FALSE(cut->isCut(0));
+  EXPECT_TRUE(cut->isCut(1));
+  EXPECT_FALSE(loaded(keys + "[simulation]\nteleport_distance = 0\n").motion.keyframes->isCut(1));
+}
+
+TEST(LoadScene, DialsAreWorkedInAndAStatedStretchStands) {
+  const std::string material = "[material]\nbend_stiffness = 4\n[material.dials]\nhold = 2\nbounce = 0.25\n";
+  EXPECT_EQ(loaded(material).material.bendStiffness, 8);
+  EXPECT_EQ(loaded(material).settings.maxStretch, 1.25);
+  EXPECT_EQ(loaded(material + "[simulation]\nmax_stretch = 1.5\n").settings.maxStretch, 1.5);
+  const auto spoilt =
+      loadScene(*parseScene(kCurl + "[material]\nbend_stiffness = 1e6\n[material.dials]\nhold = 2\n", "s"));
+  ASSERT_FALSE(spoilt);
+  EXPECT_NE(spoilt.error().message.find("with the dials hold 2"), std::string::npos)
+      << spoilt.error().message;
+}
+
+// The curl asks for a step of some length: twice the frames, half the steps.
+TEST(LoadScene, StepsAreChosenWhereTheyAreNotSaid) {
+  EXPECT_EQ(loaded("[simulation]\nsteps_per_frame = 3\n").settings.stepsPerFrame, 3);
+  const int steps = loaded("[simulation]\nfps = 24\n").settings.stepsPerFrame;
+  EXPECT_GE(steps, 8);
+  EXPECT_EQ(loaded("[simulation]\nfps = 12\n").settings.stepsPerFrame, 2 * steps);
+}
+
+TEST(LoadScene, BodiesAndWhatMovesThemAreThere) {
+  const LoadedScene scene = loaded(
+      "[motion]\nkind = \"shake\"\npre_roll = 0.5\nstart = [1, 2, 3]\n[motion.roots]\nshift = [0.1, 0, 0]\n"
+      "[[body]]\nshape = \"sphere\"\nmoves = { kind = \"nod\" }\n");
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  ASSERT_TRUE(scene.bodies[0].motion);
+  EXPECT_EQ(scene.bodies[0].motion->kind, MotionKind::nod);
+  EXPECT_EQ(scene.preRollSeconds, 0.5);
+  EXPECT_EQ(scene.motion.start, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(scene.rootShifts, (std::vector<Vec3d>{{0.1, 0, 0}}));
+  EXPECT_FALSE(scene.scalp);
+}
+
+TEST(LoadScene, AFileThatIsNotThereIsNamed) {
+  const auto made = loadScene(*parseScene("[groom]\nfile = \"missing.obj\"\n", "s", "folder"));
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().fault, Fault::input);
+  EXPECT_NE(made.error().message.find("folder/missing.obj"), std::string::npos) << made.error().message;
+}
+
+}  // namespace
+}  // namespace ringlet
