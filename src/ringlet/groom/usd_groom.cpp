@@ -20,7 +20,10 @@ namespace {
 
 constexpr const char* kFlatten = "flatten the file first, as `usdcat --flatten` does";
 constexpr double kSmallestUnit = 1e-6, kLargestUnit = 1000;  // [m], as --unit may be
-constexpr std::size_t kMostNamed = 6;                        // in a sentence
+// Of a file's bytes: a point takes eight at least, of which a cubic piece makes 28 particles at most. Arrays
+// that many prims share could make more.
+constexpr std::size_t kParticlesPerByte = 4, kFreeParticles = 65536;
+constexpr std::size_t kMostNamed = 6;  // in a sentence
 
 // Why curves are not drawn, and so not read.
 enum class LeftOut : std::uint8_t { no, inactive, abstract, over, invisible, proxy, prototype };
@@ -311,6 +314,10 @@ class UsdGroomMaker {
     if (points_.size() > std::numeric_limits<std::uint32_t>::max() - groom.points.size())
       return Error{
           fmt::format("{}: its strands have too many particles; at most 2^32 - 1 can be read", name_)};
+    if (groom.points.size() + points_.size() > kParticlesPerByte * layer_.byteCount + kFreeParticles) {
+      return wrong(prim, fmt::format("its strands bring the file to {} particles, too many for its {} bytes",
+                                     groom.points.size() + points_.size(), layer_.byteCount));
+    }
     const UsdTransform& transform = transforms_[inherited_[prim].transform];
     const bool isPlaced = transform != UsdTransform{};  // else the file's own bits stay
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -43,6 +43,7 @@ struct UsdPrim {
 };
 
 struct UsdLayer {
+  std::size_t byteCount = 0;   // of the file that said all this
   std::vector<UsdPrim> prims;  // in the file's order, parents first
   std::optional<double> metresPerUnit;
   std::string_view upAxis;      // "" where the file does not say

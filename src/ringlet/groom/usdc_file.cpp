@@ -44,7 +44,7 @@ constexpr std::size_t kFewestPacked = 16;  // elements of an array that is packe
 
 // Bounds on what a file unpacks to, of its size. Of people's files structure takes a few bytes a path and the
 // points all others; what is equal is stored once, so that a file may have more numbers than bytes.
-constexpr std::size_t kTextPerByte = 32, kNumbersPerByte = 4, kFreeText = 1 << 20, kFreeNumbers = 1 << 20,
+constexpr std::size_t kTextPerByte = 32, kNumbersPerByte = 16, kFreeText = 1 << 20, kFreeNumbers = 1 << 16,
                       kFreeCount = 4096;
 
 enum class SpecType : std::uint32_t { attribute = 1, prim = 6, root = 7, last = 11 };
