@@ -2,6 +2,7 @@
 // refused and by which name.
 #include "ringlet/groom/usda_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -181,6 +182,7 @@ TEST(UsdaFile, PlacesWhatIsBelowTransforms) {
   expectNear(one("float3", "rotateZYX", "(90, 90, 90)"), {3, -2, 1});
   // The numbers belong to X, Y and Z whatever the order: only Y by a quarter.
   expectNear(one("float3", "rotateZYX", "(0, 90, 0)"), {3, 2, -1});
+  expectNear(one("float3", "rotateZXY", "(90, 0, 0)"), {1, -3, 2});
   // A quarter about Z, the real part first.
   expectNear(one("quatf", "orient", "(0.70710678, 0, 0, 0.70710678)"), {-2, 1, 3});
   // Rows: x goes to the first, and the last moves.

@@ -323,6 +323,21 @@ TEST(UsdcFile, RefusesBombs) {
     shared.addAttribute("/" + child + ".points", points);
   }
   expectError(shared.bytes(), "numbers in so small a file");
+
+  // Fewer of them, cubic and as bent as can be: 29 particles of four points.
+  CrateBytes bent;
+  children.resize(700);
+  for (const char* name : {"points", "curveVertexCounts"}) bent.name(name);
+  bent.addRoot(children);
+  std::vector<Vec3f> zigzag;
+  for (int i = 0; i < 200; ++i) zigzag.push_back({float(i % 2), 0, 0});
+  const auto few = bent.points(zigzag), counts = bent.integers(std::vector<std::int32_t>(50, 4));
+  for (const std::string& child : children) {
+    bent.addPrim("/" + child, "BasisCurves");
+    bent.addAttribute("/" + child + ".points", few);
+    bent.addAttribute("/" + child + ".curveVertexCounts", counts);
+  }
+  expectError(bent.bytes(), "too many for its");
 }
 
 TEST(UsdcFile, RefusesTreesThatAreNone) {

@@ -1,5 +1,6 @@
 // `ringlet info` as a user runs it: what it says of a groom, what it mends, and grooms of other programs in
 // every command.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char* kFlatten = "flatten the file first, as `usdcat --flatten` does";
 constexpr double kSmallestUnit = 1e-6, kLargestUnit = 1000;  // [m], as --unit may be
-// Of a file's bytes: a point takes eight at least, of which a cubic piece makes 28 particles at most. Arrays
-// that many prims share could make more.
+// Of a file's bytes: a point takes eight at least, and four of a cubic curve make 29 particles at most.
+// Arrays that many prims share could make more.
 constexpr std::size_t kParticlesPerByte = 4, kFreeParticles = 65536;
 constexpr std::size_t kMostNamed = 6;  // in a sentence
 
