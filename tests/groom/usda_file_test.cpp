@@ -103,6 +103,7 @@ def "World" (
   EXPECT_EQ(loaded->groom.metresPerUnit, 1);
   EXPECT_TRUE(loaded->statesUnit);
   EXPECT_TRUE(read(std::string("#usda 1.0\r\n") + text.substr(10)));
+  EXPECT_TRUE(read(std::string("#usda 1.1\n") + text.substr(10)));
 }
 
 TEST(UsdaFile, ReadsAllPrimsInTheirOrder) {

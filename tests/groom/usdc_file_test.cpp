@@ -301,6 +301,12 @@ TEST(UsdcFile, SurvivesEveryByteAndEveryCount) {
 
 TEST(UsdcFile, RefusesBombs) {
   const test::MemoryLimit limit(kMostMemory);
+  // A gigabyte in four megabytes, of which a thousand bytes are wanted.
+  std::vector<std::byte> out;
+  const std::string bomb =
+      std::string("\x1f\x00\x01\x00", 4) + std::string(4 << 20, '\xff') + std::string(2, '\0');
+  EXPECT_FALSE(appendLz4Block(test::bytesOf(bomb), 1000, out));
+
   // Four million counts in some kilobytes: 2 bits each, all 0, which LZ4 makes a 255th of.
   std::string zeros("\x00\x1f\x00\x01\x00", 5);
   zeros += std::string(4000, '\xff');

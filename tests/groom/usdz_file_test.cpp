@@ -51,6 +51,8 @@ TEST(UsdzFile, RefusesPackagesThatAreNone) {
   expectError({.name = "a.png", .content = text}, "a layer first");
   expectError({.content = text, .nameInDirectory = "b.usda"}, "both to say the same");
   expectError({.content = text, .sizeInDirectory = 3}, "both to say the same");
+  for (const std::uint32_t lie : {std::uint32_t(text.size() + 1), 0x80000000u, 0xffffffffu})
+    expectError({.content = text, .sizeInBoth = lie}, "beyond the directory");
   expectError({.content = text, .begin = 7}, "the file at byte 0");
 }
 

@@ -11,14 +11,17 @@ struct ZipBytes {
   std::string name = "a.usda", extra{}, content{};
   std::uint16_t method = 0, flags = 0;
   std::string nameInDirectory{};
-  std::uint32_t sizeInDirectory = 0, begin = 0;
+  std::uint32_t sizeInBoth = 0, sizeInDirectory = 0, begin = 0;
   int others = 0;  // small files behind it
   std::string comment{};
 
   std::string bytes() const {
     std::string out = file(name, extra, content);
     std::string directory = entry(nameInDirectory.empty() ? name : nameInDirectory,
-                                  sizeInDirectory ? sizeInDirectory : size(content), begin);
+                                  sizeInDirectory ? sizeInDirectory
+                                  : sizeInBoth    ? sizeInBoth
+                                                  : size(content),
+                                  begin);
     for (int i = 0; i < others; ++i) {
       directory += entry("b.png", 3, size(out));
       out += file("b.png", "", "png");
@@ -51,7 +54,7 @@ struct ZipBytes {
   std::string file(const std::string& called, const std::string& more, const std::string& bytes) const {
     std::string out;
     number(out, 0x04034b50, 4);
-    return out + head(called, size(bytes), more.size()) + called + more + bytes;
+    return out + head(called, sizeInBoth ? sizeInBoth : size(bytes), more.size()) + called + more + bytes;
   }
   std::string entry(const std::string& called, std::uint32_t length, std::uint32_t at) const {
     std::string out;

@@ -27,7 +27,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::string_view kCookie = "#usda 1.0";
+constexpr std::string_view kCookie = "#usda 1.";  // with any minor version; to the parser a comment
 constexpr std::size_t kDeepestBracket = 256;
 constexpr std::size_t kWidestElement = 16;  // a matrix
 constexpr std::array<std::string_view, 5> kListEdits{"prepend", "append", "add", "delete", "reorder"};
@@ -52,7 +52,6 @@ class UsdaReader {
 
   Result<UsdLayer> read() {
     if (!isUsda(text_)) return wanted("'#usda 1.0'");
-    at_ = kCookie.size();
     if (peek() == '(') {
       if (Status read = readLayerMetadata(); !read) return read.error();
     }

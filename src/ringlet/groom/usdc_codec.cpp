@@ -52,7 +52,6 @@ std::optional<std::vector<std::int32_t>> unpackUsdcIntegers(std::span<const std:
   std::vector<std::int32_t> values;
   if (count == 0) return values;
   const std::size_t codesEnd = 4 + count / 4 + (count % 4 > 0);
-  if (codesEnd > mostLz4Bytes(packed.size())) return std::nullopt;
   const auto bytes = unpackUsdc(packed, codesEnd + 4 * count);
   if (!bytes || bytes->size() < codesEnd) return std::nullopt;
 
