@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <limits>
+#include <string_view>
 #include <system_error>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/output/usd_writer.h"
 
 namespace ringlet::program {
 namespace {
@@ -31,6 +34,14 @@ std::string nameOf(CachePrecision precision) {
 }
 
 bool isAnimation(const fs::path& path) { return formatOf(path) == ".usda" || formatOf(path) == ".rgc"; }
+
+bool holdsAnimation(const fs::path& path) {
+  if (!isAnimation(path) || path.extension() != ".usda") return isAnimation(path);
+  const std::string_view begin = UsdWriter::kBegin;
+  std::string found(begin.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(found.data(), static_cast<std::streamsize>(found.size()));
+  return found == begin;
+}
 
 Result<AnimationSource> AnimationSource::open(const fs::path& path) {
   if (!isAnimation(path))

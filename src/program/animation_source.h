@@ -24,6 +24,9 @@ std::string nameOf(CachePrecision precision);
 /// Whether the name is that of an animation: .usda or .rgc, and .partial after it.
 bool isAnimation(const std::filesystem::path& path);
 
+/// Whether it can be one by its name and, of .usda, which others write too, by its first lines as well.
+bool holdsAnimation(const std::filesystem::path& path);
+
 class AnimationSource {
  public:
   /// Errors: the name is of neither format, and those of the format's reader.

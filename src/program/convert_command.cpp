@@ -17,6 +17,7 @@
 #include "program/convert_run.h"
 #include "program/exit_codes.h"
 #include "program/run_report.h"
+#include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
 
 namespace ringlet::program {
@@ -31,6 +32,7 @@ constexpr const char* kExample =
     "  ringlet convert out/hair.rgc pose.obj --frame 12\n"
     "  ringlet convert out/hair.rgc sheet.png\n"
     "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
+    "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair or .obj\n"
     "\n"
     "OUT's ending says what becomes of it. .usda, .rgc and .png count frames from 1 again; the names of "
     ".obj\n"
@@ -211,6 +213,33 @@ void printOutcome(const Typed& typed, const AnimationSource& source, const Conve
   }
 }
 
+// A groom is one pose: another program's, made into what Ringlet writes.
+Status runGroomConvert(const Typed& typed) {
+  if (typed.info)
+    return Error{fmt::format("{} is a groom; `ringlet info` says what is in it", typed.input.string())};
+  const auto loaded = readGroom(typed.input);
+  if (!loaded) return loaded.error();
+  for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
+  if (Status written = writeGroom(typed.output, loaded->groom); !written) return written;
+  const Groom& groom = loaded->groom;
+  std::error_code code;
+  const std::uint64_t bytes = std::filesystem::file_size(typed.output, code);
+  if (typed.json) {
+    printJson({{"frames", 1},
+               {"strands", groom.strandCount()},
+               {"particles", groom.points.size()},
+               {"bytes", bytes},
+               {"error_bound_m", 0},
+               {"warnings", loaded->warnings},
+               {"outputs", {typed.output.string()}}});
+  } else if (!typed.quiet) {
+    fmt::print("a groom of {} strand{}, {} particles, in units of {} m: {}, {}\n", groom.strandCount(),
+               groom.strandCount() == 1 ? "" : "s", groom.points.size(), groom.metresPerUnit,
+               typed.output.string(), sizeText(bytes));
+  }
+  return {};
+}
+
 Status runConvert(const Typed& typed) {
   auto source = AnimationSource::open(typed.input);
   if (!source) return source.error();
@@ -239,8 +268,13 @@ Status runConvert(const Typed& typed) {
 }
 
 int run(const Typed& typed) {
-  checkOptions(typed);
-  const Status done = runConvert(typed);
+  const bool isGroom = isGroomFile(typed.input) && !holdsAnimation(typed.input);
+  if (isGroom && (typed.frame || !typed.frames.empty() || !typed.precision.empty()))
+    throw CLI::ValidationError("IN", "a groom has no frames and no precision");
+  if (isGroom && !typed.info && typed.output.empty())
+    throw CLI::ValidationError("OUT", "name the file to write, .hair or .obj");
+  if (!isGroom) checkOptions(typed);
+  const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
   say("ringlet convert: {}\n", done.error().message);
   return exitCodeOf(done.error());
@@ -253,7 +287,8 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("convert", "Makes another file of an animation, or says what is in it");
   command->footer(kExample);
-  command->add_option("IN", typed->input, "An animation: hair.rgc or hair.usda, or their .partial")
+  command
+      ->add_option("IN", typed->input, "An animation: hair.rgc or hair.usda, or their .partial; or a groom")
       ->required()
       ->type_name("FILE");
   command

@@ -13,6 +13,7 @@
 #include "program/convert_command.h"
 #include "program/devices_command.h"
 #include "program/exit_codes.h"
+#include "program/info_command.h"
 #include "program/interruption.h"
 #include "program/kernels_command.h"
 #include "program/make_command.h"
@@ -38,6 +39,7 @@ int main(int argumentCount, char** arguments) {
       "own --help.");
   addMakeCommand(app, exitCode);
   addSimulateCommand(app, exitCode);
+  addInfoCommand(app, exitCode);
   addMeasureCommand(app, exitCode);
   addConvertCommand(app, exitCode);
   addSceneCommand(app, exitCode);

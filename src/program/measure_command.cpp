@@ -27,7 +27,6 @@
 namespace ringlet::program {
 namespace {
 
-constexpr double kCentimetre = 0.01;  // what a groom's unit is taken for
 constexpr const char* kExample =
     "Examples:\n"
     "  ringlet measure groom.obj                     the curls of a groom\n"
@@ -36,8 +35,11 @@ constexpr const char* kExample =
     "  ringlet measure groom.obj out --against settled.obj\n"
     "                                                and how far that is from one more pose\n"
     "\n"
+    "A USD file (.usda, .usdc, .usd, .usdz) states its unit and its up axis; --unit and --up go before "
+    "them.\n"
     "OTHER is a groom with the same strands, a folder that `ringlet simulate` wrote, or its hair.usda or\n"
     "hair.rgc.\n"
+    "A hair.usda may be the groom as well: its first frame is.\n"
     "In an animation the groom counts as the frame before the first; tables show the last frame.\n"
     "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
     "root, or roots on a line, cannot show every turn; the head then turns as little as they allow).\n"
@@ -69,12 +71,23 @@ struct Typed {
 
 void warn(const std::string& sentence) { say("ringlet measure: warning: {}\n", sentence); }
 
-Result<Groom> read(const std::filesystem::path& path, double metresPerUnit) {
-  auto loaded = readGroom(path);
+// A groom with its up axis where `upIsZ` says, in its file's unit or the one typed, and in no other than
+// `unit` where that is known.
+Result<Groom> read(const std::filesystem::path& path, const Typed& typed, bool upIsZ,
+                   std::optional<double> unit = {}) {
+  auto loaded = readGroom(path, {.upIsZ = upIsZ});
   if (!loaded) return loaded.error();
   for (const std::string& warning : loaded->warnings) warn(warning);
-  loaded->groom.metresPerUnit = metresPerUnit;
-  return std::move(loaded->groom);
+  Groom& groom = loaded->groom;
+  if (typed.metresPerUnit) groom.metresPerUnit = *typed.metresPerUnit;
+  if (!unit || groom.metresPerUnit == *unit) return std::move(groom);
+  if (loaded->statesUnit && !typed.metresPerUnit) {
+    warn(fmt::format("{} is in units of {} m, and measured in {} m", path.string(), groom.metresPerUnit,
+                     *unit));
+    for (Vec3f& p : groom.points) p = Vec3f(Vec3d(p) * (groom.metresPerUnit / *unit));
+  }
+  groom.metresPerUnit = *unit;
+  return std::move(groom);
 }
 
 // Whether the file `path` holds the same strands as REST, particle for particle.
@@ -102,8 +115,8 @@ std::vector<std::uint32_t> countsOf(const Groom& groom) {
 }
 
 // Another pose of REST's strands.
-Result<Groom> readPose(const Groom& rest, const Typed& typed, const std::filesystem::path& path) {
-  auto pose = read(path, rest.metresPerUnit);
+Result<Groom> readPose(const Groom& rest, const Typed& typed, bool upIsZ, const std::filesystem::path& path) {
+  auto pose = read(path, typed, upIsZ, rest.metresPerUnit);
   if (!pose) return pose.error();
   if (Status same = checkSameStrands(rest, countsOf(*pose), typed, path); !same) return same.error();
   return pose;
@@ -111,24 +124,26 @@ Result<Groom> readPose(const Groom& rest, const Typed& typed, const std::filesys
 
 // How far `points`, in REST's unit, are from the pose of --against, if there is one.
 Result<std::vector<ShapeDistance>> measureAgainst(const GroomRuler& ruler, const Groom& rest,
-                                                  std::span<const Vec3f> points, const Typed& typed) {
+                                                  std::span<const Vec3f> points, const Typed& typed,
+                                                  bool upIsZ) {
   if (typed.against.empty()) return std::vector<ShapeDistance>{};
-  auto pose = readPose(rest, typed, typed.against);
+  auto pose = readPose(rest, typed, upIsZ, typed.against);
   if (!pose) return pose.error();
   auto distances = shapeDistances(ruler, points, pose->points, rest.metresPerUnit);
   if (!distances) return Error{fmt::format("{}: {}", typed.against.string(), distances.error().message)};
   return distances;
 }
 
-Vec3d upOf(const Typed& typed, UpAxis otherwise) {
-  const bool isZ = typed.up ? *typed.up == "Z" : otherwise == UpAxis::z;
-  return isZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
+bool isUpZ(const Typed& typed, UpAxis otherwise) {
+  return typed.up ? *typed.up == "Z" : otherwise == UpAxis::z;
 }
+Vec3d upOf(bool isZ) { return isZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0}; }
 
 Result<Measured> measureGroom(const Typed& typed) {
-  const double unit = typed.metresPerUnit.value_or(kCentimetre);
-  auto rest = read(typed.rest, unit);
+  const bool upIsZ = isUpZ(typed, UpAxis::y);
+  auto rest = read(typed.rest, typed, upIsZ);
   if (!rest) return rest.error();
+  const double unit = rest->metresPerUnit;
   auto ruler = GroomRuler::make(*rest);
   if (!ruler) return Error{fmt::format("{}: {}", typed.rest.string(), ruler.error().message)};
   std::vector<StrandMeasure> strands = ruler->rest();
@@ -136,15 +151,15 @@ Result<Measured> measureGroom(const Typed& typed) {
   // The same strands elsewhere.
   std::vector<Vec3f> points = rest->points;
   if (!typed.other.empty()) {
-    auto other = readPose(*rest, typed, typed.other);
+    auto other = readPose(*rest, typed, upIsZ, typed.other);
     if (!other) return other.error();
-    auto measured = ruler->measure(other->points, unit, upOf(typed, UpAxis::y),
-                                   ruler->headRotationOf(other->points, unit));
+    auto measured =
+        ruler->measure(other->points, unit, upOf(upIsZ), ruler->headRotationOf(other->points, unit));
     if (!measured) return Error{fmt::format("{}: {}", typed.other.string(), measured.error().message)};
     strands = std::move(*measured);
     points = std::move(other->points);
   }
-  auto distances = measureAgainst(*ruler, *rest, points, typed);
+  auto distances = measureAgainst(*ruler, *rest, points, typed, upIsZ);
   if (!distances) return distances.error();
 
   const CurlNumbers numbers = curlNumbers(*ruler, strands);
@@ -167,14 +182,15 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
     return Error{fmt::format("--unit {} does not fit {}, which was written in units of {} m; leave it out",
                              *typed.metresPerUnit, path.string(), unit)};
   }
-  auto rest = read(typed.rest, unit);
+  const bool upIsZ = isUpZ(typed, source->header().up);
+  auto rest = read(typed.rest, typed, upIsZ, unit);
   if (!rest) return rest.error();
   if (Status same = checkSameStrands(*rest, countsOf(source->groom()), typed, typed.other); !same)
     return same.error();
 
   // Frame by frame, from the groom itself on.
-  auto motion = MotionMeasure::make(
-      *rest, {.framesPerSecond = source->header().framesPerSecond, .up = upOf(typed, source->header().up)});
+  auto motion =
+      MotionMeasure::make(*rest, {.framesPerSecond = source->header().framesPerSecond, .up = upOf(upIsZ)});
   if (!motion) return Error{fmt::format("{}: {}", typed.rest.string(), motion.error().message)};
   if (source->frameCount() == 0) return Error{fmt::format("{} holds no frame", path.string())};
   for (int frame = 0; frame <= source->frameCount(); ++frame) {
@@ -186,7 +202,7 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
       return Error{fmt::format("{}: frame {}: {}", path.string(), frame, added.error().message)};
   }
 
-  auto distances = measureAgainst(motion->ruler(), *rest, source->groom().points, typed);
+  auto distances = measureAgainst(motion->ruler(), *rest, source->groom().points, typed, upIsZ);
   if (!distances) return distances.error();
 
   MotionReport report = motion->report();
@@ -212,7 +228,7 @@ Result<Measured> measure(const Typed& typed) {
   namespace fs = std::filesystem;
   fs::path path = typed.other;
   std::error_code code;
-  if (fs::is_directory(typed.rest, code) || isAnimation(typed.rest)) {
+  if (fs::is_directory(typed.rest, code) || (isAnimation(typed.rest) && !isGroomFile(typed.rest))) {
     return Error{
         fmt::format("{} is what became of a groom, which it does not hold; name the groom first, as in "
                     "`ringlet measure groom.obj {}`",
@@ -228,7 +244,7 @@ Result<Measured> measure(const Typed& typed) {
           fmt::format("{} holds no hair.usda and no hair.rgc; is it a folder that `ringlet simulate` wrote?",
                       typed.other.string())};
   }
-  return isAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed);
+  return holdsAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed);
 }
 
 int run(const Typed& typed) {
@@ -252,16 +268,20 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
   auto typed = std::make_shared<Typed>();
   CLI::App* command = app.add_subcommand("measure", "Measures the curl of a groom, and what became of it");
   command->footer(kExample);
-  command->add_option("REST", typed->rest, "The groom at rest: a .hair, .obj or .tfx file")
+  command
+      ->add_option("REST", typed->rest,
+                   "The groom at rest: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file")
       ->required()
       ->type_name("FILE");
   command
       ->add_option("OTHER", typed->other,
-                   "What became of it: a pose (.hair, .obj, .tfx), a folder, a hair.usda or hair.rgc")
+                   "What became of it: a pose (a groom's file), a folder, a hair.usda or hair.rgc")
       ->type_name("PATH");
   command
-      ->add_option("--unit", typed->metresPerUnit,
-                   "Metres per unit of the files (default: the animation's, else 0.01: centimetres)")
+      ->add_option(
+          "--unit", typed->metresPerUnit,
+          "Metres per unit of the files (default: the animation's, else what a USD file states, else 0.01: "
+          "centimetres)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
   command->add_option("--up", typed->up, "The files' up axis, Y or Z (default: the animation's, else Y)")
@@ -269,7 +289,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
       ->type_name("AXIS");
   command
       ->add_option("--against", typed->against,
-                   "Another pose of these strands (.hair, .obj, .tfx), to compare with")
+                   "Another pose of these strands (a groom's file), to compare with")
       ->type_name("FILE");
   command->add_flag("--strands", typed->strands, "Every strand by itself too");
   command->add_flag("--json", typed->json, "Print one JSON object instead of tables");

@@ -197,10 +197,9 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
   }
 }
 
-// All but the bodies, which must be read.
+// All but the groom and the bodies, which must be read.
 SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   SimulateOptions options;
-  options.groom = scene.groom;
   options.up = scene.groom.up == "Z" ? UpAxis::z : UpAxis::y;
   options.motion = motionOf(scene.motion, upOf(scene.groom));
   if (!scene.motion.file.empty()) options.motionFile = motionFileOf(scene.motion);
@@ -266,7 +265,10 @@ int run(const Typed& typed) {
   applyOptions(typed, *scene);
   checkOptions(typed, *scene);
   SimulateOptions options = optionsOf(typed, *scene);
-  auto bodies = loadBodies(*scene, options.warnings);
+  auto groom = loadGroom(scene->groom);
+  if (!groom) return fail(groom.error());
+  options.groom = std::move(*groom);
+  auto bodies = loadBodies(*scene, options.groom.groom.metresPerUnit, options.warnings);
   if (!bodies) return fail(bodies.error());
   options.bodies = std::move(*bodies);
 
@@ -301,7 +303,8 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   command
       ->add_option("GROOM", typed->input,
-                   "Strands to simulate: a .hair, .obj or .tfx file; or a scene file, .toml, whose keys "
+                   "Strands to simulate: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file; or a scene "
+                   "file, .toml, whose keys "
                    "`ringlet scene "
                    "--keys` prints and the options here override")
       ->required()
@@ -378,7 +381,9 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("HZ")
       ->group(scene);
   command
-      ->add_option("--unit", typed->unit, "Metres per unit of the groom's file (default 0.01: centimetres)")
+      ->add_option("--unit", typed->unit,
+                   "Metres per unit of the groom's file (default: what a USD file states, else 0.01: "
+                   "centimetres)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES")
       ->group(scene);

@@ -14,10 +14,9 @@
 namespace ringlet::program {
 
 Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
-  auto loaded = loadGroom(options.groom);
-  if (!loaded) return loaded.error();
+  const Groom& groom = options.groom.groom;
   std::vector<std::string> warnings = options.warnings;
-  warnings.insert(warnings.end(), loaded->warnings.begin(), loaded->warnings.end());
+  warnings.insert(warnings.end(), options.groom.warnings.begin(), options.groom.warnings.end());
   Settings settings = options.settings;
   const auto material = chooseMaterial(options.material, settings, warnings);
   if (!material) return material.error();
@@ -35,23 +34,23 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
     options.frameCount = static_cast<int>(std::clamp(frames + 1e-6, 1.0, 1e6));
   }
   if (options.choosesSteps) {
-    const auto steps = chooseStepsPerFrame(loaded->groom, *material, settings);
+    const auto steps = chooseStepsPerFrame(groom, *material, settings);
     if (!steps) return steps.error();
     settings.stepsPerFrame = options.settings.stepsPerFrame = *steps;
   }
 
-  const std::vector<Vec3d> shifts = rootShiftsOf(options.rootShift, loaded->groom.strandCount());
+  const std::vector<Vec3d> shifts = rootShiftsOf(options.rootShift, groom.strandCount());
   std::optional<HeadScalp> scalp;
   if (!options.scalp.file.empty()) {
-    auto bound = loadScalp(options.scalp, loaded->groom, options.motion, options.motionFile,
+    auto bound = loadScalp(options.scalp, groom, options.motion, options.motionFile,
                            options.up == UpAxis::z, warnings);
     if (!bound) return bound.error();
     scalp = std::move(*bound);
   }
   if (!options.facts.empty()) addMaterialFacts(*material, options.facts);
-  auto outcome = runHair(
-      {loaded->groom, *material, settings, options.motion, shifts, options.bodies, scalp ? &*scalp : nullptr},
-      options);
+  auto outcome =
+      runHair({groom, *material, settings, options.motion, shifts, options.bodies, scalp ? &*scalp : nullptr},
+              options);
   if (!outcome) return outcome.error();
   outcome->warnings.insert(outcome->warnings.begin(), warnings.begin(), warnings.end());
   return outcome;

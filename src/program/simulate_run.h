@@ -13,6 +13,7 @@
 #include "program/material_command.h"
 #include "program/run_folder.h"
 #include "ringlet/base/result.h"
+#include "ringlet/groom/loaded_groom.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/motion/head_scalp.h"
@@ -52,7 +53,7 @@ struct RunOptions {
 
 /// What the user asked for, checked.
 struct SimulateOptions : RunOptions {
-  SceneGroom groom;
+  LoadedGroom groom;
   Motion motion;
   std::optional<MotionFileChoice> motionFile;  // in its place
   SceneScalp scalp;                            // that roots follow; without a file the head carries them
@@ -123,7 +124,7 @@ using FrameObserver = std::function<Status(std::span<const Vec3f> points, const 
 Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
                                 const FrameObserver& observer = {});
 
-/// Reads the groom and the material first, and fills in options.settings.stepsPerFrame where it is to be
+/// Reads the material and the motion first, and fills in options.settings.stepsPerFrame where it is to be
 /// chosen.
 Result<SimulateOutcome> runSimulation(SimulateOptions& options);
 

@@ -165,12 +165,12 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("tune", "Measures which strand shapes are fastest on a device, and remembers it");
   command->footer(kHelp);
-  CLI::Option* groom =
-      command
-          ->add_option("GROOM", typed->groom,
-                       "A .hair, .obj or .tfx file whose strands' lengths to tune for: four at "
-                       "most that stand for all")
-          ->type_name("FILE");
+  CLI::Option* groom = command
+                           ->add_option("GROOM", typed->groom,
+                                        "A groom (.hair, .obj, .usd, .tfx, .ply, .data, .bin) whose strands' "
+                                        "lengths to tune for: four at "
+                                        "most that stand for all")
+                           ->type_name("FILE");
   command
       ->add_option(
           "--particles", typed->particles,

@@ -23,7 +23,12 @@
 #include "ringlet/scenes/scene_file.h"
 #include "ringlet/scenes/scene_parts.h"
 #include "ringlet/solver/shape_cost_file.h"
+#include "tests/groom/crate_bytes.h"
+#include "tests/groom/ply_samples.h"
+#include "tests/groom/strand_list_bytes.h"
 #include "tests/groom/tfx_bytes.h"
+#include "tests/groom/usda_samples.h"
+#include "tests/groom/zip_bytes.h"
 #include "tests/motion/gltf_samples.h"
 
 namespace ringlet::fuzz {
@@ -51,6 +56,52 @@ Status writeGrooms(const fs::path& folder) {
   write(seed(folder, "obj_file", "edges"), "v 0 0 0\nv 0 -1 0\nv 0 -2 0.5\nl 2 3\nl -3 -2\n");
   if (Status status = writeHair(seed(folder, "hair_file", "curls"), groom); !status) return status;
   return writeObj(seed(folder, "obj_file", "curls"), groom);
+}
+
+// As other programs write them; the animations are seeds of usda_file, too.
+void writeOthersGrooms(const fs::path& folder) {
+  const std::string linear = test::curves(test::kTwoStrands, "( upAxis = \"Z\" metersPerUnit = 0.01 )");
+  const std::string cubic =
+      "int[] curveVertexCounts = [4, 5] point3f[] points = "
+      "[(0,0,0),(0,1,0),(1,2,0),(0,3,0),(0,0,1),(0,1,1),(2,2,1),"
+      "(0,3,1),(0,4,1)] ";
+  write(seed(folder, "usda_file", "linear"), linear);
+  for (const char* basis : {"bspline", "catmullRom"}) {
+    write(seed(folder, "usda_file", basis),
+          test::curves(
+              fmt::format("{}uniform token basis = \"{}\" uniform token wrap = \"pinned\"", cubic, basis)));
+  }
+  write(seed(folder, "usda_file", "placed"),
+        "#usda 1.0\ndef Xform \"A\" ( active = true ) {\ndouble3 xformOp:translate = (1, 2, 3)\nfloat3 "
+        "xformOp:rotateXYZ = (1, 2, 3)\nmatrix4d xformOp:transform = "
+        "((1,0,0,0),(0,1,0,0),(0,0,1,0),(0,0,0,1))\n"
+        "quatf xformOp:orient = (1, 0, 0, 0)\nuniform token[] xformOpOrder = [\"xformOp:translate\", "
+        "\"xformOp:rotateXYZ\", \"!invert!xformOp:translate\", \"xformOp:orient\", \"xformOp:transform\"]\n"
+        "token visibility = \"inherited\"\n" +
+            linear.substr(linear.find("def")) +
+            "}\nclass \"B\" ( prepend references = @a.usd@</A> ) { variantSet \"v\" = { \"a\" { } } }\n");
+  test::CrateBytes moving;
+  for (const char* name : {"points", "curveVertexCounts", "type", "basis", "Hair"}) moving.name(name);
+  moving.addRoot({"Hair"}, {{"upAxis", moving.token("Y")}});
+  moving.addPrim("/Hair", "BasisCurves");
+  const auto points = moving.points({{0, 0, 0}, {0, 1, 0}, {1, 2, 0}, {0, 3, 0}});
+  moving.add("/Hair.points", test::CrateBytes::kAttribute,
+             {{"timeSamples", moving.samples({1, 2}, {points, points})}});
+  moving.addAttribute("/Hair.curveVertexCounts", moving.integers({4}));
+  moving.addAttribute("/Hair.basis", moving.token("bspline"));
+  write(seed(folder, "usdc_file", "small"), test::CrateBytes::small().bytes());
+  write(seed(folder, "usdc_file", "moving"), moving.bytes());
+  write(seed(folder, "usdz_file", "text"), test::ZipBytes{.content = linear}.bytes());
+  write(seed(folder, "usdz_file", "crate"),
+        test::ZipBytes{.name = "a.usdc", .content = moving.bytes(), .others = 1}.bytes());
+  write(seed(folder, "ply_file", "text"), test::plyText());
+  write(seed(folder, "ply_file", "bytes"), test::plyBinary());
+  write(seed(folder, "ply_file", "edges"),
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+        "z\nelement edge "
+        "2\nproperty int vertex1\nproperty int vertex2\nend_header\n0 0 0\n0 1 0\n0 2 0\n0 1\n1 2\n");
+  write(seed(folder, "strand_list_file", "data"), test::strandList({3, 1, 2}, 3));
+  write(seed(folder, "strand_list_file", "bin"), test::strandList({3, 1, 2}, 7));
 }
 
 void writeMeshes(const fs::path& folder) {
@@ -153,6 +204,7 @@ Status writeAnimations(const fs::path& folder) {
     if (Status done = writeFrames(UsdWriter::create(path, groom, {.frameCount = 2}), groom, isFinished);
         !done)
       return done;
+    if (isFinished) fs::copy_file(path, seed(folder, "usda_file", "own"));
   }
   return {};
 }
@@ -181,6 +233,35 @@ std::string dictionary(const Words& words) {
 void writeDictionaries(const fs::path& folder) {
   write(folder / "usd_reader.dict",
         dictionary(std::vector<std::string>{"000000000", "(0, 0, 0),", "]", "1e38"}));
+  const std::vector<std::string> usd{"#usda 1.0",
+                                     "def BasisCurves",
+                                     "point3f[] points = [",
+                                     "int[] curveVertexCounts = [",
+                                     "uniform token",
+                                     "type = ",
+                                     "\\\"cubic\\\"",
+                                     "\\\"linear\\\"",
+                                     "basis = ",
+                                     "wrap = ",
+                                     "\\\"periodic\\\"",
+                                     ".timeSamples = {",
+                                     ".connect = ",
+                                     "xformOpOrder = [",
+                                     "xformOp:transform",
+                                     "!resetXformStack!",
+                                     "active = ",
+                                     "references = @a@",
+                                     "variantSet",
+                                     "None",
+                                     "PXR-USDC",
+                                     "primChildren",
+                                     "nan",
+                                     "1e38"};
+  for (const char* fuzzer : {"usda_file", "usdc_file", "usdz_file"})
+    write(folder / (std::string(fuzzer) + ".dict"), dictionary(usd));
+  write(folder / "ply_file.dict", dictionary(std::vector<std::string>{
+                                      "element strand ", "element edge ", "property list uchar int ", "nsegs",
+                                      "vertex1", "format binary_little_endian 1.0", "end_header"}));
   std::vector<std::string> keys;
   for (const auto& parameter : materialParameters()) keys.push_back(parameter.key);
   for (const auto& parameter : dialParameters()) keys.push_back(parameter.key);
@@ -196,6 +277,7 @@ void writeDictionaries(const fs::path& folder) {
 }
 
 Status writeAll(const fs::path& folder) {
+  writeOthersGrooms(folder);
   writeMeshes(folder);
   writeMotions(folder);
   writeScenes(folder);

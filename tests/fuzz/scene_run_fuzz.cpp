@@ -87,8 +87,9 @@ void tryBytes(std::span<const std::byte> bytes) {
   if (!scene || !isSmall(*scene)) return;
   std::vector<std::string> warnings;
   const auto loaded = loadGroom(scene->groom);
-  const auto bodies = loadBodies(*scene, warnings);
-  if (!loaded || !bodies) return;
+  if (!loaded) return;
+  const auto bodies = loadBodies(*scene, loaded->groom.metresPerUnit, warnings);
+  if (!bodies) return;
   Settings settings = settingsOf(*scene);
   Material material = scene->material.material;
   (void)applyDials(scene->material.dials, material, settings);

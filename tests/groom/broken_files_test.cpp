@@ -8,9 +8,17 @@
 
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/groom/ply_file.h"
+#include "ringlet/groom/strand_list_file.h"
 #include "ringlet/groom/tfx_file.h"
+#include "ringlet/groom/usd_file.h"
+#include "tests/groom/crate_bytes.h"
 #include "tests/groom/groom_samples.h"
+#include "tests/groom/ply_samples.h"
+#include "tests/groom/strand_list_bytes.h"
 #include "tests/groom/tfx_bytes.h"
+#include "tests/groom/usda_samples.h"
+#include "tests/groom/zip_bytes.h"
 #include "tests/support/memory_limit.h"
 #include "tests/support/test_support.h"
 
@@ -125,6 +133,23 @@ TEST(BrokenFiles, Obj) {
       "\\\n3 2\nl 5 1\n";
   const Reader read = [](const std::string& bytes) { return readObj(test::bytesOf(bytes), "a.obj"); };
   spoilAndRead(valid, "0123456789-+./\\ \n\r\tvlf#eE", 40000, read);
+}
+
+TEST(BrokenFiles, Usd) {
+  const Reader read = [](const std::string& bytes) { return readUsd(test::bytesOf(bytes), "a.usd"); };
+  const std::string text = test::curves(test::kTwoStrands, "( upAxis = \"Z\" metersPerUnit = 1 )");
+  const std::string numbers("\0\1\2\xff\x7f\x80", 6);
+  spoilAndRead(text, "0123456789-+.,;()[]{}\"'#=@<>e \n", 20000, read);
+  spoilAndRead(test::CrateBytes::small().bytes(), numbers, 20000, read);
+  spoilAndRead(test::ZipBytes{.content = text}.bytes(), numbers, 20000, read);
+}
+
+TEST(BrokenFiles, PlyAndLists) {
+  const Reader ply = [](const std::string& bytes) { return readPly(test::bytesOf(bytes), "a.ply"); };
+  spoilAndRead(test::plyText(), "0123456789-+. \n", 20000, ply);
+  spoilAndRead(test::plyBinary(), std::string("\0\1\2\xff\x7f\x80", 6), 20000, ply);
+  const Reader list = [](const std::string& bytes) { return readStrandData(test::bytesOf(bytes), "a.data"); };
+  spoilAndRead(test::strandList({3, 1, 4}, 3), std::string("\0\1\2\xff\x7f\x80", 6), 20000, list);
 }
 
 TEST(BrokenFiles, Noise) {

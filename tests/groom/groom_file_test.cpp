@@ -46,14 +46,16 @@ TEST(GroomFile, ChoosesByExtensionInAnyCase) {
 
 TEST(GroomFile, SaysWhatIsSupported) {
   for (const char* name : {"a.abc", "a", ".hair", ".tfx", "a.hair.gz", ""}) {
-    expectReadError(name, "supported are .hair, .obj and .tfx");
+    expectReadError(name, "supported are .hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data and .bin");
+    EXPECT_FALSE(isGroomFile(name));
     expectWriteError(name, test::awkwardGroom(), "supported are .hair and .obj");
   }
 }
 
 TEST(GroomFile, RefusesWhatIsNoFile) {
   const auto folder = test::scratchFolder("groom_no_file");
-  for (const char* extension : {".hair", ".obj", ".tfx"}) {
+  for (const char* extension :
+       {".hair", ".obj", ".tfx", ".usda", ".usdc", ".usd", ".usdz", ".ply", ".data", ".bin"}) {
     expectReadError(folder / ("missing" + std::string(extension)), "No such file");
     expectReadError(folder / "nowhere" / ("a" + std::string(extension)), "No such file");
     const auto inner = folder / ("folder" + std::string(extension));

@@ -64,6 +64,19 @@ TEST(HairFile, ReadsStrandsOfDifferentLengths) {
   }
 }
 
+TEST(HairFile, TakesALowerCaseMagicWithAWarning) {
+  std::string bytes = HairBytes{}.bytes();
+  bytes.replace(0, 4, "hair");
+  const Result<LoadedGroom> loaded = read(bytes);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->groom.points, read(HairBytes{})->groom.points);
+  ASSERT_EQ(loaded->warnings.size(), 1u);
+  EXPECT_TRUE(contains(loaded->warnings[0], "found 'hair' for 'HAIR'; read as the same"))
+      << loaded->warnings[0];
+  bytes.replace(0, 4, "Hair");
+  expectError(bytes, {"at byte 0: found 'Hair'; expected 'HAIR'"});
+}
+
 TEST(HairFile, ReadsFilesWithoutSegmentsArray) {
   const HairBytes hair{.flags = 2, .defaultSegments = 2, .segments = {}};
   const Result<LoadedGroom> loaded = read(hair);

@@ -178,7 +178,7 @@ TEST(Measure, SaysWhatIsWrong) {
         Case{{"rest.obj", "--against", "missing.obj"}, 4, "missing.obj"},
         Case{{"rest.obj", "empty"}, 1, "holds no hair.usda"},
         Case{{"out"}, 1, "name the groom first, as in `ringlet measure groom.obj out`"},
-        Case{{"out/hair.usda", "rest.obj"}, 1, "name the groom first"},
+        Case{{"out/hair.rgc", "rest.obj"}, 1, "name the groom first"},
         Case{{"rest.obj", "out", "--unit", "1"}, 1, "--unit 1 does not fit"}, Case{{}, 2, "REST"},
         Case{{"rest.obj", "--up", "X"}, 2, "X"}, Case{{"rest.obj", "--unit", "-1"}, 2, "-1"}}) {
     auto arguments = c.arguments;

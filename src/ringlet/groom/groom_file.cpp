@@ -13,12 +13,15 @@
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/hair_file.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/groom/ply_file.h"
+#include "ringlet/groom/strand_list_file.h"
 #include "ringlet/groom/tfx_file.h"
+#include "ringlet/groom/usd_file.h"
 
 namespace ringlet {
 namespace {
 
-enum class Format { hair, obj, tfx };
+enum class Format { hair, obj, tfx, usd, ply, data, bin };
 
 std::optional<Format> formatOf(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -28,6 +31,11 @@ std::optional<Format> formatOf(const std::filesystem::path& path) {
   if (extension == ".hair") return Format::hair;
   if (extension == ".obj") return Format::obj;
   if (extension == ".tfx") return Format::tfx;
+  if (extension == ".usda" || extension == ".usdc" || extension == ".usd" || extension == ".usdz")
+    return Format::usd;
+  if (extension == ".ply") return Format::ply;
+  if (extension == ".data") return Format::data;
+  if (extension == ".bin") return Format::bin;
   return std::nullopt;
 }
 
@@ -41,9 +49,11 @@ Error unknownExtension(const std::filesystem::path& path, const char* attempt, c
 
 }  // namespace
 
-Result<LoadedGroom> readGroom(const std::filesystem::path& path) {
+bool isGroomFile(const std::filesystem::path& path) { return formatOf(path).has_value(); }
+
+Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomReading& reading) {
   const std::optional<Format> format = formatOf(path);
-  if (!format) return unknownExtension(path, "read", ".hair, .obj and .tfx");
+  if (!format) return unknownExtension(path, "read", kGroomEndings);
   try {
     Result<std::vector<std::byte>> bytes = readWholeFile(path);
     if (!bytes) return bytes.error();
@@ -54,6 +64,14 @@ Result<LoadedGroom> readGroom(const std::filesystem::path& path) {
         return readObj(*bytes, path);
       case Format::tfx:
         return readTfx(*bytes, path);
+      case Format::usd:
+        return readUsd(*bytes, path, reading);
+      case Format::ply:
+        return readPly(*bytes, path);
+      case Format::data:
+        return readStrandData(*bytes, path);
+      case Format::bin:
+        return readStrandBin(*bytes, path);
     }
     RINGLET_ASSERT(false, "a format without a reader");
   } catch (const std::bad_alloc&) {
@@ -69,11 +87,10 @@ Status writeGroom(const std::filesystem::path& path, const Groom& groom) {
       return writeHair(path, groom);
     case Format::obj:
       return writeObj(path, groom);
-    case Format::tfx:
-      return Error{fmt::format("{}: cannot write a groom: .tfx is only read; supported are .hair and .obj",
-                               path.string())};
+    default:
+      return Error{fmt::format("{}: cannot write a groom: {} is only read; supported are .hair and .obj",
+                               path.string(), path.extension().string())};
   }
-  RINGLET_ASSERT(false, "a format without a writer");
 }
 
 }  // namespace ringlet

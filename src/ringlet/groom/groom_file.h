@@ -1,5 +1,6 @@
 // Reads and writes grooms, choosing the format by the file's extension: .hair (hair_file.h), .obj
-// (obj_file.h) or, to be read only, .tfx (tfx_file.h).
+// (obj_file.h) or, to be read only, .usda, .usdc, .usd and .usdz (usd_file.h), .tfx (tfx_file.h), .ply
+// (ply_file.h), .data and .bin (strand_list_file.h).
 #pragma once
 
 #include <filesystem>
@@ -10,11 +11,19 @@
 
 namespace ringlet {
 
-/// Reads a groom; upper or lower case of the extension does not matter. The points stay in the file's unit,
-/// and metresPerUnit keeps its default, since no format states it. Every strand has at least two particles,
-/// all finite. Errors: unknown extension, missing or unreadable file, anything wrong inside it, more than
-/// memory holds. Cost: one read of the whole file into memory.
-Result<LoadedGroom> readGroom(const std::filesystem::path& path);
+/// Reads a groom; upper or lower case of the extension does not matter. The points stay in the file's unit.
+/// USD alone states its unit and its up axis: metresPerUnit is then the file's, and the points are turned to
+/// the axis that is asked for; of others metresPerUnit keeps its default. Every strand has at least two
+/// particles, all finite. Errors: unknown extension, missing or unreadable file, anything wrong inside it,
+/// more than memory holds. Cost: one read of the whole file into memory.
+Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomReading& reading = {});
+
+/// Whether the name of a file ends as that of a groom that can be read.
+bool isGroomFile(const std::filesystem::path& path);
+
+/// All such endings, as a sentence has them: ".hair, .obj ... and .bin".
+inline constexpr const char* kGroomEndings =
+    ".hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data and .bin";
 
 /// Writes a groom so that reading it gives the same bits. An existing file is replaced only once all is
 /// written. Errors: an extension other than .hair and .obj, a groom without strands, a strand of fewer than

@@ -1,6 +1,6 @@
 // Implements groom/hair_file.h.
 //
-//   byte   0  "HAIR"
+//   byte   0  "HAIR"; some programs write "hair"
 //          4  u32 strand count
 //          8  u32 point count
 //         12  u32 flags
@@ -17,7 +17,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +30,7 @@
 namespace ringlet {
 namespace {
 
-constexpr std::string_view kMagic = "HAIR";
+constexpr std::string_view kMagic = "HAIR", kLowerMagic = "hair";
 constexpr std::size_t kHeaderSize = 128;
 constexpr std::size_t kStrandCountOffset = 4, kPointCountOffset = 8, kFlagsOffset = 12,
                       kDefaultSegmentsOffset = 16;
@@ -54,14 +53,18 @@ struct Header {
   }
 };
 
+std::string_view magicOf(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), kMagic.size()};
+}
+
 // What can be said before any array is read: the counts fit the flags and the file's real size.
 Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.size() < kHeaderSize) {
     return Error{fmt::format("{}: at byte {}: the file ends here; expected a HAIR header of {} bytes", name,
                              bytes.size(), kHeaderSize)};
   }
-  if (std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
-    const std::string_view found(reinterpret_cast<const char*>(bytes.data()), kMagic.size());
+  const std::string_view found = magicOf(bytes);
+  if (found != kMagic && found != kLowerMagic) {
     return Error{fmt::format("{}: at byte 0: found {}; expected '{}'", name, quoted(found), kMagic)};
   }
   const Header header{readU32(bytes, kStrandCountOffset), readU32(bytes, kPointCountOffset),
@@ -154,6 +157,10 @@ Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesy
     loaded.warnings.push_back(
         fmt::format("{}: left out {} of {} strands, which have one point; a strand needs two", name, tooShort,
                     counts->size()));
+  }
+  if (magicOf(bytes) == kLowerMagic) {
+    loaded.warnings.push_back(
+        fmt::format("{}: at byte 0: found '{}' for '{}'; read as the same", name, kLowerMagic, kMagic));
   }
   if (header->flags & ~kKnownFlags) {
     loaded.warnings.push_back(fmt::format("{}: at byte {}: flags {:#x} have unknown bits {:#x}; ignored",

@@ -101,7 +101,7 @@ Result<UsdWriter> UsdWriter::create(const std::filesystem::path& path, const Gro
 // All that stands before the first frame; notes where that is, and what will be patched.
 std::string UsdWriter::headerText() {
   // What the file is measured in.
-  std::string text = "#usda 1.0\n(\n    defaultPrim = \"Hair\"\n    endTimeCode = ";
+  std::string text(kBegin);
   endTimeCodeAt_ = text.size();
   text += padded("0", kTimeCodeWidth);
   text += fmt::format(

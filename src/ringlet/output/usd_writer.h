@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ringlet/base/result.h"
@@ -23,6 +24,9 @@ namespace ringlet {
 /// finished. A frame that fails (full disk) leaves the frames before it.
 class UsdWriter : public AnimationWriter {
  public:
+  /// What every file begins with.
+  static constexpr std::string_view kBegin = "#usda 1.0\n(\n    defaultPrim = \"Hair\"\n    endTimeCode = ";
+
   /// Creates the file and writes everything but the samples. Only the groom's strand lengths are used.
   static Result<UsdWriter> create(const std::filesystem::path& path, const Groom& topology,
                                   const AnimationOptions& options);

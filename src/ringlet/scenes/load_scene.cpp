@@ -37,7 +37,7 @@ Result<TriangleMesh> readGltfMesh(const SceneBody& scene, std::vector<std::strin
 }
 
 // The distance grid of a mesh, read or made.
-Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, Body& body,
+Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, double metresPerUnit, Body& body,
                     std::vector<std::string>& warnings) {
   TriangleMesh mesh;
   if (scene.generate == "head") {
@@ -47,7 +47,7 @@ Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, Body& body,
   } else {
     const bool isGltf = motionFileKind(scene.file.string()) == MotionFileKind::gltf;
     auto read = isGltf ? readGltfMesh(scene, warnings)
-                       : readObjMesh(scene.file, scene.metresPerUnit.value_or(groom.metresPerUnit));
+                       : readObjMesh(scene.file, scene.metresPerUnit.value_or(metresPerUnit));
     if (!read) return read.error();
     mesh = std::move(*read);
   }
@@ -140,10 +140,10 @@ void cutJumps(const Settings& settings, Motion& motion) {
 Result<LoadedGroom> loadGroom(const SceneGroom& scene) {
   LoadedGroom loaded;
   if (scene.generate.empty()) {
-    auto read = readGroom(scene.file);
+    auto read = readGroom(scene.file, {.upIsZ = scene.up == "Z"});
     if (!read) return read.error();
     loaded = std::move(*read);
-    loaded.groom.metresPerUnit = scene.metresPerUnit;
+    if (scene.metresPerUnit) loaded.groom.metresPerUnit = *scene.metresPerUnit;
   } else {
     auto made = generatedGroom(scene);
     if (!made) return made.error();
@@ -160,13 +160,15 @@ MotionFileChoice motionFileOf(const SceneMotion& motion) {
   return {motion.file, motion.joint, motion.metresPerUnit, motion.skipFrames, motion.animation};
 }
 
-Result<std::vector<Body>> loadBodies(const SceneFile& scene, std::vector<std::string>& warnings) {
+Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUnit,
+                                     std::vector<std::string>& warnings) {
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SceneBody& stated = scene.bodies[i];
     Body body = bodyOf(stated, i, upOf(scene.groom));
     Status loaded = loadMotion(stated, scene, body, warnings);
-    if (loaded && stated.shape == "mesh") loaded = loadMeshBody(stated, scene.groom, body, warnings);
+    if (loaded && stated.shape == "mesh")
+      loaded = loadMeshBody(stated, scene.groom, metresPerUnit, body, warnings);
     if (!loaded) return Error{fmt::format("the body {}: {}", body.name, loaded.error().message)};
     bodies.push_back(std::move(body));
   }
@@ -214,7 +216,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene) {
   auto motion = loadedMotion(scene, loaded.settings, loaded.warnings);
   if (!motion) return motion.error();
   loaded.motion = std::move(*motion);
-  auto bodies = loadBodies(scene, loaded.warnings);
+  auto bodies = loadBodies(scene, loaded.groom.metresPerUnit, loaded.warnings);
   if (!bodies) return bodies.error();
   loaded.bodies = std::move(*bodies);
   if (!scene.simulation.stepsPerFrame) {

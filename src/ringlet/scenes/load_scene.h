@@ -19,14 +19,16 @@
 
 namespace ringlet {
 
-/// In its unit, placed in the head's frame.
+/// In its unit, the scene's or else the file's, turned to the scene's up axis, placed in the head's frame.
 Result<LoadedGroom> loadGroom(const SceneGroom& scene);
 
 /// Of a motion that has a file.
 MotionFileChoice motionFileOf(const SceneMotion& motion);
 
-/// All of them, ready to be stepped. Fails with the body's name.
-Result<std::vector<Body>> loadBodies(const SceneFile& scene, std::vector<std::string>& warnings);
+/// All of them, ready to be stepped. `metresPerUnit`: the groom's, and of meshes that state none. Fails with
+/// the body's name.
+Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUnit,
+                                     std::vector<std::string>& warnings);
 
 /// The scalp of a scene that has one, its groom's roots bound to it. `head`: the head's motion, and the file
 /// it is from, if any; where that is the scalp's the two stand in one world, and what the scalp leaves open

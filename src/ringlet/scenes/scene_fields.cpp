@@ -35,7 +35,8 @@ constexpr const char* kTurnHelp = "Turned about X first, then Y, then Z, the axe
 std::span<const SceneField<SceneGroom>> groomFields() {
   using G = SceneGroom;
   static const SceneField<G> all[] = {
-      {"file", "", "none", "The strands: a .hair or .obj file, as `ringlet simulate` takes it.", &G::file},
+      {"file", "", "none", "The strands: a .hair, .obj, .usd or other file, as `ringlet simulate` takes it.",
+       &G::file},
       {"generate",
        "",
        "none",
@@ -43,7 +44,8 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        &G::generate,
        {},
        kGenerated},
-      {"unit", "m", "", "Metres per unit of the file, and of what is written.", &G::metresPerUnit, kUnit},
+      {"unit", "m", "what a USD file states, else 0.01",
+       "Metres per unit of the file, and of what is written.", &G::metresPerUnit, kUnit},
       {"up",
        "",
        "",

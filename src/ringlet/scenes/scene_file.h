@@ -48,8 +48,8 @@ struct SceneGroom {
   double otherHand = Variation{}.leftHandedShare;
   std::uint32_t seed = 1;
 
-  double metresPerUnit = 0.01;
-  std::string up = "Y";  // or Z
+  std::optional<double> metresPerUnit{};  // unset: the file's, where it states one, else centimetres
+  std::string up = "Y";                   // or Z
 
   // Into the head's frame: scaled, then turned, then moved.
   double scale = 1;

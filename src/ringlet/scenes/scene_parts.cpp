@@ -13,6 +13,8 @@
 namespace ringlet {
 namespace {
 
+constexpr double kUsualUnit = Groom{}.metresPerUnit;
+
 Integrator integratorOf(const std::string& name) {
   if (name == "paper") return Integrator::paper;
   return name == "point_jacobi" ? Integrator::pointJacobi : Integrator::jacobi;
@@ -47,7 +49,7 @@ Result<Groom> generatedGroom(const SceneGroom& groom) {
                             .particleCount = groom.particles,
                             .handedness = groom.hand == "left" ? -1 : 1,
                             .phase = groom.phase,
-                            .metresPerUnit = groom.metresPerUnit};
+                            .metresPerUnit = groom.metresPerUnit.value_or(kUsualUnit)};
   const Variation variation{.radius = groom.varyRadius,
                             .length = groom.varyLength,
                             .phase = groom.varyPhase,
@@ -145,7 +147,7 @@ Body bodyOf(const SceneBody& body, std::size_t index, Vec3d up) {
 SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& groom) {
   SceneFile file;
   file.groom.file = groom;
-  file.groom.metresPerUnit = scene.groom.metresPerUnit;
+  if (scene.groom.metresPerUnit != kUsualUnit) file.groom.metresPerUnit = scene.groom.metresPerUnit;
   file.material.material = scene.material;
   file.hasMaterial = true;
 

@@ -1,0 +1,84 @@
+// Implements groom/mend_groom.h.
+#include "ringlet/groom/mend_groom.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace ringlet {
+namespace {
+
+double lengthOf(std::span<const Vec3f> strand) {
+  double sum = 0;
+  for (std::size_t i = 1; i < strand.size(); ++i) sum += length(Vec3d(strand[i]) - Vec3d(strand[i - 1]));
+  return sum;
+}
+
+// Each particle away from the one kept before it; the tip stays, in place of one too near to it.
+std::vector<Vec3f> withoutRepeats(std::span<const Vec3f> strand) {
+  const double nothing = kNoEdgeShare * lengthOf(strand);
+  std::vector<Vec3f> kept{strand.front()};
+  for (const Vec3f p : strand.subspan(1)) {
+    if (length(Vec3d(p) - Vec3d(kept.back())) > nothing) kept.push_back(p);
+  }
+  if (kept.size() > 1) kept.back() = strand.back();
+  return kept;
+}
+
+std::vector<Vec3f> resampled(std::span<const Vec3f> strand, std::size_t count) {
+  std::vector<double> at{0};
+  for (std::size_t i = 1; i < strand.size(); ++i)
+    at.push_back(at.back() + length(Vec3d(strand[i]) - Vec3d(strand[i - 1])));
+  std::vector<Vec3f> particles{strand.front()};
+  std::size_t edge = 0;
+  for (std::size_t k = 1; k + 1 < count; ++k) {
+    const double s = at.back() * static_cast<double>(k) / static_cast<double>(count - 1);
+    while (edge + 2 < strand.size() && at[edge + 1] < s) ++edge;
+    const double share = (s - at[edge]) / (at[edge + 1] - at[edge]);
+    particles.push_back(Vec3f(Vec3d(strand[edge]) * (1 - share) + Vec3d(strand[edge + 1]) * share));
+  }
+  particles.push_back(strand.back());
+  return particles;
+}
+
+}  // namespace
+
+std::vector<bool> duplicatesIn(const Groom& groom) {
+  const auto compare = [&](std::size_t a, std::size_t b) {
+    const auto one = groom.strand(a), other = groom.strand(b);
+    if (one.size() != other.size()) return one.size() < other.size() ? -1 : 1;
+    return std::memcmp(one.data(), other.data(), one.size_bytes());
+  };
+  std::vector<std::size_t> order(groom.strandCount());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const int sign = compare(a, b);
+    return sign != 0 ? sign < 0 : a < b;
+  });
+  std::vector<bool> isDuplicate(order.size(), false);
+  for (std::size_t i = 1; i < order.size(); ++i) isDuplicate[order[i]] = compare(order[i - 1], order[i]) == 0;
+  return isDuplicate;
+}
+
+MendedGroom mendGroom(const Groom& groom, std::size_t particleCount) {
+  MendedGroom mended;
+  mended.groom.metresPerUnit = groom.metresPerUnit;
+  const std::vector<bool> isDuplicate = duplicatesIn(groom);
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const auto strand = groom.strand(s);
+    if (isDuplicate[s]) {
+      ++mended.duplicateCount;
+      continue;
+    }
+    const std::vector<Vec3f> kept = strand.empty() ? std::vector<Vec3f>{} : withoutRepeats(strand);
+    if (kept.size() < 2) {
+      ++mended.pointStrandCount;
+      continue;
+    }
+    mended.repeatedCount += strand.size() - kept.size();
+    mended.groom.addStrand(particleCount >= 2 ? resampled(kept, particleCount) : kept);
+  }
+  return mended;
+}
+
+}  // namespace ringlet

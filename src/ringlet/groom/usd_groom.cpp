@@ -1,0 +1,398 @@
+// Implements groom/usd_groom.h.
+#include "ringlet/groom/usd_groom.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "ringlet/base/quoted.h"
+#include "ringlet/groom/cubic_curve.h"
+#include "ringlet/groom/usd_transform.h"
+
+namespace ringlet {
+namespace {
+
+constexpr const char* kFlatten = "flatten the file first, as `usdcat --flatten` does";
+constexpr double kSmallestUnit = 1e-6, kLargestUnit = 1000;  // [m], as --unit may be
+// Of a file's bytes: a point takes eight at least, and four of a cubic curve make 29 particles at most.
+// Arrays that many prims share could make more.
+constexpr std::size_t kParticlesPerByte = 4, kFreeParticles = 65536;
+constexpr std::size_t kMostNamed = 6;  // in a sentence
+
+// Why curves are not drawn, and so not read.
+enum class LeftOut : std::uint8_t { no, inactive, abstract, over, invisible, proxy, prototype };
+constexpr std::array<const char*, 7> kLeftOutWords{
+    "", "inactive", "of a class", "only an `over`", "invisible", "proxies", "below an instancer"};
+
+// What a prim has of its own and from those above it.
+struct Inherited {
+  std::uint32_t transform = 0;          // into the transforms
+  std::uint32_t composed = kNoUsdPrim;  // the topmost that brings in others
+  LeftOut leftOut = LeftOut::no;
+  bool hasStrands = false;  // curves that are read, itself or below it
+  std::string_view purpose;
+};
+
+const UsdAttribute* find(const UsdPrim& prim, std::string_view name) {
+  const auto found = std::ranges::find(prim.attributes, name, &UsdAttribute::name);
+  return found == prim.attributes.end() ? nullptr : &*found;
+}
+
+// The token of an attribute, or what holds without one.
+std::string_view tokenOf(const UsdPrim& prim, std::string_view name, std::string_view otherwise) {
+  const UsdAttribute* attribute = find(prim, name);
+  return attribute && attribute->value.texts.size() == 1 ? attribute->value.texts.front() : otherwise;
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+class UsdGroomMaker {
+ public:
+  UsdGroomMaker(const UsdLayer& layer, const GroomReading& reading, const std::string& name)
+      : layer_(layer), reading_(reading), name_(name) {}
+
+  Result<LoadedGroom> make() {
+    if (Status read = readUnitAndAxis(); !read) return read.error();
+    findCurves();
+    if (curves_ == 0) return nothingFound();
+    if (!layer_.composedBy.empty()) {
+      return Error{fmt::format("{}: has {}, other files that are not read here; {}", name_, layer_.composedBy,
+                               kFlatten)};
+    }
+    for (std::uint32_t i = 0; i < layer_.prims.size(); ++i) {
+      if (!inherited_[i].hasStrands) continue;
+      if (Status placed = placePrim(i); !placed) return placed.error();
+      if (!isCurves(i)) continue;
+      if (Status read = readCurves(i); !read) return read.error();
+    }
+    if (loaded_.groom.strandCount() == 0) {
+      return Error{fmt::format(
+          "{}: {} without a strand{}", name_, counted(curves_, "BasisCurves prim"),
+          tooShort_ > 0 ? fmt::format(": {} have too few points", counted(tooShort_, "curve")) : "")};
+    }
+    warn();
+    return std::move(loaded_);
+  }
+
+ private:
+  bool isCurves(std::uint32_t prim) const { return layer_.prims[prim].type == "BasisCurves"; }
+
+  Error wrong(std::uint32_t prim, const std::string& sentence) const {
+    return Error{fmt::format("{}: {}: {}", name_, usdPathOf(layer_, prim), sentence)};
+  }
+  void warn(const std::string& sentence) {
+    loaded_.warnings.push_back(fmt::format("{}: {}", name_, sentence));
+  }
+
+  Status readUnitAndAxis() {
+    if (layer_.metresPerUnit) {
+      const double unit = *layer_.metresPerUnit;
+      loaded_.statesUnit = unit >= kSmallestUnit && unit <= kLargestUnit;
+      if (loaded_.statesUnit) {
+        loaded_.groom.metresPerUnit = unit;
+      } else {
+        warn(fmt::format("states a unit of {} m, which no hair has; it is left aside", unit));
+      }
+    }
+    transforms_.emplace_back();
+    if (layer_.upAxis.empty()) return {};
+    if (layer_.upAxis != "Y" && layer_.upAxis != "Z")
+      return Error{fmt::format("{}: found up axis {}; expected Y or Z", name_, quoted(layer_.upAxis))};
+    loaded_.statesUp = true;
+    const bool isZ = layer_.upAxis == "Z";
+    if (isZ == reading_.upIsZ) return {};
+    transforms_[0] = isZ ? UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, {}}
+                         : UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, -1, 0}}, {}};
+    warn(fmt::format("turned from {0} up, which it states, to {1} up (--up {0} keeps its axes)",
+                     isZ ? 'Z' : 'Y', isZ ? 'Y' : 'Z'));
+    return {};
+  }
+
+  // What is read and what is left out, and which prims are above what is read.
+  void findCurves() {
+    inherited_.reserve(layer_.prims.size());
+    for (std::uint32_t i = 0; i < layer_.prims.size(); ++i) {
+      const UsdPrim& prim = layer_.prims[i];
+      Inherited own = prim.parent == kNoUsdPrim ? Inherited{} : inherited_[prim.parent];
+      own.hasStrands = false;
+      own.purpose = tokenOf(prim, "purpose", own.purpose);
+      if (own.composed == kNoUsdPrim && !prim.composedBy.empty()) own.composed = i;
+      if (own.leftOut == LeftOut::no) own.leftOut = leftOutBy(prim);
+      const LeftOut why = own.leftOut == LeftOut::no && own.purpose == "proxy" ? LeftOut::proxy : own.leftOut;
+      inherited_.push_back(own);
+      ++types_[prim.type];
+      if (!isCurves(i)) {
+        if (prim.type == "PointInstancer") inherited_.back().leftOut = LeftOut::prototype;
+        continue;
+      }
+      if (why != LeftOut::no) {
+        ++leftOut_[static_cast<std::size_t>(why)];
+        continue;
+      }
+      ++curves_;
+      (own.purpose == "guide" ? guides_ : others_) = true;
+      for (std::uint32_t above = i; above != kNoUsdPrim && !inherited_[above].hasStrands;
+           above = layer_.prims[above].parent)
+        inherited_[above].hasStrands = true;
+    }
+  }
+
+  static LeftOut leftOutBy(const UsdPrim& prim) {
+    if (!prim.isActive) return LeftOut::inactive;
+    if (prim.specifier == UsdSpecifier::abstract) return LeftOut::abstract;
+    if (prim.specifier == UsdSpecifier::over) return LeftOut::over;
+    return tokenOf(prim, "visibility", "") == "invisible" ? LeftOut::invisible : LeftOut::no;
+  }
+
+  // "2 Mesh, 1 NurbsCurves".
+  std::string typesFound() const {
+    std::vector<std::pair<std::size_t, std::string_view>> found;
+    for (const auto& [type, count] : types_) found.push_back({count, type});
+    std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string text;
+    for (std::size_t i = 0; i < std::min(found.size(), kMostNamed); ++i) {
+      const std::string name = quoted(found[i].second);
+      text += fmt::format("{}{} {}", i > 0 ? ", " : "", found[i].first,
+                          found[i].second.empty() ? "without a type" : name.substr(1, name.size() - 2));
+    }
+    return found.size() > kMostNamed ? text + " and others" : text;
+  }
+  // "1 inactive, 2 invisible".
+  std::string leftOutFound() const {
+    std::string text;
+    for (std::size_t i = 1; i < leftOut_.size(); ++i) {
+      if (leftOut_[i] > 0)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", leftOut_[i], kLeftOutWords[i]);
+    }
+    return text;
+  }
+
+  Error nothingFound() const {
+    std::string sentence = "found no prims; expected BasisCurves";
+    if (const std::string leftOut = leftOutFound(); !leftOut.empty()) {
+      sentence = fmt::format("all its BasisCurves are left out: {}; expected some that are drawn", leftOut);
+    } else if (!layer_.prims.empty()) {
+      sentence = fmt::format("found no BasisCurves, of which strands are made, but {}", typesFound());
+    }
+    const auto composed =
+        std::ranges::find_if(inherited_, [](const Inherited& prim) { return prim.composed != kNoUsdPrim; });
+    if (composed != inherited_.end()) {
+      sentence +=
+          fmt::format("; {} has {}, which are not followed: {}", usdPathOf(layer_, composed->composed),
+                      layer_.prims[composed->composed].composedBy, kFlatten);
+    } else if (!layer_.composedBy.empty()) {
+      sentence += fmt::format("; it has {}, which are not followed: {}", layer_.composedBy, kFlatten);
+    }
+    return Error{fmt::format("{}: {}", name_, sentence)};
+  }
+
+  Status placePrim(std::uint32_t index) {
+    const UsdPrim& prim = layer_.prims[index];
+    Inherited& own = inherited_[index];
+    if (own.composed != kNoUsdPrim) {
+      return wrong(own.composed, fmt::format("has {}, which bring in more than this file holds; {}",
+                                             layer_.prims[own.composed].composedBy, kFlatten));
+    }
+    const auto placement = usdPlacementOf(prim);
+    if (!placement) return wrong(index, placement.error().message);
+    for (const UsdAttribute& attribute : prim.attributes) noteSamples(attribute);
+    own.transform = prim.parent == kNoUsdPrim || placement->isOfWorld ? 0 : inherited_[prim.parent].transform;
+    if (placement->transform == UsdTransform{}) return {};
+    transforms_.push_back(placement->transform.then(transforms_[own.transform]));
+    own.transform = static_cast<std::uint32_t>(transforms_.size() - 1);
+    return {};
+  }
+
+  void noteSamples(const UsdAttribute& attribute) {
+    if (!attribute.isSampled) return;
+    firstTime_ = moves_ ? std::min(firstTime_, *attribute.time) : *attribute.time;
+    moves_ = true;
+  }
+
+  // --- A prim's strands.
+
+  // How a prim's curves are to be understood.
+  struct Form {
+    bool isCubic = true, isPinned = false;
+    CubicBasis basis = CubicBasis::bezier;
+  };
+
+  Result<Form> formOf(std::uint32_t index) const {
+    const UsdPrim& prim = layer_.prims[index];
+    for (const std::string_view name : {"type", "basis", "wrap", "points", "curveVertexCounts"}) {
+      const UsdAttribute* attribute = find(prim, name);
+      if (attribute && !attribute->drivenBy.empty())
+        return wrong(index,
+                     fmt::format("its {} are given by {}, which is not followed", name, attribute->drivenBy));
+    }
+    const std::string_view type = tokenOf(prim, "type", "cubic"), basis = tokenOf(prim, "basis", "bezier"),
+                           wrap = tokenOf(prim, "wrap", "nonperiodic");
+    if (type != "cubic" && type != "linear")
+      return wrong(index, fmt::format("found type {}; expected linear or cubic", quoted(type)));
+    if (wrap == "periodic")
+      return wrong(index, "its curves are closed loops (wrap 'periodic'); a strand has a root and a tip");
+    if (wrap != "nonperiodic" && wrap != "pinned")
+      return wrong(index, fmt::format("found wrap {}; expected nonperiodic or pinned", quoted(wrap)));
+    Form form{.isCubic = type == "cubic", .isPinned = wrap == "pinned"};
+    if (!form.isCubic) return form;
+    if (basis == "bspline") {
+      form.basis = CubicBasis::bspline;
+    } else if (basis == "catmullRom") {
+      form.basis = CubicBasis::catmullRom;
+    } else if (basis != "bezier") {
+      return wrong(index,
+                   fmt::format("found basis {}; expected bezier, bspline or catmullRom", quoted(basis)));
+    }
+    return form;
+  }
+
+  Status readCurves(std::uint32_t index) {
+    const auto form = formOf(index);
+    if (!form) return form.error();
+    static const UsdAttribute none{};
+    const UsdAttribute* pointsFound = find(layer_.prims[index], "points");
+    const UsdAttribute* countsFound = find(layer_.prims[index], "curveVertexCounts");
+    const UsdValue &points = (pointsFound ? pointsFound : &none)->value,
+                   &counts = (countsFound ? countsFound : &none)->value;
+    if (!points.numbers.empty() && points.width != 3)
+      return wrong(index, fmt::format("its points have {} numbers each; expected 3", points.width));
+    if (!counts.numbers.empty() && counts.width != 1)
+      return wrong(index, "found tuples as curveVertexCounts; expected whole numbers");
+    const std::size_t pointCount = points.numbers.size() / 3;
+    double sum = 0;
+    for (const double count : counts.numbers) {
+      if (!(count >= 0 && count <= 4294967295.0) || count != std::floor(count))
+        return wrong(index, fmt::format("found {} in curveVertexCounts; expected counts of points", count));
+      sum += count;
+    }
+    if (sum != static_cast<double>(pointCount)) {
+      return wrong(index,
+                   fmt::format("its curveVertexCounts add up to {}, and it has {} points; expected as many",
+                               sum, pointCount));
+    }
+
+    const std::span<const double> numbers(points.numbers);
+    std::size_t first = 0;
+    for (std::size_t c = 0; c < counts.numbers.size(); ++c) {
+      const auto count = static_cast<std::size_t>(counts.numbers[c]);
+      if (Status added = addStrand(index, c, numbers.subspan(3 * first, 3 * count), *form); !added)
+        return added;
+      first += count;
+    }
+    return {};
+  }
+
+  Status addStrand(std::uint32_t prim, std::size_t curve, std::span<const double> numbers, const Form& form) {
+    const std::size_t count = numbers.size() / 3;
+    const bool isStrand = form.isCubic ? isCubicCount(form.basis, form.isPinned, count) : count >= 2;
+    if (!isStrand) {
+      ++tooShort_;
+      return {};
+    }
+    points_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3d p{numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
+      if (!isFloat(p)) return noPlace(prim, curve, i, p);
+      points_.push_back(p);
+    }
+    if (form.isCubic) {
+      particles_.clear();
+      appendCubic(points_, form.basis, form.isPinned, particles_);
+      std::swap(points_, particles_);
+      ++cubic_;
+      loose_ += form.basis != CubicBasis::bezier && !form.isPinned;
+    }
+    Groom& groom = loaded_.groom;
+    if (points_.size() > std::numeric_limits<std::uint32_t>::max() - groom.points.size())
+      return Error{
+          fmt::format("{}: its strands have too many particles; at most 2^32 - 1 can be read", name_)};
+    if (groom.points.size() + points_.size() > kParticlesPerByte * layer_.byteCount + kFreeParticles) {
+      return wrong(prim, fmt::format("its strands bring the file to {} particles, too many for its {} bytes",
+                                     groom.points.size() + points_.size(), layer_.byteCount));
+    }
+    const UsdTransform& transform = transforms_[inherited_[prim].transform];
+    const bool isPlaced = transform != UsdTransform{};  // else the file's own bits stay
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Vec3d p = isPlaced ? transform(points_[i]) : points_[i];
+      if (!isFloat(p)) return noPlace(prim, curve, i, p);
+      groom.points.push_back(Vec3f(p));
+    }
+    groom.firstPoint.push_back(static_cast<std::uint32_t>(groom.points.size()));
+    return {};
+  }
+
+  static bool isFloat(Vec3d p) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    return std::abs(p.x) <= kMost && std::abs(p.y) <= kMost && std::abs(p.z) <= kMost;
+  }
+  Error noPlace(std::uint32_t prim, std::size_t curve, std::size_t point, Vec3d p) const {
+    return wrong(prim, fmt::format("found ({}, {}, {}) for curve {}, point {}; expected finite numbers", p.x,
+                                   p.y, p.z, curve, point));
+  }
+
+  // --- What a person should hear.
+
+  void warn() {
+    if (const std::string leftOut = leftOutFound(); !leftOut.empty())
+      warn(fmt::format("left out BasisCurves that are not drawn: {}", leftOut));
+    if (guides_ && others_)
+      warn("some BasisCurves have purpose 'guide' and some have not; all of them are strands of the groom");
+    if (tooShort_ > 0)
+      warn(fmt::format("left out {}, which have too few points", counted(tooShort_, "curve")));
+    if (cubic_ > 0) {
+      warn(fmt::format("{} cubic, cut into edges that stay within a thousandth of their length",
+                       cubic_ == 1 ? "1 curve is" : fmt::format("{} curves are", cubic_)));
+    }
+    if (loose_ > 0) {
+      warn(fmt::format(
+          "{} short of the first and last point, as bspline and catmullRom do unless wrap is 'pinned'",
+          loose_ == 1 ? "1 of them begins and ends" : fmt::format("{} of them begin and end", loose_)));
+    }
+    if (moves_) warn(fmt::format("it moves; read as it is at its first sample, at time {}", firstTime_));
+    std::size_t elsewhere = 0;
+    std::uint32_t first = kNoUsdPrim;
+    for (std::uint32_t i = 0; i < inherited_.size(); ++i) {
+      if (inherited_[i].composed != i) continue;
+      first = std::min(first, i);
+      ++elsewhere;
+    }
+    if (elsewhere > 0) {
+      warn(fmt::format("{} has {}, which are not followed{}", usdPathOf(layer_, first),
+                       layer_.prims[first].composedBy,
+                       elsewhere > 1 ? fmt::format(", as {} in all", counted(elsewhere, "prim")) : ""));
+    }
+    for (const std::string_view type : {"HermiteCurves", "NurbsCurves"}) {
+      if (types_.count(type))
+        warn(fmt::format("{} {} left aside; only BasisCurves are read", types_[type], type));
+    }
+  }
+
+  const UsdLayer& layer_;
+  const GroomReading& reading_;
+  const std::string& name_;
+  LoadedGroom loaded_;
+  std::vector<UsdTransform> transforms_;
+  std::vector<Inherited> inherited_;  // of each prim
+  std::map<std::string_view, std::size_t> types_;
+  std::array<std::size_t, kLeftOutWords.size()> leftOut_{};
+  std::size_t curves_ = 0, tooShort_ = 0, cubic_ = 0, loose_ = 0;
+  bool guides_ = false, others_ = false, moves_ = false;
+  double firstTime_ = 0;
+  std::vector<Vec3d> points_, particles_;  // of a strand
+};
+
+}  // namespace
+
+Result<LoadedGroom> groomOfUsd(const UsdLayer& layer, const GroomReading& reading, const std::string& name) {
+  return UsdGroomMaker(layer, reading, name).make();
+}
+
+}  // namespace ringlet

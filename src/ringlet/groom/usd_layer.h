@@ -1,0 +1,65 @@
+// UsdLayer: what a USD file says of its prims, as far as strands of hair need it, from text (usda_file.h) or
+// from a crate (usdc_file.h). usd_groom.h makes a groom of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ringlet {
+
+inline constexpr std::uint32_t kNoUsdPrim = 0xffffffff;
+inline constexpr std::size_t kDeepestUsdPrim = 256;     // levels; files of people have ten
+inline constexpr std::size_t kMostUsdAttributes = 256;  // of a prim, of those that are kept
+
+/// A value: numbers, or texts (strings and tokens).
+struct UsdValue {
+  std::vector<double> numbers;  // one element after the other
+  std::size_t width = 1;        // numbers of an element: 3 of a point, 16 of a matrix, a row after the other
+  std::vector<std::string_view> texts;
+  bool isBlocked = false;  // "None": there is no value
+};
+
+struct UsdAttribute {
+  std::string_view name;
+  UsdValue value{};              // the first sample's, where it has samples
+  bool isSampled = false;        // and it has more than one
+  std::optional<double> time{};  // of the sample
+  std::string_view drivenBy{};   // "a connection" or "a spline"; empty for neither
+};
+
+enum class UsdSpecifier { def, over, abstract };  // abstract: a class
+
+struct UsdPrim {
+  std::string_view name, type;  // no type: ""
+  std::uint32_t parent = kNoUsdPrim;
+  UsdSpecifier specifier = UsdSpecifier::def;
+  bool isActive = true;
+  std::string_view composedBy;           // the first field that brings in other prims: "references" ...
+  std::vector<UsdAttribute> attributes;  // those that isKeptUsdAttribute() names
+};
+
+struct UsdLayer {
+  std::size_t byteCount = 0;   // of the file that said all this
+  std::vector<UsdPrim> prims;  // in the file's order, parents first
+  std::optional<double> metresPerUnit;
+  std::string_view upAxis;      // "" where the file does not say
+  std::string_view composedBy;  // as of a prim, of the whole layer
+  std::vector<char> text;       // what views are into, unless they are into the file's own bytes
+};
+
+/// Whether usd_groom.h looks at the attribute of a prim of this type; all others are read over.
+inline bool isKeptUsdAttribute(std::string_view primType, std::string_view name) {
+  if (name == "xformOpOrder" || name == "visibility" || name == "purpose" || name.starts_with("xformOp:"))
+    return true;
+  return primType == "BasisCurves" && (name == "points" || name == "curveVertexCounts" || name == "type" ||
+                                       name == "basis" || name == "wrap");
+}
+
+/// "/Head/Hair"; control characters are shown as \xNN.
+std::string usdPathOf(const UsdLayer& layer, std::uint32_t prim);
+
+}  // namespace ringlet

@@ -1,0 +1,71 @@
+// GroomInspection: what a groom is like before anything is done with it: sizes, curl, which unit and axis it
+// may have, and what is wrong with it.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "ringlet/base/vec3.h"
+#include "ringlet/groom/groom.h"
+
+namespace ringlet {
+
+/// Extremes and the middle of some values; all 0 without any.
+struct Middle {
+  double min = 0, median = 0, mean = 0, max = 0;
+};
+Middle middleOf(std::vector<double> values);
+
+/// A unit a groom may be in, and how long its strands would be on average.
+struct LikelyUnit {
+  const char* name = "";
+  double metresPerUnit = 0, meanLength = 0;  // [m]
+};
+
+/// A head's hair is this long on average [m].
+inline constexpr double kShortestHair = 0.03, kLongestHair = 1;
+/// A strand shorter or longer than the median by this factor is a stray, and so is one that is this many
+/// times the median distance away from the middle of all.
+inline constexpr double kStrayLength = 20, kStrayDistance = 6;
+/// An edge shorter than this share of its strand's mean edge is mentioned.
+inline constexpr double kShortEdgeShare = 1e-3;
+
+/// What is wrong with a groom: how much of it, and one strand as an example.
+struct GroomFault {
+  std::size_t count = 0, firstStrand = 0;
+
+  void add(std::size_t strand, std::size_t number = 1) {
+    if (count == 0 && number > 0) firstStrand = strand;
+    count += number;
+  }
+};
+
+struct GroomInspection {
+  std::size_t strandCount = 0, particleCount = 0;
+  Middle particles;                       // of a strand
+  Middle length;                          // of a strand, along its edges [unit]
+  Middle arcOverChord;                    // of strands whose ends are apart
+  std::size_t curledCount = 0;            // by measureCurl
+  Middle turns, radius;                   // of the curled [1, unit]
+  Vec3d low, high;                        // the box around all particles [unit]
+  std::vector<LikelyUnit> units;          // metre, centimetre, millimetre, inch: those that fit a head's hair
+  char likelyUp = 0;                      // 'Y' or 'Z', against which most strands hang; 0 where they do not
+  GroomFault repeatedParticles;           // in the place of the one before
+  GroomFault shortEdges;                  // those above not counted
+  GroomFault pointStrands;                // all in one place
+  GroomFault duplicates;                  // strands of the very particles of one before
+  GroomFault tooShort, tooLong, farAway;  // strays
+
+  bool isFaultless() const {
+    for (const GroomFault* fault :
+         {&repeatedParticles, &shortEdges, &pointStrands, &duplicates, &tooShort, &tooLong, &farAway}) {
+      if (fault->count > 0) return false;
+    }
+    return true;
+  }
+};
+
+/// Of a groom as readers return it: two finite particles and more a strand. Cost: n log n.
+GroomInspection inspectGroom(const Groom& groom);
+
+}  // namespace ringlet

@@ -1,0 +1,15 @@
+// .ply files: what is read is a usable groom.
+#include "ringlet/groom/ply_file.h"
+
+#include "tests/fuzz/fuzz_target.h"
+
+namespace ringlet::fuzz {
+
+const MemoryBound kMemory{.base = 1 << 20, .perByte = 128};
+
+void tryBytes(std::span<const std::byte> bytes) {
+  const auto loaded = readPly(bytes, "fuzz.ply");
+  if (loaded) demandUsable(loaded->groom);
+}
+
+}  // namespace ringlet::fuzz
