@@ -42,8 +42,8 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
   const std::vector<Vec3d> shifts = rootShiftsOf(options.rootShift, groom.strandCount());
   std::optional<HeadScalp> scalp;
   if (!options.scalp.file.empty()) {
-    auto bound = loadScalp(options.scalp, groom, options.motion, options.motionFile,
-                           options.up == UpAxis::z, warnings);
+    auto bound = loadScalp(options.scalp, groom, options.motion, options.motionFile, options.up == UpAxis::z,
+                           warnings);
     if (!bound) return bound.error();
     scalp = std::move(*bound);
   }

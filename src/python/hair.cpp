@@ -59,6 +59,7 @@ KernelChoice kernelOf(const AssetChoice& choice) {
   if (choice.heads < 1) throw py::value_error(fmt::format("heads must be 1 or more, got {}", choice.heads));
   kernel.movingRoots = choice.movesRoots;
   kernel.heads = choice.heads;
+  kernel.forces = choice.hasForces;
   return kernel;
 }
 
@@ -440,20 +441,21 @@ void addAsset(py::module_& module) {
   py::class_<AssetObject, AssetHandle>(
       module, "Asset",
       "All of some hair that does not change, for one device; any number of Hair share it. Constant.")
-      .def(
-          py::init([](const DeviceHandle& device, const GroomHandle& groom,
-                      const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
-                      bool bodies, bool movingRoots, int heads, const std::string& kernel) {
-            return buildAsset(device, groom, material.value_or(MaterialObject{}),
-                              settings.value_or(Settings{}), {bodies, movingRoots, heads, kernel});
-          }),
-          py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
-          py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
-          py::arg("moving_roots") = false, py::arg("heads") = 1, py::arg("kernel") = "auto",
-          "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
-          "is slower; moving_roots: whether strands will have poses of their own; heads: about how many will "
-          "have this hair; kernel: \"auto\", \"lanes\" or \"serial\". ringlet.Error, with what to do, for "
-          "settings that do not go together or a device without enough memory.")
+      .def(py::init([](const DeviceHandle& device, const GroomHandle& groom,
+                       const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
+                       bool bodies, bool movingRoots, bool forces, int heads, const std::string& kernel) {
+             return buildAsset(device, groom, material.value_or(MaterialObject{}),
+                               settings.value_or(Settings{}), {bodies, movingRoots, forces, heads, kernel});
+           }),
+           py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
+           py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
+           py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("heads") = 1,
+           py::arg("kernel") = "auto",
+           "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
+           "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
+           "act on them from outside; heads: about how many will "
+           "have this hair; kernel: \"auto\", \"lanes\" or \"serial\". ringlet.Error, with what to do, for "
+           "settings that do not go together or a device without enough memory.")
       .def_property_readonly(
           "device", [](const AssetObject& a) { return a.device; }, "The Device.")
       .def_property_readonly(
@@ -583,13 +585,25 @@ void addHairClass(py::module_& module) {
           "Other bodies from the next frame on, any number. places: where they are now in the world, "
           "(bodies, 7); None: with the head.")
       .def(
+          "set_forces",
+          [](HairObject& self, const py::object& forces) {
+            const PointsIn taken(forces, "forces", self.asset()->groom->particleCount());
+            demandFinite(taken.points(), "forces");
+            self.ask([&](Simulation& simulation) { demand(simulation.setForces(taken.points())); });
+          },
+          py::arg("forces"),
+          "Forces from outside from the next frame on, on each kilogram of every particle [m/s^2]: "
+          "(particles, "
+          "3) float32. They add to gravity and hold until others are set. ringlet.Error for hair whose asset "
+          "was built without forces=True.")
+      .def(
           "checkpoint",
           [](HairObject& self) {
             const std::vector<std::byte> bytes = self.checkpoint();
             return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
           },
           "All that later frames depend on, as bytes for restore(). Neither live settings nor material nor "
-          "bodies: set them before it.")
+          "bodies and forces: set them before it.")
       .def(
           "restore",
           [](HairObject& self, const py::bytes& bytes) {

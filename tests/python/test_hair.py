@@ -304,3 +304,31 @@ def test_other_threads_run_while_the_device_works(device):
         done.set()
         thread.join()
     assert min(shares) < 0.5, shares
+
+
+def test_forces_that_are_the_same_everywhere_are_another_gravity(device, swatch):
+    settings = ringlet.Settings(steps_per_frame=4)
+    pulled = ringlet.Hair(ringlet.Asset(device, swatch, settings=settings, forces=True))
+    falls = ringlet.Hair(ringlet.Asset(device, swatch, settings=settings))
+    pulled.set_settings(gravity=(0, -6, 0))
+    pulled.set_forces(np.tile(np.float32([1, -2, 0.5]), (swatch.particle_count, 1)))
+    falls.set_settings(gravity=(1, -8, 0.5))
+    still = falls.positions()
+    for frame in range(3):
+        for hair in (pulled, falls):
+            hair.step(shaken(frame, 4))
+    assert np.array_equal(pulled.positions(), falls.positions())
+    assert not np.array_equal(falls.positions(), still)
+
+
+def test_forces_that_do_not_fit_are_refused(device, swatch, hair):
+    count = swatch.particle_count
+    with pytest.raises(ringlet.Error, match="forces"):
+        hair.set_forces(np.zeros((count, 3), np.float32))
+    pulled = ringlet.Hair(ringlet.Asset(device, swatch, forces=True))
+    with pytest.raises(ValueError):
+        pulled.set_forces(np.zeros((count - 1, 3), np.float32))
+    with pytest.raises(TypeError):
+        pulled.set_forces(np.zeros((count, 3)))
+    with pytest.raises(ValueError):
+        pulled.set_forces(np.full((count, 3), np.nan, np.float32))
