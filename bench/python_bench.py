@@ -39,15 +39,14 @@ def by_program(program, folder):
 
 def by_module(device, folder):
     scene = ringlet.Scene.load(folder / "scene.toml")
-    seen = []
+    times = []
 
     def callback(frame):
         float(frame.positions[:, 1].min())
-        seen.append((time.perf_counter(), frame.positions))
+        times.append(time.perf_counter())
 
-    scene.run(callback, device=device)
-    times = [at for at, _ in seen]
-    return 1000 * (times[-1] - times[0]) / (len(times) - 1), ringlet.positions_hash(seen[-1][1])
+    hair = scene.run(callback, device=device)
+    return 1000 * (times[-1] - times[0]) / (len(times) - 1), ringlet.positions_hash(hair.positions())
 
 
 def main():
