@@ -37,6 +37,8 @@ bool isAnimation(const fs::path& path) { return formatOf(path) == ".usda" || for
 
 bool holdsAnimation(const fs::path& path) {
   if (!isAnimation(path) || path.extension() != ".usda") return isAnimation(path);
+  std::error_code code;
+  if (!fs::is_regular_file(path, code)) return false;  // nor would a pipe ever be opened
   const std::string_view begin = UsdWriter::kBegin;
   std::string found(begin.size(), '\0');
   std::ifstream(path, std::ios::binary).read(found.data(), static_cast<std::streamsize>(found.size()));

@@ -19,8 +19,8 @@ void expectContains(const std::string& text, const std::string& part) {
 TEST(Help, EveryCommandHasOptionsWithDefaultsAndAnExample) {
   const auto folder = scratchFolder("help");
   const std::vector<std::vector<std::string>> commands{
-      {},        {"make"},    {"make", "curl"}, {"make", "swatch"}, {"make", "head"}, {"simulate"},
-      {"scene"}, {"measure"}, {"devices"},      {"material"},       {"convert"},      {"tune"}};
+      {},          {"make"}, {"make", "curl"}, {"make", "swatch"}, {"make", "head"}, {"simulate"}, {"scene"},
+      {"measure"}, {"info"}, {"devices"},      {"material"},       {"convert"},      {"tune"}};
   for (std::vector<std::string> command : commands) {
     command.push_back("--help");
     const auto result = runProgram(folder, command);
@@ -35,7 +35,7 @@ TEST(Help, EveryCommandHasOptionsWithDefaultsAndAnExample) {
                            "--backend",    "--max-stretch",  "--roots",
                            "--iterations", "--no-chebyshev", "--kernel",
                            "--lanes",      "--run",          "compile_ms",
-                           "--json",       "--quiet",        "(default 0.01: centimetres)",
+                           "--json",       "--quiet",        "else 0.01: centimetres)",
                            "m/s^2",        "ms_per_frame",   "velocity_residual",
                            "--cache",      "--no-usd",       "--untuned"}) {
     expectContains(help, part);
@@ -56,7 +56,8 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
   };
   const std::vector<Case> cases{
       {{},
-       "say what to do: make, simulate, measure, convert, scene, devices, tune, conform, kernels, material"},
+       "say what to do: make, simulate, info, measure, convert, scene, devices, tune, conform, kernels, "
+       "material"},
       {{"simulat"}, "did you mean simulate?"},
       {{"make", "crul", "-o", "a.obj"}, "did you mean curl?"},
       {{"make", "curl"}, "--output is required"},
