@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "program/run_facts.h"
+#include "ringlet/measure/placement_check.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_parts.h"
@@ -29,6 +30,8 @@ Result<SimulateOutcome> runSimulation(SimulateOptions& options) {
     options.motion.roots = stated.roots;
   }
   cutJumps(settings, options.motion);
+  for (std::string& doubt : checkPlacement(groom, options.bodies, options.motion.poseAt(0)))
+    warnings.push_back(std::move(doubt));
   if (options.choosesFrames && options.motion.keyframes) {
     const double frames = options.motion.keyframes->seconds() * settings.framesPerSecond;
     options.frameCount = static_cast<int>(std::clamp(frames + 1e-6, 1.0, 1e6));

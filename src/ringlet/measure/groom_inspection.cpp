@@ -41,6 +41,15 @@ Middle middleOf(std::vector<double> values) {
   return {min, medianOf(values), sum / static_cast<double>(values.size()), max};
 }
 
+std::vector<LikelyUnit> likelyUnits(double meanLength) {
+  std::vector<LikelyUnit> likely;
+  for (LikelyUnit unit : kUnits) {
+    unit.meanLength = meanLength * unit.metresPerUnit;
+    if (unit.meanLength >= kShortestHair && unit.meanLength <= kLongestHair) likely.push_back(unit);
+  }
+  return likely;
+}
+
 GroomInspection inspectGroom(const Groom& groom) {
   GroomInspection found;
   found.strandCount = groom.strandCount();
@@ -102,10 +111,7 @@ GroomInspection inspectGroom(const Groom& groom) {
   found.turns = middleOf(turns);
   found.radius = middleOf(radii);
   found.likelyUp = upOf(way);
-  for (LikelyUnit unit : kUnits) {
-    unit.meanLength = found.length.mean * unit.metresPerUnit;
-    if (unit.meanLength >= kShortestHair && unit.meanLength <= kLongestHair) found.units.push_back(unit);
-  }
+  found.units = likelyUnits(found.length.mean);
 
   // Strays, against the middle of all strands.
   std::array<std::vector<double>, 3> places;

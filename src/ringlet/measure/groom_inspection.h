@@ -65,6 +65,9 @@ struct GroomInspection {
   }
 };
 
+/// Metre, centimetre, millimetre, inch: those in which strands of this mean length [unit] would fit a head.
+std::vector<LikelyUnit> likelyUnits(double meanLength);
+
 /// Of a groom as readers return it: two finite particles and more a strand. Cost: n log n.
 GroomInspection inspectGroom(const Groom& groom);
 

@@ -1,0 +1,126 @@
+// Implements measure/placement_check.h.
+#include "ringlet/measure/placement_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "ringlet/bodies/body_distance.h"
+#include "ringlet/measure/groom_inspection.h"
+
+namespace ringlet {
+namespace {
+
+constexpr double kSmallBody = 0.05, kLargeBody = 20;  // as shares of the groom's size
+constexpr double kDeepRoots = 0.25;                   // of the body's size
+
+std::string lengthText(double metres) {
+  return metres < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
+}
+
+// The groom as it stands in the world.
+struct Stand {
+  std::vector<Vec3d> roots;
+  double meanLength = 0, size = 0;  // of strands; across all particles [m]
+};
+
+Stand standOf(const Groom& groom, const HeadPose& head) {
+  Stand stand;
+  Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const Vec3f& point : groom.points) {
+    low = {std::min<double>(low.x, point.x), std::min<double>(low.y, point.y),
+           std::min<double>(low.z, point.z)};
+    high = {std::max<double>(high.x, point.x), std::max<double>(high.y, point.y),
+            std::max<double>(high.z, point.z)};
+  }
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const auto strand = groom.strand(s);
+    for (std::size_t i = 1; i < strand.size(); ++i)
+      stand.meanLength += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
+    const Vec3d root = static_cast<Vec3d>(strand.front()) * groom.metresPerUnit;
+    stand.roots.push_back(head.position + rotate(head.rotation, root));
+  }
+  stand.meanLength *=
+      groom.metresPerUnit / static_cast<double>(std::max<std::size_t>(1, groom.strandCount()));
+  stand.size = length(high - low) * groom.metresPerUnit;
+  return stand;
+}
+
+std::optional<std::string> doubtOfLength(double meanLength, double metresPerUnit) {
+  if (meanLength >= kLeastMeanLength && meanLength <= kMostMeanLength) return std::nullopt;
+  std::string sentence = fmt::format("strands are {} long on average", lengthText(meanLength));
+  const std::vector<LikelyUnit> units = likelyUnits(meanLength / metresPerUnit);
+  if (units.empty()) return sentence + ", which no head's hair is; is the unit right (--unit)?";
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    sentence += fmt::format("{} {} with --unit {}", i > 0 ? " or" : "; they would be",
+                            lengthText(units[i].meanLength), units[i].metresPerUnit);
+  }
+  return sentence;
+}
+
+// Across [m]; 0 for a plane.
+double sizeOf(const Body& body) {
+  switch (body.shape) {
+    case BodyShape::sphere:
+      return 2 * body.radius;
+    case BodyShape::capsule:
+      return body.length + 2 * body.radius;
+    case BodyShape::box:
+      return 2 * length(body.halfExtents);
+    case BodyShape::grid: {
+      const DistanceGrid& grid = *body.grid;
+      return length(Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])}) *
+             grid.cell;
+    }
+    case BodyShape::plane:
+      break;
+  }
+  return 0;
+}
+
+std::optional<std::string> doubtOfBody(const Body& body, const Stand& stand, const HeadPose& head) {
+  const double size = sizeOf(body);
+  if (body.motion || size == 0 || stand.size == 0) return std::nullopt;
+  if (size < kSmallBody * stand.size || size > kLargeBody * stand.size) {
+    return fmt::format(
+        "the body {} is {} across and the groom {}; is its unit right (`unit` of its [[body]])?", body.name,
+        lengthText(size), lengthText(stand.size));
+  }
+  std::vector<double> distances;
+  const BodyPose pose = body.poseAt(0, head);
+  for (const Vec3d& root : stand.roots) distances.push_back(distanceTo(body, pose, root));
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::ranges::nth_element(distances, middle);
+  const double nearest = *std::ranges::min_element(distances);
+  if (nearest > stand.size) {
+    return fmt::format(
+        "no root is nearer to the body {} than {}, further than the groom's own size of {}; do the two stand "
+        "in "
+        "one place, and in one unit?",
+        body.name, lengthText(nearest), lengthText(stand.size));
+  }
+  if (*middle < -kDeepRoots * size) {
+    return fmt::format(
+        "half of the roots are {} and more inside of the body {}, which is {} across; is it in its place?",
+        lengthText(-*middle), body.name, lengthText(size));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body> bodies,
+                                        const HeadPose& head) {
+  std::vector<std::string> doubts;
+  const Stand stand = standOf(groom, head);
+  if (stand.roots.empty()) return doubts;
+  if (auto doubt = doubtOfLength(stand.meanLength, groom.metresPerUnit)) doubts.push_back(std::move(*doubt));
+  for (const Body& body : bodies) {
+    if (auto doubt = doubtOfBody(body, stand, head)) doubts.push_back(std::move(*doubt));
+  }
+  return doubts;
+}
+
+}  // namespace ringlet

@@ -1,0 +1,24 @@
+// Whether a groom and what it stays out of have the sizes and places of hair and a head: a wrong unit or
+// place otherwise shows as hair that behaves oddly.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/groom/groom.h"
+#include "ringlet/scene/body.h"
+#include "ringlet/scene/head_pose.h"
+
+namespace ringlet {
+
+/// Strands shorter or longer than this on average are no hair [m].
+inline constexpr double kLeastMeanLength = 0.01, kMostMeanLength = 2;
+
+/// A sentence for each doubt, with its likely cause and what mends it; none for a groom that fits. At the
+/// head's pose `head`. Of bodies only those that the head carries, less planes: others come and go. Cost: a
+/// look at each particle, and at each root and body.
+std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body> bodies,
+                                        const HeadPose& head);
+
+}  // namespace ringlet
