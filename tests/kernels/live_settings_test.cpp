@@ -65,8 +65,7 @@ Settings changed(const Settings& settings, const Change& change) {
 // Hair that knows of everything, on a head that turns.
 std::vector<Hair> hairsThatChange() {
   std::vector<Hair> all = hairs();
-  Hair time = all[4];
-  EXPECT_EQ(std::string(time.name), "pairs");
+  Hair time = *std::ranges::find(all, std::string("pairs"), &Hair::name);
   time.name = "pairs, time taper";
   time.settings.contacts.taper = ContactTaper::time;
   all.push_back(time);

@@ -217,7 +217,8 @@ TEST_F(Sleep, TheSameHoweverFramesAreStepped) {
         kept = simulationOf(device(), hair);
         ASSERT_TRUE(kept.restore(*checkpoint));
       }
-      ASSERT_TRUE(kept.stepFrame(now));
+      const Status stepped = kept.stepFrame(now);
+      ASSERT_TRUE(stepped) << stepped.error().message;
       asleepKept.push_back(sleeps(kept));
     }
     ASSERT_TRUE(flies.waitFrame());

@@ -71,10 +71,16 @@ void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
   frame.list.barrier();
 }
 
+// What a frame brings back to the host, also one without steps.
+void Simulation::Implementation::recordEnd(FrameRecording& frame) const {
+  slots[frame.slot].recordPositions(frame.list, buffers);
+  if (contacts || volume) buffers.recordControl(frame.list);
+}
+
 // The whole frame, once: what changes from frame to frame is in its inputs. Hair that sleeps has no steps.
 Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
   if (stillness.sleeps()) {
-    slots[frame.slot].recordPositions(frame.list, buffers);
+    recordEnd(frame);
     return {};
   }
   if (contacts || volume) return recordContactFrame(frame, 0, true);
@@ -83,7 +89,7 @@ Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
   if (!plan) return plan.error();
   beginFrame(frame);
   dispatchAll(frame, *plan);
-  slots[frame.slot].recordPositions(frame.list, buffers);
+  recordEnd(frame);
   return {};
 }
 
@@ -142,8 +148,7 @@ Status Simulation::Implementation::recordContactFrame(FrameRecording& frame, std
       if (!isLast) recordNextMeeting(frame, step);
     }
   }
-  slots[frame.slot].recordPositions(frame.list, buffers);
-  buffers.recordControl(frame.list);
+  recordEnd(frame);
   return {};
 }
 

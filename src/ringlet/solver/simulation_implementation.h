@@ -146,6 +146,7 @@ struct Simulation::Implementation {
   }
   FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
   void beginFrame(FrameRecording& frame) const;
+  void recordEnd(FrameRecording& frame) const;
   Status recordFrame(FrameRecording& frame) const;
   void recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const;
   void recordNextMeeting(FrameRecording& frame, std::uint32_t step) const;
