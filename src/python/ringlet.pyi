@@ -152,6 +152,7 @@ class Settings:
     preload: float
     max_stretch: float
     teleport_distance: float
+    sleep_speed: float
     roots: int
     iterations: int
     chebyshev: bool
