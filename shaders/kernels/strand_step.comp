@@ -214,7 +214,10 @@ void coreForces() {
 }
 
 // What pulls on a kilogram of particle k [m/s^2]; beyond the tip gravity.
-vec3 pullOnRun(int k) { return isParticle(k) ? pullOn(strand.firstParticle + first + k) : parameters.gravity; }
+vec3 pullOnRun(int k) {
+  if (!kForces) return parameters.gravity;  // first, so that no branch on a particle is left
+  return !isParticle(k) ? parameters.gravity : pullOn(strand.firstParticle + first + k);
+}
 
 // Elastic force on particle k: its edge pulls it on, the edge before pulls it back.
 vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
