@@ -27,22 +27,6 @@ Result<DeviceForces> DeviceForces::create(gpu::Device& device, const RestState& 
   return forces;
 }
 
-std::uint64_t DeviceForces::largestBuffer() const {
-  std::uint64_t largest = 0;
-  for (const FrameInput& input : inputs_) largest = std::max(largest, input.bytes());
-  return largest;
-}
-std::uint64_t DeviceForces::bytes() const {
-  std::uint64_t bytes = 0;
-  for (const FrameInput& input : inputs_) bytes += input.bytes();
-  return bytes;
-}
-std::uint64_t DeviceForces::writtenBytes() const {
-  std::uint64_t bytes = 0;
-  for (const FrameInput& input : inputs_) bytes += input.writtenBytes();
-  return bytes;
-}
-
 void DeviceForces::set(std::span<const Vec3f> forces) {
   for (std::size_t i = 0; i < now_.size(); ++i) now_[i] = packed(forces[groomIndices_[i]]);
   isWritten_.assign(isWritten_.size(), false);

@@ -30,10 +30,10 @@ class DeviceForces {
     return {{layout::kBindOutsideForces, inputs_[chunk].seen()},
             {layout::kBindOutsideForceTexels, inputs_[chunk].seen()}};
   }
-  std::uint64_t largestBuffer() const;
-  std::uint64_t bytes() const;
+  std::uint64_t largestBuffer() const { return largestOf(inputs_); }
+  std::uint64_t bytes() const { return bytesOf(inputs_); }
   /// The host's part, for frames in flight.
-  std::uint64_t writtenBytes() const;
+  std::uint64_t writtenBytes() const { return writtenBytesOf(inputs_); }
 
   /// On each kilogram of every particle, groom order [m/s^2], from the next frame written on.
   void set(std::span<const Vec3f> forces);

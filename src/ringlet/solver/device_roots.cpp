@@ -1,7 +1,6 @@
 // Implements solver/device_roots.h.
 #include "ringlet/solver/device_roots.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "ringlet/base/assert.h"
@@ -30,22 +29,6 @@ Result<DeviceRoots> DeviceRoots::create(gpu::Device& device, const RestState& re
   roots.now_.resize(strands);
   roots.oneStepEarlier_.resize(strands);
   return roots;
-}
-
-std::uint64_t DeviceRoots::largestBuffer() const {
-  std::uint64_t largest = 0;
-  for (const FrameInput& poses : poses_) largest = std::max(largest, poses.bytes());
-  return largest;
-}
-std::uint64_t DeviceRoots::bytes() const {
-  std::uint64_t bytes = 0;
-  for (const FrameInput& poses : poses_) bytes += poses.bytes();
-  return bytes;
-}
-std::uint64_t DeviceRoots::writtenBytes() const {
-  std::uint64_t bytes = 0;
-  for (const FrameInput& poses : poses_) bytes += poses.writtenBytes();
-  return bytes;
 }
 
 std::vector<BodyPose> DeviceRoots::inOrder(std::span<const BodyPose> poses) const {

@@ -38,10 +38,10 @@ class DeviceRoots {
     return {{layout::kBindRootPoses, poses_[chunk].seen()},
             {layout::kBindRootPoseTexels, poses_[chunk].seen()}};
   }
-  std::uint64_t largestBuffer() const;
-  std::uint64_t bytes() const;
+  std::uint64_t largestBuffer() const { return largestOf(poses_); }
+  std::uint64_t bytes() const { return bytesOf(poses_); }
   /// The host's part, for frames in flight.
-  std::uint64_t writtenBytes() const;
+  std::uint64_t writtenBytes() const { return writtenBytesOf(poses_); }
 
   /// Poses of strand s, device order, in the head's frame.
   const BodyPose& now(std::size_t s) const { return now_[s]; }

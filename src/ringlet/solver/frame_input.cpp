@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace ringlet {
@@ -22,6 +23,22 @@ Result<FrameInput> FrameInput::create(gpu::Device& device, std::uint64_t bytes, 
     input.written_.push_back(std::move(*written));
   }
   return input;
+}
+
+std::uint64_t largestOf(std::span<const FrameInput> inputs) {
+  std::uint64_t largest = 0;
+  for (const FrameInput& input : inputs) largest = std::max(largest, input.bytes());
+  return largest;
+}
+std::uint64_t bytesOf(std::span<const FrameInput> inputs) {
+  std::uint64_t bytes = 0;
+  for (const FrameInput& input : inputs) bytes += input.bytes();
+  return bytes;
+}
+std::uint64_t writtenBytesOf(std::span<const FrameInput> inputs) {
+  std::uint64_t bytes = 0;
+  for (const FrameInput& input : inputs) bytes += input.writtenBytes();
+  return bytes;
 }
 
 }  // namespace ringlet

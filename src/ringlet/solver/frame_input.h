@@ -45,4 +45,9 @@ class FrameInput {
   std::vector<gpu::Buffer> written_;  // by slot
 };
 
+/// Of one input for each chunk of a groom.
+std::uint64_t largestOf(std::span<const FrameInput> inputs);
+std::uint64_t bytesOf(std::span<const FrameInput> inputs);
+std::uint64_t writtenBytesOf(std::span<const FrameInput> inputs);
+
 }  // namespace ringlet
