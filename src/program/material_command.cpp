@@ -290,34 +290,20 @@ void checkMaterialOptions(const MaterialChoice& choice, Integrator integrator) {
   }
 }
 
-Result<Material> chooseMaterial(const MaterialChoice& choice, Settings& settings,
-                                std::vector<std::string>& warnings) {
-  LoadedMaterial loaded = choice.loaded.value_or(LoadedMaterial{});
+Status applyMaterialOptions(const MaterialChoice& choice, SceneFile& scene) {
   if (!choice.name.empty()) {
     auto found = loadMaterial(choice.name);
     if (!found) return found.error();
-    loaded = std::move(*found);
+    scene.material = std::move(*found);
+    scene.hasMaterial = true;
   }
-  if (!choice.name.empty() || choice.loaded) {
-    if (settings.integrator == Integrator::paper) {
-      warnings.push_back(
-          "the paper's integrator has spring constants of its own; of the material only its "
-          "smoothing lengths and core elongations count");
-    }
-  }
-  for (const std::string& warning : loaded.warnings) warnings.push_back(warning);
-
-  // The command line's dials in place of the file's, of which its reader has told what is unusual.
-  MaterialDials& dials = loaded.dials;
-  dials = turned(choice, dials);
-  for (const std::string& sentence : unusualNumbers({}, turned(choice, {}))) warnings.push_back(sentence);
-  if (const auto warning = applyDials(dials, loaded.material, settings)) warnings.push_back(*warning);
-  settings.maxStretch = choice.maxStretch.value_or(settings.maxStretch);
-  if (Status checked = checkMaterial(loaded.material); !checked) {
-    return Error{fmt::format("{}, with the dials hold {}, spring_back {}, curl_keep {} worked in",
-                             checked.error().message, dials.hold, dials.springBack, dials.curlKeep)};
-  }
-  return loaded.material;
+  // The reader of the scene's own dials has told what is unusual.
+  scene.material.dials = turned(choice, scene.material.dials);
+  for (std::string& sentence : unusualNumbers({}, turned(choice, {})))
+    scene.warnings.push_back(std::move(sentence));
+  if (choice.bounce) scene.simulation.maxStretch.reset();  // they say the same
+  if (choice.maxStretch) scene.simulation.maxStretch = choice.maxStretch;
+  return {};
 }
 
 }  // namespace ringlet::program

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/rest/material.h"
-#include "ringlet/rest/material_file.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::program {
 
@@ -19,10 +18,9 @@ void addMaterialCommand(CLI::App& app, int& exitCode);
 
 /// The material as asked for on a command line.
 struct MaterialChoice {
-  std::string name;                      // a preset or a file; empty: Material{}
-  std::optional<LoadedMaterial> loaded;  // already, from a scene file; counts where there is no name
-  std::optional<double> hold, bounce, springBack, curlKeep;  // each instead of the file's own dial
-  std::optional<double> maxStretch;                          // instead of the file's bounce
+  std::string name;                                          // a preset or a file; empty: the scene's
+  std::optional<double> hold, bounce, springBack, curlKeep;  // each instead of the scene's own dial
+  std::optional<double> maxStretch;                          // instead of the scene's bounce
 };
 
 /// Adds --material, --hold, --bounce, --spring-back, --curl-keep and --max-stretch. `choice` must outlive the
@@ -32,9 +30,7 @@ void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::st
 /// Throws CLI11's error for what makes no sense together, or with Integrator::paper.
 void checkMaterialOptions(const MaterialChoice& choice, Integrator integrator);
 
-/// Reads the material and works the dials into it; sets maxStretch. What the user should know goes to
-/// `warnings`.
-Result<Material> chooseMaterial(const MaterialChoice& choice, Settings& settings,
-                                std::vector<std::string>& warnings);
+/// Reads the material into a scene and turns its dials. Errors: a file that cannot be read.
+Status applyMaterialOptions(const MaterialChoice& choice, SceneFile& scene);
 
 }  // namespace ringlet::program

@@ -1,5 +1,5 @@
-// Implements simulate_command.h: a scene file and options to SimulateOptions. The run is simulate_run.cpp,
-// what is said of it run_report.cpp.
+// Implements simulate_command.h: options are changes of a scene, which is then run by simulate_run.cpp. What
+// is said of it is run_report.cpp.
 #include "program/simulate_command.h"
 #include "program/standard_error.h"
 
@@ -23,9 +23,9 @@
 #include "program/run_report.h"
 #include "program/run_writers.h"
 #include "program/simulate_run.h"
+#include "ringlet/motion/motion_file.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_fields.h"
-#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
 namespace {
@@ -163,7 +163,6 @@ void applyOptions(const Typed& typed, SceneFile& scene) {
   replace(simulation.iterations, typed.iterations);
   replace(simulation.roots, typed.roots);
   if (typed.noChebyshev) simulation.chebyshev = false;
-  if (typed.material.bounce) simulation.maxStretch.reset();  // they say the same
   applyContactOptions(typed.contacts, scene.contacts);
   if (!typed.folder.empty()) scene.output.folder = typed.folder;
   replace(scene.output.width, typed.width);
@@ -197,40 +196,10 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
   }
 }
 
-// All but the groom and the bodies, which must be read.
-SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
-  SimulateOptions options;
-  options.up = scene.groom.up == "Z" ? UpAxis::z : UpAxis::y;
-  options.motion = motionOf(scene.motion, upOf(scene.groom));
-  if (!scene.motion.file.empty()) options.motionFile = motionFileOf(scene.motion);
-  options.scalp = scene.scalp;
-  options.rootShift = scene.motion.roots.shift;
-  options.preRollSeconds = scene.motion.preRollSeconds;
-
-  const SceneSimulation& simulation = scene.simulation;
-  options.settings = settingsOf(scene);
-  options.choosesSteps = !simulation.stepsPerFrame;
-  options.choosesFrames = !simulation.frames && !simulation.seconds;
-  if (simulation.seconds)
-    options.frameCount =
-        std::max(1, static_cast<int>(std::lround(*simulation.seconds * simulation.framesPerSecond)));
-  replace(options.frameCount, simulation.frames);
-
-  options.material = typed.material;
-  if (scene.hasMaterial) options.material.loaded = scene.material;
-  if (!options.material.maxStretch) options.material.maxStretch = simulation.maxStretch;
-
-  options.folder = scene.output.folder;
-  options.width = scene.output.width;
-  const auto writes = [&](const char* file) {
-    return std::ranges::find(scene.output.files, file) != scene.output.files.end();
-  };
-  options.writesUsd = writes("hair.usda") && !typed.noUsd;
-  if (!scene.output.cache.empty()) options.cache = precisionByName(scene.output.cache);
-  options.writesLast = writes("last.obj");
-  options.writesSheet = writes("sheet.png");
-  options.warnings = scene.warnings;
-
+// How the scene is run.
+RunOptions optionsOf(const Typed& typed, const SceneFile& scene) {
+  RunOptions options = runOptionsOf(scene);
+  options.writesUsd = options.writesUsd && !typed.noUsd;
   options.measuresContacts = typed.measuresContacts;
   options.onReference = typed.backend == "reference";
   options.device = typed.device;
@@ -264,32 +233,28 @@ int run(const Typed& typed) {
   if (!scene) return fail(scene.error());
   applyOptions(typed, *scene);
   checkOptions(typed, *scene);
-  SimulateOptions options = optionsOf(typed, *scene);
-  auto groom = loadGroom(scene->groom);
-  if (!groom) return fail(groom.error());
-  options.groom = std::move(*groom);
-  auto bodies = loadBodies(*scene, options.groom.groom.metresPerUnit, options.warnings);
-  if (!bodies) return fail(bodies.error());
-  options.bodies = std::move(*bodies);
-
+  if (Status applied = applyMaterialOptions(typed.material, *scene); !applied) return fail(applied.error());
+  RunOptions options = optionsOf(typed, *scene);
   const std::vector<std::filesystem::path> inputs = inputFilesOf(typed.input, *scene);
   if (Status stays = checkInputsStay(inputs, outputsOf(options)); !stays) return fail(stays.error());
+  const auto loaded = loadScene(*scene);
+  if (!loaded) return fail(loaded.error());
   if (typed.checkpoint || typed.resume) {
     auto facts = factsOf(*scene, inputs);
     if (!facts) return fail(facts.error());
     options.facts = std::move(*facts);
   }
 
-  auto outcome = runSimulation(options);
+  const auto outcome = runLoadedScene(*loaded, options);
   if (!outcome) return fail(outcome.error());
-  const int exitCode = tellTroubles("simulate", *outcome, options.frameCount);
+  const int exitCode = tellTroubles("simulate", *outcome, loaded->frameCount);
   RunNames names{scene->simulation.integrator, typed.backend};
   if (scene->hasMaterial) names.material = "scene";
   if (!typed.material.name.empty()) names.material = typed.material.name;
   if (typed.json) {
-    printJson(runJson(names, options.settings, *outcome));
+    printJson(runJson(names, loaded->settings, *outcome));
   } else if (!typed.quiet) {
-    fmt::print("{}", runText(names, options.settings, *outcome));
+    fmt::print("{}", runText(names, loaded->settings, *outcome));
   }
   return exitCode;
 }

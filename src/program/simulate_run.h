@@ -1,5 +1,4 @@
-// One run of hair: steps it frame by frame, writes what comes out. `ringlet simulate` reads it from files
-// first.
+// One run of hair: steps it frame by frame, writes what comes out.
 #pragma once
 
 #include <filesystem>
@@ -10,19 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "program/material_command.h"
 #include "program/run_folder.h"
 #include "ringlet/base/result.h"
-#include "ringlet/groom/loaded_groom.h"
+#include "ringlet/groom/groom.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/motion/head_scalp.h"
-#include "ringlet/motion/motion_file.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
 #include "ringlet/solver/simulation.h"
 
@@ -49,21 +47,6 @@ struct RunOptions {
   Leftovers leftovers = Leftovers::refuse;
   std::vector<RunFact> facts;  // what a run that goes on must have been a run of, but for device and kernels
   bool measuresContacts = false;  // every step and frame, with contacts on or off; costs CPU time
-};
-
-/// What the user asked for, checked.
-struct SimulateOptions : RunOptions {
-  LoadedGroom groom;
-  Motion motion;
-  std::optional<MotionFileChoice> motionFile;  // in its place
-  SceneScalp scalp;                            // that roots follow; without a file the head carries them
-  Vec3d rootShift{};                           // rootShiftsOf (scenes/scene_parts.h) [m]
-  std::vector<Body> bodies;
-  bool choosesFrames = false;  // frameCount is to be the length of the file or the keys
-  Settings settings;           // but maxStretch, which is the material's
-  bool choosesSteps = false;   // settings.stepsPerFrame is to be chosen for the groom
-  MaterialChoice material;
-  std::vector<std::string> warnings;  // of what was read so far
 };
 
 /// Where a run's time went, on the wall's clock [s].
@@ -124,8 +107,12 @@ using FrameObserver = std::function<Status(std::span<const Vec3f> points, const 
 Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
                                 const FrameObserver& observer = {});
 
-/// Reads the material and the motion first, and fills in options.settings.stepsPerFrame where it is to be
-/// chosen.
-Result<SimulateOutcome> runSimulation(SimulateOptions& options);
+/// What a scene says of its run and its files; all else is the default.
+RunOptions runOptionsOf(const SceneFile& scene);
+
+/// A run of a scene that is read, as long as the scene is. Its warnings, and doubts about sizes and places,
+/// come before the run's own.
+Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions options,
+                                       const FrameObserver& observer = {});
 
 }  // namespace ringlet::program

@@ -15,6 +15,7 @@
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/motion/motion_file.h"
 #include "ringlet/motion/skinned_mesh.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
@@ -60,6 +61,10 @@ Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, double metr
   return {};
 }
 
+MotionFileChoice motionFileOf(const SceneMotion& motion) {
+  return {motion.file, motion.joint, motion.metresPerUnit, motion.skipFrames, motion.animation};
+}
+
 // The way of a joint or of a body's own file.
 Status loadMotion(const SceneBody& scene, const SceneFile& file, Body& body,
                   std::vector<std::string>& warnings) {
@@ -103,6 +108,14 @@ Result<Material> loadedMaterial(const SceneFile& scene, Settings& settings,
   return material;
 }
 
+// Where keys are further apart than a head goes in a frame, it jumps: on a smooth way it would only be fast.
+void cutJumps(const Settings& settings, Motion& motion) {
+  if (!motion.keyframes || settings.teleportDistance <= 0) return;
+  Keyframes keys = *motion.keyframes;
+  keys.cutSpeed = settings.teleportDistance * settings.framesPerSecond;
+  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
+}
+
 // The motion, from its file where it has one.
 Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
                             std::vector<std::string>& warnings) {
@@ -118,6 +131,35 @@ Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
   return motion;
 }
 
+// The scalp with the groom's roots bound to it. Where its file is the head's the two stand in one world, and
+// what the scalp leaves open is the head's.
+Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
+  const SceneScalp& scene = file.scalp;
+  const SceneMotion& head = file.motion;
+  const std::string name = scene.file.string();
+  std::error_code code;  // files that are not there are no error of this
+  const bool isHeads = !head.file.empty() && std::filesystem::equivalent(head.file, scene.file, code);
+  SkinnedMeshChoice choice{.node = scene.mesh, .animation = scene.animation};
+  if (isHeads && choice.animation.empty()) choice.animation = head.animation;
+  choice.placement.metresPerUnit = scene.metresPerUnit.value_or(isHeads ? head.metresPerUnit.value_or(1) : 1);
+  choice.placement.upIsZ = file.groom.up == "Z";
+  auto read = readSkinnedMesh(scene.file, choice);
+  if (!read) return Error{fmt::format("the scalp: {}", read.error().message)};
+  const auto mesh = std::make_shared<const SkinnedMesh>(std::move(*read));
+  for (const std::string& warning : mesh->warnings())
+    loaded.warnings.push_back(fmt::format("{}: {}", name, warning));
+
+  const Groom& groom = loaded.groom;
+  std::vector<Vec3d> roots;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
+  auto scalp = HeadScalp::bind(
+      mesh, roots, loaded.motion,
+      {.start = scene.start, .farthest = scene.farthest, .offset = isHeads ? loaded.motion.start : Vec3d{}});
+  if (!scalp) return Error{fmt::format("the scalp {}: {}", name, scalp.error().message)};
+  return scalp;
+}
+
 int frameCountOf(const SceneFile& scene, const Motion& motion) {
   const SceneSimulation& simulation = scene.simulation;
   const double framesPerSecond = simulation.framesPerSecond;
@@ -129,13 +171,6 @@ int frameCountOf(const SceneFile& scene, const Motion& motion) {
 }
 
 }  // namespace
-
-void cutJumps(const Settings& settings, Motion& motion) {
-  if (!motion.keyframes || settings.teleportDistance <= 0) return;
-  Keyframes keys = *motion.keyframes;
-  keys.cutSpeed = settings.teleportDistance * settings.framesPerSecond;
-  motion.keyframes = std::make_shared<const Keyframes>(std::move(keys));
-}
 
 Result<LoadedGroom> loadGroom(const SceneGroom& scene) {
   LoadedGroom loaded;
@@ -156,10 +191,6 @@ Result<LoadedGroom> loadGroom(const SceneGroom& scene) {
   return loaded;
 }
 
-MotionFileChoice motionFileOf(const SceneMotion& motion) {
-  return {motion.file, motion.joint, motion.metresPerUnit, motion.skipFrames, motion.animation};
-}
-
 Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUnit,
                                      std::vector<std::string>& warnings) {
   std::vector<Body> bodies;
@@ -173,33 +204,6 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUni
     bodies.push_back(std::move(body));
   }
   return bodies;
-}
-
-Result<HeadScalp> loadScalp(const SceneScalp& scene, const Groom& groom, const Motion& head,
-                            const std::optional<MotionFileChoice>& headFile, bool upIsZ,
-                            std::vector<std::string>& warnings) {
-  const std::string name = scene.file.string();
-  std::error_code code;  // files that are not there are no error of this
-  const bool isHeads = headFile && std::filesystem::equivalent(headFile->path, scene.file, code);
-  SkinnedMeshChoice choice{.node = scene.mesh, .animation = scene.animation};
-  if (isHeads && choice.animation.empty()) choice.animation = headFile->animation;
-  choice.placement.metresPerUnit =
-      scene.metresPerUnit.value_or(isHeads ? headFile->metresPerUnit.value_or(1) : 1);
-  choice.placement.upIsZ = upIsZ;
-  auto read = readSkinnedMesh(scene.file, choice);
-  if (!read) return Error{fmt::format("the scalp: {}", read.error().message)};
-  const auto mesh = std::make_shared<const SkinnedMesh>(std::move(*read));
-  for (const std::string& warning : mesh->warnings())
-    warnings.push_back(fmt::format("{}: {}", name, warning));
-
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
-  auto scalp = HeadScalp::bind(
-      mesh, roots, head,
-      {.start = scene.start, .farthest = scene.farthest, .offset = isHeads ? head.start : Vec3d{}});
-  if (!scalp) return Error{fmt::format("the scalp {}: {}", name, scalp.error().message)};
-  return scalp;
 }
 
 Result<LoadedScene> loadScene(const SceneFile& scene) {
@@ -226,10 +230,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene) {
   }
   loaded.rootShifts = rootShiftsOf(scene.motion.roots.shift, loaded.groom.strandCount());
   if (!scene.scalp.file.empty()) {
-    std::optional<MotionFileChoice> headFile;
-    if (!scene.motion.file.empty()) headFile = motionFileOf(scene.motion);
-    auto scalp =
-        loadScalp(scene.scalp, loaded.groom, loaded.motion, headFile, scene.groom.up == "Z", loaded.warnings);
+    auto scalp = loadedScalp(scene, loaded);
     if (!scalp) return scalp.error();
     loaded.scalp = std::move(*scalp);
   }
