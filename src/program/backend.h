@@ -16,6 +16,7 @@
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::program {
@@ -75,11 +76,15 @@ class Backend {
 
 /// Where and how the GPU's solver runs.
 struct GpuChoice {
-  std::string device;  // see ComputeDevice::open
+  std::string device;                   // see ComputeDevice::open
+  std::optional<ComputeDevice> opened;  // in its place
   KernelChoice kernel;
   bool usesTuned = true;  // what `ringlet tune` remembered, for hair alone
   bool tells = true;      // a line on standard error where kernels take long to compile, or want tuning again
 };
+
+/// As ComputeDevice::open, with the program's cache of kernels.
+Result<ComputeDevice> openGpu(const std::string& device);
 
 /// The Vulkan solver.
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu);

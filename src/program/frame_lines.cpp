@@ -12,8 +12,9 @@ void FrameLines::tell(int frame) const {
   if (!areWanted_) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const std::string line =
-      fmt::format("{{\"frame\": {}, \"frames\": {}, \"seconds\": {:.3f}, \"seconds_left\": {:.3f}}}\n", frame,
-                  count_, seconds, seconds * (count_ - frame) / (frame - first_));
+      fmt::format("{{{}\"frame\": {}, \"frames\": {}, \"seconds\": {:.3f}, \"seconds_left\": {:.3f}}}\n",
+                  run_ > 0 ? fmt::format("\"run\": {}, ", run_) : "", frame, count_, seconds,
+                  seconds * (count_ - frame) / (frame - first_));
   // Nobody may be listening any more; frames are written all the same.
   (void)std::fwrite(line.data(), 1, line.size(), stdout);
   (void)std::fflush(stdout);

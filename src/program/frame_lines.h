@@ -8,14 +8,15 @@ namespace ringlet::program {
 
 class FrameLines {
  public:
-  /// `first`: frames done before; of `count`.
-  FrameLines(int first, int count, bool areWanted) : first_(first), count_(count), areWanted_(areWanted) {}
+  /// `first`: frames done before; of `count`. `run`: of a sweep, its number; 0: of none.
+  FrameLines(int first, int count, bool areWanted, int run)
+      : first_(first), count_(count), run_(run), areWanted_(areWanted) {}
 
-  /// {"frame": 12, "frames": 48, "seconds": 3.1, "seconds_left": 9.3}
+  /// {"frame": 12, "frames": 48, "seconds": 3.1, "seconds_left": 9.3}; "run": 3 first, of a sweep.
   void tell(int frame) const;
 
  private:
-  int first_, count_;
+  int first_, count_, run_;
   bool areWanted_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -17,7 +17,10 @@ namespace {
 class GpuBackend : public Backend {
  public:
   GpuBackend(ComputeDevice device, Simulation simulation, TunedShapes tuned)
-      : device_(std::move(device)), simulation_(std::move(simulation)), tuned_(std::move(tuned)) {}
+      : device_(std::move(device)),
+        simulation_(std::move(simulation)),
+        tuned_(std::move(tuned)),
+        messagesBefore_(device_.validationMessages().size()) {}
 
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                      std::span<const BodyPose> rootPoses) override {
@@ -37,8 +40,9 @@ class GpuBackend : public Backend {
   std::vector<std::string> deviceMessages() const override {
     std::vector<std::string> all;
     if (!tuned_.warning.empty()) all.push_back(tuned_.warning);
-    for (const std::string& message : device_.validationMessages())
-      all.push_back("Vulkan validation: " + message);
+    const std::vector<std::string> messages = device_.validationMessages();
+    for (std::size_t i = messagesBefore_; i < messages.size(); ++i)
+      all.push_back("Vulkan validation: " + messages[i]);
     return all;
   }
   std::string device() const override { return device_.name(); }
@@ -52,6 +56,7 @@ class GpuBackend : public Backend {
   ComputeDevice device_;
   Simulation simulation_;
   TunedShapes tuned_;
+  std::size_t messagesBefore_;  // of runs on this device before
 };
 
 // Where what was measured is true, and there is a choice.
@@ -63,11 +68,17 @@ bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
 
 }  // namespace
 
+Result<ComputeDevice> openGpu(const std::string& device) {
+  auto opened = ComputeDevice::open(device, cacheFolder());
+  if (!opened)
+    return Error{opened.error().message + " (`--backend reference` runs without Vulkan, slowly)",
+                 opened.error().fault};
+  return opened;
+}
+
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu) {
-  auto device = ComputeDevice::open(gpu.device, cacheFolder());
-  if (!device)
-    return Error{device.error().message + " (`--backend reference` runs without Vulkan, slowly)",
-                 device.error().fault};
+  auto device = gpu.opened ? Result<ComputeDevice>(*gpu.opened) : openGpu(gpu.device);
+  if (!device) return device.error();
   TunedShapes tuned;
   if (gpu.usesTuned && mayBeTuned(input, gpu.kernel)) tuned = recallShapes(*device);
   if (tuned.isOutdated && gpu.tells)

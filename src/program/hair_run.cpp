@@ -65,7 +65,8 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.residual = measuresResidual(input, options);
-  return makeGpuBackend(made, {options.device, kernel, options.usesTuned, options.showProgress});
+  return makeGpuBackend(made,
+                        {options.device, options.opened, kernel, options.usesTuned, options.showProgress});
 }
 
 // The motion up to the first frame, so that hair begins it as it moves.
@@ -211,7 +212,7 @@ Status HairRun::makeSink() {
     };
   }
   if (writers_) {
-    const FrameLines lines(done, options_.frameCount, options_.tellsFrames);
+    const FrameLines lines(done, options_.frameCount, options_.tellsFrames, options_.runNumber);
     readers.write = [this, lines](int number, std::vector<Vec3f> points) -> Status {
       if (Status added = writers_->addFrame(number, std::move(points)); !added) return added;
       lines.tell(number);

@@ -22,6 +22,7 @@
 #include "program/scene_command.h"
 #include "program/simulate_command.h"
 #include "program/standard_error.h"
+#include "program/sweep_command.h"
 #include "program/tune_command.h"
 #include "ringlet/version.h"
 
@@ -39,6 +40,7 @@ int main(int argumentCount, char** arguments) {
       "own --help.");
   addMakeCommand(app, exitCode);
   addSimulateCommand(app, exitCode);
+  addSweepCommand(app, exitCode);
   addInfoCommand(app, exitCode);
   addMeasureCommand(app, exitCode);
   addConvertCommand(app, exitCode);

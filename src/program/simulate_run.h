@@ -22,6 +22,7 @@
 #include "ringlet/scene/settings.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
+#include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::program {
@@ -37,10 +38,12 @@ struct RunOptions {
   double width = 0.0005;     // diameter of strands in hair.usda and hair.rgc [m]
   bool onReference = false;  // rather than on the GPU
   std::string device;
-  KernelChoice kernel;    // its residual: measured where the integrator has one, on the GPU
-  bool usesTuned = true;  // strand shapes by what `ringlet tune` measured
+  std::optional<ComputeDevice> opened;  // in its place: runs on one device share its compiled kernels
+  KernelChoice kernel;                  // its residual: measured where the integrator has one, on the GPU
+  bool usesTuned = true;                // strand shapes by what `ringlet tune` measured
   bool showProgress = true;
   bool tellsFrames = false;  // a line of JSON a finished frame, on standard output
+  int runNumber = 0;         // of a sweep, which these lines say; 0: of none
   // Runs that do not end. A folder then has a checkpoint, from 1 frame up; 0: none, or as many as the run
   // had.
   int checkpointFrames = 0;  // from one to the next

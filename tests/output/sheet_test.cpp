@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/test_support.h"
 
@@ -167,11 +170,72 @@ TEST(Sheet, SurvivesWhatACrashLooksLike) {
   }
 }
 
+// Panels in rows, seen by one camera: hair twice as long is drawn twice as large.
+TEST(Panels, ShareACameraAndStandInRows) {
+  const Groom small = strands({{{0, 0, 0}, {0, -1, 0}}}), large = strands({{{0, 0, 0}, {0, -2, 0}}});
+  const std::vector<Panel> panels = {{small.firstPoint, small.points}, {}, {large.firstPoint, large.points}};
+  Picture picture = drawPanels(panels, {.columns = 3});
+  ASSERT_EQ(picture.width, 3 * kPanelWidth);
+  ASSERT_EQ(picture.height, kPanelHeight);
+  const auto first = drawnIn(picture, 0), third = drawnIn(picture, 2);
+  ASSERT_TRUE(first && third);
+  EXPECT_FALSE(drawnIn(picture, 1)) << "without points";
+  EXPECT_NEAR(third->height(), 2 * first->height(), 6);
+
+  // In a column the same panels are the same pixels, one below the other.
+  Picture column = drawPanels(panels, {.columns = 1, .rows = 3});
+  ASSERT_EQ(column.height, 3 * kPanelHeight);
+  for (int panel = 0; panel < 3; ++panel) {
+    for (int y = 1; y < kPanelHeight; ++y) {
+      for (int x = 1; x < kPanelWidth; ++x)
+        ASSERT_EQ(picture.at(panel * kPanelWidth + x, y), column.at(x, panel * kPanelHeight + y)) << panel;
+    }
+  }
+}
+
+TEST(Panels, SmallPanelsShowTheSameSmaller) {
+  const Groom groom = strands({{{0, 0, 0}, {1, -1, 0}, {0, -2, 0}}});
+  const std::vector<Panel> panels = {{groom.firstPoint, groom.points, {"a", "hold 0.5"}}};
+  Picture large = drawPanels(panels, {.columns = 1}),
+          small = drawPanels(panels, {.columns = 1, .width = kPanelWidth / 2, .height = kPanelHeight / 2});
+  ASSERT_EQ(small.width, kPanelWidth / 2);
+  const Colour background = small.at(1, 1);
+  const auto rowsOf = [&](Picture& picture) {
+    int first = picture.height, last = 0;
+    for (int y = 0; y < picture.height * 4 / 5; ++y) {  // above the labels
+      if (picture.at(picture.width / 2, y) == background) continue;
+      first = std::min(first, y);
+      last = y;
+    }
+    return std::pair(first, last);
+  };
+  EXPECT_NEAR(rowsOf(large).first, 2 * rowsOf(small).first, 8);
+}
+
+TEST(Picture, TextIsDigitsCapitalsAndSigns) {
+  const auto dotsOf = [](const char* text) {
+    Picture picture(200, 9, {});
+    picture.drawText(text, 1, 1, 1, {9, 9, 9});
+    return picture.pixels;
+  };
+  EXPECT_EQ(dotsOf("hold"), dotsOf("HOLD"));
+  EXPECT_EQ(dotsOf("~ ~"), dotsOf("   "));
+  const std::string all = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ.,-+_=/:";
+  for (const char a : all) {
+    for (const char b : all) {
+      const char one[] = {a, 0}, other[] = {b, 0};
+      EXPECT_EQ(dotsOf(one) == dotsOf(other), a == b) << a << b;
+    }
+    const char one[] = {a, 0};
+    EXPECT_NE(dotsOf(one), dotsOf(" ")) << a;
+  }
+}
+
 TEST(Picture, PngHoldsThePixels) {
   const auto path = test::scratchFolder("png") / "picture.png";
   Picture picture(30, 20, {1, 2, 3});
   picture.at(29, 19) = {250, 251, 252};
-  picture.drawNumber(17, 1, 1, 1, {9, 9, 9});
+  picture.drawText("17", 1, 1, 1, {9, 9, 9});
   auto written = picture.writePng(path);
   ASSERT_TRUE(written) << written.error().message;
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "ringlet/base/result.h"
@@ -21,9 +22,10 @@ struct Picture {
   Picture(int w, int h, Colour fill) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, fill) {}
   Colour& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
 
-  /// Draws a number, its top left corner at (x, y), each dot of a digit `dot` pixels wide; parts outside are
+  /// Draws digits, capitals, which stand for small letters too, and . , - + _ = / : of 5 x 7 dots, one apart;
+  /// anything else is a gap. Its top left corner is at (x, y), each dot `dot` pixels wide; parts outside are
   /// left out.
-  void drawNumber(int number, int x, int y, int dot, Colour colour);
+  void drawText(std::string_view text, int x, int y, int dot, Colour colour);
 
   Status writePng(const std::filesystem::path& path) const;
 };

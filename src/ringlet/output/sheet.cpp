@@ -12,6 +12,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -65,26 +66,26 @@ struct Box {
 // A box of camera coordinates drawn into a panel: pixel = middle + scale (p - centre) / (1 - depth /
 // distance).
 struct View {
+  double width = 0, height = 0;  // of the panel [sample]
   Vec3d centre;
   double distance = 1, scale = 1;
 
   Vec3d project(Vec3d camera) const {
     Vec3d p = camera - centre;
     double nearness = 1 / std::max(0.1, 1 - p.z / distance);
-    return {0.5 * kPanelWidth * kSuper + scale * p.x * nearness,
-            0.5 * kPanelHeight * kSuper - scale * p.y * nearness, p.z};
+    return {0.5 * width + scale * p.x * nearness, 0.5 * height - scale * p.y * nearness, p.z};
   }
 };
 
-// The view in which all of the points, given in camera coordinates, fill the panel.
-View fit(std::span<const std::vector<Vec3d>> frames) {
+// The view in which all of the points, given in camera coordinates, fill a panel of the grid.
+View fit(std::span<const std::vector<Vec3d>> frames, const PanelGrid& grid) {
   Box box;
   for (const auto& points : frames) {
     for (Vec3d p : points) box.add(p);
   }
-  View view{box.centre(), kDistance * box.size(), std::numeric_limits<double>::infinity()};
-  const double halfWidth = (0.5 - kMargin) * kPanelWidth * kSuper,
-               halfHeight = (0.5 - kMargin) * kPanelHeight * kSuper;
+  View view{static_cast<double>(grid.width) * kSuper, static_cast<double>(grid.height - grid.footer) * kSuper,
+            box.centre(), kDistance * box.size(), std::numeric_limits<double>::infinity()};
+  const double halfWidth = (0.5 - kMargin) * view.width, halfHeight = (0.5 - kMargin) * view.height;
   for (const auto& points : frames) {
     for (Vec3d q : points) {
       Vec3d p = q - view.centre;
@@ -130,7 +131,11 @@ Shade fibreLight(Shade colour, Vec3d tangent) {
 // One panel at kSuper times its size.
 class Canvas {
  public:
-  Canvas() : depth_(kWidth * kHeight), shade_(kWidth * kHeight) {}
+  Canvas(int width, int height)
+      : width_(width * kSuper),
+        height_(height * kSuper),
+        depth_(static_cast<std::size_t>(width_) * height_),
+        shade_(depth_.size()) {}
 
   void clear() { std::fill(depth_.begin(), depth_.end(), -std::numeric_limits<float>::infinity()); }
 
@@ -149,8 +154,8 @@ class Canvas {
     const double squaredLength = runMajor * runMajor + runMinor * runMinor;
     const double slope = runMajor > 0 ? runMinor / runMajor : 0;
     const double reach = radius * std::sqrt(1 + slope * slope);
-    const int majorEnd = steep ? kHeight : kWidth, minorEnd = steep ? kWidth : kHeight;
-    const std::size_t majorStride = steep ? kWidth : 1, minorStride = steep ? 1 : kWidth;
+    const int majorEnd = steep ? height_ : width_, minorEnd = steep ? width_ : height_;
+    const std::size_t majorStride = steep ? width_ : 1, minorStride = steep ? 1 : width_;
     const auto fMajor = static_cast<float>(runMajor), fMinor = static_cast<float>(runMinor);
     const auto perMajor = static_cast<float>(squaredLength > 0 ? runMajor / squaredLength : 0);
     const auto perMinor = static_cast<float>(squaredLength > 0 ? runMinor / squaredLength : 0);
@@ -183,15 +188,15 @@ class Canvas {
     }
   }
 
-  // Averages the samples of every pixel into the picture, `left` pixels from its left side.
-  void copyTo(Picture& picture, int left) const {
-    for (int y = 0; y < kPanelHeight; ++y) {
-      for (int x = 0; x < kPanelWidth; ++x) {
+  // Averages the samples of every pixel into the picture, its top left corner at (left, top).
+  void copyTo(Picture& picture, int left, int top) const {
+    for (int y = 0; y < height_ / kSuper; ++y) {
+      for (int x = 0; x < width_ / kSuper; ++x) {
         Shade sum;
         int covered = 0;
         for (int dy = 0; dy < kSuper; ++dy) {
           for (int dx = 0; dx < kSuper; ++dx) {
-            const std::size_t sample = static_cast<std::size_t>(y * kSuper + dy) * kWidth + (x * kSuper + dx);
+            const std::size_t sample = static_cast<std::size_t>(y * kSuper + dy) * width_ + (x * kSuper + dx);
             if (depth_[sample] == -std::numeric_limits<float>::infinity()) continue;
             sum = sum + shade_[sample];
             ++covered;
@@ -203,14 +208,13 @@ class Canvas {
           float value = (255 * lit + open * static_cast<float>(behind)) / (kSuper * kSuper);
           return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f) + 0.5f);
         };
-        Colour& pixel = picture.at(left + x, y);
+        Colour& pixel = picture.at(left + x, top + y);
         pixel = {mix(sum.red, pixel.red), mix(sum.green, pixel.green), mix(sum.blue, pixel.blue)};
       }
     }
   }
 
  private:
-  static constexpr int kWidth = kPanelWidth * kSuper, kHeight = kPanelHeight * kSuper;
   // Rounded to a sample and kept within [0, end), so that points far outside cost nothing and overflow
   // nothing.
   static int clampedCeil(double value, int end) {
@@ -220,11 +224,120 @@ class Canvas {
     return static_cast<int>(std::floor(std::clamp(value, -1.0, end - 1.0)));
   }
 
+  int width_, height_;  // [sample]
   std::vector<float> depth_;
   std::vector<Shade> shade_;
 };
 
+// Panels as the camera sees them, and the view of each: one for all, or, where hair would else be tiny, each
+// its own of the same scale.
+struct PanelViews {
+  std::vector<std::vector<Vec3d>> points;
+  std::vector<View> views;
+};
+
+PanelViews viewsOf(std::span<const Panel> panels, const PanelGrid& grid) {
+  PanelViews seen;
+  const Axes axes = cameraAxes(grid.up);
+  for (const Panel& panel : panels) {
+    auto& points = seen.points.emplace_back();
+    points.reserve(panel.points.size());
+    for (Vec3f p : panel.points) points.push_back(axes.toCamera(p));
+  }
+  const View fixed = fit(seen.points, grid);
+  double followScale = std::numeric_limits<double>::infinity(), followDistance = 0;
+  for (const auto& points : seen.points) {
+    seen.views.push_back(points.empty() ? fixed : fit(std::span(&points, 1), grid));
+    if (points.empty()) continue;
+    followScale = std::min(followScale, seen.views.back().scale);
+    followDistance = std::max(followDistance, seen.views.back().distance);
+  }
+  const bool follow = fixed.scale < kFollowBelow * followScale;
+  for (View& view : seen.views)
+    view = follow ? View{fixed.width, fixed.height, view.centre, followDistance, followScale} : fixed;
+  return seen;
+}
+
+// Few strands are drawn thicker than many; the exponent was chosen by eye over 1 to 10,000 strands.
+double radiusOf(std::size_t strandCount) {
+  return 0.5 * kSuper * std::clamp(3.4 * std::pow(static_cast<double>(strandCount), -0.14), 0.9, 3.0);
+}
+
+void drawStrands(std::span<const std::uint32_t> firstPoint, std::span<const Vec3d> points, const View& view,
+                 Canvas& canvas) {
+  Box box;
+  for (Vec3d p : points) box.add(p - view.centre);
+  const double depth = std::max(box.high.z - box.low.z, kFullDepth * box.size());
+  const double radius = radiusOf(firstPoint.size() - 1);
+  for (std::size_t strand = 0; strand + 1 < firstPoint.size(); ++strand) {
+    const Shade colour = strandColour(strand);
+    const std::size_t root = firstPoint[strand], end = firstPoint[strand + 1];
+    std::optional<Canvas::End> before;
+    for (std::size_t i = root; i < end; ++i) {
+      // Dark at the root, light at the tip; darker when farther away.
+      const Vec3d tangent =
+          normalizedOr(points[std::min(i + 1, end - 1)] - points[i > root ? i - 1 : i], {0, 1, 0});
+      const double alongStrand =
+          static_cast<double>(i - root) / static_cast<double>(std::max<std::size_t>(end - root - 1, 1));
+      const Vec3d at = view.project(points[i]);
+      const double depthLight = 1 - (1 - kFarLight) * (box.high.z - at.z) / depth;
+      const auto light = static_cast<float>((0.6 + 0.4 * alongStrand) * depthLight);
+      const Canvas::End now{at, fibreLight(colour, tangent) * (kExposure * light)};
+      if (before) canvas.drawEdge(*before, now, radius);
+      before = now;
+    }
+  }
+}
+
+void drawLabels(Picture& picture, const Panel& panel, int left, int bottom, int dot) {
+  const int margin = 14 * dot / 3, line = 10 * dot;
+  int top = bottom - margin + 3 * dot - line * static_cast<int>(panel.labels.size());
+  for (const std::string& label : panel.labels) {
+    picture.drawText(label, left + margin, top, dot, kLabel);
+    top += line;
+  }
+}
+
+// A thin line between panels.
+void drawDividers(Picture& picture, const PanelGrid& grid) {
+  for (int column = 1; column < grid.columns; ++column) {
+    for (int y = 0; y < picture.height; ++y) picture.at(column * grid.width, y) = kDivider;
+  }
+  for (int row = 1; row < grid.rows; ++row) {
+    for (int x = 0; x < picture.width; ++x) picture.at(x, row * grid.height) = kDivider;
+  }
+}
+
 }  // namespace
+
+Picture drawPanels(std::span<const Panel> panels, const PanelGrid& grid) {
+  RINGLET_ASSERT(panels.size() <= static_cast<std::size_t>(grid.columns) * grid.rows,
+                 "a place for each panel");
+  RINGLET_ASSERT(std::ranges::any_of(panels, [](const Panel& panel) { return !panel.points.empty(); }),
+                 "there is something to draw");
+  Picture picture(grid.columns * grid.width, grid.rows * grid.height, kBackground);
+  const PanelViews seen = viewsOf(panels, grid);
+
+  // Panels are parts of the picture of their own, so each processor can draw one at a time.
+  std::atomic<std::size_t> nextPanel = 0;
+  auto drawSome = [&] {
+    Canvas canvas(grid.width, grid.height);
+    for (std::size_t i; (i = nextPanel++) < panels.size();) {
+      const int left = static_cast<int>(i) % grid.columns * grid.width,
+                top = static_cast<int>(i) / grid.columns * grid.height;
+      if (!panels[i].points.empty()) {
+        canvas.clear();
+        drawStrands(panels[i].firstPoint, seen.points[i], seen.views[i], canvas);
+        canvas.copyTo(picture, left, top);
+      }
+      drawLabels(picture, panels[i], left, top + grid.height, grid.labelDot);
+    }
+  };
+  const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
+  inParallel(std::min(processors, static_cast<unsigned>(panels.size())), drawSome);
+  drawDividers(picture, grid);
+  return picture;
+}
 
 std::vector<int> sheetFrames(int frameCount) {
   std::vector<int> frames;
@@ -265,76 +378,10 @@ void Sheet::archive(Archive& archive) {
 
 Picture Sheet::draw() const {
   RINGLET_ASSERT(!frames_.empty(), "a sheet shows at least one frame");
-  Picture picture(kSheetPanels * kPanelWidth, kPanelHeight, kBackground);
-
-  // All frames as the camera sees them, and how large they can be drawn: all with one view, or each with its
-  // own.
-  const Axes axes = cameraAxes(up_);
-  std::vector<std::vector<Vec3d>> frames;
-  for (const Frame& frame : frames_) {
-    auto& points = frames.emplace_back();
-    points.reserve(frame.points.size());
-    for (Vec3f p : frame.points) points.push_back(axes.toCamera(p));
-  }
-  const View fixed = fit(frames);
-  std::vector<View> following;
-  double followScale = std::numeric_limits<double>::infinity(), followDistance = 0;
-  for (const auto& points : frames) {
-    following.push_back(fit(std::span(&points, 1)));
-    followScale = std::min(followScale, following.back().scale);
-    followDistance = std::max(followDistance, following.back().distance);
-  }
-  const bool follow = fixed.scale < kFollowBelow * followScale;
-
-  // Few strands are drawn thicker than many; the exponent was chosen by eye over 1 to 10,000 strands.
-  const auto strandCount = static_cast<double>(firstPoint_.size() - 1);
-  const double radius = 0.5 * kSuper * std::clamp(3.4 * std::pow(strandCount, -0.14), 0.9, 3.0);
-
-  auto drawPanel = [&](std::size_t panel, Canvas& canvas) {
-    const View view = follow ? View{following[panel].centre, followDistance, followScale} : fixed;
-    const auto& points = frames[panel];
-    Box box;
-    for (Vec3d p : points) box.add(p - view.centre);
-    const double depth = std::max(box.high.z - box.low.z, kFullDepth * box.size());
-
-    canvas.clear();
-    for (std::size_t strand = 0; strand + 1 < firstPoint_.size(); ++strand) {
-      const Shade colour = strandColour(strand);
-      const std::size_t root = firstPoint_[strand], end = firstPoint_[strand + 1];
-      std::optional<Canvas::End> before;
-      for (std::size_t i = root; i < end; ++i) {
-        // Dark at the root, light at the tip; darker when farther away.
-        const Vec3d tangent =
-            normalizedOr(points[std::min(i + 1, end - 1)] - points[i > root ? i - 1 : i], {0, 1, 0});
-        const double alongStrand =
-            static_cast<double>(i - root) / static_cast<double>(std::max<std::size_t>(end - root - 1, 1));
-        const Vec3d at = view.project(points[i]);
-        const double depthLight = 1 - (1 - kFarLight) * (box.high.z - at.z) / depth;
-        const auto light = static_cast<float>((0.6 + 0.4 * alongStrand) * depthLight);
-        const Canvas::End now{at, fibreLight(colour, tangent) * (kExposure * light)};
-        if (before) canvas.drawEdge(*before, now, radius);
-        before = now;
-      }
-    }
-    const int left = static_cast<int>(panel) * kPanelWidth;
-    canvas.copyTo(picture, left);
-    picture.drawNumber(frames_[panel].number, left + 14, kPanelHeight - 14 - 21, 3, kLabel);
-  };
-
-  // Panels are columns of the picture of their own, so each processor can draw one at a time.
-  std::atomic<std::size_t> nextPanel = 0;
-  auto drawPanels = [&] {
-    Canvas canvas;
-    for (std::size_t panel; (panel = nextPanel++) < frames.size();) drawPanel(panel, canvas);
-  };
-  const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
-  inParallel(std::min(processors, static_cast<unsigned>(frames.size())), drawPanels);
-
-  // A thin line between panels.
-  for (int panel = 1; panel < kSheetPanels; ++panel) {
-    for (int y = 0; y < kPanelHeight; ++y) picture.at(panel * kPanelWidth, y) = kDivider;
-  }
-  return picture;
+  std::vector<Panel> panels;
+  for (const Frame& frame : frames_)
+    panels.push_back({firstPoint_, frame.points, {std::to_string(frame.number)}});
+  return drawPanels(panels, {.up = up_});
 }
 
 }  // namespace ringlet

@@ -2,8 +2,10 @@
 // shows what numbers do not: tangles, uncurled strands, hair where no hair should be.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "ringlet/base/archive.h"
@@ -22,6 +24,27 @@ inline constexpr int kPanelWidth = 480, kPanelHeight = 640;  // [pixel]
 /// among them.
 std::vector<int> sheetFrames(int frameCount);
 
+/// Hair as a panel of a picture.
+struct Panel {
+  std::span<const std::uint32_t> firstPoint;  // as in Groom
+  std::span<const Vec3f> points;              // finite; none: an empty panel
+  std::vector<std::string> labels{};          // a line each, below; letters are drawn as capitals
+};
+
+/// Panels row by row, each of `width` x `height` [pixel]. One camera looks at all of them, as Sheet says;
+/// points are of one unit.
+struct PanelGrid {
+  int columns = kSheetPanels, rows = 1;
+  int width = kPanelWidth, height = kPanelHeight;
+  UpAxis up = UpAxis::y;
+  int labelDot = 3;  // size of a letter's dot [pixel]
+  int footer = 0;    // of each panel, that hair leaves free for labels [pixel]
+};
+
+/// At least one panel has points, and no more panels than places. A processor draws about a million edges a
+/// second, and panels are drawn in parallel.
+Picture drawPanels(std::span<const Panel> panels, const PanelGrid& grid);
+
 /// One camera looks at all frames, from the front, a little from the side and from above, so that the whole
 /// motion fits. Where hair travels so far that it would be tiny, the camera goes along with it.
 class Sheet {
@@ -36,8 +59,7 @@ class Sheet {
   /// The frames it keeps, for a checkpoint.
   void archive(Archive& archive);
 
-  /// Draws the frames it has, at least one; a processor draws about a million edges a second, and panels are
-  /// drawn in parallel.
+  /// Draws the frames it has, at least one.
   Picture draw() const;
   Status write(const std::filesystem::path& path) const { return draw().writePng(path); }
 

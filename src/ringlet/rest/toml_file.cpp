@@ -166,6 +166,7 @@ void TomlProblems::addUnknownKeys(const toml::table& table, const std::string& n
 }
 
 Error TomlProblems::error(const std::string& name) const {
+  if (line_ == 0) return Error{fmt::format("{}: {}", name, message_)};
   return Error{fmt::format("{}: line {}: {}", name, line_, message_)};
 }
 

@@ -65,7 +65,7 @@ class TomlProblems {
   void addUnknownKeys(const toml::table& table, const std::string& name, std::span<const KnownKey> known);
 
   bool empty() const { return message_.empty(); }
-  /// "NAME: line N: ..."; there is one.
+  /// "NAME: line N: ...", without a line where the node was in no file; there is one.
   Error error(const std::string& name) const;
 
  private:

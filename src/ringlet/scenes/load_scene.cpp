@@ -206,10 +206,10 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUni
   return bodies;
 }
 
-Result<LoadedScene> loadScene(const SceneFile& scene) {
+Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) {
   LoadedScene loaded;
   loaded.warnings = scene.warnings;
-  auto groom = loadGroom(scene.groom);
+  auto groom = known ? Result<LoadedGroom>(*known) : loadGroom(scene.groom);
   if (!groom) return groom.error();
   loaded.groom = std::move(groom->groom);
   loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());

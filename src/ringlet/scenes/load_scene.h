@@ -40,8 +40,8 @@ struct LoadedScene {
   std::vector<std::string> warnings{};  // a sentence each
 };
 
-/// Reads all that the file names, and chooses the steps a frame where it leaves them open. Errors: those of
-/// the parts; a material that its dials spoil.
-Result<LoadedScene> loadScene(const SceneFile& scene);
+/// Reads all that the file names, and chooses the steps a frame where it leaves them open. `known`: its
+/// groom, where loadGroom has read it already. Errors: those of the parts; a material that its dials spoil.
+Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known = nullptr);
 
 }  // namespace ringlet

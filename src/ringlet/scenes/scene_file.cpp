@@ -15,6 +15,7 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
+#include "ringlet/scenes/scene_change.h"
 #include "ringlet/scenes/scene_fields.h"
 #include "ringlet/scenes/scene_text.h"
 
@@ -424,16 +425,20 @@ class SceneReader {
 bool isSceneFile(const std::filesystem::path& path) { return isMaterialFile(path); }
 
 Result<SceneFile> parseScene(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder) {
-  const auto file = parseToml(text, name, kWhat);
+                             const std::filesystem::path& folder, std::span<const SceneChange> changes) {
+  auto file = parseToml(text, name, kWhat);
   if (!file) return file.error();
+  for (const SceneChange& change : changes) {
+    if (Status changed = applyChange(change, *file); !changed)
+      return Error{fmt::format("{}: {}", name, changed.error().message)};
+  }
   return SceneReader(name, folder).read(*file);
 }
 
-Result<SceneFile> readScene(const std::filesystem::path& path) {
+Result<SceneFile> readScene(const std::filesystem::path& path, std::span<const SceneChange> changes) {
   const auto text = readTomlText(path, kWhat);
   if (!text) return text.error();
-  return parseScene(*text, path.string(), path.parent_path());
+  return parseScene(*text, path.string(), path.parent_path(), changes);
 }
 
 }  // namespace ringlet

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +55,8 @@ struct SceneGroom {
   // Into the head's frame: scaled, then turned, then moved.
   double scale = 1;
   Vec3d rotateDegrees{}, offset{};  // [m]
+
+  bool operator==(const SceneGroom&) const = default;
 };
 
 struct SceneKeyframe {
@@ -176,14 +179,22 @@ std::vector<SceneKey> sceneKeys();
 /// Whether a path names a scene file: it ends in .toml.
 bool isSceneFile(const std::filesystem::path& path);
 
+/// A key that is set before a scene is read, whether or not the file has it. Tables of a list have numbers
+/// from 1: "body.2.radius".
+struct SceneChange {
+  std::string key;    // with its table: "material.dials.hold"
+  std::string value;  // as a file has it, or a text without its quotes
+};
+
 /// Paths are relative to the file. Errors, each with file and line, what was found and what was expected: no
 /// file or no TOML, an unknown key (with the nearest known one), a value of another type or out of its range,
-/// keys that make no sense together. Of several the topmost.
-Result<SceneFile> readScene(const std::filesystem::path& path);
+/// keys that make no sense together. Of several the topmost; those of changes come first, without a line.
+Result<SceneFile> readScene(const std::filesystem::path& path, std::span<const SceneChange> changes = {});
 
 /// The same from text; `name` stands for the file in messages, paths are relative to `folder`.
 Result<SceneFile> parseScene(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder = {});
+                             const std::filesystem::path& folder = {},
+                             std::span<const SceneChange> changes = {});
 
 /// TOML of all that is not the default, every key with its comment, below the lines of `heading`; parseScene
 /// gives back the same bits. Paths below `folder` are written relative to it. Not for a preset's or a file's

@@ -1,0 +1,11 @@
+// `ringlet sweep`: a scene with some of its keys varied, every combination a run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace ringlet::program {
+
+/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+void addSweepCommand(CLI::App& app, int& exitCode);
+
+}  // namespace ringlet::program

@@ -1,0 +1,26 @@
+// SweepRecord: what a finished run of a sweep leaves in its folder, run.json, so that the sweep need not run
+// it again.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/output/checkpoint_file.h"
+
+namespace ringlet::program {
+
+struct SweepRecord {
+  std::vector<RunFact> facts;     // what it was a run of
+  nlohmann::ordered_json report;  // the keys of `ringlet simulate --json`, and those of sweeps
+};
+
+/// Replaces the file at once. Errors: those of a file that cannot be written.
+Status writeRecord(const std::filesystem::path& path, const SweepRecord& record);
+
+/// Nothing where there is no file. Errors: it cannot be read, or is no record.
+Result<std::optional<SweepRecord>> readRecord(const std::filesystem::path& path);
+
+}  // namespace ringlet::program

@@ -1,0 +1,365 @@
+// Implements sweep_run.h.
+#include "program/sweep_run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "program/backend.h"
+#include "program/exit_codes.h"
+#include "program/interruption.h"
+#include "program/measure_report.h"
+#include "program/progress_bar.h"
+#include "program/run_facts.h"
+#include "program/run_report.h"
+#include "program/simulate_run.h"
+#include "program/standard_error.h"
+#include "program/sweep_record.h"
+#include "program/sweep_sheet.h"
+#include "ringlet/base/whole_file.h"
+#include "ringlet/measure/motion_measure.h"
+#include "ringlet/measure/pose_numbers.h"
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/version.h"
+
+namespace ringlet::program {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRecord = "run.json";
+constexpr const char* kScene = "scene.toml";
+
+// What a run writes, and where.
+RunOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
+  RunOptions options = runOptionsOf(run.scene);
+  options.folder = folderOf(run, sweep);
+  options.writesLast = true;  // the sheet is drawn of it
+  if (sweep.lastOnly) options.writesUsd = options.writesSheet = false, options.cache.reset();
+  options.onReference = sweep.onReference;
+  options.device = sweep.device;
+  options.usesTuned = sweep.usesTuned;
+  options.showProgress = false;
+  options.tellsFrames = sweep.tellsProgress;
+  options.runNumber = run.number;
+  return options;
+}
+
+// The scene as a file in the run's folder: `ringlet simulate` runs it again.
+std::string sceneTextOf(const SweepRun& run) {
+  std::string heading = fmt::format("# Run {} of a sweep:\n", run.number);
+  for (const SceneChange& change : run.changes)
+    heading += fmt::format("#   {} = {}\n", change.key, change.value);
+  return sceneText(run.scene, {}, heading);
+}
+
+bool holdsText(const fs::path& path, const std::string& text) {
+  const auto bytes = readWholeFile(path);
+  return bytes && std::ranges::equal(*bytes, std::as_bytes(std::span<const char>(text)));
+}
+
+// Facts of runs; of files that several read, each is looked at once.
+class SweepFacts {
+ public:
+  explicit SweepFacts(const SweepOptions& options) : options_(options) {}
+
+  Result<std::vector<RunFact>> of(const SweepRun& run) {
+    auto facts = factsOf(run.scene, {});
+    if (!facts) return facts.error();
+    const std::vector<fs::path> inputs = inputFilesOf({}, run.scene);
+    if (!contents_.contains(inputs)) {
+      auto contents = factsOf(SceneFile{}, inputs);
+      if (!contents) return contents.error();
+      contents_[inputs] = std::move(*contents);
+    }
+    facts->insert(facts->end(), contents_[inputs].begin(), contents_[inputs].end());
+    const RunOptions files = optionsOf(run, options_);
+    const auto add = [&](const char* name, auto value) {
+      facts->push_back({name, fmt::format("{}", value)});
+    };
+    add("program", RINGLET_VERSION);
+    add("backend", options_.onReference ? "reference" : "gpu");
+    add("hair.usda", files.writesUsd);
+    add("hair.rgc", files.cache ? static_cast<int>(*files.cache) : -1);
+    add("sheet.png", files.writesSheet);
+    add("width", files.width);
+    add("measured frames", options_.measures);
+    return facts;
+  }
+
+ private:
+  const SweepOptions& options_;
+  std::map<std::vector<fs::path>, std::vector<RunFact>> contents_;
+};
+
+// The last frame, and where it is asked for all of them measured; on the writer's thread.
+class FrameWatch {
+ public:
+  FrameWatch(const LoadedScene& scene, Vec3d up) : scene_(scene), up_(up) {}
+
+  Status measureFrames() {
+    auto made = MotionMeasure::make(scene_.groom, {.framesPerSecond = scene_.settings.framesPerSecond,
+                                                   .up = up_,
+                                                   .lineDensity = scene_.material.lineDensity});
+    if (!made) return made.error();
+    measure_.emplace(std::move(*made));
+    return look(scene_.groom.points, scene_.motion.poseAt(0));
+  }
+
+  Status look(std::span<const Vec3f> points, const HeadPose& head) {
+    last_.assign(points.begin(), points.end());
+    head_ = head;
+    return measure_ ? measure_->addFrame(points, scene_.groom.metresPerUnit, head.rotation) : Status{};
+  }
+
+  void tell(Json& report) const {
+    const PoseNumbers numbers = poseNumbers(scene_.groom, last_, up_, head_.rotation);
+    report["droop_mm"] = 1000 * numbers.droop;
+    report["stretch_mean"] = numbers.meanStretch;
+    report["stretch_max"] = numbers.maxStretch;
+    report["metres_per_unit"] = scene_.groom.metresPerUnit;
+    if (!measure_) return;
+    Json curl;
+    addCurlKeys(curl, curlNumbers(measure_->ruler(), measure_->report()));
+    curl.erase("max_edge_stretch");  // the run's is that of every step
+    report.update(curl);
+  }
+
+  const std::vector<Vec3f>& lastPoints() const { return last_; }
+
+ private:
+  const LoadedScene& scene_;
+  Vec3d up_;
+  std::vector<Vec3f> last_;
+  HeadPose head_;
+  std::optional<MotionMeasure> measure_;
+};
+
+// Runs one after the other, with what they share.
+class Sweep {
+ public:
+  explicit Sweep(const SweepOptions& options) : options_(options), facts_(options) {}
+
+  Status openDevice() {
+    if (options_.onReference) return {};
+    auto opened = openGpu(options_.device);
+    if (!opened) return opened.error();
+    device_ = std::move(*opened);
+    return {};
+  }
+
+  void run(SweepEntry& entry) {
+    const auto failed = [&](const Error& error) {
+      entry.state = RunState::failed;
+      entry.error = error.message;
+      entry.exitCode = program::exitCodeOf(error);
+      // What comes next may find another device of that name, or the same after its reset.
+      if (error.fault == Fault::deviceLost) device_.reset();
+    };
+    try {
+      if (Status ran = runAndRecord(entry); !ran) failed(ran.error());
+    } catch (const std::bad_alloc&) {
+      failed({"not enough memory for this run", Fault::hostMemory});
+    }
+  }
+
+  /// Each sentence once, with the runs it is of.
+  void tellWarnings() const {
+    for (const auto& [sentence, runs] : warnings_) {
+      const std::string others = runs.size() > 1 ? fmt::format(" and {} more", runs.size() - 1) : "";
+      say("ringlet sweep: warning: run {}{}: {}\n", runs.front(), others, sentence);
+    }
+  }
+
+ private:
+  Result<LoadedScene> load(const SceneFile& scene) {
+    if (!groomOf_ || *groomOf_ != scene.groom) {
+      groomOf_.reset();
+      auto read = loadGroom(scene.groom);
+      if (!read) return read.error();
+      groom_ = std::move(*read);
+      groomOf_ = scene.groom;
+    }
+    return loadScene(scene, &groom_);
+  }
+
+  // The run's folder, with its scene. What a run of this scene left there that did not end makes way.
+  Result<Leftovers> prepareFolder(const SweepRun& run, const fs::path& folder) const {
+    std::error_code code;
+    fs::create_directories(folder, code);
+    if (code)
+      return Error{fmt::format("cannot create the folder {}: {}", folder.string(), code.message()),
+                   Fault::output};
+    const std::string text = sceneTextOf(run);
+    if (options_.overwrites || holdsText(folder / kScene, text)) {
+      fs::remove(folder / kRecord, code);
+      if (Status written = writeWholeFile(folder / kScene, std::as_bytes(std::span<const char>(text)));
+          !written)
+        return written.error();
+      return Leftovers::overwrite;
+    }
+    if (Status written = writeWholeFile(folder / kScene, std::as_bytes(std::span<const char>(text)));
+        !written)
+      return written.error();
+    return Leftovers::refuse;
+  }
+
+  Status runAndRecord(SweepEntry& entry) {
+    const SweepRun& run = *entry.run;
+    RunOptions options = optionsOf(run, options_);
+    if (!device_ && !options_.onReference) {
+      if (Status opened = openDevice(); !opened) return opened;
+    }
+    options.opened = device_;
+    auto facts = facts_.of(run);
+    if (!facts) return facts.error();
+    auto scene = load(run.scene);
+    if (!scene) return scene.error();
+    auto leftovers = prepareFolder(run, options.folder);
+    if (!leftovers) return leftovers.error();
+    options.leftovers = *leftovers;
+
+    FrameWatch watch(*scene, run.scene.groom.up == "Z" ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0});
+    if (options_.measures) {
+      if (Status measured = watch.measureFrames(); !measured) return measured;
+    }
+    const auto outcome = runLoadedScene(
+        *scene, options,
+        [&](std::span<const Vec3f> points, const HeadPose& head) { return watch.look(points, head); });
+    if (!outcome) return outcome.error();
+    for (const std::string& warning : outcome->warnings) warnings_[warning].push_back(run.number);
+    if (outcome->interrupted) {
+      entry.state = RunState::interrupted;
+      entry.exitCode = kExitInterrupted;
+      return {};
+    }
+    RunNames names{run.scene.simulation.integrator, options_.onReference ? "reference" : "gpu"};
+    if (run.scene.hasMaterial) names.material = "scene";
+    entry.report = runJson(names, scene->settings, *outcome);
+    watch.tell(entry.report);
+    entry.report["seconds"] = outcome->wall.start + outcome->wall.frames + outcome->wall.finish;
+    if (options_.drawsSheet) entry.cell = cellOf(scene->groom, watch.lastPoints());
+    entry.exitCode = outcome->report.nonfinite > 0 ? kExitNonfinite : kExitFine;
+    if (Status written = writeRecord(options.folder / kRecord, {std::move(*facts), entry.report}); !written)
+      return written;
+    entry.state = RunState::finished;
+    return {};
+  }
+
+  const SweepOptions& options_;
+  SweepFacts facts_;
+  std::optional<ComputeDevice> device_;
+  std::optional<SceneGroom> groomOf_;  // whose groom_ is
+  LoadedGroom groom_;
+  std::map<std::string, std::vector<int>> warnings_;  // with the runs they are of
+};
+
+// {"run": 3, "runs": 20, "state": "finished", "seconds": 3.1, "seconds_left": 17.6}
+void tellRun(const SweepEntry& entry, std::size_t done, std::size_t count, double seconds) {
+  const std::string line = fmt::format(
+      "{{\"run\": {}, \"runs\": {}, \"state\": \"{}\", \"seconds\": {:.3f}, \"seconds_left\": {:.3f}}}\n",
+      entry.run->number, count, nameOf(entry.state), seconds,
+      seconds * static_cast<double>(count - done) / static_cast<double>(done));
+  (void)std::fwrite(line.data(), 1, line.size(), stdout);
+  (void)std::fflush(stdout);
+}
+
+}  // namespace
+
+const char* nameOf(RunState state) {
+  switch (state) {
+    case RunState::finished:
+      return "finished";
+    case RunState::kept:
+      return "kept";
+    case RunState::failed:
+      return "failed";
+    case RunState::interrupted:
+      return "interrupted";
+    case RunState::open:
+      break;
+  }
+  return "to do";
+}
+
+fs::path folderOf(const SweepRun& run, const SweepOptions& options) {
+  return options.folder / fmt::format("run-{:04}", run.number);
+}
+
+Result<std::vector<SweepEntry>> lookAtRuns(std::span<const SweepRun> runs, const SweepOptions& options) {
+  std::vector<SweepEntry> entries;
+  SweepFacts known(options);
+  for (const SweepRun& run : runs) {
+    SweepEntry& entry = entries.emplace_back();
+    entry.run = &run;
+    entry.isOurs = (run.number - 1) % options.parts == options.part - 1;
+    if (options.overwrites && entry.isOurs) continue;
+    const fs::path folder = folderOf(run, options);
+    auto record = readRecord(folder / kRecord);
+    if (!record) return record.error();
+    if (!*record) continue;
+    const auto facts = known.of(run);
+    if (!facts) continue;  // a file is missing: its run will say so
+    if (const std::string differences = differencesOf(*facts, (*record)->facts); !differences.empty()) {
+      return Error{
+          fmt::format("{} holds a finished run of something else: {}. Choose another folder with -o; "
+                      "--overwrite runs all anew",
+                      folder.string(), differences),
+          Fault::input};
+    }
+    entry.state = RunState::kept;
+    entry.report = std::move((*record)->report);
+    if (entry.report.value("nonfinite", 0) > 0) entry.exitCode = kExitNonfinite;
+  }
+  return entries;
+}
+
+Status runSweep(std::vector<SweepEntry>& entries, std::span<const SweepAxis> axes,
+                const SweepOptions& options) {
+  catchInterruption();
+  std::vector<SweepEntry*> open;
+  for (SweepEntry& entry : entries) {
+    if (entry.isOurs && entry.state == RunState::open) open.push_back(&entry);
+  }
+  if (open.empty()) return {};
+  Sweep sweep(options);
+  if (Status opened = sweep.openDevice(); !opened) return opened;
+
+  ProgressBar progress(0, static_cast<int>(open.size()), options.showProgress, "run");
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < open.size() && !wasInterrupted(); ++i) {
+    progress.show(static_cast<int>(i));
+    SweepEntry& entry = *open[i];
+    sweep.run(entry);
+    if (entry.state == RunState::failed) {
+      progress.clear();
+      say("ringlet sweep: run {} ({}) failed: {}\n", entry.run->number, valuesText(*entry.run, axes),
+          entry.error);
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    if (options.tellsProgress) tellRun(entry, i + 1, open.size(), seconds.count());
+  }
+  progress.clear();
+  sweep.tellWarnings();
+  return {};
+}
+
+int exitCodeOf(std::span<const SweepEntry> entries) {
+  int code = kExitFine;
+  for (const SweepEntry& entry : entries) {
+    if (entry.state == RunState::interrupted) return kExitInterrupted;
+    const bool isWorse = entry.exitCode != kExitFine && (code == kExitFine || code == kExitNonfinite);
+    if (entry.isOurs && isWorse) code = entry.exitCode;
+  }
+  return code;
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,287 @@
+// `ringlet sweep`: runs with the bits of `ringlet simulate`, what is kept of them, what is refused.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::readText;
+using test::runProgram;
+using test::scratchFolder;
+
+class Sweep : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(folder_ / "scene.toml")
+        << "[groom]\ngenerate = 'swatch'\ncolumns = 3\nrows = 1\nparticles = 16\nturns = 3\n"
+           "[material]\npreset = 'wavy'\n[motion]\nkind = 'shake'\n"
+           "[simulation]\nframes = 3\nsteps_per_frame = 2\n"
+           "[[body]]\nshape = 'sphere'\nradius = 0.01\nposition = [0, -0.3, 0]\n";
+  }
+
+  test::ProgramResult sweep(std::vector<std::string> vary, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"sweep", "scene.toml", "-o", "out"};
+    for (std::string& axis : vary) arguments.insert(arguments.end(), {"--vary", std::move(axis)});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(folder_, arguments);
+  }
+  // Without a device: what a sweep keeps and refuses has nothing to do with it.
+  test::ProgramResult onCpu(std::vector<std::string> vary, std::vector<std::string> more = {}) const {
+    more.insert(more.end(), {"--backend", "reference"});
+    return sweep(std::move(vary), std::move(more));
+  }
+
+  std::vector<std::string> states() const {
+    std::vector<std::string> all;
+    for (const json& run : json::parse(readText(folder_ / "out/sweep.json"))["runs"])
+      all.push_back(run["state"]);
+    return all;
+  }
+  std::string hashIn(const std::string& run) const {
+    return json::parse(readText(folder_ / "out" / run / "run.json"))["positions_hash"];
+  }
+
+  fs::path folder_ = scratchFolder("sweep");
+  using States = std::vector<std::string>;
+};
+
+// Each kind of key: what is live, what makes another groom, other kernels, other bodies.
+TEST_F(Sweep, EachRunHasTheBitsOfSimulate) {
+  RINGLET_NEEDS_DEVICE(folder_);
+  struct Axis {
+    const char* key;
+    std::vector<std::string> values;
+    const char* file;  // the line of a scene file, {} the value
+  };
+  const std::vector<Axis> axes = {
+      {"material.dials.hold", {"0.5", "2"}, "[material.dials]\nhold = {}\n"},
+      {"material.preset", {"coil", "straight"}, nullptr},
+      {"groom.particles", {"12", "24"}, nullptr},
+      {"air.wind", {"[0,0,0]", "[3,0,1]"}, "[air]\nwind = {}\n"},
+      {"contacts.radius", {"0.004", "0.006"}, "[contacts]\nradius = {}\n"},
+      {"body.1.radius", {"0.01", "0.2"}, nullptr},
+      {"simulation.gravity", {"2", "9.81"}, nullptr},
+  };
+  for (const Axis& axis : axes) {
+    fs::remove_all(folder_ / "out");
+    const auto result =
+        sweep({fmt::format("{}={},{}", axis.key, axis.values[0], axis.values[1])}, {"--json"});
+    ASSERT_EQ(result.exitCode, 0) << axis.key << result.err;
+    std::set<std::string> hashes;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const json run = json::parse(result.out)["runs"][i];
+      EXPECT_EQ(run["values"][axis.key], axis.values[i]);
+      hashes.insert(run["positions_hash"]);
+      // By the scene the run wrote down, and, where a line can be added, by the file and that line.
+      std::vector<std::string> scenes{run["folder"].get<std::string>() + "/scene.toml"};
+      if (axis.file) {
+        scenes.push_back("changed.toml");
+        std::ofstream(folder_ / "changed.toml")
+            << readText(folder_ / "scene.toml") << fmt::format(fmt::runtime(axis.file), axis.values[i]);
+      }
+      for (const std::string& scene : scenes) {
+        const auto alone = runProgram(folder_, {"simulate", scene, "--no-usd", "--json", "-o", "alone"});
+        ASSERT_EQ(alone.exitCode, 0) << scene << alone.err;
+        EXPECT_EQ(json::parse(alone.out)["positions_hash"], run["positions_hash"])
+            << axis.key << " " << scene;
+      }
+      for (const char* file : {"hair.usda", "last.obj"})
+        EXPECT_EQ(readText(folder_ / run["folder"].get<std::string>() / file).size() > 100, true) << file;
+    }
+    EXPECT_EQ(hashes.size(), 2u) << axis.key << " changes nothing";
+  }
+}
+
+TEST_F(Sweep, RunsAreAllCombinationsAndTheirTableIsThere) {
+  const auto result =
+      onCpu({"material.dials.hold=0.5:2:3", "simulation.gravity=5,9.81"}, {"--json", "--last-only"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const json runs = json::parse(result.out)["runs"];
+  ASSERT_EQ(runs.size(), 6u);
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"0.5", "5"}, {"0.5", "9.81"}, {"1.25", "5"}, {"1.25", "9.81"}, {"2", "5"}, {"2", "9.81"}};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(runs[i]["values"]["material.dials.hold"], expected[i].first);
+    EXPECT_EQ(runs[i]["values"]["simulation.gravity"], expected[i].second);
+    EXPECT_EQ(runs[i]["frames"], 3);
+    EXPECT_FALSE(fs::exists(folder_ / runs[i]["folder"].get<std::string>() / "hair.usda"));
+    EXPECT_TRUE(fs::exists(folder_ / runs[i]["folder"].get<std::string>() / "last.obj"));
+  }
+  // Softer hair hangs lower, and so does heavier.
+  EXPECT_GT(runs[1]["droop_mm"], runs[5]["droop_mm"]);
+  EXPECT_EQ(json::parse(readText(folder_ / "out/sweep.json")), json::parse(result.out));
+
+  const std::string csv = readText(folder_ / "out/sweep.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+  EXPECT_TRUE(csv.starts_with("run,state,exit_status,material.dials.hold,simulation.gravity,frames,")) << csv;
+  EXPECT_NE(csv.find("\n4,finished,0,1.25,9.81,3,"), std::string::npos) << csv;
+
+  // A row of the picture is of one hold: two cells of 240 x 320 pixels across, three down.
+  const std::string png = readText(folder_ / "out/sheet.png");
+  const auto number = [&](std::size_t at) {
+    return static_cast<unsigned char>(png[at + 2]) * 256 + static_cast<unsigned char>(png[at + 3]);
+  };
+  ASSERT_GT(png.size(), 24u);
+  EXPECT_EQ(number(16), 2 * 240);
+  EXPECT_EQ(number(20), 3 * 320);
+}
+
+TEST_F(Sweep, FinishedRunsAreKeptAndOthersAreRun) {
+  const std::vector<std::string> vary{"material.dials.hold=0.5,1,2"};
+  ASSERT_EQ(onCpu(vary).exitCode, 0);
+  EXPECT_EQ(states(), (States{"finished", "finished", "finished"}));
+  const std::string hash = hashIn("run-0002"), csv = readText(folder_ / "out/sweep.csv");
+  fs::remove(folder_ / "out/run-0002/run.json");
+  // What a run leaves that was killed: the sweep knows its own.
+  std::ofstream(folder_ / "out/run-0002/hair.usda.partial") << "#usda 1.0\n";
+  ASSERT_EQ(onCpu(vary).exitCode, 0);
+  EXPECT_EQ(states(), (States{"kept", "finished", "kept"}));
+  EXPECT_EQ(hashIn("run-0002"), hash);
+  ASSERT_EQ(onCpu(vary, {"--overwrite"}).exitCode, 0);
+  EXPECT_EQ(states(), (States{"finished", "finished", "finished"}));
+}
+
+TEST_F(Sweep, AFolderOfSomethingElseIsRefused) {
+  std::ofstream(folder_ / "groom.obj") << "v 0 0 0\nv 0 -10 0\nv 10 -10 0\nl 1 2 3\n";
+  std::ofstream(folder_ / "scene.toml") << "[groom]\nfile = 'groom.obj'\n[simulation]\nframes = 2\n";
+  const std::vector<std::string> vary{"material.dials.hold=0.5,2"};
+  ASSERT_EQ(onCpu(vary).exitCode, 0);
+  const auto expectRefused = [&](const test::ProgramResult& result, const std::string& reason) {
+    EXPECT_EQ(result.exitCode, 4);
+    EXPECT_NE(result.err.find(reason), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("--overwrite"), std::string::npos) << result.err;
+  };
+  expectRefused(onCpu({"material.dials.hold=0.5,3"}), "hold is 3");
+  expectRefused(onCpu({"material.dials.hold=0.5,2", "simulation.gravity=4"}), "gravity is 4");
+  expectRefused(onCpu(vary, {"--last-only"}), "hair.usda is false and was true");
+  EXPECT_EQ(onCpu(vary).exitCode, 0) << "nothing was lost";
+  EXPECT_EQ(states(), (States{"kept", "kept"}));
+  std::ofstream(folder_ / "groom.obj") << "v 0 0 0\nv 0 -10 0\nv 11 -10 0\nl 1 2 3\n";
+  expectRefused(onCpu(vary), "groom.obj");
+  EXPECT_EQ(onCpu(vary, {"--overwrite"}).exitCode, 0);
+}
+
+TEST_F(Sweep, ARunThatFailsDoesNotLoseTheOthers) {
+  std::ofstream(folder_ / "groom.obj") << "v 0 0 0\nv 0 -10 0\nv 10 -10 0\nl 1 2 3\n";
+  std::ofstream(folder_ / "scene.toml") << "[groom]\nfile = 'groom.obj'\n[simulation]\nframes = 2\n";
+  const std::vector<std::string> vary{"groom.file=groom.obj,missing.obj", "simulation.gravity=5,9.81"};
+  const auto result = onCpu(vary);
+  EXPECT_EQ(result.exitCode, 4) << result.err;
+  EXPECT_NE(result.err.find("missing.obj"), std::string::npos) << result.err;
+  EXPECT_EQ(states(), (States{"finished", "finished", "failed", "failed"}));
+  EXPECT_NE(readText(folder_ / "out/sweep.csv").find("\n3,failed,4,missing.obj,5,"), std::string::npos);
+  // Once the file is there, what is missing is run.
+  fs::copy(folder_ / "groom.obj", folder_ / "missing.obj");
+  EXPECT_EQ(onCpu(vary).exitCode, 0);
+  EXPECT_EQ(states(), (States{"kept", "kept", "finished", "finished"}));
+}
+
+TEST_F(Sweep, ALostDeviceLeavesFinishedRuns) {
+  RINGLET_NEEDS_DEVICE(folder_);
+  const std::vector<std::string> vary{"material.dials.hold=0.5,1,2", "simulation.frames=20"};
+  setenv("VK_LAYER_PATH", RINGLET_LAYER_DIR, 1);
+  setenv("VK_INSTANCE_LAYERS", "VK_LAYER_RINGLET_fault", 1);
+  setenv("RINGLET_FAULT", "vkQueueSubmit:35:-4", 1);  // some way into the second run
+  const auto failed = sweep(vary);
+  unsetenv("RINGLET_FAULT");
+  unsetenv("VK_INSTANCE_LAYERS");
+  unsetenv("VK_LAYER_PATH");
+  EXPECT_EQ(failed.exitCode, 10) << failed.err;
+  EXPECT_EQ(states(), (States{"finished", "failed", "failed"}));
+  EXPECT_EQ(sweep(vary).exitCode, 0) << "what the failed runs left is in nobody's way";
+  EXPECT_EQ(states(), (States{"kept", "finished", "finished"}));
+}
+
+TEST_F(Sweep, AnInterruptionKeepsWhatIsFinished) {
+  const std::vector<std::string> arguments{"sweep",     "scene.toml",
+                                           "-o",        "out",
+                                           "--backend", "reference",
+                                           "--vary",    "material.dials.hold=0.5:2:4",
+                                           "--vary",    "simulation.frames=400"};
+  test::RunningProgram running(folder_, arguments);
+  ASSERT_TRUE(test::RunningProgram::waitUntil([&] { return fs::exists(folder_ / "out/run-0001/run.json"); }));
+  running.send(SIGINT);
+  EXPECT_EQ(running.wait().exitCode, 130);
+  EXPECT_EQ(states().front(), "finished");
+  EXPECT_EQ(states().back(), "to do");
+  EXPECT_EQ(runProgram(folder_, arguments).exitCode, 0);
+  EXPECT_EQ(states().front(), "kept");
+  EXPECT_EQ(states().back(), "finished");
+}
+
+TEST_F(Sweep, PartsAreAllRunsOnce) {
+  const std::vector<std::string> vary{"material.dials.hold=0.5:2:5"};
+  const std::vector<States> expected = {{"finished", "to do", "to do", "finished", "to do"},
+                                        {"kept", "finished", "to do", "kept", "finished"},
+                                        {"kept", "kept", "finished", "kept", "kept"}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(onCpu(vary, {"--only", fmt::format("{}/3", i + 1)}).exitCode, 0);
+    EXPECT_EQ(states(), expected[i]) << i;
+  }
+  for (const char* part : {"0/3", "4/3", "1", "a/b", "1/"})
+    EXPECT_EQ(onCpu(vary, {"--only", part}).exitCode, 2) << part;
+}
+
+TEST_F(Sweep, ProgressIsALineOfJsonARunAndAFrame) {
+  const auto result = onCpu({"material.dials.hold=0.5,2"}, {"--json-progress", "--quiet"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  std::vector<json> lines;
+  for (std::size_t at = 0; at < result.out.size(); at = result.out.find('\n', at) + 1)
+    lines.push_back(json::parse(result.out.substr(at, result.out.find('\n', at) - at)));
+  ASSERT_EQ(lines.size(), 8u) << result.out;  // three frames and the run, twice
+  EXPECT_EQ(lines[0]["run"], 1);
+  EXPECT_EQ(lines[0]["frame"], 1);
+  EXPECT_EQ(lines[3]["state"], "finished");
+  EXPECT_EQ(lines[7]["run"], 2);
+  EXPECT_EQ(lines[7]["runs"], 2);
+}
+
+// Before anything runs, and nothing is made.
+TEST_F(Sweep, WhatMakesNoSenseIsRefusedByName) {
+  struct Case {
+    std::vector<std::string> vary;
+    int exitCode;
+    const char* says;
+  };
+  const std::vector<Case> cases = {
+      {{"material.dials.hould=1"}, 1, "did you mean material.dials.hold"},
+      {{"simulation.gravitty=1,2"}, 1, "did you mean simulation.gravity"},
+      {{"materiel.dials.hold=1"}, 1, "did you mean material"},
+      {{"simulation.gravity=strong"}, 1, "the text 'strong' for simulation.gravity"},
+      {{"groom.particles=16.5"}, 1, "expected a whole number"},
+      {{"simulation.gravity.x=1"}, 1, "simulation.gravity.x"},
+      {{"body.2.radius=0.1"}, 1, "from 1 to 1"},
+      {{"simulation..gravity=1"}, 1, "expected a key with its table"},
+      {{"material.dials.hold=1", "material.dials.hold=2"}, 1, "varied twice"},
+      {{"output.folder=a"}, 1, "output.folder"},
+      {{"groom.seed=1:10001:10001"}, 1, "10000 at most"},
+      {{"hold"}, 2, "KEY=a:b:n"},
+      {{"=1"}, 2, "KEY=a:b:n"},
+      {{"material.dials.hold="}, 2, "lacks a value"},
+      {{"material.dials.hold=1,,2"}, 2, "lacks a value"},
+      {{"material.dials.hold=1:2:0"}, 2, "lacks a value"},
+  };
+  for (const Case& c : cases) {
+    const auto result = onCpu(c.vary);
+    EXPECT_EQ(result.exitCode, c.exitCode) << c.vary[0] << result.err;
+    EXPECT_NE(result.err.find(c.says), std::string::npos) << c.vary[0] << ": " << result.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << c.vary[0];
+  }
+}
+
+}  // namespace
+}  // namespace ringlet
