@@ -17,6 +17,7 @@ if(TARGET ringlet_program)
   install(TARGETS ringlet_program)
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/ringletConfig.cmake.in ${PROJECT_BINARY_DIR}/ringletConfig.cmake
   INSTALL_DESTINATION ${package_dir})

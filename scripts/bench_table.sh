@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The strand kernel's table of the README, in Markdown, from what scripts/bench.sh wrote.
+# The strand kernel's table of docs/performance.md, in Markdown, from what scripts/bench.sh wrote.
 #   scripts/bench_table.sh bench/results/<device>/kernels_bench.csv
 set -euo pipefail
 [[ $# -eq 1 && -f $1 ]] || { echo "usage: scripts/bench_table.sh FILE.csv" >&2; exit 2; }

@@ -1,4 +1,4 @@
-// The README's bytes a particle, a strand and a contact, against the buffers there are.
+// docs/memory.md's bytes a particle, a strand and a contact, against the buffers there are.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -118,7 +118,7 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   EXPECT_NEAR(out["compute_share"].get<double>(), computed / out["wall_s"]["frames"].get<double>(), 1e-9);
   for (const char* key : {"device", "driver", "kernel"})
     EXPECT_FALSE(out[key].get<std::string>().empty()) << key;
-  // 8 particles, 2 strands, and the head's poses: README, "Memory".
+  // 8 particles, 2 strands, and the head's poses: docs/memory.md.
   EXPECT_EQ(out["device_bytes"],
             GetParam() == std::string("gpu") ? json(8 * (64 + 2 * 16) + 2 * 136 + 3 * 341 * 48) : json());
   EXPECT_EQ(out["positions_hash"].get<std::string>().size(), 16u);

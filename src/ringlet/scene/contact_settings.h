@@ -76,7 +76,7 @@ struct ContactSettings {
   double detail = 1;
 
   // Which pairs of strands may touch: all, or those that are near at rest. Pruned hair passes through hair it
-  // was not beside at rest; what that saves in time is little (README, "Hair that meets hair").
+  // was not beside at rest; what that saves in time is little (docs/accuracy.md).
   bool prunePairs = false;
   double enlargement = 1.5;  // factor on radii while overlaps at rest are counted, 1 to 100: more, and
                              // strands further apart count

@@ -8,7 +8,7 @@
 
 namespace ringlet {
 
-/// How an outer step finds the new velocities; see the README's "How it works".
+/// How an outer step finds the new velocities; see docs/method.md.
 enum class Integrator {
   jacobi,       // implicit; the block is a strand, solved exactly (default)
   pointJacobi,  // implicit; the block is a particle, a fixed number of iterations

@@ -56,7 +56,7 @@ struct ContactReport {
   double momentumError = 0;     // of the last step: |sum of contact momenta| over the sum of their sizes
 };
 
-/// Bytes of a simulation's buffers, by what they grow with (README, "Memory").
+/// Bytes of a simulation's buffers, by what they grow with (docs/memory.md).
 struct DeviceMemory {
   std::uint64_t particles = 0;     // state, rest, scratch, what contacts add to a solve
   std::uint64_t strands = 0;       // constants, reports

@@ -1,4 +1,4 @@
-// The README's program: a head of curls, shaken for a second.
+// A tool: a head of curls, shaken for a second.
 #include <cstdio>
 
 #include "ringlet/groom/generate.h"

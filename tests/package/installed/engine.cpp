@@ -1,4 +1,4 @@
-// The README's engine: heads of hair step in the engine's own commands, and are drawn from device memory.
+// An engine: heads of hair step in the engine's own commands, and are drawn from device memory.
 #include <vulkan/vulkan.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-/* The README's program in C: a handful of curls on a head that shakes, beside a sphere. */
+/* A tool in C: a handful of curls on a head that shakes, beside a sphere. */
 #include <math.h>
 #include <ringlet/c/ringlet.h>
 #include <stdio.h>
