@@ -1,4 +1,5 @@
-// The pages of the documentation: their programs are those that tests build, their links lead somewhere, every page is linked.
+// The pages of the documentation: their programs are those that tests build, their links lead somewhere,
+// every page is linked.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,8 +40,10 @@ std::string proseOf(const std::string& page) {
   std::string prose;
   bool isCode = false;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("```")) isCode = !isCode;
-    else if (!isCode) prose += line + "\n";
+    if (line.starts_with("```"))
+      isCode = !isCode;
+    else if (!isCode)
+      prose += line + "\n";
   }
   return prose;
 }
@@ -53,7 +56,8 @@ std::set<std::string> anchorsOf(const std::string& page) {
     if (!line.starts_with("#")) continue;
     std::string anchor;
     for (const char c : line.substr(line.find(' ') + 1)) {
-      if (c == ' ') anchor += '-';
+      if (c == ' ')
+        anchor += '-';
       else if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
         anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     }
@@ -106,7 +110,9 @@ TEST(Docs, EveryPageIsLinkedFromAnother) {
   const auto links = localLinks();
   for (const fs::path& page : pages())
     if (page != "README.md")
-      EXPECT_TRUE(std::ranges::any_of(links, [&](const Link& link) { return link.target == page && link.page != page; })) << page;
+      EXPECT_TRUE(std::ranges::any_of(links, [&](const Link& link) {
+        return link.target == page && link.page != page;
+      })) << page;
 }
 
 TEST(Docs, TheReadmeIsShort) {

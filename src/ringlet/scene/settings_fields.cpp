@@ -68,36 +68,57 @@ std::span<const SettingField<Settings>> settingsFields() {
   static const F all[] = {
       F{"fps", "1/s", "", "Frames per second.", &S::framesPerSecond, {0.001, 1e6}}.live(),
       F{"steps_per_frame", "", "", "Outer steps a frame.", &S::stepsPerFrame, {1, kMostStepsPerFrame}}.live(),
-      F{"gravity", "m/s^2", "", "What everything falls with.", &S::gravity, {-1e4, 1e4}}.live(),
+      F{"gravity", "m/s^2", "", "Acceleration of gravity.", &S::gravity, {-1e4, 1e4}}.live(),
       F{"preload", "1", "", "Share of gravity balanced in the rest pose.", &S::gravityPreload, kShare},
       F{"max_stretch",
         "1",
         "",
-        "Longest an edge may become, as a multiple of the groom's edge.",
+        "Stretch limit: largest length of an edge as a multiple of its length in the groom.",
         &S::maxStretch,
         {1, 100}}
           .live(),
       F{"teleport_distance",
         "m",
         "",
-        "A head that jumps further in one frame carries the hair along rigidly; 0: never.",
+        "A head that moves farther than this in one frame carries the hair along rigidly; 0: never.",
         &S::teleportDistance,
         {0, 1e6}}
           .live(),
       F{"sleep_speed",
         "m/s",
         "",
-        "Hair that is slower than this everywhere for some frames, while nothing acts on it anew, is not "
-        "stepped "
-        "until something does; 0: never. Not of the reference.",
+        "Hair slower than this for 8 frames sleeps: it is not stepped until its head, bodies, air, forces or "
+        "settings change; 0: never. The reference ignores it.",
         &S::sleepSpeed,
         {0, 1}}
           .live(),
-      F{"roots", "", "", "Particles at the root that follow the head.", &S::rootCount, {1, kMostRoots}},
-      F{"iterations", "", "", "Of a step.", &S::pointIterations, {1, 60000}, "", "point_jacobi"}.live(),
-      F{"chebyshev", "", "", "Whether these are accelerated.", &S::chebyshev, {}, "", "point_jacobi"}.live(),
-      F{"force_loops", "", "", "Of a step.", &S::forceLoops, {1, 1000}, "", "paper"}.live(),
-      F{"damping_loops", "", "", "Of a force loop.", &S::dampingLoops, {1, 1000}, "", "paper"}.live(),
+      F{"roots",
+        "",
+        "",
+        "Particles at the root of a strand that follow the head.",
+        &S::rootCount,
+        {1, kMostRoots}},
+      F{"iterations",
+        "",
+        "",
+        "Number of iterations a step.",
+        &S::pointIterations,
+        {1, 60000},
+        "",
+        "point_jacobi"}
+          .live(),
+      F{"chebyshev",
+        "",
+        "",
+        "Whether the iterations are Chebyshev-accelerated.",
+        &S::chebyshev,
+        {},
+        "",
+        "point_jacobi"}
+          .live(),
+      F{"force_loops", "", "", "Force loops a step.", &S::forceLoops, {1, 1000}, "", "paper"}.live(),
+      F{"damping_loops", "", "", "Damping loops a force loop.", &S::dampingLoops, {1, 1000}, "", "paper"}
+          .live(),
   };
   return all;
 }
@@ -106,97 +127,110 @@ std::span<const SettingField<ContactSettings>> contactFields() {
   using C = ContactSettings;
   using F = SettingField<C>;
   static const F all[] = {
-      F{"on", "", "true where [contacts] stands", "Whether strands push each other away; jacobi only.",
+      F{"on", "", "true where [contacts] stands", "Whether strands collide with each other. Needs jacobi.",
         &C::on},
       F{"method",
         "",
         "",
-        "By what means: auto, as a volume where strands are dense at rest and pair by pair elsewhere; pair "
-        "by "
-        "pair; or all as a volume.",
+        "How strands meet: auto, as a volume where they are dense at rest and pair by pair elsewhere; "
+        "explicit, pair by pair; volume, all as a volume.",
         &C::method,
         {},
         "auto, explicit, volume"},
       F{"radius",
         "m",
         "half the mean distance of neighbouring roots",
-        "Radius of the spheres by which strands feel each other.",
+        "Radius of the contact spheres of a strand.",
         &C::radius,
         {1e-6, 1}}
           .asOption("--contact-radius"),
       F{"fill_gaps", "", "",
-        "Whether strands whose particles stand further apart than two radii get a larger radius, so that "
-        "nothing slips between; in a dense groom slow.",
+        "Whether strands whose particles are farther apart than two radii get a larger radius, so that "
+        "nothing passes between. Slow in dense grooms.",
         &C::fillGaps}
           .asOption("--fill-gaps"),
       F{"spacing",
         "1",
         "",
-        "Spheres stand this share of two radii apart along a strand: less keeps more of them.",
+        "Distance of contact spheres along a strand, as a share of their diameter. A smaller share makes "
+        "more spheres.",
         &C::spacing,
         {0.01, 1}},
       F{"detail",
         "1",
         "",
-        "Share of their contact particles by which strands that are dense at rest meet others pair by pair: "
-        "with 0.5 a frame of dense hair takes less than half as long, and more of it slips through.",
+        "Share of contact particles that dense strands keep for contacts pair by pair. With 0.5 a frame of "
+        "dense hair takes less than half the time, and more hair passes through.",
         &C::detail,
         {0.05, 1}}
           .asOption("--contact-detail"),
-      F{"prune_pairs", "", "", "Whether only strands that are near at rest may touch.", &C::prunePairs},
+      F{"prune_pairs", "", "", "Whether only strands that are near each other at rest may touch.",
+        &C::prunePairs},
       F{"enlargement",
         "1",
         "",
-        "Factor on radii while overlaps at rest are counted.",
+        "Factor on the radii while overlaps at rest are counted.",
         &C::enlargement,
         {1, 100}},
       F{"min_overlaps",
         "",
         "",
-        "Overlapping spheres at rest from which on two strands may touch.",
+        "Number of overlapping spheres at rest from which two strands may touch.",
         &C::minOverlaps,
         {1, kMostOverlaps}},
       F{"max_neighbours",
         "",
         "",
-        "Most strands that one may touch, those with the most overlaps; 0: no bound.",
+        "Largest number of strands that one strand may touch, those with most overlaps first; 0: no limit.",
         &C::maxNeighbours,
         {0, kMostOverlaps}}
           .asOption("--max-neighbours"),
-      F{"drop_share", "1", "", "Share of the pairs of strands then left that is dropped at random.",
+      F{"drop_share", "1", "", "Share of the remaining pairs of strands that is dropped at random.",
         &C::dropShare, kShare}
           .asOption("--drop-share"),
-      F{"seed", "", "", "Of drop_share and detail.", &C::seed, kSeed},
+      F{"seed", "", "", "Seed of drop_share and detail.", &C::seed, kSeed},
       F{"stiffness",
         "w / R",
         "",
-        "Of two spheres that touch: the weight of one over the sum of their radii.",
+        "Stiffness of a contact, as a multiple of a sphere's weight over the sum of the two radii.",
         &C::stiffness,
         {0, 1e7}}
           .live(),
-      F{"damping_ratio", "1", "", "Along the contact's normal; 1 is critical.", &C::dampingRatio, {0, 100}}
+      F{"damping_ratio",
+        "1",
+        "",
+        "Damping ratio along the contact's normal; 1 is critical.",
+        &C::dampingRatio,
+        {0, 100}}
           .live(),
       F{"friction", "1", "",
-        "Damping of strands that slide along each other, pair by pair, as a share of that between strands "
-        "that meet.",
+        "Damping of strands that slide along each other pair by pair, as a share of the damping along the "
+        "normal.",
         &C::friction, kShare}
           .asOption("--contact-friction")
           .live(),
       F{"taper",
         "",
         "",
-        "How a contact comes and goes: with the distance of the two, or in time, as in the paper, which is "
-        "slower and pair by pair.",
+        "How a contact fades in and out: with the distance, or in time as in the paper, which is slower and "
+        "works pair by pair only.",
         &C::taper,
         {},
         "distance, time"}
           .asOption("--contact-taper"),
-      F{"ramp_seconds", "s", "", "From first touch to full stiffness.", &C::rampSeconds, {0, 10}, "", "time"}
+      F{"ramp_seconds",
+        "s",
+        "",
+        "Time from the first touch to full stiffness.",
+        &C::rampSeconds,
+        {0, 10},
+        "",
+        "time"}
           .live(),
       F{"stiffness_release_seconds",
         "s",
         "",
-        "From parting until stiffness has faded.",
+        "Time after the last touch in which the stiffness fades.",
         &C::stiffnessReleaseSeconds,
         {0, 10},
         "",
@@ -205,7 +239,7 @@ std::span<const SettingField<ContactSettings>> contactFields() {
       F{"damping_release_seconds",
         "s",
         "",
-        "And then damping.",
+        "Time after that in which the damping fades.",
         &C::dampingReleaseSeconds,
         {0, 10},
         "",
@@ -214,7 +248,7 @@ std::span<const SettingField<ContactSettings>> contactFields() {
       F{"break_factor",
         "1",
         "",
-        "Parted further than this times its rest length, a contact is over.",
+        "A contact ends at this multiple of its rest length.",
         &C::breakFactor,
         {1, 10},
         "",
@@ -222,30 +256,35 @@ std::span<const SettingField<ContactSettings>> contactFields() {
       F{"volume_cell",
         "m",
         "four radii, or more where particles are further apart",
-        "Cell of the grid by which hair meets as a volume: how far a strand feels what is about it.",
+        "Cell size of the grid of hair that meets as a volume: the range of the coupling.",
         &C::volumeCell,
         {1e-5, 10}}
           .asOption("--volume-cell"),
       F{"volume_drag",
         "1/s",
         "",
-        "Of hair that meets as a volume, towards the velocity of what is near.",
+        "Drag of hair that meets as a volume, towards the velocity of the hair around it.",
         &C::volumeDrag,
         {0, 1e5}}
           .live(),
-      F{"volume_stiffness", "1/s^2", "", "And towards its displacement.", &C::volumeStiffness, {0, 1e9}}
+      F{"volume_stiffness",
+        "1/s^2",
+        "",
+        "Stiffness of hair that meets as a volume, towards the displacement of the hair around it.",
+        &C::volumeStiffness,
+        {0, 1e9}}
           .live(),
       F{"volume_memory_seconds",
         "s",
         "",
-        "In which such a displacement is forgotten.",
+        "Time in which a displacement is forgotten.",
         &C::volumeMemorySeconds,
         {0.001, 1000}}
           .live(),
       F{"iterations",
         "",
         "2; 1 where all hair meets as a volume",
-        "Solves of a step in which strands hear of each other: more is slower and loses less momentum.",
+        "Solves of a step that couple strands. More iterations are slower and lose less momentum.",
         &C::iterations,
         {1, 1000}}
           .asOption("--contact-iterations")
@@ -258,28 +297,29 @@ std::span<const SettingField<AirSettings>> airFields() {
   using A = AirSettings;
   using F = SettingField<A>;
   static const F all[] = {
-      F{"on", "", "true where [air] stands", "Whether there is air; jacobi only.", &A::on},
+      F{"on", "", "true where [air] stands", "Whether there is air. Needs jacobi.", &A::on},
       F{"fall_speed",
         "m/s",
         "",
-        "At which air carries hair's weight: less, and wind takes more.",
+        "Terminal speed of a falling horizontal strand. A lower speed means more drag.",
         &A::fallSpeed,
         {0.01, 1000}}
           .live(),
-      F{"along_share", "1", "", "What air does along a strand, as a share of what it does across.",
-        &A::alongShare, kShare}
+      F{"along_share", "1", "", "Drag along a strand, as a share of the drag across it.", &A::alongShare,
+        kShare}
           .live(),
-      F{"wind", "m/s", "", "Even wind.", &A::wind, {-1000, 1000}}.live(),
-      F{"gust", "1", "", "The wind swells by up to this share of itself.", &A::gust, {0, 10}}.live(),
-      F{"gust_seconds", "s", "", "From gust to gust, on average.", &A::gustSeconds, {0.01, 1000}}.live(),
+      F{"wind", "m/s", "", "Uniform wind.", &A::wind, {-1000, 1000}}.live(),
+      F{"gust", "1", "", "Largest increase of the wind in a gust, as a share of the wind.", &A::gust, {0, 10}}
+          .live(),
+      F{"gust_seconds", "s", "", "Mean time between gusts.", &A::gustSeconds, {0.01, 1000}}.live(),
       F{"turbulence",
         "m/s",
         "",
         "Root mean square of each component of the turbulent wind.",
         &A::turbulence,
         {0, 1000}},
-      F{"eddy_size", "m", "", "Of its largest eddies.", &A::eddySize, {0.001, 1000}},
-      F{"seed", "", "", "Of gusts and turbulence.", &A::seed, kSeed},
+      F{"eddy_size", "m", "", "Size of the largest eddies of the turbulence.", &A::eddySize, {0.001, 1000}},
+      F{"seed", "", "", "Seed of gusts and turbulence.", &A::seed, kSeed},
   };
   return all;
 }
