@@ -1,5 +1,5 @@
-// ContactSettings: whether and how hairs meet. Iben et al. 2012, section 4: particles carry spheres; which of
-// them may touch is decided once, in the rest pose. Part of scene/settings.h.
+// ContactSettings: whether and how hairs collide. Iben et al. 2012, section 4: particles carry spheres; the
+// pairs of strands that may touch are chosen once, in the rest pose. Part of scene/settings.h.
 #pragma once
 
 #include <algorithm>
@@ -9,29 +9,30 @@
 
 namespace ringlet {
 
-/// A contact is seen ahead, by how fast two particles near each other, once they are nearer than this times
-/// its rest length: further off, what will meet is anybody's guess, and looking costs its cube.
+/// Speculative contact distance, as a multiple of the pair's rest length. A pair closer than this becomes a
+/// contact if it would touch within the step. The cost of the search grows with its cube.
 inline constexpr double kContactSeenAhead = 2;
 
-/// Lists of pairs reach this share of R further than they must, so that they can be kept for some steps.
+/// Margin of the lists of pairs, as a share of R: lists can be kept until two particles have approached by
+/// more than this.
 inline constexpr double kContactMargin = 0.15;
 
-/// A step's solve starts from the velocities it would have without contacts and this share of what the last
-/// step's contacts (and its stretch limit) changed: 0 starts cold, 1 may swing.
+/// Warm start: a step's solve starts from its contact-free velocities and this share of the velocity change
+/// that contacts and the stretch limit caused in the last step. 0 is a cold start, 1 may oscillate.
 inline constexpr double kContactWarmth = 0.8;
 
-/// How a contact comes and goes.
+/// How a contact fades in and out.
 enum class ContactTaper {
-  distance,  // with where the two are: it has no memory, and costs less
-  time       // it has a life (Iben et al. 2012): stiffness grows, then falls, and then damping
+  distance,  // with the distance of the pair; no memory, lower cost
+  time       // in time (Iben et al. 2012): stiffness grows, later fades, and then damping fades
 };
 inline constexpr const char* kContactTaperNames[] = {"distance", "time"};
 constexpr const char* nameOf(ContactTaper taper) { return kContactTaperNames[static_cast<int>(taper)]; }
 
-/// With the distance taper damping fades from the rest length of a contact to this times it.
+/// With the distance taper damping fades between the rest length of a contact and this multiple of it.
 inline constexpr double kContactTaperEnd = 1.05;
 
-/// By what means hair meets hair.
+/// How strands collide with each other.
 enum class ContactMethod {
   automatic,      // strands that are dense at rest among themselves as a volume, all others pair by pair
   explicitPairs,  // pair by pair
@@ -40,82 +41,83 @@ enum class ContactMethod {
 inline constexpr const char* kContactMethodNames[] = {"auto", "explicit", "volume"};
 constexpr const char* nameOf(ContactMethod method) { return kContactMethodNames[static_cast<int>(method)]; }
 
-/// Strands that hang together are dense where the median of them has hair about it, at rest, as dense as so
-/// many of itself; those with less than half of it do not belong to them (rest/dense_strands.h).
+/// Connected strands are dense where the median strand has as much hair around it at rest as this number of
+/// strands like itself. Strands with less than half of that are left out (rest/dense_strands.h).
 inline constexpr double kDenseStrands = 9;
 
-/// A cell of the volume's grid, in radii of contact particles as they are chosen without a setting.
+/// Cell size of the volume's grid, in default radii of contact particles.
 inline constexpr double kVolumeCellRadii = 4;
-/// Particles are put into the grid's cells so often [s]: between, what is near moves with them.
+/// Interval at which particles are sorted into the grid's cells [s]. Between, neighbours move together.
 inline constexpr double kVolumeSortSeconds = 1.0 / 48;
-/// The same in steps, at least 1.
+/// The same interval in steps, at least 1.
 inline std::uint32_t volumeSortSteps(double stepSeconds) {
   return static_cast<std::uint32_t>(std::max(1.0, std::round(kVolumeSortSeconds / stepSeconds)));
 }
-/// Particles of a strand that take part are at most so many cells apart along it, each for those between.
+/// Largest distance along a strand between particles that take part, in cells; each represents the particles
+/// around it.
 inline constexpr double kVolumeSpacing = 1.6;
 
-/// Where one contact particle in q takes part, radii grow by q to this.
+/// Where one contact particle in q takes part, its radius is multiplied by q to this power.
 inline constexpr double kThinnedRadiusPower = 0.2;
 
-/// checkSettings (rest/rest_state.h) holds the ranges. `w` below is what a contact particle weighs: its mass
-/// m_c, the strand's over its number of contact particles, times 9.81 m/s^2. R is the sum of two radii [m].
+/// checkSettings (rest/rest_state.h) checks the ranges. `w` below is the weight of a contact particle: its
+/// mass m_c (the strand's mass over its number of contact particles) times 9.81 m/s^2. R is the sum of two
+/// radii [m].
 struct ContactSettings {
   bool on = false;
   ContactMethod method = ContactMethod::automatic;
 
   // Spheres.
-  /// Of every particle [m], 1e-6 to 1; unset: half the mean distance from a root to its nearest other root.
+  /// Radius of every sphere [m], 1e-6 to 1; unset: half the mean distance of a root to the nearest root.
   std::optional<double> radius;
-  bool fillGaps = false;  // strands cut coarser than R get a larger radius, so that nothing slips between
-                          // their particles; in a dense groom that multiplies the contacts
-  double spacing = 0.75;  // contact particles stand this times R apart along a strand, 0.01 to 1: less
-                          // keeps more of them, finer and slower
-  /// Of dense strands (rest/dense_strands.h) only one contact particle in round(1 / detail) takes part, 0.05
-  /// to 1, larger and heavier for it: faster, and hair slips through a little.
+  bool fillGaps = false;  // strands whose particles are farther apart than R get a larger radius, so that
+                          // nothing passes between; in a dense groom this multiplies the contacts
+  double spacing = 0.75;  // distance of contact particles along a strand in R, 0.01 to 1: a smaller one is
+                          // finer and slower
+  /// Of dense strands (rest/dense_strands.h) one contact particle in round(1 / detail) takes part, 0.05 to 1,
+  /// with a larger radius and mass. A smaller detail is faster, and some hair passes through.
   double detail = 1;
 
-  // Which pairs of strands may touch: all, or those that are near at rest. Pruned hair passes through hair it
-  // was not beside at rest; what that saves in time is little (docs/accuracy.md).
+  // Which pairs of strands may touch: all, or those that are near at rest. Hair of a pruned pair passes
+  // through; pruning saves little time (docs/accuracy.md).
   bool prunePairs = false;
-  double enlargement = 1.5;  // factor on radii while overlaps at rest are counted, 1 to 100: more, and
-                             // strands further apart count
+  double enlargement = 1.5;  // factor on radii while overlaps at rest are counted, 1 to 100
   int minOverlaps = 8;       // pairs of strands with fewer overlapping spheres are dropped, 1 to 1e6
-  int maxNeighbours = 0;     // of a strand; those with most overlaps stay, 0 to 1e6; 0: no bound
-  double dropShare = 0;  // of the pairs then left, dropped at random, 0 to 1 (the paper's stochastic pruning)
-  std::uint32_t seed = 1;  // of dropShare and detail
+  int maxNeighbours = 0;     // neighbours of a strand, those with most overlaps, 0 to 1e6; 0: no limit
+  double dropShare = 0;      // share of the remaining pairs that is dropped at random, 0 to 1 (the paper's
+                             // stochastic pruning)
+  std::uint32_t seed = 1;    // of dropShare and detail
 
-  // The spring between two spheres that touch. It has no force at rest: spheres that overlap there may.
-  double stiffness = 1000;  // in w / R, 0 to 1e7: a tenth of the default is felt as soft
+  // The spring between two spheres that touch. Spheres may overlap at rest; the spring has no force there.
+  double stiffness = 1000;  // in w / R, 0 to 1e7; a tenth of the default is soft
   double dampingRatio = 1;  // along the contact's normal; 1 is critical, 0 to 100
   double friction = 0;      // tangential damping, as a share of the normal one, 0 to 1
   ContactTaper taper = ContactTaper::distance;
   // With the time taper:
   double rampSeconds = 0.02;  // from first touch to full stiffness [s], 0 to 10; damping is full at once
-  double stiffnessReleaseSeconds = 0.02;  // from parting until stiffness has faded [s], 0 to 10
-  double dampingReleaseSeconds = 0.02;    // and then damping [s], 0 to 10
-  double breakFactor = 1.2;  // parted further than this times its rest length, a contact is over, 1 to 10
+  double stiffnessReleaseSeconds = 0.02;  // from the last touch until stiffness has faded [s], 0 to 10
+  double dampingReleaseSeconds = 0.02;    // after that, until damping has faded [s], 0 to 10
+  double breakFactor = 1.2;               // a contact ends at this multiple of its rest length, 1 to 10
 
-  /// Parted further than this times its rest length, a contact is over.
+  /// The multiple of its rest length at which a contact ends.
   double reach() const { return taper == ContactTaper::time ? breakFactor : kContactTaperEnd; }
-  /// Lists hold all that is nearer than this times its rest length.
+  /// Lists hold all pairs that are nearer than this multiple of their rest length.
   double listedReach() const { return taper == ContactTaper::time ? 1 : kContactTaperEnd; }
 
   // Hair as a volume (rest/volume_strands.h says which strands; equations/volume.glsl how).
-  std::optional<double> volumeCell;  // of the grid [m], 1e-5 to 10; unset: kVolumeCellRadii radii, or more
-                                     // where particles stand further apart
-  double volumeDrag = 600;           // towards the velocity of what is near [1/s], 0 to 1e5
+  std::optional<double> volumeCell;  // cell size [m], 1e-5 to 10; unset: kVolumeCellRadii radii, or more
+                                     // where particles are farther apart
+  double volumeDrag = 600;           // towards the velocity of the hair around [1/s], 0 to 1e5
   double volumeStiffness = 1e5;      // towards its displacement [1/s^2], 0 to 1e9
-  double volumeMemorySeconds = 0.3;  // in which a displacement is forgotten [s], 0.001 to 1000
+  double volumeMemorySeconds = 0.3;  // time in which a displacement is forgotten [s], 0.001 to 1000
 
-  /// Whether any strand may go by volume. The paper's contacts, with a taper in time, are pairs.
+  /// Whether strands may meet as a volume. The paper's contacts, with a taper in time, are pairs.
   bool mayBeVolume() const {
     return method != ContactMethod::explicitPairs && taper == ContactTaper::distance;
   }
 
-  // How strands hear of each other within a step.
-  /// Of the solve, 1 to 1000: more lose less momentum and creep less, at a solve each. Unset: 2 where any two
-  /// strands meet pair by pair, 1 where all meet as a volume.
+  /// Solves of a step that couple strands, 1 to 1000. More of them lose less momentum and creep less. Unset:
+  /// 2 where any two strands meet pair by pair, 1 where all meet as a volume.
   std::optional<int> iterations;
   int iterationCount(bool pairByPair) const { return iterations.value_or(pairByPair ? 2 : 1); }
 };

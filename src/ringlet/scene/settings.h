@@ -15,7 +15,7 @@ enum class Integrator {
   paper,        // Iben et al. 2012, section 5: explicit force and damping loops, springs as printed
 };
 
-/// Bounds of what kernels hold.
+/// The kernels' limits.
 inline constexpr int kMostStepsPerFrame = 340, kMostRoots = 3;
 
 struct Settings {
@@ -25,12 +25,12 @@ struct Settings {
   Vec3d gravity{0, -9.81, 0};  // [m/s^2]
   double gravityPreload = 1;   // share of gravity balanced in the rest pose, 0..1
   double maxStretch =
-      1.1;            // longest an edge may become, as a multiple of the groom's edge; 1 is inextensible
-  int rootCount = 1;  // particles at the root that follow the head, 1..3
-  double teleportDistance = 1;  // [m a frame], 0: never; a head that jumps further in one frame carries the
+      1.1;  // stretch limit: an edge's largest length as a multiple of the groom's; 1 is inextensible
+  int rootCount = 1;            // particles at the root that follow the head, 1..3
+  double teleportDistance = 1;  // [m a frame], 0: never; a head that moves farther in one frame carries the
                                 // hair along rigidly
-  double sleepSpeed = 0;        // [m/s], 0: never; hair that is slower everywhere, while nothing acts on it
-                                // anew, sleeps until something does
+  double sleepSpeed = 0;        // [m/s], 0: never; slower hair sleeps until its head, roots, bodies, air,
+                                // forces or settings change
   int pointIterations = 100;    // pointJacobi: iterations per outer step
   bool chebyshev = true;        // pointJacobi: Chebyshev-accelerated rather than plain
   int forceLoops = 15;          // paper: force loops per outer step
@@ -38,7 +38,7 @@ struct Settings {
   ContactSettings contacts;     // between strands; jacobi only
   AirSettings air;              // jacobi only
 
-  /// Of a head that goes from here to there in one frame.
+  /// Whether a head that moves by this distance [m] in one frame jumps.
   bool jumps(double distance) const { return teleportDistance > 0 && distance > teleportDistance; }
   double stepSeconds() const { return 1 / (framesPerSecond * stepsPerFrame); }
 };

@@ -1,6 +1,5 @@
-// Frames of several heads at once: in one submission, or in a command buffer of a host's. What does not
-// depend on each other, the device does at the same time: many small heads together fill a device that one
-// alone does not.
+// Frames of several heads at once: in one submission, or in a command buffer of a host. The device computes
+// independent heads at the same time; many small heads together fill a device that one alone does not.
 //
 //   stepFrames({a, b, c})                                        -> a, b, c have stepped
 //   recordFrames({a, b, c}, commands); the host submits, waits   -> a, b, c: frameIsOver
@@ -22,19 +21,19 @@ struct HairFrame {
   std::span<const BodyPose> bodyPoses{}, rootPoses{};
 };
 
-/// Simulation::stepFrame of each, with the same bits, in one submission; stageMilliseconds does not count it.
-/// All are on one device, each once, and none has a frame in flight. Fails where stepFrame does; then nothing
-/// can be told of any of them.
+/// Simulation::stepFrame of each head, with the same bits, in one submission; stageMilliseconds does not
+/// count it. All heads are on one device, each is named once, and none has a frame in flight. Fails where
+/// stepFrame fails; the state of all heads is then undefined.
 Status stepFrames(std::span<const HairFrame> frames);
 
-/// The same into `commandBuffer`, a VkCommandBuffer that is being recorded outside a render pass, for a queue
-/// of the device's family. What is recorded begins and ends with a barrier between compute, copies and, at
-/// the end, the host; commands of the host's that read DevicePositions add one of their own, from compute
-/// writes to their reads. It is submitted once, before any frame of these heads that is recorded later.
-/// When the device is done with it, the host calls Simulation::frameIsOver of each head; only then is
-/// anything else asked of it but a next frame: of which at most Simulation::kFramesInFlight are recorded and
+/// Records the same into `commandBuffer`, a VkCommandBuffer that is being recorded outside a render pass, for
+/// a queue of the device's family. The commands begin and end with a barrier between compute, copies and, at
+/// the end, the host; commands of the host that read DevicePositions need a barrier from compute writes to
+/// their reads. The host submits the command buffer once, before any frame of these heads that is recorded
+/// later. When the device has finished it, the host calls Simulation::frameIsOver of each head. Until then
+/// the host may only record further frames of a head: at most Simulation::kFramesInFlight may be recorded and
 /// not over, and with contacts, or where the head jumps (Settings::teleportDistance), one. Fails, before
-/// anything is recorded, where that is not so. Cost: microseconds for each dispatch.
+/// anything is recorded, where this is violated. Cost: microseconds for each dispatch.
 Status recordFrames(std::span<const HairFrame> frames, void* commandBuffer);
 
 }  // namespace ringlet
