@@ -1,4 +1,4 @@
-// Body: what hair stays out of. Shapes are solid: a particle inside one is pushed out.
+// Body: a solid that hair stays out of. A particle inside is pushed out.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ enum class BodyShape {
   capsule,  // all within `radius` of the line of `length` along Y, its middle at the origin
   plane,    // the half space below Y = 0
   box,      // halfExtents to either side of the origin
-  grid,     // where `grid` is negative
+  grid,     // the places where `grid` is negative
 };
 
 /// A place and an orientation: world (or head) from body.
@@ -43,17 +43,17 @@ struct Body {
   double length = 0.1;                         // capsule [m]
   Vec3d halfExtents{0.1, 0.1, 0.1};            // box [m], above 0
   std::shared_ptr<const DistanceGrid> grid{};  // grid
-  double thickness = 0;                        // hair keeps this much further away [m], 0 to 1
+  double thickness = 0;                        // distance that hair keeps from the surface [m], 0 to 1
   double friction = 0.2;                       // Coulomb's coefficient, 0 to 100
-  BodyPose place{};  // in the frame of what carries it: the head's groom axes, or its own motion's
-  std::optional<Motion> motion{};  // of its own, in the world; nothing: the head carries it
+  BodyPose place{};  // in the frame that carries it: the groom's axes at the head, or its own motion's
+  std::optional<Motion> motion{};  // in the world; nullopt: the head carries it
 
-  /// Where it is in the world, t seconds after the start, with the head at `head`.
+  /// Its pose in the world, t seconds after the start, with the head at `head`.
   BodyPose poseAt(double t, const HeadPose& head) const;
 };
 
-/// Fails, with the body's name, on one that is no body: a radius of 0, a grid without cells, a number out of
-/// its range.
+/// Fails, with the body's name, on an invalid body: a radius of 0, a grid without cells, a number out of its
+/// range.
 Status checkBody(const Body& body);
 
 inline constexpr const char* kBodiesNeedJacobi = "bodies need the integrator jacobi; this run has another";

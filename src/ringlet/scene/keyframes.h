@@ -1,4 +1,4 @@
-// Keyframes: a head's motion as poses at times, with a smooth way between them.
+// Keyframes: a head's motion as poses at times, interpolated between them.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@ namespace ringlet {
 
 /// At least one pose. Their `shift` is not used.
 struct Keyframes {
-  /// Between keys. Files of many keys a second have equal times; an artist's few have times of their own.
+  /// Interpolation between keys.
   enum class Interpolation {
     cubic,   // a cubic through the keys, whose velocity is continuous
-    linear,  // straight on, and slerp
+    linear,  // straight lines, and slerp
   };
 
   double secondsPerKey = 1.0 / 24;  // above 0; of equal times, from 0 on
@@ -32,11 +32,11 @@ struct Keyframes {
   bool isCut(std::size_t k) const {
     return length(poses[k + 1].position - poses[k].position) > cutSpeed * (timeOf(k + 1) - timeOf(k));
   }
-  /// When pose k is reached [s].
+  /// Time of pose k [s].
   double timeOf(std::size_t k) const {
     return times.empty() ? secondsPerKey * static_cast<double>(k) : times[k];
   }
-  /// When the last pose is reached.
+  /// Time of the last pose [s].
   double seconds() const { return timeOf(poses.size() - 1); }
   /// Cubic, between equal times: positions on the cubic through four keys (Catmull and Rom 1974); rotations
   /// by slerp between two. Between times of their own: both on cubics whose velocity at a key is that of the

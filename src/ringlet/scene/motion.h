@@ -1,5 +1,5 @@
-// Motion: the ways a head moves, as pose over time: built-in ones, and keyframes. A built-in one starts at
-// rest and eases in, except `glide`, whose constant velocity the hair has from the start.
+// Motion: the pose of a head over time, built-in or by keyframes. Built-in motions start at rest and ease in,
+// except `glide`, whose constant velocity the hair has from the start.
 #pragma once
 
 #include <limits>
@@ -24,15 +24,15 @@ enum class MotionKind {
   turn,       // turns about `axis` once, in easeSeconds, and stays there
   jump,       // crouches, leaps along `axis` and lands, again and again
   whip,       // turns about `axis` once, in easeSeconds, and back in as long
-  keyframes,  // as `keyframes` say, which starts and ends as it will
+  keyframes,  // as `keyframes` say, with any velocity at its start and end
 };
 
-/// How far roots that move beside the head have gone, as a share of each one's own shift (HeadPose::shift):
-/// smoothly to the full shift and back, or to and fro about their places.
+/// Motion of roots relative to the head, as a share of each root's shift (HeadPose::shift): smoothly to the
+/// full shift and back, or a sine about their places.
 struct RootMotion {
-  double frequency = 0;     // to and fro as a sine, from -1 to 1 [Hz]; 0: to 1, and stays
+  double frequency = 0;     // of a sine from -1 to 1 [Hz]; 0: moves to 1 and stays
   double easeSeconds = 1;   // grows smoothly from 0 over this time, and shrinks so at the end
-  double untilSeconds = 0;  // over by then, and roots back in their places; 0: they never leave them
+  double untilSeconds = 0;  // time at which roots are back in place; 0: they never move
 
   double shareAt(double t) const;
 };
@@ -45,24 +45,24 @@ struct Motion {
                               // [rad/s]; glide [m/s]
   double frequency = 2;       // shake, nod, jump [Hz]; walk: strides, of two steps each [Hz]
   double easeSeconds = 0.25;  // all but glide: amplitude or speed grows smoothly from 0 over this time
-  double untilSeconds = std::numeric_limits<double>::infinity();  // shake, nod, walk, jump: over by then,
-                                                                  // eased out as it eased in
+  double untilSeconds = std::numeric_limits<double>::infinity();  // shake, nod, walk, jump: end of the
+                                                                  // motion, which eases out
   Vec3d start{};                                                  // position of the head at t = 0 [m]
-  RootMotion roots{};                                             // of those that have a shift of their own
+  RootMotion roots{};                                             // of roots with a shift
   std::shared_ptr<const Keyframes> keyframes{};                   // where `kind` says so; `start` is added
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;
 };
 
-/// The motion a name stands for with its default size, for a head whose up axis is `up`; nothing for an
+/// The built-in motion of a name with its default amplitude, for a head whose up axis is `up`; nullopt for an
 /// unknown name.
 std::optional<Motion> motionByName(std::string_view name, Vec3d up);
 
-/// Its name; "keyframes" is none that motionByName knows.
+/// The name of a kind; motionByName does not accept "keyframes".
 std::string motionName(MotionKind kind);
 
-/// Whether it goes on and on, with a frequency, and may be over at some time.
+/// Whether the motion is periodic, with a frequency and an optional end.
 bool isToAndFro(MotionKind kind);
 
 /// The names motionByName knows, separated by commas, for messages and --help.
