@@ -21,11 +21,11 @@ struct Keyframes {
   std::vector<HeadPose> poses;
   std::vector<double> times{};  // of each pose [s], rising; or none: they are equal
   Interpolation interpolation = Interpolation::cubic;
-  bool restsAtEnds = false;  // before the first key the head stays where it is, eases out of it and, where
-                             // the way is cubic, into the last; false: it comes and goes as it will
+  bool restsAtEnds = false;  // the head rests before the first key and after the last and, with cubics, eases
+                             // out of the one and into the other; false: any velocity at both ends
 
-  /// From key to key faster than this the head is not seen to move: it goes on as it came until the next key,
-  /// and is there then [m/s].
+  /// Between keys that need a higher speed than this the head jumps [m/s]: it keeps its motion up to the
+  /// second key and is there from then on.
   double cutSpeed = std::numeric_limits<double>::infinity();
 
   /// Whether the head jumps from key k to the next.
