@@ -2,7 +2,8 @@
 
 Blocks headed ```sh or ```bash are run, in order, in one shell, in a new folder that looks like a clone which was built:
 what the source tree holds is there (examples as a copy), build/release and build/ci are the build, `ringlet` is in
-PATH. Blocks headed ```console are for the reader only: they fetch, compile, or take long. Prints how many commands
+PATH. A block headed ```toml that begins with "# NAME.toml" becomes that file, and with ", continued" is added to it.
+Blocks headed ```console are for the reader only: they fetch, compile, or take long. Prints how many commands
 were run and how many blocks were not; ends with 1 where a command failed, with what it said.
 """
 import os
@@ -44,6 +45,15 @@ def commands_of(block, line):
     return commands
 
 
+NAMED = re.compile(r"# (\S+\.toml)(, continued)?\n")
+
+
+def file_of(block, line):
+    """The command that writes a block of TOML whose first line names its file; none where it names none."""
+    named = NAMED.match(block)
+    return [(line, f"cat {'>>' if named[2] else '>'} {named[1]} <<'END'\n{block}END")] if named else []
+
+
 def clone_in(folder, source, build):
     for entry in source.iterdir():
         if entry.name == "examples":
@@ -78,7 +88,8 @@ def failures_of(output, commands):
 
 def run(document, source, build):
     blocks = blocks_of(document.read_text())
-    commands = [c for language, line, text in blocks if language in RUN for c in commands_of(text, line)]
+    commands = [command for language, line, text in blocks for command in
+                (commands_of(text, line) if language in RUN else file_of(text, line) if language == "toml" else [])]
     not_run = sum(language in NOT_RUN for language, _, _ in blocks)
     with tempfile.TemporaryDirectory(prefix="ringlet-docs-") as name:
         folder = Path(name) / "clone"

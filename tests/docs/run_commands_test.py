@@ -51,6 +51,12 @@ class RunCommands(unittest.TestCase):
     def test_a_command_that_is_not_closed_is_told(self):
         self.assertEqual(self.run_document("```sh\nfor i in 1 2; do\n```\n")[0], 1)
 
+    def test_a_named_block_of_toml_becomes_a_file(self):
+        status, said = self.run_document(
+            "```toml\n# a.toml\n[one]\n```\n```toml\n# a.toml, continued\n[two]\n```\n```toml\n[no_file]\n```\n"
+            "```sh\ntest \"$(grep -c . a.toml)\" = 4\ngrep two a.toml\n```\n")
+        self.assertEqual((status, "4 commands were run, 0 failed" in said), (0, True), said)
+
     def test_other_blocks_are_not_run(self):
         status, said = self.run_document("```console\nfalse\n```\n```python\nfalse\n```\n```\nfalse\n```\n")
         self.assertEqual(status, 0)
