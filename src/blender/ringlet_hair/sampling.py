@@ -1,0 +1,97 @@
+"""What of Blender's scene a run needs: the hair at one frame, and how it and the head move in all."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from .errors import RingletError
+from .rigid_motion import RigidMotion, motion_of_matrices, motion_of_points
+
+
+@dataclass
+class HeadMesh:
+    name: str
+    points: np.ndarray      # (n, 3) in the world at the bind frame [Blender unit]
+    triangles: np.ndarray   # (m, 3)
+    motion: RigidMotion
+    off: float              # how far a point is from the rigid motion at most [Blender unit]
+
+
+@dataclass
+class Samples:
+    sources: list           # HairSource
+    strands: list           # Strands of each, in the world at the bind frame
+    motion: RigidMotion     # of the hair
+    head: HeadMesh          # or None
+    frames: list            # of the motions
+    warnings: list
+
+
+def sample(context, sources, head, frames, bind_frame):
+    """Plays the scene's `frames` once; its frame is afterwards what it was. Raises RingletError."""
+    scene = context.scene
+    frame_before, subframe_before = scene.frame_current, scene.frame_subframe
+    matrices = {source.object.name: [] for source in sources}
+    head_points = []
+    try:
+        for frame in frames:
+            scene.frame_set(frame)
+            depsgraph = context.evaluated_depsgraph_get()
+            for source in {source.object.name: source for source in sources}.values():
+                matrices[source.object.name].append(np.array(source.object.evaluated_get(depsgraph).matrix_world))
+            if head:
+                head_points.append(mesh_points(head, depsgraph))
+            if frame == bind_frame:
+                strands = [source.strands(depsgraph) for source in sources]
+                triangles = mesh_triangles(head, depsgraph) if head else None
+    finally:
+        scene.frame_set(frame_before, subframe=subframe_before)
+    bind = list(frames).index(bind_frame)
+    return combined(sources, strands, matrices, head, head_points, triangles, frames, bind)
+
+
+def combined(sources, strands, matrices, head, head_points, triangles, frames, bind):
+    """The motions of what was seen."""
+    size = max(float(np.ptp(part.points, axis=0).max() + np.abs(part.points).max()) for part in strands)
+    motions = [motion_of_matrices(matrices[source.object.name], matrices[source.object.name][bind], source.name)
+               for source in sources]
+    for source, motion in zip(sources, motions):
+        if not motion.is_as(motions[0], size):
+            raise RingletError(f"{sources[0].name} and {source.name} move differently; simulate one after the other")
+    motion, mesh, warnings = motions[0], None, []
+    if head:
+        if len({len(points) for points in head_points}) > 1:
+            raise RingletError(f"the mesh {head.name} has another count of points from frame to frame; "
+                               "take the modifier that changes it off")
+        head_motion, off = motion_of_points(head_points, head_points[bind])
+        mesh = HeadMesh(head.name, head_points[bind], triangles, head_motion, off)
+        if motion.is_still(size):
+            motion = head_motion  # the head carries it
+        if off > 1e-3 * np.ptp(mesh.points, axis=0).max():
+            warnings.append(f"{head.name} bends: its points are up to {off:.3g} units from the nearest rigid motion, "
+                            "which is taken")
+    return Samples(sources, strands, motion, mesh, list(frames), warnings)
+
+
+def mesh_points(head, depsgraph):
+    evaluated = head.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    points = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", points)
+    evaluated.to_mesh_clear()
+    matrix = np.array(evaluated.matrix_world)
+    return points.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def mesh_triangles(head, depsgraph):
+    evaluated = head.evaluated_get(depsgraph)
+    mesh = evaluated.to_mesh()
+    mesh.calc_loop_triangles()
+    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    evaluated.to_mesh_clear()
+    if len(triangles) == 0:
+        raise RingletError(f"the mesh {head.name} has no faces; hair cannot stay out of it")
+    triangles = triangles.reshape(-1, 3)
+    if np.linalg.det(np.array(evaluated.matrix_world)[:3, :3]) < 0:
+        triangles = triangles[:, ::-1]  # a mirrored object turns its faces inside out
+    return triangles
