@@ -89,6 +89,9 @@ def test_point_caches_that_are_torn_are_refused(tmp_path):
         path.write_bytes(whole[:length])
         with pytest.raises(RingletError, match="a.pc2.*simulate again"):
             PointCache(path)
+    path.write_bytes(whole + b"x")
+    with pytest.raises(RingletError, match="has 249 bytes where 3 frames of 6 points take 248"):
+        PointCache(path)
     path.write_bytes(b"x" + whole[1:])
     with pytest.raises(RingletError, match="no PC2 file"):
         PointCache(path)

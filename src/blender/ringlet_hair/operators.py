@@ -51,7 +51,7 @@ def metres_per_unit(scene):
 
 def start(context):
     """Samples the scene and starts the program. Raises RingletError."""
-    sources = sources_among(context.selected_objects)
+    sources = sources_among(context.view_layer.objects.selected)
     settings = settings_of(context, sources[0].name)
     for source in sources:
         source.object.hide_set(False)  # what is hidden is not evaluated
@@ -64,14 +64,17 @@ def start(context):
 
 
 def load(context, job):
-    """Makes the Curves objects of a job that is over and well."""
+    """Makes the Curves objects of a job that is over and well; they are selected in place of their grooms."""
     first = 0
     for source, strands in zip(job.samples.sources, job.samples.strands):
-        playback.make_result(context, source, strands, job, first)
+        result = playback.make_result(context, source, strands, job, first)
         first += len(strands.points)
+        source.object.select_set(False)
         if context.scene.ringlet.hides_groom and not source.particle_system:
             source.object.hide_set(True)
             source.object.hide_render = True
+        result.select_set(True)
+        context.view_layer.objects.active = result
 
 
 class RINGLET_OT_simulate(bpy.types.Operator):

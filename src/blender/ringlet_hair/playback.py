@@ -65,7 +65,7 @@ def new_curves(context, name, counts, radius=0.00025):
     carrier = bpy.data.objects.new(name, older)
     context.collection.objects.link(carrier)
     layer = context.view_layer
-    selected, active = list(context.selected_objects), layer.objects.active
+    selected, active = list(layer.objects.selected), layer.objects.active
     for other in selected:
         other.select_set(False)
     carrier.select_set(True)
