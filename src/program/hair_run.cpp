@@ -213,8 +213,9 @@ Status HairRun::makeSink() {
   }
   if (writers_) {
     const FrameLines lines(done, options_.frameCount, options_.tellsFrames, options_.runNumber);
-    readers.write = [this, lines](int number, std::vector<Vec3f> points) -> Status {
-      if (Status added = writers_->addFrame(number, std::move(points)); !added) return added;
+    readers.write = [this, lines](int number, std::vector<Vec3f> points,
+                                  std::span<const BodyPose> bodies) -> Status {
+      if (Status added = writers_->addFrame(number, std::move(points), bodies); !added) return added;
       lines.tell(number);
       return {};
     };

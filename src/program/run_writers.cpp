@@ -4,13 +4,33 @@
 #include <algorithm>
 #include <utility>
 
+#include "ringlet/bodies/body_surface.h"
 #include "ringlet/groom/obj_file.h"
 
 namespace ringlet::program {
+namespace {
+
+std::vector<SheetSolid> solidsOf(std::span<const Body> bodies) {
+  std::vector<SheetSolid> solids;
+  for (const Body& body : bodies) {
+    TriangleMesh mesh = surfaceOf(body);
+    solids.push_back({std::move(mesh.points), std::move(mesh.triangles)});
+  }
+  return solids;
+}
+
+std::vector<SheetPlace> placesOf(std::span<const BodyPose> bodies) {
+  std::vector<SheetPlace> places;
+  for (const BodyPose& pose : bodies) places.push_back({pose.position, pose.rotation});
+  return places;
+}
+
+}  // namespace
 
 Writers::Writers(const RunInput& input, const RunOptions& options, int frameCount)
     : input_(input), options_(options), frameCount_(frameCount) {
-  if (options.writesSheet) sheet_.emplace(input.groom, options.frameCount, options.up);
+  if (options.writesSheet)
+    sheet_.emplace(input.groom, options.frameCount, options.up, solidsOf(input.bodies));
 }
 
 Status Writers::open() {
@@ -31,11 +51,11 @@ Status Writers::open() {
   return {};
 }
 
-Status Writers::addFrame(int frame, std::vector<Vec3f> points) {
+Status Writers::addFrame(int frame, std::vector<Vec3f> points, std::span<const BodyPose> bodies) {
   if (!isOpen_) {
     if (Status opened = open(); !opened) return opened;
   }
-  if (sheet_) sheet_->offer(frame, points);
+  if (sheet_) sheet_->offer(frame, points, placesOf(bodies));
   lastPoints_ = std::move(points);
   for (const auto& animation : animations_) {
     if (Status added = animation->addFrame(lastPoints_); !added) return added;

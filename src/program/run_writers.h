@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ class Writers {
   /// are in the files, and archive() brings back what is not.
   Writers(const RunInput& input, const RunOptions& options, int frameCount);
 
-  /// Frames in order, 1 is the first; points in the groom's unit and order, finite.
-  Status addFrame(int frame, std::vector<Vec3f> points);
+  /// Frames in order, 1 is the first; points in the groom's unit and order, finite; where bodies are.
+  Status addFrame(int frame, std::vector<Vec3f> points, std::span<const BodyPose> bodies);
   /// What was added is on the disk.
   Status sync();
   /// What is kept beside the files, for a checkpoint; but not the last frame's points, since at least one

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -256,6 +257,122 @@ TEST(Picture, SaysWhyItCannotBeWritten) {
   auto written = Picture(2, 2, {}).writePng(path);
   ASSERT_FALSE(written);
   EXPECT_NE(written.error().message.find(path.string()), std::string::npos) << written.error().message;
+}
+
+// A square across the view of Y up, in metres, facing the camera or away from it.
+SheetSolid square(double half, bool facesCamera = true) {
+  SheetSolid solid;
+  const Vec3d right{std::cos(35 * std::numbers::pi / 180), 0, -std::sin(35 * std::numbers::pi / 180)};
+  for (const auto& [u, v] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
+    solid.points.push_back(right * (u * half) + Vec3d{0, v * half, 0});
+  solid.triangles = {{0, 1, 2}, {0, 2, 3}};
+  if (!facesCamera) solid.triangles = {{0, 2, 1}, {0, 3, 2}};
+  return solid;
+}
+// Towards the camera, level.
+Vec3d towardsCamera(double metres) {
+  const double yaw = 35 * std::numbers::pi / 180;
+  return Vec3d{std::sin(yaw), 0, std::cos(yaw)} * metres;
+}
+
+bool isHair(Colour c) { return c.red > c.blue + 20; }
+bool isSkin(Colour c) { return c.blue > c.red && c.blue > 50; }
+
+struct Count {
+  int hair = 0, skin = 0;
+};
+Count countOf(Picture& picture, int panel = 0) {
+  Count count;
+  for (int y = 0; y < kPanelHeight - 40; ++y) {
+    for (int x = 1; x < kPanelWidth; ++x) {
+      const Colour c = picture.at(panel * kPanelWidth + x, y);
+      count.hair += isHair(c) ? 1 : 0;
+      count.skin += isSkin(c) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// A strand of 20 cm, hanging, and a square of 4 cm about its middle: before it, behind it, turned away.
+TEST(Sheet, SolidsHideHairThatIsBehindThem) {
+  const Groom groom = strands({{{0, 10, 0}, {0, 0, 0}, {0, -10, 0}}});
+  const auto drawn = [&](double before, bool facesCamera) {
+    Sheet sheet(groom, 1, UpAxis::y, {square(0.02, facesCamera)});
+    sheet.offer(1, groom.points, std::vector<SheetPlace>{{towardsCamera(before), {}}});
+    Picture picture = sheet.draw();
+    return countOf(picture);
+  };
+  Sheet bare(groom, 1, UpAxis::y);
+  bare.offer(1, groom.points);
+  Picture alone = bare.draw();
+  const int all = countOf(alone).hair;
+  ASSERT_GT(all, 500);
+  EXPECT_EQ(countOf(alone).skin, 0);
+  const Count behind = drawn(-0.05, true), before = drawn(0.05, true), away = drawn(0.05, false);
+  EXPECT_GT(behind.hair, all - 20);
+  EXPECT_GT(behind.skin, 5000);
+  EXPECT_NEAR(before.hair, 0.8 * all, 0.05 * all) << "a fifth of the strand is behind the square";
+  EXPECT_GT(before.skin, behind.skin);
+  EXPECT_EQ(away.skin, 0);
+  EXPECT_EQ(away.hair, all);
+  const Count touching = drawn(0.0001, true);  // on the solid, less far than the strand is thick
+  EXPECT_GT(touching.hair, all - 20);
+}
+
+TEST(Sheet, SolidsMoveAndTurn) {
+  const Groom groom = strands({{{0, 10, 0}, {0, 0, 0}, {0, -10, 0}}});
+  Sheet sheet(groom, 3, UpAxis::y, {square(0.02)});
+  const Quatd quarter = fromRotationVector(Vec3d{0, std::numbers::pi / 2, 0});
+  sheet.offer(1, groom.points, std::vector<SheetPlace>{{{}, {}}});
+  sheet.offer(2, groom.points, std::vector<SheetPlace>{{{0.04, 0, 0}, {}}});
+  sheet.offer(3, groom.points, std::vector<SheetPlace>{{{}, quarter}});
+  Picture picture = sheet.draw();
+  const auto middle = [&](int panel) {
+    double sum = 0, count = 0;
+    for (int y = 0; y < kPanelHeight - 40; ++y) {
+      for (int x = 1; x < kPanelWidth; ++x) {
+        if (!isSkin(picture.at(panel * kPanelWidth + x, y))) continue;
+        sum += x;
+        ++count;
+      }
+    }
+    return count > 0 ? sum / count : -1;
+  };
+  EXPECT_GT(middle(1), middle(0) + 40);
+  EXPECT_LT(countOf(picture, 2).skin, countOf(picture, 0).skin / 10) << "seen from its edge, or from behind";
+}
+
+// The camera is for the hair: what is far from it changes nothing, what is near it is in the picture.
+TEST(Sheet, SolidsThatAreFarDoNotMoveTheCamera) {
+  const Groom groom = strands({{{0, 10, 0}, {0, 0, 0}, {0, -10, 0}}});
+  const auto drawn = [&](Vec3d at) {
+    Sheet sheet(groom, 1, UpAxis::y, {square(0.02)});
+    sheet.offer(1, groom.points, std::vector<SheetPlace>{{at, {}}});
+    Picture picture = sheet.draw();
+    return countOf(picture);
+  };
+  const int all = drawn({50, 0, 0}).hair;
+  EXPECT_EQ(drawn({50, 0, 0}).skin, 0);
+  EXPECT_EQ(drawn({0, 300, 0}).hair, all);
+  EXPECT_GT(drawn({0.03, 0, 0}).skin, 5000);
+}
+
+TEST(Sheet, KeepsPlacesInACheckpoint) {
+  const Groom groom = strands({{{0, 10, 0}, {0, 0, 0}, {0, -10, 0}}});
+  const auto begun = [&] {
+    Sheet sheet(groom, 2, UpAxis::y, {square(0.02)});
+    sheet.offer(1, groom.points, std::vector<SheetPlace>{{{0.02, 0, 0}, {}}});
+    return sheet;
+  };
+  Sheet whole = begun(), first = begun(), second(groom, 2, UpAxis::y, {square(0.02)});
+  Archive written = Archive::writing();
+  first.archive(written);
+  const auto bytes = written.take();
+  Archive read = Archive::reading(bytes);
+  second.archive(read);
+  ASSERT_TRUE(read.isWhole());
+  for (Sheet* sheet : {&whole, &second}) sheet->offer(2, groom.points, std::vector<SheetPlace>{{{}, {}}});
+  EXPECT_EQ(whole.draw().pixels, second.draw().pixels);
 }
 
 }  // namespace

@@ -27,18 +27,16 @@ constexpr double kYaw = 35, kPitch = 12;  // where the camera stands: degrees to
 constexpr double kDistance = 5;  // of the camera, in sizes of what it sees: a long lens, little distortion
 constexpr double kFollowBelow =
     0.3;  // the camera goes along if hair would else be drawn below this share of its size
-constexpr double kFarLight = 0.38;  // brightness of the farthest strand, the nearest being 1
-constexpr double kFullDepth = 0.6;  // depth, in sizes of the hair, over which it falls that far
-constexpr float kExposure = 1.55f;  // so that the brightest strands are just below white
+constexpr double kFarLight = 0.38;   // brightness of the farthest strand, the nearest being 1
+constexpr double kFullDepth = 0.6;   // depth, in sizes of the hair, over which it falls that far
+constexpr float kExposure = 1.55f;   // so that the brightest strands are just below white
+constexpr double kNearSolid = 0.25;  // in sizes of the hair: what of a solid is so near is in the picture
 constexpr Colour kBackground{33, 36, 42}, kDivider{62, 66, 74}, kLabel{150, 156, 166};
 
 // The camera's axes: where right, up and towards the viewer are in the groom's axes.
 struct Axes {
   Vec3d right, up, back;
-  Vec3d toCamera(Vec3f p) const {
-    Vec3d v(p);
-    return {dot(right, v), dot(up, v), dot(back, v)};
-  }
+  Vec3d toCamera(Vec3d p) const { return {dot(right, p), dot(up, p), dot(back, p)}; }
 };
 
 Axes cameraAxes(UpAxis upAxis) {
@@ -128,6 +126,13 @@ Shade fibreLight(Shade colour, Vec3d tangent) {
          Shade{1, 0.93f, 0.82f} * static_cast<float>(0.22 * gloss);
 }
 
+// Light on skin, from where it falls on fibres; dull, so that hair stands out before it.
+Shade skinLight(Vec3d normal) {
+  const Vec3d light = normalizedOr(Vec3d{-0.45, 0.75, 0.5}, {});
+  const double diffuse = 0.5 + 0.5 * dot(normal, light);
+  return Shade{0.40f, 0.42f, 0.46f} * static_cast<float>(0.25 + 0.75 * diffuse * diffuse);
+}
+
 // One panel at kSuper times its size.
 class Canvas {
  public:
@@ -188,6 +193,30 @@ class Canvas {
     }
   }
 
+  // A triangle seen from outside, x right and y down; others are left out.
+  void drawTriangle(const End& a, const End& b, const End& c) {
+    const double area = (b.at.x - a.at.x) * (c.at.y - a.at.y) - (b.at.y - a.at.y) * (c.at.x - a.at.x);
+    if (!(area < 0)) return;
+    const int left = clampedCeil(std::min({a.at.x, b.at.x, c.at.x}) - 0.5, width_),
+              right = clampedFloor(std::max({a.at.x, b.at.x, c.at.x}) - 0.5, width_),
+              top = clampedCeil(std::min({a.at.y, b.at.y, c.at.y}) - 0.5, height_),
+              bottom = clampedFloor(std::max({a.at.y, b.at.y, c.at.y}) - 0.5, height_);
+    for (int y = top; y <= bottom; ++y) {
+      for (int x = left; x <= right; ++x) {
+        const double px = x + 0.5 - a.at.x, py = y + 0.5 - a.at.y;
+        const double v = (px * (c.at.y - a.at.y) - py * (c.at.x - a.at.x)) / area;
+        const double w = (py * (b.at.x - a.at.x) - px * (b.at.y - a.at.y)) / area;
+        if (v < 0 || w < 0 || v + w > 1) continue;
+        const auto depth = static_cast<float>(a.at.z * (1 - v - w) + b.at.z * v + c.at.z * w);
+        const std::size_t sample = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
+        if (depth <= depth_[sample]) continue;
+        depth_[sample] = depth;
+        shade_[sample] = a.shade * static_cast<float>(1 - v - w) + b.shade * static_cast<float>(v) +
+                         c.shade * static_cast<float>(w);
+      }
+    }
+  }
+
   // Averages the samples of every pixel into the picture, its top left corner at (left, top).
   void copyTo(Picture& picture, int left, int top) const {
     for (int y = 0; y < height_ / kSuper; ++y) {
@@ -236,17 +265,47 @@ struct PanelViews {
   std::vector<View> views;
 };
 
+// Of a panel's solid: its points as the camera sees them.
+std::vector<Vec3d> solidPoints(const Panel& panel, std::size_t s, const Axes& axes) {
+  std::vector<Vec3d> points;
+  const SheetPlace& place = panel.places[s];
+  for (Vec3d p : panel.solids[s].points) {
+    const Vec3d world = place.position + rotate(place.rotation, p);
+    points.push_back(axes.toCamera(world / panel.metresPerUnit));
+  }
+  return points;
+}
+
+// The hair's points, and what of solids is in their box, grown by a share of its size.
+std::vector<Vec3d> shownPoints(const Panel& panel, const std::vector<Vec3d>& hair, const Axes& axes) {
+  std::vector<Vec3d> shown = hair;
+  Box box;
+  for (Vec3d p : hair) box.add(p);
+  const Vec3d room = Vec3d{1, 1, 1} * (kNearSolid * box.size());
+  const Vec3d low = box.low - room, high = box.high + room;
+  for (std::size_t s = 0; s < panel.solids.size(); ++s) {
+    for (Vec3d p : solidPoints(panel, s, axes)) {
+      const bool isNear =
+          p.x > low.x && p.y > low.y && p.z > low.z && p.x < high.x && p.y < high.y && p.z < high.z;
+      if (isNear) shown.push_back(p);
+    }
+  }
+  return shown;
+}
+
 PanelViews viewsOf(std::span<const Panel> panels, const PanelGrid& grid) {
   PanelViews seen;
+  std::vector<std::vector<Vec3d>> shown;
   const Axes axes = cameraAxes(grid.up);
   for (const Panel& panel : panels) {
     auto& points = seen.points.emplace_back();
     points.reserve(panel.points.size());
-    for (Vec3f p : panel.points) points.push_back(axes.toCamera(p));
+    for (Vec3f p : panel.points) points.push_back(axes.toCamera(Vec3d(p)));
+    shown.push_back(shownPoints(panel, points, axes));
   }
-  const View fixed = fit(seen.points, grid);
+  const View fixed = fit(shown, grid);
   double followScale = std::numeric_limits<double>::infinity(), followDistance = 0;
-  for (const auto& points : seen.points) {
+  for (const auto& points : shown) {
     seen.views.push_back(points.empty() ? fixed : fit(std::span(&points, 1), grid));
     if (points.empty()) continue;
     followScale = std::min(followScale, seen.views.back().scale);
@@ -261,6 +320,32 @@ PanelViews viewsOf(std::span<const Panel> panels, const PanelGrid& grid) {
 // Few strands are drawn thicker than many; the exponent was chosen by eye over 1 to 10,000 strands.
 double radiusOf(std::size_t strandCount) {
   return 0.5 * kSuper * std::clamp(3.4 * std::pow(static_cast<double>(strandCount), -0.14), 0.9, 3.0);
+}
+
+// Of each point: the mean of its triangles' normals, weighted by their areas.
+std::vector<Vec3d> normalsOf(std::span<const Vec3d> points, const SheetSolid& solid) {
+  std::vector<Vec3d> normals(points.size());
+  for (const auto& [a, b, c] : solid.triangles) {
+    const Vec3d area = cross(points[b] - points[a], points[c] - points[a]);
+    for (const std::uint32_t p : {a, b, c}) normals[p] += area;
+  }
+  for (Vec3d& normal : normals) normal = normalizedOr(normal, {0, 1, 0});
+  return normals;
+}
+
+void drawSolids(const Panel& panel, const View& view, const Axes& axes, Canvas& canvas) {
+  // Behind by a strand's radius, so that hair that lies on a solid is before it.
+  const double behind = radiusOf(panel.firstPoint.size() - 1) / view.scale;
+  for (std::size_t s = 0; s < panel.solids.size(); ++s) {
+    const std::vector<Vec3d> points = solidPoints(panel, s, axes);
+    const std::vector<Vec3d> normals = normalsOf(points, panel.solids[s]);
+    std::vector<Canvas::End> ends;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Vec3d at = view.project(points[p]);
+      ends.push_back({{at.x, at.y, at.z - behind}, skinLight(normals[p])});
+    }
+    for (const auto& [a, b, c] : panel.solids[s].triangles) canvas.drawTriangle(ends[a], ends[b], ends[c]);
+  }
 }
 
 void drawStrands(std::span<const std::uint32_t> firstPoint, std::span<const Vec3d> points, const View& view,
@@ -327,6 +412,7 @@ Picture drawPanels(std::span<const Panel> panels, const PanelGrid& grid) {
                 top = static_cast<int>(i) / grid.columns * grid.height;
       if (!panels[i].points.empty()) {
         canvas.clear();
+        drawSolids(panels[i], seen.views[i], cameraAxes(grid.up), canvas);
         drawStrands(panels[i].firstPoint, seen.points[i], seen.views[i], canvas);
         canvas.copyTo(picture, left, top);
       }
@@ -350,12 +436,17 @@ std::vector<int> sheetFrames(int frameCount) {
   return frames;
 }
 
-Sheet::Sheet(const Groom& topology, int frameCount, UpAxis up)
-    : firstPoint_(topology.firstPoint), wanted_(sheetFrames(frameCount)), up_(up) {
+Sheet::Sheet(const Groom& topology, int frameCount, UpAxis up, std::vector<SheetSolid> solids)
+    : firstPoint_(topology.firstPoint),
+      metresPerUnit_(topology.metresPerUnit),
+      solids_(std::move(solids)),
+      wanted_(sheetFrames(frameCount)),
+      up_(up) {
   RINGLET_ASSERT(frameCount >= 1, "a run has at least one frame");
 }
 
-void Sheet::offer(int frame, std::span<const Vec3f> points) {
+void Sheet::offer(int frame, std::span<const Vec3f> points, std::span<const SheetPlace> places) {
+  RINGLET_ASSERT(places.size() == solids_.size(), "every solid has a place");
   RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
   // The latest frame makes way for the next unless it is one of those chosen.
   auto wanted = [this](int number) {
@@ -364,6 +455,7 @@ void Sheet::offer(int frame, std::span<const Vec3f> points) {
   if (frames_.empty() || wanted(frames_.back().number)) frames_.emplace_back();
   frames_.back().number = frame;
   frames_.back().points.assign(points.begin(), points.end());
+  frames_.back().places.assign(places.begin(), places.end());
 }
 
 void Sheet::archive(Archive& archive) {
@@ -373,6 +465,7 @@ void Sheet::archive(Archive& archive) {
   for (Frame& frame : frames_) {
     archive.value(frame.number);
     archive.list(frame.points);
+    archive.list(frame.places);
   }
 }
 
@@ -380,7 +473,8 @@ Picture Sheet::draw() const {
   RINGLET_ASSERT(!frames_.empty(), "a sheet shows at least one frame");
   std::vector<Panel> panels;
   for (const Frame& frame : frames_)
-    panels.push_back({firstPoint_, frame.points, {std::to_string(frame.number)}});
+    panels.push_back(
+        {firstPoint_, frame.points, {std::to_string(frame.number)}, solids_, frame.places, metresPerUnit_});
   return drawPanels(panels, {.up = up_});
 }
 

@@ -2,6 +2,7 @@
 // shows what numbers do not: tangles, uncurled strands, hair where no hair should be.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -24,11 +25,26 @@ inline constexpr int kPanelWidth = 480, kPanelHeight = 640;  // [pixel]
 /// among them.
 std::vector<int> sheetFrames(int frameCount);
 
+/// What hair is drawn with: triangles, counter-clockwise seen from outside, in a frame of its own [m].
+struct SheetSolid {
+  std::vector<Vec3d> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // indices of points; shared points shade smoothly
+};
+
+/// World from solid.
+struct SheetPlace {
+  Vec3d position;  // [m]
+  Quatd rotation;
+};
+
 /// Hair as a panel of a picture.
 struct Panel {
   std::span<const std::uint32_t> firstPoint;  // as in Groom
   std::span<const Vec3f> points;              // finite; none: an empty panel
   std::vector<std::string> labels{};          // a line each, below; letters are drawn as capitals
+  std::span<const SheetSolid> solids{};
+  std::span<const SheetPlace> places{};  // of each solid
+  double metresPerUnit = 1;              // of points, for the solids
 };
 
 /// Panels row by row, each of `width` x `height` [pixel]. One camera looks at all of them, as Sheet says;
@@ -46,15 +62,16 @@ struct PanelGrid {
 Picture drawPanels(std::span<const Panel> panels, const PanelGrid& grid);
 
 /// One camera looks at all frames, from the front, a little from the side and from above, so that the whole
-/// motion fits. Where hair travels so far that it would be tiny, the camera goes along with it.
+/// motion of the hair fits, and of solids what is near it. Where hair travels so far that it would be tiny,
+/// the camera goes along with it.
 class Sheet {
  public:
-  /// Only the groom's strand lengths are used. `frameCount` is the number of frames planned.
-  Sheet(const Groom& topology, int frameCount, UpAxis up);
+  /// Only the groom's strand lengths and unit are used. `frameCount` is the number of frames planned.
+  Sheet(const Groom& topology, int frameCount, UpAxis up, std::vector<SheetSolid> solids = {});
 
   /// Hand in every frame, in order (1 is the first): the sheet keeps what it shows, and the latest, in case
-  /// it is the last. Points in groom order, any unit, finite (see finite_points.h).
-  void offer(int frame, std::span<const Vec3f> points);
+  /// it is the last. Points in groom order and unit, finite (see finite_points.h); a place for each solid.
+  void offer(int frame, std::span<const Vec3f> points, std::span<const SheetPlace> places = {});
 
   /// The frames it keeps, for a checkpoint.
   void archive(Archive& archive);
@@ -67,8 +84,11 @@ class Sheet {
   struct Frame {
     int number = 0;
     std::vector<Vec3f> points;
+    std::vector<SheetPlace> places;
   };
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
+  double metresPerUnit_;
+  std::vector<SheetSolid> solids_;
   std::vector<int> wanted_;
   UpAxis up_;
   std::vector<Frame> frames_;  // in order
