@@ -83,10 +83,10 @@ constexpr const char* kExitHelp =
 // The command line as typed; what is left out is the scene file's, or the default.
 struct Typed {
   std::filesystem::path input, folder;
-  std::optional<int> frames, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
+  std::optional<int> frames, bindFrame, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
   std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload,
       width;
-  std::optional<std::string> motion, joint, animation, up, integrator;
+  std::optional<std::string> motion, joint, animation, up, integrator, bind;
   MaterialChoice material;
   ContactChoice contacts;
   std::string backend = "gpu", device, kernel = "auto", cache;
@@ -150,6 +150,8 @@ void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
 void applyOptions(const Typed& typed, SceneFile& scene) {
   replace(scene.groom.metresPerUnit, typed.unit);
   replace(scene.groom.up, typed.up);
+  replace(scene.groom.bind, typed.bind);
+  replace(scene.groom.bindFrame, typed.bindFrame);
   applyMotionOptions(typed, scene.motion);
 
   SceneSimulation& simulation = scene.simulation;
@@ -355,6 +357,21 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command->add_option("--up", typed->up, "The file's up axis, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS")
+      ->group(scene);
+  command
+      ->add_option(
+          "--bind", typed->bind,
+          "What the groom is bound to: head, it is in the frame of the head's joint; world, it stands "
+          "where it was modelled, whatever axes the joint has (default head)")
+      ->check(oneOf({"head", "world"}))
+      ->type_name("NAME")
+      ->group(scene);
+  command
+      ->add_option("--bind-frame", typed->bindFrame,
+                   "Frame of the motion at which what is bound to the world stands so; 1 is its first pose "
+                   "(default 1)")
+      ->check(wholeBetween(1, kMostFrames))
+      ->type_name("N")
       ->group(scene);
   command->add_option("--gravity", typed->gravity, "Gravity, downwards, m/s^2 (default 9.81)")
       ->check(between(-1000, 1000))

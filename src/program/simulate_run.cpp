@@ -6,7 +6,6 @@
 
 #include "program/animation_source.h"
 #include "program/run_facts.h"
-#include "ringlet/measure/placement_check.h"
 
 namespace ringlet::program {
 
@@ -35,10 +34,7 @@ Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions opti
                           scene.bodies, scene.scalp ? &*scene.scalp : nullptr},
                          options, observer);
   if (!outcome) return outcome.error();
-  std::vector<std::string> warnings = scene.warnings;
-  for (std::string& doubt : checkPlacement(scene.groom, scene.bodies, scene.motion.poseAt(0)))
-    warnings.push_back(std::move(doubt));
-  outcome->warnings.insert(outcome->warnings.begin(), warnings.begin(), warnings.end());
+  outcome->warnings.insert(outcome->warnings.begin(), scene.warnings.begin(), scene.warnings.end());
   return outcome;
 }
 

@@ -113,8 +113,7 @@ Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options
 /// What a scene says of its run and its files; all else is the default.
 RunOptions runOptionsOf(const SceneFile& scene);
 
-/// A run of a scene that is read, as long as the scene is. Its warnings, and doubts about sizes and places,
-/// come before the run's own.
+/// A run of a scene that is read, as long as the scene is. Its warnings come before the run's own.
 Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions options,
                                        const FrameObserver& observer = {});
 

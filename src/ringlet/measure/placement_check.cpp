@@ -9,16 +9,13 @@
 
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/measure/groom_inspection.h"
+#include "ringlet/measure/length_text.h"
 
 namespace ringlet {
 namespace {
 
 constexpr double kSmallBody = 0.05, kLargeBody = 20;  // as shares of the groom's size
 constexpr double kDeepRoots = 0.25;                   // of the body's size
-
-std::string lengthText(double metres) {
-  return metres < 1 ? fmt::format("{:.3g} mm", 1000 * metres) : fmt::format("{:.3g} m", metres);
-}
 
 // The groom as it stands in the world.
 struct Stand {

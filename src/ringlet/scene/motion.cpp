@@ -95,6 +95,7 @@ HeadPose Motion::poseAt(double t) const {
       break;
     }
   }
+  if (!(axes == Quatd{})) pose.rotation = normalized(pose.rotation * axes);
   return pose;
 }
 

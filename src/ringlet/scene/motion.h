@@ -50,6 +50,7 @@ struct Motion {
   Vec3d start{};                                                  // position of the head at t = 0 [m]
   RootMotion roots{};                                             // of roots with a shift
   std::shared_ptr<const Keyframes> keyframes{};                   // where `kind` says so; `start` is added
+  Quatd axes{};  // of the groom in the frame of the moving joint: turned by it first
 
   /// The pose at t seconds; defined for t < 0 too (the state the motion comes from).
   HeadPose poseAt(double t) const;

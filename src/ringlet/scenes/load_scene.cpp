@@ -15,12 +15,15 @@
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/joint_check.h"
+#include "ringlet/measure/placement_check.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/motion/skinned_mesh.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/world_bind.h"
 
 namespace ringlet {
 namespace {
@@ -160,6 +163,26 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
   return scalp;
 }
 
+// Binds what is bound to the world, and says what seems to be of another unit, place or axis.
+void bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
+  const WorldBind bind = worldBindOf(scene);
+  const bool followsJoint = !scene.motion.file.empty();
+  const auto warn = [&](std::optional<std::string> doubt) {
+    if (doubt) loaded.warnings.push_back(std::move(*doubt));
+  };
+  // A groom that is turned was placed by hand, and a scalp says itself where roots are.
+  const bool isPlaced = scene.groom.rotateDegrees != Vec3d{} || !scene.scalp.file.empty();
+  if (followsJoint && !bind.groom && !isPlaced)
+    warn(checkJointAxes(loaded.motion, upOf(scene.groom), scene.motion.joint));
+  bindInWorld(bind, loaded.motion, loaded.groom, loaded.bodies);
+  if (followsJoint) {
+    const HeadPose head = loaded.motion.poseAt(bind.groom.value_or(0));
+    warn(checkJointDistance(loaded.groom, head, bind.groom.has_value(), scene.motion.joint));
+  }
+  for (std::string& doubt : checkPlacement(loaded.groom, loaded.bodies, loaded.motion.poseAt(0)))
+    warn(std::move(doubt));
+}
+
 int frameCountOf(const SceneFile& scene, const Motion& motion) {
   const SceneSimulation& simulation = scene.simulation;
   const double framesPerSecond = simulation.framesPerSecond;
@@ -223,6 +246,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   auto bodies = loadBodies(scene, loaded.groom.metresPerUnit, loaded.warnings);
   if (!bodies) return bodies.error();
   loaded.bodies = std::move(*bodies);
+  bindAndCheck(scene, loaded);
   if (!scene.simulation.stepsPerFrame) {
     const auto steps = chooseStepsPerFrame(loaded.groom, loaded.material, loaded.settings);
     if (!steps) return steps.error();

@@ -41,7 +41,8 @@ struct LoadedScene {
 };
 
 /// Reads all that the file names, and chooses the steps a frame where it leaves them open. `known`: its
-/// groom, where loadGroom has read it already. Errors: those of the parts; a material that its dials spoil.
+/// groom, where loadGroom has read it already. Warnings also say what seems to be of another unit, place or
+/// axis than the rest. Errors: those of the parts; a material that its dials spoil.
 Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known = nullptr);
 
 }  // namespace ringlet

@@ -17,6 +17,7 @@ constexpr NumberRange kUnit{1e-6, 1000};    // [m]
 constexpr NumberRange kSeed{0, 4294967295.0};
 constexpr NumberRange kShare{0, 1};
 constexpr NumberRange kSeconds{0, 3600};
+constexpr NumberRange kBindFrames{1, 1e6};
 constexpr const char* kGenerated = "curl, swatch, head";
 constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";
@@ -63,6 +64,19 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        &G::rotateDegrees, kDegrees},
       {"offset", "m", "", "Translation of the groom in the head's frame, after its rotation.", &G::offset,
        kPlace},
+      {"bind",
+       "",
+       "",
+       "head: the groom is in the frame of the head's joint. world: it stands where it was modelled at the "
+       "bind "
+       "frame, whatever axes the joint has.",
+       &G::bind,
+       {},
+       "head, world"},
+      {"bind_frame", "", "",
+       "Frame of the motion, at the run's fps, at which what is bound to the world stands so; 1 is its first "
+       "pose.",
+       &G::bindFrame, kBindFrames},
       {"strands", "", "", "Number.", &G::strands, {1, 1e6}, "", "head"},
       {"particles",
        "",
@@ -383,6 +397,17 @@ std::span<const SceneField<SceneBody>> bodyFields() {
       {"friction", "1", "", "Coulomb's friction coefficient between hair and body.", &B::friction, {0, 100}},
       {"position", "m", "", "Position of its origin, in the frame that carries it.", &B::position, kPlace},
       {"rotate_degrees", "deg", "", kTurnHelp, &B::rotateDegrees, kDegrees},
+      {"bind",
+       "",
+       "",
+       "carrier: the body is in the frame that carries it. world: it stands where it is placed in the world "
+       "at "
+       "the bind frame, whatever axes its carrier has.",
+       &B::bind,
+       {},
+       "carrier, world"},
+      {"bind_frame", "", "the groom's", "Frame of the motion at which it stands so; 1 is its first pose.",
+       &B::bindFrame, kBindFrames},
       {"joint", "", "none", "Joint of the head's motion file that carries it, in place of the head.",
        &B::joint},
   };

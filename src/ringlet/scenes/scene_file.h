@@ -52,9 +52,12 @@ struct SceneGroom {
   std::optional<double> metresPerUnit{};  // unset: the file's, where it states one, else centimetres
   std::string up = "Y";                   // or Z
 
-  // Into the head's frame: scaled, then turned, then moved.
+  // Into the head's frame, or the world: scaled, then turned, then moved.
   double scale = 1;
   Vec3d rotateDegrees{}, offset{};  // [m]
+
+  std::string bind = "head";  // the frame it is in; or world: where it stands at bindFrame of the motion
+  int bindFrame = 1;
 
   bool operator==(const SceneGroom&) const = default;
 };
@@ -135,6 +138,8 @@ struct SceneBody {
 
   double thickness = 0, friction = 0.2;
   Vec3d position{}, rotateDegrees{};  // [m]
+  std::string bind = "carrier";       // or world, as the groom's
+  std::optional<int> bindFrame;       // unset: the groom's
 
   std::string joint;                  // of the head's motion file; or
   std::optional<SceneMotion> motion;  // its own, in the world; neither: the head carries it
