@@ -96,7 +96,8 @@ def run(document, source, build):
         folder.mkdir()
         clone_in(folder, source, build)
         environment = {**os.environ, "PATH": f"{build}:{os.environ['PATH']}", "HOME": name,
-                       "RINGLET_CACHE_DIR": str(build / "tests" / "cache"), "PYTHONDONTWRITEBYTECODE": "1"}
+                       "RINGLET_CACHE_DIR": str(build / "tests" / "cache"), "PYTHONDONTWRITEBYTECODE": "1",
+                       "MESA_SHADER_CACHE_DIR": os.path.expanduser("~/.cache")}  # lavapipe's own: HOME is another
         done = subprocess.run(["bash", "-c", script_of(commands)], cwd=folder, env=environment, text=True,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     started = len(re.findall(f"^{MARK}\\d+$", done.stdout, re.MULTILINE))
