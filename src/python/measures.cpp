@@ -16,6 +16,7 @@
 #include "ringlet/measure/crossings.h"
 #include "ringlet/measure/groom_measure.h"
 #include "ringlet/measure/motion_measure.h"
+#include "ringlet/measure/placement_check.h"
 #include "ringlet/measure/shape_distance.h"
 
 namespace ringlet::python {
@@ -317,6 +318,16 @@ void addMeasures(py::module_& module) {
       py::arg("groom"), py::arg("before"), py::arg("after"),
       "How often an edge of one strand went through an edge of another while all particles went "
       "straight from before to after, (particles, 3) float32 each.");
+  module.def(
+      "check_placement",
+      [](const GroomObject& groom, const std::vector<BodyObject>& bodies, const py::object& head) {
+        return checkPlacement(groom.groom(), bodiesOf(bodies),
+                              head.is_none() ? HeadPose{} : poseOf(head, "head"));
+      },
+      py::arg("groom"), py::arg("bodies") = py::tuple(), py::arg("head") = py::none(),
+      "Whether the groom and the bodies that the head carries have the sizes and places of hair and a head: "
+      "a "
+      "list of sentences, each with the likely cause; empty where nothing is odd. Scene.load does this.");
   addMotionMeasure(module);
   addContactWatch(module);
   addBodyWatch(module);

@@ -86,6 +86,20 @@ def test_scenes_have_names_and_parts():
     assert ringlet.Scene.parse(SCENES["pre-roll"]).pre_roll_seconds == 0.1
 
 
+def test_a_scene_of_a_wrong_unit_says_so():
+    (sentence,) = ringlet.Scene.parse(SWATCH.replace("[simulation]", "scale = 0.01\n[simulation]")).warnings
+    assert "strands are " in sentence and "mm long on average" in sentence
+    assert ringlet.Scene.parse(SWATCH).warnings == []
+
+
+def test_placement_is_checked_with_bodies_and_head():
+    groom = ringlet.make_head(strands=20)
+    assert ringlet.check_placement(groom) == []
+    beside = ringlet.Body.sphere(0.05, name="beside", position=(3, 0, 0))
+    (sentence,) = ringlet.check_placement(groom, [beside], ringlet.Pose((0, 1, 0)))
+    assert "beside" in sentence
+
+
 def test_a_scene_stepped_by_hand_has_the_bits_of_its_run(device):
     scene = ringlet.Scene.parse(SCENES["bodies"])
     expected = scene.run(device=device).positions()
