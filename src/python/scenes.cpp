@@ -17,7 +17,6 @@
 #include "python/hair.h"
 #include "python/materials.h"
 #include "python/poses.h"
-#include "ringlet/measure/placement_check.h"
 #include "ringlet/scenes/builtin_scene.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
@@ -37,20 +36,14 @@ SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded) {
   return {std::move(name), std::move(summary), std::move(groom), std::move(loaded)};
 }
 
-// Of a scene file, whose units and places may be wrong.
-SceneObject checked(std::string name, LoadedScene loaded) {
-  for (std::string& doubt : checkPlacement(loaded.groom, loaded.bodies, loaded.motion.poseAt(0)))
-    loaded.warnings.push_back(std::move(doubt));
-  return sceneOf(std::move(name), "", std::move(loaded));
-}
-
 SceneObject loadFile(const std::filesystem::path& path) {
   return withoutGil(
-      [&] { return checked(path.stem().string(), valueOf(loadScene(valueOf(readScene(path))))); });
+      [&] { return sceneOf(path.stem().string(), "", valueOf(loadScene(valueOf(readScene(path))))); });
 }
 SceneObject parseText(const std::string& text, const std::filesystem::path& folder) {
-  return withoutGil(
-      [&] { return checked("text", valueOf(loadScene(valueOf(parseScene(text, "the scene", folder))))); });
+  return withoutGil([&] {
+    return sceneOf("text", "", valueOf(loadScene(valueOf(parseScene(text, "the scene", folder)))));
+  });
 }
 
 SceneObject builtin(const std::string& name, const SceneOptions& options) {
