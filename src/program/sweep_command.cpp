@@ -216,6 +216,14 @@ void addSweepCommand(CLI::App& app, int& exitCode) {
                  "Choose kernels by the built-in model, whatever `ringlet tune` measured")
       ->group(machine);
 
+  command
+      ->add_option("--jobs", options.jobs,
+                   "Runs at a time: one is read, prepared and written while another is stepped (default 2; 1 "
+                   "where ms_per_frame is to be of a run by itself)")
+      ->check(wholeBetween(1, 64))
+      ->type_name("N")
+      ->group(machine);
+
   const char* output = "Output";
   command
       ->add_flag("--last-only", options.lastOnly,

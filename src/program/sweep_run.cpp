@@ -5,11 +5,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "program/backend.h"
@@ -23,6 +27,7 @@
 #include "program/standard_error.h"
 #include "program/sweep_record.h"
 #include "program/sweep_sheet.h"
+#include "ringlet/base/in_parallel.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/measure/pose_numbers.h"
@@ -143,17 +148,19 @@ class FrameWatch {
   std::optional<MotionMeasure> measure_;
 };
 
-// Runs one after the other, with what they share.
+// Runs, with what they share; each may have a thread of its own.
 class Sweep {
  public:
   explicit Sweep(const SweepOptions& options) : options_(options), facts_(options) {}
 
-  Status openDevice() {
-    if (options_.onReference) return {};
+  /// The device of all runs, opened by the first; none on the reference.
+  Result<std::optional<ComputeDevice>> device() {
+    const std::scoped_lock lock(mutex_);
+    if (device_ || options_.onReference) return device_;
     auto opened = openGpu(options_.device);
     if (!opened) return opened.error();
     device_ = std::move(*opened);
-    return {};
+    return device_;
   }
 
   void run(SweepEntry& entry) {
@@ -161,8 +168,10 @@ class Sweep {
       entry.state = RunState::failed;
       entry.error = error.message;
       entry.exitCode = program::exitCodeOf(error);
+      if (error.fault != Fault::deviceLost) return;
       // What comes next may find another device of that name, or the same after its reset.
-      if (error.fault == Fault::deviceLost) device_.reset();
+      const std::scoped_lock lock(mutex_);
+      device_.reset();
     };
     try {
       if (Status ran = runAndRecord(entry); !ran) failed(ran.error());
@@ -175,20 +184,36 @@ class Sweep {
   void tellWarnings() const {
     for (const auto& [sentence, runs] : warnings_) {
       const std::string others = runs.size() > 1 ? fmt::format(" and {} more", runs.size() - 1) : "";
-      say("ringlet sweep: warning: run {}{}: {}\n", runs.front(), others, sentence);
+      say("ringlet sweep: warning: run {}{}: {}\n", *runs.begin(), others, sentence);
     }
   }
 
  private:
+  // One groom at a time is kept for the runs that have the same.
+  Result<std::shared_ptr<const LoadedGroom>> groomOf(const SceneGroom& scene) {
+    const std::scoped_lock lock(groomMutex_);
+    if (groom_ && groomScene_ == scene) return groom_;
+    auto read = loadGroom(scene);
+    if (!read) return read.error();
+    groom_ = std::make_shared<const LoadedGroom>(std::move(*read));
+    groomScene_ = scene;
+    return groom_;
+  }
+
   Result<LoadedScene> load(const SceneFile& scene) {
-    if (!groomOf_ || *groomOf_ != scene.groom) {
-      groomOf_.reset();
-      auto read = loadGroom(scene.groom);
-      if (!read) return read.error();
-      groom_ = std::move(*read);
-      groomOf_ = scene.groom;
-    }
-    return loadScene(scene, &groom_);
+    const auto groom = groomOf(scene.groom);
+    if (!groom) return groom.error();
+    return loadScene(scene, groom->get());
+  }
+
+  Result<std::vector<RunFact>> factsOf(const SweepRun& run) {
+    const std::scoped_lock lock(mutex_);
+    return facts_.of(run);
+  }
+
+  void noteWarnings(const std::vector<std::string>& warnings, int run) {
+    const std::scoped_lock lock(mutex_);
+    for (const std::string& warning : warnings) warnings_[warning].insert(run);
   }
 
   // The run's folder, with its scene. What a run of this scene left there that did not end makes way.
@@ -215,11 +240,10 @@ class Sweep {
   Status runAndRecord(SweepEntry& entry) {
     const SweepRun& run = *entry.run;
     RunOptions options = optionsOf(run, options_);
-    if (!device_ && !options_.onReference) {
-      if (Status opened = openDevice(); !opened) return opened;
-    }
-    options.opened = device_;
-    auto facts = facts_.of(run);
+    auto opened = device();
+    if (!opened) return opened.error();
+    options.opened = std::move(*opened);
+    auto facts = factsOf(run);
     if (!facts) return facts.error();
     auto scene = load(run.scene);
     if (!scene) return scene.error();
@@ -235,7 +259,7 @@ class Sweep {
         *scene, options,
         [&](std::span<const Vec3f> points, const HeadPose& head) { return watch.look(points, head); });
     if (!outcome) return outcome.error();
-    for (const std::string& warning : outcome->warnings) warnings_[warning].push_back(run.number);
+    noteWarnings(outcome->warnings, run.number);
     if (outcome->interrupted) {
       entry.state = RunState::interrupted;
       entry.exitCode = kExitInterrupted;
@@ -255,22 +279,58 @@ class Sweep {
   }
 
   const SweepOptions& options_;
+  std::mutex mutex_, groomMutex_;
   SweepFacts facts_;
   std::optional<ComputeDevice> device_;
-  std::optional<SceneGroom> groomOf_;  // whose groom_ is
-  LoadedGroom groom_;
-  std::map<std::string, std::vector<int>> warnings_;  // with the runs they are of
+  std::map<std::string, std::set<int>> warnings_;  // with the runs they are of
+  std::shared_ptr<const LoadedGroom> groom_;
+  SceneGroom groomScene_;  // whose it is
 };
 
-// {"run": 3, "runs": 20, "state": "finished", "seconds": 3.1, "seconds_left": 17.6}
-void tellRun(const SweepEntry& entry, std::size_t done, std::size_t count, double seconds) {
-  const std::string line = fmt::format(
-      "{{\"run\": {}, \"runs\": {}, \"state\": \"{}\", \"seconds\": {:.3f}, \"seconds_left\": {:.3f}}}\n",
-      entry.run->number, count, nameOf(entry.state), seconds,
-      seconds * static_cast<double>(count - done) / static_cast<double>(done));
-  (void)std::fwrite(line.data(), 1, line.size(), stdout);
-  (void)std::fflush(stdout);
-}
+// What is said as runs end: a bar, lines of JSON, failures.
+class SweepProgress {
+ public:
+  SweepProgress(std::size_t count, std::span<const SweepAxis> axes, const SweepOptions& options)
+      : count_(count),
+        axes_(axes),
+        tellsLines_(options.tellsProgress),
+        bar_(0, static_cast<int>(count), options.showProgress, "run") {
+    bar_.show(0);
+  }
+
+  void tell(const SweepEntry& entry) {
+    const std::scoped_lock lock(mutex_);
+    ++done_;
+    if (entry.state == RunState::failed) {
+      bar_.clear();
+      say("ringlet sweep: run {} ({}) failed: {}\n", entry.run->number, valuesText(*entry.run, axes_),
+          entry.error);
+    }
+    if (tellsLines_) tellLine(entry);
+    bar_.show(static_cast<int>(done_));
+  }
+
+  void clear() { bar_.clear(); }
+
+ private:
+  // {"run": 3, "runs": 20, "state": "finished", "seconds": 3.1, "seconds_left": 17.6}
+  void tellLine(const SweepEntry& entry) const {
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
+    const std::string line = fmt::format(
+        "{{\"run\": {}, \"runs\": {}, \"state\": \"{}\", \"seconds\": {:.3f}, \"seconds_left\": {:.3f}}}\n",
+        entry.run->number, count_, nameOf(entry.state), seconds.count(),
+        seconds.count() * static_cast<double>(count_ - done_) / static_cast<double>(done_));
+    (void)std::fwrite(line.data(), 1, line.size(), stdout);
+    (void)std::fflush(stdout);
+  }
+
+  std::size_t count_, done_ = 0;
+  std::span<const SweepAxis> axes_;
+  bool tellsLines_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  ProgressBar bar_;
+};
 
 }  // namespace
 
@@ -331,22 +391,16 @@ Status runSweep(std::vector<SweepEntry>& entries, std::span<const SweepAxis> axe
   }
   if (open.empty()) return {};
   Sweep sweep(options);
-  if (Status opened = sweep.openDevice(); !opened) return opened;
+  if (const auto opened = sweep.device(); !opened) return opened.error();
 
-  ProgressBar progress(0, static_cast<int>(open.size()), options.showProgress, "run");
-  const auto start = std::chrono::steady_clock::now();
-  for (std::size_t i = 0; i < open.size() && !wasInterrupted(); ++i) {
-    progress.show(static_cast<int>(i));
-    SweepEntry& entry = *open[i];
-    sweep.run(entry);
-    if (entry.state == RunState::failed) {
-      progress.clear();
-      say("ringlet sweep: run {} ({}) failed: {}\n", entry.run->number, valuesText(*entry.run, axes),
-          entry.error);
+  SweepProgress progress(open.size(), axes, options);
+  std::atomic<std::size_t> next = 0;
+  inParallel(static_cast<unsigned>(std::min<std::size_t>(options.jobs, open.size())), [&] {
+    for (std::size_t i; !wasInterrupted() && (i = next++) < open.size();) {
+      sweep.run(*open[i]);
+      progress.tell(*open[i]);
     }
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    if (options.tellsProgress) tellRun(entry, i + 1, open.size(), seconds.count());
-  }
+  });
   progress.clear();
   sweep.tellWarnings();
   return {};

@@ -1,4 +1,4 @@
-// A sweep: its runs one after the other in one process, on one device whose kernels are compiled once.
+// A sweep: its runs in one process, on one device whose kernels are compiled once.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,7 @@ struct SweepOptions {
   bool tellsProgress = false;    // a line of JSON a frame and a run, on standard output
   bool showProgress = true;
   bool drawsSheet = true;
+  int jobs = 2;  // runs at a time: one is read, prepared and written while another is stepped
   std::size_t part = 1, parts = 1;  // only the runs of this part, counted out in turn
 };
 
