@@ -228,8 +228,9 @@ TEST_F(Sweep, AnInterruptionKeepsWhatIsFinished) {
   const std::vector<std::string> arguments{"sweep",      "scene.toml",
                                            "-o",         "out",
                                            "--backend",  "reference",
-                                           "--vary",     "material.dials.hold=0.5:2:4",
+                                           "--vary",     "material.dials.hold=0.5:2:6",
                                            "--vary",     "simulation.frames=3000",
+                                           "--jobs",     "1",
                                            "--last-only"};
   test::RunningProgram running(folder_, arguments);
   ASSERT_TRUE(test::RunningProgram::waitUntil([&] { return fs::exists(folder_ / "out/run-0001/run.json"); }));
