@@ -48,7 +48,7 @@ TEST(GroomFile, SaysWhatIsSupported) {
   for (const char* name : {"a.abc", "a", ".hair", ".tfx", "a.hair.gz", ""}) {
     expectReadError(name, "supported are .hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data and .bin");
     EXPECT_FALSE(isGroomFile(name));
-    expectWriteError(name, test::awkwardGroom(), "supported are .hair and .obj");
+    expectWriteError(name, test::awkwardGroom(), "supported are .hair, .obj and .ply");
   }
 }
 

@@ -124,13 +124,29 @@ TEST(PlyFile, RefusesCountsThatLie) {
       {"the file ends here"});
 }
 
-TEST(PlyFile, IsChosenByExtensionAndReadOnly) {
+TEST(PlyFile, IsChosenByExtension) {
   const auto folder = test::scratchFolder("ply_file");
   test::writeText(folder / "a.PLY", test::plyBinary());
   EXPECT_TRUE(readGroom(folder / "a.PLY"));
-  const Status status = writeGroom(folder / "b.ply", test::awkwardGroom());
-  ASSERT_FALSE(status);
-  EXPECT_TRUE(contains(status.error().message, ".ply is only read; supported are .hair and .obj"));
+  EXPECT_TRUE(writeGroom(folder / "b.Ply", test::awkwardGroom()));
+}
+
+// What we write reads back the same bits, also of strands of more edges than 16 bits count.
+TEST(PlyFile, WhatIsWrittenIsReadBack) {
+  const auto path = test::scratchFolder("ply_written") / "groom.ply";
+  for (const std::uint32_t longest : {2u, 65'536u, 65'537u}) {
+    Groom groom;
+    groom.addStrand(std::vector<Vec3f>{{0.1f, -2e-20f, 3e10f}, {0, -1, 0.3f}, {1.0f / 3, -2, 0}});
+    std::vector<Vec3f> strand(longest);
+    for (std::size_t i = 0; i < strand.size(); ++i) strand[i] = {1, -0.001f * static_cast<float>(i), 0};
+    groom.addStrand(strand);
+    ASSERT_TRUE(writeGroom(path, groom));
+    const auto read = readGroom(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->groom.points, groom.points);
+    EXPECT_EQ(read->groom.firstPoint, groom.firstPoint);
+    EXPECT_TRUE(read->warnings.empty());
+  }
 }
 
 }  // namespace

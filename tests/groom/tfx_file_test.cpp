@@ -164,7 +164,7 @@ TEST(TfxFile, IsChosenByExtensionAndReadOnly) {
 
   const Status status = writeGroom(folder / "b.tfx", loaded->groom);
   ASSERT_FALSE(status);
-  EXPECT_TRUE(contains(status.error().message, ".tfx is only read; supported are .hair and .obj"))
+  EXPECT_TRUE(contains(status.error().message, ".tfx is only read; supported are .hair, .obj and .ply"))
       << status.error().message;
   EXPECT_EQ(test::fileCount(folder), 1);
 }

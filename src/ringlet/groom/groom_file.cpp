@@ -81,15 +81,17 @@ Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomRead
 
 Status writeGroom(const std::filesystem::path& path, const Groom& groom) {
   const std::optional<Format> format = formatOf(path);
-  if (!format) return unknownExtension(path, "write", ".hair and .obj");
+  if (!format) return unknownExtension(path, "write", kWrittenGroomEndings);
   switch (*format) {
     case Format::hair:
       return writeHair(path, groom);
     case Format::obj:
       return writeObj(path, groom);
+    case Format::ply:
+      return writePly(path, groom, groom.points);
     default:
-      return Error{fmt::format("{}: cannot write a groom: {} is only read; supported are .hair and .obj",
-                               path.string(), path.extension().string())};
+      return Error{fmt::format("{}: cannot write a groom: {} is only read; supported are {}", path.string(),
+                               path.extension().string(), kWrittenGroomEndings)};
   }
 }
 

@@ -25,8 +25,11 @@ bool isGroomFile(const std::filesystem::path& path);
 inline constexpr const char* kGroomEndings =
     ".hair, .obj, .usda, .usdc, .usd, .usdz, .tfx, .ply, .data and .bin";
 
+/// Those of them that can be written.
+inline constexpr const char* kWrittenGroomEndings = ".hair, .obj and .ply";
+
 /// Writes a groom so that reading it gives the same bits. An existing file is replaced only once all is
-/// written. Errors: an extension other than .hair and .obj, a groom without strands, a strand of fewer than
+/// written. Errors: another extension, a groom without strands, a strand of fewer than
 /// two particles or with one that is not finite, what the format cannot hold, a full disk.
 Status writeGroom(const std::filesystem::path& path, const Groom& groom);
 

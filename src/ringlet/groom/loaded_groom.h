@@ -5,20 +5,40 @@
 #include <vector>
 
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/usd_matrix.h"
 
 namespace ringlet {
 
 /// How a groom is wanted.
 struct GroomReading {
-  bool upIsZ = false;  // a file that states its up axis is turned to this one, Y or Z
+  bool upIsZ = false;       // a file that states its up axis is turned to this one, Y or Z
+  bool keepsPrims = false;  // LoadedGroom::prims, of USD files
+};
+
+/// What a USD file says of its curves beside their points: a primvar, ids, widths. Names are USD's.
+struct GroomValue {
+  std::string name, type, interpolation;  // "primvars:displayColor", "color3f[]", "uniform"
+  std::vector<double> numbers;            // one element after the other; or
+  std::vector<std::string> texts;
+};
+
+/// A prim of a USD file whose curves are strands of the groom.
+struct GroomPrim {
+  std::string path;  // "/Head/Hair"
+  std::uint32_t firstStrand = 0, strandCount = 0;
+  UsdTransform toGroom;            // from where its points stand to the groom's
+  bool isWhole = true;             // every curve is a strand and every point a particle
+  std::vector<GroomValue> values;  // that fit its strands
 };
 
 /// A groom that can be used, and what a person should hear about its file, a sentence each.
 struct LoadedGroom {
   Groom groom;
   std::vector<std::string> warnings;
-  bool statesUnit = false;  // groom.metresPerUnit is what the file says; else it is only the usual one
-  bool statesUp = false;    // the file says which axis points up
+  bool statesUnit = false;       // groom.metresPerUnit is what the file says; else it is only the usual one
+  bool statesUp = false;         // the file says which axis points up
+  bool isTurned = false;         // from that one to the other
+  std::vector<GroomPrim> prims;  // in the order of their strands, where they are asked for
 };
 
 }  // namespace ringlet

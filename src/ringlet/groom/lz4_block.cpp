@@ -72,4 +72,14 @@ bool appendLz4Block(std::span<const std::byte> block, std::size_t mostBytes, std
   return false;
 }
 
+void appendLz4Literals(std::span<const std::byte> bytes, std::vector<std::byte>& out) {
+  std::size_t count = bytes.size();
+  out.push_back(static_cast<std::byte>(std::min<std::size_t>(count, 15) << 4));
+  if (count >= 15) {
+    for (count -= 15; count >= 255; count -= 255) out.push_back(std::byte{255});
+    out.push_back(static_cast<std::byte>(count));
+  }
+  out.insert(out.end(), bytes.begin(), bytes.end());
+}
+
 }  // namespace ringlet

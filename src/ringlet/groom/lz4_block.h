@@ -15,4 +15,7 @@ inline std::size_t mostLz4Bytes(std::size_t size) { return 255 * size + 64; }
 /// `mostBytes`. Memory is taken for what the block really has.
 bool appendLz4Block(std::span<const std::byte> block, std::size_t mostBytes, std::vector<std::byte>& out);
 
+/// Appends a block that stands for these bytes, by themselves: nothing is compressed.
+void appendLz4Literals(std::span<const std::byte> bytes, std::vector<std::byte>& out);
+
 }  // namespace ringlet

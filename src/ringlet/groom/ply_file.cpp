@@ -26,9 +26,12 @@
 #include <string_view>
 #include <vector>
 
+#include "ringlet/base/assert.h"
 #include "ringlet/base/little_endian.h"
 #include "ringlet/base/quoted.h"
+#include "ringlet/base/whole_file.h"
 #include "ringlet/groom/edge_chains.h"
+#include "ringlet/groom/groom_check.h"
 
 namespace ringlet {
 namespace {
@@ -400,6 +403,30 @@ class PlyReader {
 Result<LoadedGroom> readPly(std::span<const std::byte> bytes, const std::filesystem::path& path) {
   const std::string name = path.string();
   return PlyReader(bytes, name).read();
+}
+
+Status writePly(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points) {
+  RINGLET_ASSERT(points.size() == topology.points.size(), "writePly needs as many points as the groom has");
+  if (Status status = checkGroom(topology, points, path); !status) return status;
+  std::uint32_t mostEdges = 0;
+  for (std::size_t s = 0; s < topology.strandCount(); ++s)
+    mostEdges = std::max(mostEdges, topology.firstPoint[s + 1] - topology.firstPoint[s] - 1);
+  const bool isShort = mostEdges <= std::numeric_limits<std::uint16_t>::max();
+  const std::string head = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment written by Ringlet\nelement vertex {}\nproperty float "
+      "x\nproperty float y\nproperty float z\nelement strand {}\nproperty {} nsegs\nend_header\n",
+      points.size(), topology.strandCount(), isShort ? "ushort" : "uint");
+  std::vector<std::byte> bytes;
+  bytes.reserve(head.size() + 12 * points.size() + 4 * topology.strandCount());
+  for (const char c : head) bytes.push_back(static_cast<std::byte>(c));
+  for (const Vec3f p : points) {
+    for (const float number : {p.x, p.y, p.z}) appendF32(bytes, number);
+  }
+  for (std::size_t s = 0; s < topology.strandCount(); ++s) {
+    appendU32(bytes, topology.firstPoint[s + 1] - topology.firstPoint[s] - 1);
+    if (isShort) bytes.resize(bytes.size() - 2);
+  }
+  return writeWholeFile(path, bytes);
 }
 
 }  // namespace ringlet

@@ -20,4 +20,9 @@ namespace ringlet {
 /// one pass.
 Result<LoadedGroom> readPly(std::span<const std::byte> bytes, const std::filesystem::path& path);
 
+/// Writes a groom with other positions, as many as its own, in its order and unit: a frame of an animation.
+/// Binary, `nsegs` of 16 bits unless a strand has more edges; reading it gives the same bits. Errors: see
+/// writeGroom.
+Status writePly(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points);
+
 }  // namespace ringlet

@@ -33,7 +33,8 @@ Result<LoadedGroom> readUsd(std::span<const std::byte> bytes, const std::filesys
     return Error{fmt::format("{}: at byte 0: found {}; expected '#usda 1.0' or 'PXR-USDC'", name,
                              quoted(textOf(bytes.first(std::min<std::size_t>(bytes.size(), 10)))))};
   }
-  auto layer = isUsdc(bytes) ? readUsdc(bytes, name) : readUsda(textOf(bytes), name);
+  auto layer = isUsdc(bytes) ? readUsdc(bytes, name, {.keepsValues = reading.keepsPrims})
+                             : readUsda(textOf(bytes), name, reading.keepsPrims);
   if (!layer) return layer.error();
   layer->byteCount = bytes.size();
   return groomOfUsd(*layer, reading, name);

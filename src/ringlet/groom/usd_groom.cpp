@@ -111,6 +111,7 @@ class UsdGroomMaker {
     if (isZ == reading_.upIsZ) return {};
     transforms_[0] = isZ ? UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}, {}}
                          : UsdTransform{{Vec3d{1, 0, 0}, Vec3d{0, 0, 1}, Vec3d{0, -1, 0}}, {}};
+    loaded_.isTurned = true;
     warn(fmt::format("turned from {0} up, which it states, to {1} up (--up {0} keeps its axes)",
                      isZ ? 'Z' : 'Y', isZ ? 'Y' : 'Z'));
     return {};
@@ -212,7 +213,7 @@ class UsdGroomMaker {
   }
 
   void noteSamples(const UsdAttribute& attribute) {
-    if (!attribute.isSampled) return;
+    if (!attribute.isSampled || isUsdValue(attribute.name)) return;
     firstTime_ = moves_ ? std::min(firstTime_, *attribute.time) : *attribute.time;
     moves_ = true;
   }
@@ -280,14 +281,71 @@ class UsdGroomMaker {
     }
 
     const std::span<const double> numbers(points.numbers);
+    const auto firstStrand = static_cast<std::uint32_t>(loaded_.groom.strandCount());
+    std::vector<std::size_t> kept;  // curves that are strands
     std::size_t first = 0;
     for (std::size_t c = 0; c < counts.numbers.size(); ++c) {
       const auto count = static_cast<std::size_t>(counts.numbers[c]);
       if (Status added = addStrand(index, c, numbers.subspan(3 * first, 3 * count), *form); !added)
         return added;
       first += count;
+      if (firstStrand + kept.size() < loaded_.groom.strandCount()) kept.push_back(c);
+    }
+    if (reading_.keepsPrims) {
+      loaded_.prims.push_back({.path = exactPathOf(index),
+                               .firstStrand = firstStrand,
+                               .strandCount = static_cast<std::uint32_t>(kept.size()),
+                               .toGroom = transforms_[inherited_[index].transform],
+                               .isWhole = !form->isCubic && kept.size() == counts.numbers.size(),
+                               .values = {}});
+      keepValues(layer_.prims[index], counts.numbers.size(), pointCount, kept, loaded_.prims.back());
     }
     return {};
+  }
+
+  // Names as they are, for files; those of messages are usdPathOf's.
+  std::string exactPathOf(std::uint32_t prim) const {
+    std::string path;
+    for (; prim != kNoUsdPrim; prim = layer_.prims[prim].parent)
+      path = "/" + std::string(layer_.prims[prim].name) + path;
+    return path;
+  }
+
+  // What is said of a prim's curves and fits them. Where not all of them are strands, or points particles,
+  // only what is said of all or of each curve still fits.
+  void keepValues(const UsdPrim& prim, std::size_t curveCount, std::size_t pointCount,
+                  const std::vector<std::size_t>& kept, GroomPrim& into) {
+    for (const UsdAttribute& attribute : prim.attributes) {
+      if (!isUsdValue(attribute.name)) continue;
+      const bool isIndexed = find(prim, std::string(attribute.name) + ":indices") != nullptr;
+      const bool isWidths = attribute.name == "widths";
+      std::string_view per = attribute.interpolation;
+      if (per.empty()) per = isWidths ? "vertex" : attribute.name == "ids" ? "uniform" : "constant";
+      const UsdValue& value = attribute.value;
+      const std::size_t size = std::max(value.numbers.size() / value.width, value.texts.size());
+      const bool isOfEach = per == "uniform", isOfPoints = per == "vertex" || per == "varying";
+      const bool fits = isIndexed || per == "constant" || (isOfEach && size == curveCount) ||
+                        (isOfPoints && into.isWhole && size == pointCount);
+      if (value.isBlocked || attribute.isSampled || size == 0 || !attribute.drivenBy.empty() || !fits ||
+          (isIndexed && !into.isWhole)) {
+        ++valuesLeft_;
+        continue;
+      }
+      GroomValue& carried = into.values.emplace_back();
+      carried = {std::string(attribute.name),
+                 std::string(attribute.type),
+                 std::string(attribute.interpolation),
+                 value.numbers,
+                 {value.texts.begin(), value.texts.end()}};
+      if (!isOfEach || kept.size() == curveCount) continue;
+      carried.numbers.clear();
+      carried.texts.clear();
+      for (const std::size_t curve : kept) {
+        if (!value.texts.empty()) carried.texts.emplace_back(value.texts[curve]);
+        for (std::size_t i = 0; i < value.width && !value.numbers.empty(); ++i)
+          carried.numbers.push_back(value.numbers[curve * value.width + i]);
+      }
+    }
   }
 
   Status addStrand(std::uint32_t prim, std::size_t curve, std::span<const double> numbers, const Form& form) {
@@ -356,6 +414,9 @@ class UsdGroomMaker {
           "{} short of the first and last point, as bspline and catmullRom do unless wrap is 'pinned'",
           loose_ == 1 ? "1 of them begins and ends" : fmt::format("{} of them begin and end", loose_)));
     }
+    if (valuesLeft_ > 0)
+      warn(fmt::format("left aside {} of curves, which move or do not fit the strands",
+                       counted(valuesLeft_, "value")));
     if (moves_) warn(fmt::format("it moves; read as it is at its first sample, at time {}", firstTime_));
     std::size_t elsewhere = 0;
     std::uint32_t first = kNoUsdPrim;
@@ -383,6 +444,7 @@ class UsdGroomMaker {
   std::vector<Inherited> inherited_;  // of each prim
   std::map<std::string_view, std::size_t> types_;
   std::array<std::size_t, kLeftOutWords.size()> leftOut_{};
+  std::size_t valuesLeft_ = 0;
   std::size_t curves_ = 0, tooShort_ = 0, cubic_ = 0, loose_ = 0;
   bool guides_ = false, others_ = false, moves_ = false;
   double firstTime_ = 0;

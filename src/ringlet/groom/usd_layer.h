@@ -23,12 +23,20 @@ struct UsdValue {
   bool isBlocked = false;  // "None": there is no value
 };
 
+/// Where a sample of a crate is.
+struct UsdSamplePlace {
+  double time = 0;
+  std::uint64_t rep = 0;  // the value's 64 bits (usdc_format.h)
+};
+
 struct UsdAttribute {
   std::string_view name;
-  UsdValue value{};              // the first sample's, where it has samples
-  bool isSampled = false;        // and it has more than one
-  std::optional<double> time{};  // of the sample
-  std::string_view drivenBy{};   // "a connection" or "a spline"; empty for neither
+  UsdValue value{};                      // the first sample's, where it has samples
+  bool isSampled = false;                // and it has more than one
+  std::optional<double> time{};          // of the sample
+  std::vector<UsdSamplePlace> places{};  // of all samples, where these are asked for in place of the value
+  std::string_view type{}, interpolation{};  // "color3f[]", "uniform"; "" for none stated
+  std::string_view drivenBy{};               // "a connection" or "a spline"; empty for neither
 };
 
 enum class UsdSpecifier { def, over, abstract };  // abstract: a class
@@ -45,14 +53,21 @@ struct UsdPrim {
 struct UsdLayer {
   std::size_t byteCount = 0;   // of the file that said all this
   std::vector<UsdPrim> prims;  // in the file's order, parents first
-  std::optional<double> metresPerUnit;
+  std::optional<double> metresPerUnit, timeCodesPerSecond;
   std::string_view upAxis;      // "" where the file does not say
   std::string_view composedBy;  // as of a prim, of the whole layer
   std::vector<char> text;       // what views are into, unless they are into the file's own bytes
 };
 
-/// Whether usd_groom.h looks at the attribute of a prim of this type; all others are read over.
-inline bool isKeptUsdAttribute(std::string_view primType, std::string_view name) {
+/// Whether it is one of those that are carried from a groom to its animation.
+inline bool isUsdValue(std::string_view name) {
+  return name == "widths" || name == "ids" || name.starts_with("primvars:");
+}
+
+/// Whether usd_groom.h looks at the attribute of a prim of this type; all others are read over. Values too,
+/// where these are wanted; widths always are.
+inline bool isKeptUsdAttribute(std::string_view primType, std::string_view name, bool keepsValues) {
+  if (primType == "BasisCurves" && (name == "widths" || (keepsValues && isUsdValue(name)))) return true;
   if (name == "xformOpOrder" || name == "visibility" || name == "purpose" || name.starts_with("xformOp:"))
     return true;
   return primType == "BasisCurves" && (name == "points" || name == "curveVertexCounts" || name == "type" ||

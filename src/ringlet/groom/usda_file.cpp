@@ -48,7 +48,8 @@ bool holds(const Range& range, std::string_view word) {
 
 class UsdaReader {
  public:
-  UsdaReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+  UsdaReader(std::string_view text, const std::string& name, bool keepsValues)
+      : text_(text), name_(name), keepsValues_(keepsValues) {}
 
   Result<UsdLayer> read() {
     if (!isUsda(text_)) return wanted("'#usda 1.0'");
@@ -440,23 +441,42 @@ class UsdaReader {
     std::string_view type = takeName();
     while (holds(kListEdits, type) || holds(kQualities, type)) type = takeName();
     if (type.empty()) return wanted("a property, a prim or '}'");
-    if (accept('[') && !accept(']')) return wanted("']'");
+    const std::size_t typeAt = at_ - type.size();
+    if (accept('[')) {
+      if (!accept(']')) return wanted("']'");
+      type = text_.substr(typeAt, at_ - typeAt);
+    }
     const std::string_view name = takeName();
     if (name.empty()) return wanted("a property's name");
     const std::string_view part = accept('.') ? takeName() : "";
 
     UsdAttribute* attribute = nullptr;
-    if (type != "rel" && isKeptUsdAttribute(prim.type, name)) {
+    if (type != "rel" && isKeptUsdAttribute(prim.type, name, keepsValues_)) {
       auto kept = attributeOf(prim, name);
       if (!kept) return kept.error();
       attribute = *kept;
+      attribute->type = type;
     }
     if (accept('=')) {
       if (Status read = readPropertyValue(attribute, part); !read) return read;
     }
     if (peek() != '(') return {};
+    if (attribute && isUsdValue(name)) return readInterpolation(*attribute);
     const auto skipped = skipBrackets();
     return skipped ? Status{} : Status{skipped.error()};
+  }
+
+  Status readInterpolation(UsdAttribute& attribute) {
+    return readMetadata([&](std::string_view, std::string_view key) -> Status {
+      if (key == "interpolation" && (peek() == '"' || peek() == '\'')) {
+        auto interpolation = takeDelimited();
+        if (!interpolation) return interpolation.error();
+        attribute.interpolation = *interpolation;
+        return {};
+      }
+      const auto skipped = skipValue();
+      return skipped ? Status{} : Status{skipped.error()};
+    });
   }
 
   // Samples count more than the default, whichever stands first.
@@ -482,6 +502,7 @@ class UsdaReader {
 
   std::string_view text_;
   const std::string& name_;
+  bool keepsValues_;
   std::size_t at_ = 0, line_ = 1;
   UsdLayer layer_;
 };
@@ -490,8 +511,8 @@ class UsdaReader {
 
 bool isUsda(std::string_view text) { return text.starts_with(kCookie); }
 
-Result<UsdLayer> readUsda(std::string_view text, const std::string& name) {
-  return UsdaReader(text, name).read();
+Result<UsdLayer> readUsda(std::string_view text, const std::string& name, bool keepsValues) {
+  return UsdaReader(text, name, keepsValues).read();
 }
 
 }  // namespace ringlet

@@ -74,4 +74,25 @@ std::optional<std::vector<std::int32_t>> unpackUsdcIntegers(std::span<const std:
   return values;
 }
 
+std::vector<std::byte> packUsdc(std::span<const std::byte> bytes) {
+  std::vector<std::byte> packed{std::byte{0}};
+  appendLz4Literals(bytes, packed);
+  return packed;
+}
+
+std::vector<std::byte> packUsdcIntegers(std::span<const std::int32_t> values) {
+  if (values.empty()) return {};
+  std::vector<std::byte> bytes;
+  appendU32(bytes, 0);  // the commonest difference, which is not used
+  std::size_t codes = 2 * values.size();
+  for (; codes >= 8; codes -= 8) bytes.push_back(std::byte{0xff});
+  if (codes > 0) bytes.push_back(static_cast<std::byte>((1u << codes) - 1));
+  std::uint32_t before = 0;
+  for (const std::int32_t value : values) {
+    appendU32(bytes, static_cast<std::uint32_t>(value) - before);
+    before = static_cast<std::uint32_t>(value);
+  }
+  return packUsdc(bytes);
+}
+
 }  // namespace ringlet

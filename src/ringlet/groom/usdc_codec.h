@@ -1,4 +1,4 @@
-// How USD crates compress: LZ4 blocks behind a byte, and integers as differences of few bits.
+// How USD crates compress, both ways: LZ4 blocks behind a byte, and integers as differences of few bits.
 #pragma once
 
 #include <cstddef>
@@ -17,5 +17,9 @@ std::optional<std::vector<std::byte>> unpackUsdc(std::span<const std::byte> pack
 /// bounds it.
 std::optional<std::vector<std::int32_t>> unpackUsdcIntegers(std::span<const std::byte> packed,
                                                             std::size_t count);
+
+/// What unpacks to these: blocks of bytes by themselves, every difference in 32 bits. Nothing is compressed.
+std::vector<std::byte> packUsdc(std::span<const std::byte> bytes);
+std::vector<std::byte> packUsdcIntegers(std::span<const std::int32_t> values);
 
 }  // namespace ringlet

@@ -195,10 +195,10 @@ int frameCountOf(const SceneFile& scene, const Motion& motion) {
 
 }  // namespace
 
-Result<LoadedGroom> loadGroom(const SceneGroom& scene) {
+Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims) {
   LoadedGroom loaded;
   if (scene.generate.empty()) {
-    auto read = readGroom(scene.file, {.upIsZ = scene.up == "Z"});
+    auto read = readGroom(scene.file, {.upIsZ = scene.up == "Z", .keepsPrims = keepsPrims});
     if (!read) return read.error();
     loaded = std::move(*read);
     if (scene.metresPerUnit) loaded.groom.metresPerUnit = *scene.metresPerUnit;
@@ -211,6 +211,8 @@ Result<LoadedGroom> loadGroom(const SceneGroom& scene) {
       loaded.warnings.push_back(*warning);
   }
   placeGroom(scene, loaded.groom);
+  const UsdTransform placement = placementOf(scene, loaded.groom.metresPerUnit);
+  for (GroomPrim& prim : loaded.prims) prim.toGroom = prim.toGroom.then(placement);
   return loaded;
 }
 

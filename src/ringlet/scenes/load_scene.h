@@ -19,7 +19,8 @@
 namespace ringlet {
 
 /// In its unit, the scene's or else the file's, turned to the scene's up axis, placed in the head's frame.
-Result<LoadedGroom> loadGroom(const SceneGroom& scene);
+/// `keepsPrims`: with LoadedGroom::prims.
+Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims = false);
 
 /// All of them, ready to be stepped. `metresPerUnit`: the groom's, and of meshes that state none. Fails with
 /// the body's name.

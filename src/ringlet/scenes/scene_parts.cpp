@@ -78,6 +78,12 @@ void placeGroom(const SceneGroom& scene, Groom& groom) {
   for (Vec3f& p : groom.points) p = Vec3f(rotate(turn, Vec3d(p) * scene.scale) + moved);
 }
 
+UsdTransform placementOf(const SceneGroom& scene, double metresPerUnit) {
+  const Quatd turn = turnOfDegrees(scene.rotateDegrees);
+  const auto row = [&](Vec3d axis) { return rotate(turn, axis) * scene.scale; };
+  return {{row({1, 0, 0}), row({0, 1, 0}), row({0, 0, 1})}, scene.offset / metresPerUnit};
+}
+
 Motion motionOf(const SceneMotion& motion, Vec3d up) {
   Motion result;
   if (motion.keys.empty()) {

@@ -7,6 +7,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/usd_matrix.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
@@ -25,6 +26,8 @@ Result<Groom> generatedGroom(const SceneGroom& groom);
 
 /// Into the head's frame: scaled, turned, moved. One that stays where it is keeps its bits.
 void placeGroom(const SceneGroom& scene, Groom& groom);
+/// The same as a map of the groom's points [unit of the groom].
+UsdTransform placementOf(const SceneGroom& scene, double metresPerUnit);
 
 /// A built-in motion or keys, not a file's.
 Motion motionOf(const SceneMotion& motion, Vec3d up);
