@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstdio>
@@ -12,12 +13,13 @@
 #include <optional>
 #include <string>
 
-#include "program/animation_source.h"
 #include "program/command_line.h"
 #include "program/convert_run.h"
 #include "program/exit_codes.h"
+#include "program/precision_names.h"
 #include "program/run_report.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 
 namespace ringlet::program {
@@ -28,13 +30,20 @@ constexpr const char* kExample =
     "  ringlet convert out/hair.rgc hair.usda                    the same text as simulate writes\n"
     "  ringlet convert out/hair.rgc small.rgc --precision 16bit\n"
     "  ringlet convert out/hair.usda hair.rgc\n"
+    "  ringlet convert out/hair.rgc hair.usdc                    USD in a third of the bytes, any frame at "
+    "once\n"
     "  ringlet convert out/hair.rgc frames/ --frames 1:24        frames/hair.0001.obj to hair.0024.obj\n"
     "  ringlet convert out/hair.rgc pose.obj --frame 12\n"
+    "  ringlet convert out/hair.rgc frames.ply                   frames.0001.ply and so on\n"
+    "  ringlet convert out/hair.rgc hair.usda --clips 100        in parts of 100 frames, hair_clips/\n"
+    "  ringlet convert out/hair.rgc hair.pc2                     and hair.obj, for Blender 3\n"
     "  ringlet convert out/hair.rgc sheet.png\n"
     "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
-    "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair or .obj\n"
+    "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair, .obj or "
+    ".ply\n"
     "\n"
-    "OUT's ending says what becomes of it. .usda, .rgc and .png count frames from 1 again; the names of "
+    "OUT's ending says what becomes of it. .usda, .usdc, .rgc and .png count frames from 1 again; the names "
+    "of "
     ".obj\n"
     "files keep the animation's numbers. Damaged frames are refused, whole ones beside them can be had with\n"
     "--frames. A file that was not finished is read as far as it goes, and a warning says so.\n"
@@ -52,8 +61,15 @@ struct Typed {
   std::string frames;
   std::optional<int> frame;
   std::string precision;
+  std::vector<std::string> values;
+  std::optional<int> clips;
+  std::optional<double> tipWidth;
   bool info = false, json = false, quiet = false, overwrite = false;
 };
+
+bool has(const Typed& typed, const char* value) {
+  return std::ranges::find(typed.values, value) != typed.values.end();
+}
 
 struct FrameRange {
   int first = 1, last = 1;
@@ -84,9 +100,9 @@ std::optional<ConvertTo> kindOf(const Typed& typed) {
   const std::string extension = typed.output.extension().string();
   if (animationFormatOf(typed.output)) return ConvertTo::animation;
   if (extension == ".png") return ConvertTo::sheet;
-  if (extension == ".obj") return typed.frame ? ConvertTo::obj : ConvertTo::objSequence;
+  if (isFrameFile(typed.output)) return typed.frame ? ConvertTo::frame : ConvertTo::frameSequence;
   std::error_code code;
-  if (extension.empty() || std::filesystem::is_directory(typed.output, code)) return ConvertTo::objSequence;
+  if (extension.empty() || std::filesystem::is_directory(typed.output, code)) return ConvertTo::frameSequence;
   return std::nullopt;
 }
 
@@ -103,15 +119,32 @@ void checkOptions(const Typed& typed) {
   const auto kind = kindOf(typed);
   if (!kind)
     throw CLI::ValidationError(
-        "OUT", fmt::format("'{}' must end in .usda, .rgc, .obj or .png, or be a folder for .obj files",
-                           typed.output.string()));
+        "OUT",
+        fmt::format(
+            "'{}' must end in .usda, .usdc, .rgc, .pc2, .obj, .ply or .png, or be a folder for .obj files",
+            typed.output.string()));
   const AnimationFormat* format = animationFormatOf(typed.output);
   if (!typed.precision.empty() && !(format && format->hasPrecisions))
     throw CLI::ValidationError("--precision", "only a cache, .rgc, has one");
+  const std::string extension = typed.output.extension().string();
+  const bool isUsd = extension == ".usda" || extension == ".usdc";
+  if (typed.clips && extension != ".usda") throw CLI::ValidationError("--clips", "only a .usda has clips");
+  if ((!typed.values.empty() || typed.tipWidth) && !isUsd)
+    throw CLI::ValidationError(typed.tipWidth ? "--tip-width" : "--usd-values",
+                               "only .usda and .usdc have it");
+  if (has(typed, "velocities") && extension == ".usda" && !typed.clips)
+    throw CLI::ValidationError("--usd-values", "velocities are written into .usdc and clips only");
+}
+
+UsdExtras usdExtras(const Typed& typed, double metresPerUnit) {
+  UsdExtras extras{
+      .ids = has(typed, "id"), .velocities = has(typed, "velocities"), .clipFrames = typed.clips.value_or(0)};
+  if (typed.tipWidth) extras.tipDiameter = static_cast<float>(*typed.tipWidth / metresPerUnit);
+  return extras;
 }
 
 // Which frames, checked against those there are.
-Result<FrameRange> chooseFrames(const Typed& typed, const AnimationSource& source) {
+Result<FrameRange> chooseFrames(const Typed& typed, const AnimationReader& source) {
   const int count = source.frameCount();
   if (count == 0) return Error{fmt::format("{} holds no frame", typed.input.string())};
   FrameRange range{1, count};
@@ -152,18 +185,18 @@ std::string boundText(double bound) {
 }
 
 // Of all points of all frames.
-double bytesPerPoint(const AnimationSource& source) {
+double bytesPerPoint(const AnimationReader& source) {
   const double points = static_cast<double>(source.groom().firstPoint.back()) * source.frameCount();
   return points > 0 ? static_cast<double>(source.byteCount()) / points : 0;
 }
 
-void printInfo(const Typed& typed, const AnimationSource& source) {
+void printInfo(const Typed& typed, const AnimationReader& source) {
   const CacheHeader& header = source.header();
   const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
   const char* up = header.up == UpAxis::z ? "Z" : "Y";
   const double width = header.diameter * header.metresPerUnit;
   if (typed.json) {
-    printJson({{"format", source.isCache() ? "cache" : "usd"},
+    printJson({{"format", source.formatKey()},
                {"precision", nameOf(header.precision)},
                {"finished", source.isFinished()},
                {"frames", source.frameCount()},
@@ -180,7 +213,7 @@ void printInfo(const Typed& typed, const AnimationSource& source) {
     return;
   }
   fmt::print("{}: {}, {}\n", typed.input.string(),
-             source.isCache() ? "cache, " + nameOf(header.precision) : "USD text",
+             source.isCache() ? "cache, " + nameOf(header.precision) : source.formatName(),
              source.isFinished() ? "finished" : "not finished");
   fmt::print("  frames        {} at {} a second, {:.3g} s\n", source.frameCount(), header.framesPerSecond,
              source.frameCount() / header.framesPerSecond);
@@ -191,7 +224,7 @@ void printInfo(const Typed& typed, const AnimationSource& source) {
   fmt::print("  points        {}\n", boundText(source.errorBound()));
 }
 
-void printOutcome(const Typed& typed, const AnimationSource& source, const ConvertOutcome& outcome,
+void printOutcome(const Typed& typed, const AnimationReader& source, const ConvertOutcome& outcome,
                   int frameCount) {
   const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
   if (typed.json) {
@@ -241,7 +274,7 @@ Status runGroomConvert(const Typed& typed) {
 }
 
 Status runConvert(const Typed& typed) {
-  auto source = AnimationSource::open(typed.input);
+  auto source = AnimationReader::open(typed.input);
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) say("ringlet convert: warning: {}\n", warning);
   if (typed.info) {
@@ -261,6 +294,7 @@ Status runConvert(const Typed& typed) {
        .firstFrame = range->first,
        .lastFrame = range->last,
        .precision = typed.precision.empty() ? source->header().precision : precisionByName(typed.precision),
+       .usd = usdExtras(typed, source->header().metresPerUnit),
        .showProgress = !typed.quiet});
   if (!outcome) return outcome.error();
   printOutcome(typed, *source, *outcome, range->last - range->first + 1);
@@ -272,7 +306,7 @@ int run(const Typed& typed) {
   if (isGroom && (typed.frame || !typed.frames.empty() || !typed.precision.empty()))
     throw CLI::ValidationError("IN", "a groom has no frames and no precision");
   if (isGroom && !typed.info && typed.output.empty())
-    throw CLI::ValidationError("OUT", "name the file to write, .hair or .obj");
+    throw CLI::ValidationError("OUT", "name the file to write, .hair, .obj or .ply");
   if (!isGroom) checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
@@ -288,14 +322,15 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       app.add_subcommand("convert", "Makes another file of an animation, or says what is in it");
   command->footer(kExample);
   command
-      ->add_option("IN", typed->input, "An animation: hair.rgc or hair.usda, or their .partial; or a groom")
+      ->add_option("IN", typed->input,
+                   "An animation: hair.usda, hair.usdc or hair.rgc, or their .partial; or a groom")
       ->required()
       ->type_name("FILE");
   command
-      ->add_option(
-          "OUT", typed->output,
-          "File to write: .usda, .rgc, .png (six frames side by side) or .obj (name.0001.obj and so on); "
-          "or a folder for .obj files")
+      ->add_option("OUT", typed->output,
+                   "File to write: .usda, .usdc, .rgc, .pc2 (with an .obj beside it), .png (six frames side "
+                   "by side), .obj or "
+                   ".ply (name.0001.obj and so on); or a folder for .obj files")
       ->type_name("PATH");
   command->add_option("--frames", typed->frames, "First and last frame, from 1 (default: all)")
       ->check(isRange())
@@ -308,6 +343,26 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
                    "Of an .rgc: float32 (every bit) or 16bit (default: that of IN; of USD float32)")
       ->check(oneOf(precisionNames()))
       ->type_name("PRECISION");
+  command
+      ->add_option(
+          "--usd-values", typed->values,
+          "What .usda and .usdc have beside points and widths, separated by commas: id (a number of each "
+          "strand), velocities (.usdc and clips only)")
+      ->delimiter(',')
+      ->check(oneOf({"id", "velocities"}))
+      ->type_name("LIST");
+  command
+      ->add_option(
+          "--tip-width", typed->tipWidth,
+          "Diameter at the tip in .usda and .usdc, metres: strands are evenly thinner from the root on")
+      ->check(between(1e-9, 1))
+      ->type_name("METRES");
+  command
+      ->add_option(
+          "--clips", typed->clips,
+          "Frames of a value clip: OUT.usda is then a small file beside OUT_clips/, which has them in parts")
+      ->check(wholeBetween(1, 1'000'000))
+      ->type_name("N");
   command->add_flag("--overwrite", typed->overwrite,
                     "Begin anew where OUT.partial holds frames of something that did not end");
   command->add_flag("--info", typed->info, "Say what is in IN, and write nothing");

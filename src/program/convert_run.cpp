@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "program/progress_bar.h"
-#include "ringlet/groom/obj_file.h"
+#include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/sheet.h"
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 int frameCountOf(const ConvertPlan& plan) { return plan.lastFrame - plan.firstFrame + 1; }
 
 // Calls visit(frame) once the source's groom is in the pose of that frame of the animation.
-Status forEachFrame(AnimationSource& source, const ConvertPlan& plan,
+Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
                     const std::function<Status(int)>& visit) {
   ProgressBar progress(0, frameCountOf(plan), plan.showProgress);
   for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) {
@@ -31,7 +31,7 @@ Status forEachFrame(AnimationSource& source, const ConvertPlan& plan,
   return {};
 }
 
-Status toAnimation(AnimationSource& source, const ConvertPlan& plan) {
+Status toAnimation(AnimationReader& source, const ConvertPlan& plan) {
   const CacheHeader& header = source.header();
   const auto made = animationFormatOf(plan.output)
                         ->resume(plan.output, source.groom(),
@@ -40,7 +40,8 @@ Status toAnimation(AnimationSource& source, const ConvertPlan& plan) {
                                   .up = header.up,
                                   .diameter = header.diameter,
                                   .frameCount = frameCountOf(plan),
-                                  .precision = plan.precision},
+                                  .precision = plan.precision,
+                                  .usd = plan.usd},
                                  0);
   if (!made) return made.error();
   AnimationWriter& writer = **made;
@@ -56,7 +57,7 @@ Status toAnimation(AnimationSource& source, const ConvertPlan& plan) {
   return writer.finish();
 }
 
-Status toSheet(AnimationSource& source, const ConvertPlan& plan) {
+Status toSheet(AnimationReader& source, const ConvertPlan& plan) {
   Sheet sheet(source.groom(), frameCountOf(plan), source.header().up);
   const auto offer = [&](int frame) -> Status {
     sheet.offer(frame - plan.firstFrame + 1, source.groom().points);
@@ -66,8 +67,8 @@ Status toSheet(AnimationSource& source, const ConvertPlan& plan) {
   return sheet.write(plan.output);
 }
 
-Status toObj(AnimationSource& source, const ConvertPlan& plan) {
-  const bool isSequence = plan.to == ConvertTo::objSequence;
+Status toFrames(AnimationReader& source, const ConvertPlan& plan) {
+  const bool isSequence = plan.to == ConvertTo::frameSequence;
   if (isSequence && framePath(plan.output, 1).parent_path() == plan.output) {
     std::error_code code;
     fs::create_directories(plan.output, code);
@@ -75,7 +76,7 @@ Status toObj(AnimationSource& source, const ConvertPlan& plan) {
       return Error{fmt::format("cannot create the folder {}: {}", plan.output.string(), code.message())};
   }
   return forEachFrame(source, plan, [&](int frame) {
-    return writeObj(isSequence ? framePath(plan.output, frame) : plan.output, source.groom());
+    return writeGroom(isSequence ? framePath(plan.output, frame) : plan.output, source.groom());
   });
 }
 
@@ -83,14 +84,14 @@ Status toObj(AnimationSource& source, const ConvertPlan& plan) {
 std::uint64_t bytesOf(const ConvertPlan& plan) {
   std::uint64_t bytes = 0;
   std::error_code code;
-  if (plan.to != ConvertTo::objSequence) return fs::file_size(plan.output, code);
+  if (plan.to != ConvertTo::frameSequence) return fs::file_size(plan.output, code);
   for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame)
     bytes += fs::file_size(framePath(plan.output, frame), code);
   return bytes;
 }
 
 // How far the source's frames may be from what was simulated.
-double errorBoundOf(const AnimationSource& source, const ConvertPlan& plan) {
+double errorBoundOf(const AnimationReader& source, const ConvertPlan& plan) {
   double largest = 0;
   for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame)
     largest = std::max(largest, source.errorBound(frame));
@@ -99,16 +100,18 @@ double errorBoundOf(const AnimationSource& source, const ConvertPlan& plan) {
 
 }  // namespace
 
+bool isFrameFile(const fs::path& path) { return path.extension() == ".obj" || path.extension() == ".ply"; }
+
 fs::path framePath(const fs::path& output, int frame) {
-  const bool isFolder = output.extension() != ".obj";
-  return isFolder ? output / fmt::format("hair.{:04}.obj", frame)
-                  : output.parent_path() / fmt::format("{}.{:04}.obj", output.stem().string(), frame);
+  if (!isFrameFile(output)) return output / fmt::format("hair.{:04}.obj", frame);
+  return output.parent_path() /
+         fmt::format("{}.{:04}{}", output.stem().string(), frame, output.extension().string());
 }
 
-Result<ConvertOutcome> convert(AnimationSource& source, const ConvertPlan& plan) {
+Result<ConvertOutcome> convert(AnimationReader& source, const ConvertPlan& plan) {
   const Status done = plan.to == ConvertTo::animation ? toAnimation(source, plan)
                       : plan.to == ConvertTo::sheet   ? toSheet(source, plan)
-                                                      : toObj(source, plan);
+                                                      : toFrames(source, plan);
   if (!done) return done.error();
 
   ConvertOutcome outcome;
@@ -116,11 +119,11 @@ Result<ConvertOutcome> convert(AnimationSource& source, const ConvertPlan& plan)
   if (plan.to == ConvertTo::animation && animationFormatOf(plan.output)->hasPrecisions &&
       plan.precision == CachePrecision::bits16) {
     // What was lost before and what is lost now may add up.
-    auto written = AnimationSource::open(plan.output);
+    auto written = AnimationReader::open(plan.output);
     if (!written) return written.error();
     outcome.errorBound += written->errorBound();
   }
-  if (plan.to == ConvertTo::objSequence) {
+  if (plan.to == ConvertTo::frameSequence) {
     outcome.outputs = {framePath(plan.output, plan.firstFrame)};
     if (plan.lastFrame > plan.firstFrame) outcome.outputs.push_back(framePath(plan.output, plan.lastFrame));
     outcome.fileCount = frameCountOf(plan);

@@ -4,18 +4,20 @@
 #include <filesystem>
 #include <vector>
 
-#include "program/animation_source.h"
 #include "ringlet/base/result.h"
+#include "ringlet/output/animation_reader.h"
+#include "ringlet/output/animation_writer.h"
 
 namespace ringlet::program {
 
-enum class ConvertTo { animation, obj, objSequence, sheet };
+enum class ConvertTo { animation, frame, frameSequence, sheet };
 
 struct ConvertPlan {
   ConvertTo to = ConvertTo::animation;  // of the format that the output's name says
   std::filesystem::path output;
   int firstFrame = 1, lastFrame = 1;  // of the animation
   CachePrecision precision = CachePrecision::float32;
+  UsdExtras usd{};
   bool showProgress = true;
 };
 
@@ -26,11 +28,14 @@ struct ConvertOutcome {
   std::uint64_t byteCount = 0;  // of all files
 };
 
-/// The name of a frame's file in a sequence: name.0001.obj for name.obj; in a folder hair.0001.obj.
+/// Whether a frame can be a file of that ending: .obj or .ply.
+bool isFrameFile(const std::filesystem::path& path);
+
+/// The name of a frame's file in a sequence: name.0001.ply for name.ply; in a folder hair.0001.obj.
 std::filesystem::path framePath(const std::filesystem::path& output, int frame);
 
 /// Frames are read, written and forgotten one by one. Fails with one sentence; what was written so far is
 /// kept.
-Result<ConvertOutcome> convert(AnimationSource& source, const ConvertPlan& plan);
+Result<ConvertOutcome> convert(AnimationReader& source, const ConvertPlan& plan);
 
 }  // namespace ringlet::program

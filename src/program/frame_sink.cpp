@@ -49,8 +49,7 @@ Status FrameSink::take(ComputedFrame frame) {
     if (Status seen = readers_.observe(frame, points); !seen) return seen;
   }
   if (readers_.write) {
-    if (Status written = readers_.write(frame.number, std::move(points), frame.bodies); !written)
-      return written;
+    if (Status written = readers_.write(frame.number, std::move(points), frame); !written) return written;
   }
   last_ = std::move(frame);
   ++frameCount_;

@@ -30,7 +30,7 @@ struct FrameReaders {
   BodyWatch* bodies = nullptr;
   /// `points`: in the groom's unit and order, finite.
   std::function<Status(const ComputedFrame&, std::span<const Vec3f> points)> observe;
-  std::function<Status(int number, std::vector<Vec3f> points, std::span<const BodyPose> bodies)> write;
+  std::function<Status(int number, std::vector<Vec3f> points, const ComputedFrame& frame)> write;
 };
 
 class FrameSink {

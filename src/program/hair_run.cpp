@@ -1,5 +1,6 @@
 // Implements runHair of simulate_run.h.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -104,9 +105,15 @@ std::vector<RunFact> factsOf(const RunInput& input, const RunOptions& options, c
   add("max_stretch", input.settings.maxStretch);
   add("pre-roll", options.preRollSeconds);
   add("hair.usda", options.writesUsd);
+  add("hair.usdc", options.writesUsdc);
   add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);
   add("sheet.png", options.writesSheet);
   add("width", options.width);
+  add("tip_width", options.tipWidth.value_or(0));
+  add("USD values", fmt::format("{}", fmt::join(options.values, ", ")));
+  add("head", static_cast<int>(options.usdHead));
+  add("groom's prims", options.usesGroomPrims);
+  add("clip_frames", options.clipFrames);
   add("measured contacts", options.measuresContacts);
   add("measured residual", measuresResidual(input, options));
   return facts;
@@ -214,8 +221,9 @@ Status HairRun::makeSink() {
   if (writers_) {
     const FrameLines lines(done, options_.frameCount, options_.tellsFrames, options_.runNumber);
     readers.write = [this, lines](int number, std::vector<Vec3f> points,
-                                  std::span<const BodyPose> bodies) -> Status {
-      if (Status added = writers_->addFrame(number, std::move(points), bodies); !added) return added;
+                                  const ComputedFrame& frame) -> Status {
+      if (Status added = writers_->addFrame(number, std::move(points), frame.head, frame.bodies); !added)
+        return added;
       lines.tell(number);
       return {};
     };

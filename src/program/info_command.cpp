@@ -45,7 +45,7 @@ constexpr const char* kExample =
     "--fix merges repeated particles, drops strands in one place and duplicates, and leaves strays alone. "
     "With\n"
     "--particles each strand has that many, at equal distances along its edges; four a turn keep a curl. It\n"
-    "writes in the file's unit, which .hair and .obj do not hold: what was said as --unit must be said "
+    "writes in the file's unit, which its formats do not hold: what was said as --unit must be said "
     "again.\n"
     "\n"
     "--json keys: strands particles particles_per_strand length length_mm turns radius_mm arc_over_chord "
@@ -279,8 +279,8 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
                    "The axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
-  command->add_option("--fix", typed->output, "File to write a mended groom to: .hair or .obj")
-      ->check(endsIn({".obj", ".hair"}))
+  command->add_option("--fix", typed->output, "File to write a mended groom to: .hair, .obj or .ply")
+      ->check(endsIn({".obj", ".hair", ".ply"}))
       ->type_name("OUT");
   command
       ->add_option("--particles", typed->particles,

@@ -52,9 +52,9 @@ void addNumber(CLI::App* command, const char* name, Number& value, const char* w
 }
 
 void addCurlOptions(CLI::App* command, Typed& typed) {
-  command->add_option("-o,--output", typed.file, "File to write: .obj or .hair")
+  command->add_option("-o,--output", typed.file, "File to write: .obj, .hair or .ply")
       ->required()
-      ->check(endsIn({".obj", ".hair"}))
+      ->check(endsIn({".obj", ".hair", ".ply"}))
       ->type_name("FILE");
   addNumber(command, "--radius", typed.curl.radius, "Radius of a curl, metres", "METRES");
   addNumber(command, "--turns", typed.curl.turns, "Turns from root to tip, 0 for straight hair", "N");

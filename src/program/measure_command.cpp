@@ -17,12 +17,13 @@
 #include <utility>
 #include <vector>
 
-#include "program/animation_source.h"
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/measure_report.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/shape_distance.h"
+#include "ringlet/output/animation_reader.h"
+#include "ringlet/output/animation_writer.h"
 
 namespace ringlet::program {
 namespace {
@@ -174,7 +175,7 @@ Result<Measured> measureGroom(const Typed& typed) {
 }
 
 Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::path& path) {
-  auto source = AnimationSource::open(path);
+  auto source = AnimationReader::open(path);
   if (!source) return source.error();
   for (const std::string& warning : source->warnings()) warn(warning);
   const double unit = source->header().metresPerUnit;
@@ -223,6 +224,18 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   return measured;
 }
 
+// What `ringlet simulate` wrote into a folder, a finished file rather than one that is not; or nothing.
+std::filesystem::path animationIn(const std::filesystem::path& folder) {
+  std::error_code code;
+  for (const char* suffix : {"", ".partial"}) {
+    for (const AnimationFormat& format : animationFormats()) {
+      const std::filesystem::path path = folder / fmt::format("hair{}{}", format.extension, suffix);
+      if (std::filesystem::exists(path, code)) return path;
+    }
+  }
+  return {};
+}
+
 // What OTHER is: a folder stands for the animation in it.
 Result<Measured> measure(const Typed& typed) {
   namespace fs = std::filesystem;
@@ -235,13 +248,11 @@ Result<Measured> measure(const Typed& typed) {
                     typed.rest.string(), typed.rest.string())};
   }
   if (fs::is_directory(path, code)) {
-    for (const char* file : {"hair.usda", "hair.rgc", "hair.usda.partial", "hair.rgc.partial"}) {
-      path = typed.other / file;
-      if (fs::exists(path, code)) break;
-    }
-    if (!fs::exists(path, code))
+    path = animationIn(typed.other);
+    if (path.empty())
       return Error{
-          fmt::format("{} holds no hair.usda and no hair.rgc; is it a folder that `ringlet simulate` wrote?",
+          fmt::format("{} holds no hair.usda, hair.usdc or hair.rgc; is it a folder that `ringlet simulate` "
+                      "wrote?",
                       typed.other.string())};
   }
   return holdsAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed);

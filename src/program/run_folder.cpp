@@ -9,18 +9,20 @@
 #include <system_error>
 #include <utility>
 
+#include "ringlet/output/animation_writer.h"
+
 namespace ringlet::program {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLeft[] = {"checkpoint.rgk", "hair.usda.partial", "hair.rgc.partial"};
+constexpr const char* kCheckpoint = "checkpoint.rgk";
 
 // The temporary of a file that is written at once (base/whole_file.h): "last.obj.18a3-0.partial".
 bool isTemporary(const fs::path& path) {
   const std::string name = path.filename().string();
-  return path.extension() == ".partial" &&
-         std::ranges::any_of(std::to_array({"checkpoint.rgk.", "last.obj.", "sheet.png."}),
+  return path.extension() == ".partial" && name != "hair.usda.partial" &&
+         std::ranges::any_of(std::to_array({"checkpoint.rgk.", "last.obj.", "sheet.png.", "hair.usda."}),
                              [&](const char* of) { return name.starts_with(of); });
 }
 
@@ -42,7 +44,10 @@ Result<RunFolder> RunFolder::open(const fs::path& folder, Leftovers leftovers) {
 std::vector<std::string> RunFolder::leftBehind() const {
   std::vector<std::string> left;
   std::error_code code;
-  for (const char* name : kLeft) {
+  std::vector<std::string> names{kCheckpoint};
+  for (const AnimationFormat& format : animationFormats())
+    names.push_back(fmt::format("hair{}.partial", format.extension));
+  for (const std::string& name : names) {
     if (fs::exists(fs::symlink_status(folder_ / name, code))) left.push_back(name);
   }
   return left;
@@ -53,7 +58,7 @@ Status RunFolder::readLeftovers(Leftovers leftovers) {
     warnings_.push_back(fmt::format(
         "{} had this folder and ended without giving it back; this run takes it over", lock_.deadOwner()));
   const std::vector<std::string> left = leftBehind();
-  const bool hasCheckpoint = std::ranges::find(left, kLeft[0]) != left.end();
+  const bool hasCheckpoint = std::ranges::find(left, kCheckpoint) != left.end();
   if (leftovers == Leftovers::refuse && !left.empty()) {
     return Error{
         fmt::format("{} holds what a run left that did not end: {}. {}--overwrite begins anew; `ringlet "

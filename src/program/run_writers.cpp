@@ -40,7 +40,8 @@ Status Writers::open() {
                                    .up = options_.up,
                                    .diameter = static_cast<float>(options_.width / metresPerUnit),
                                    .frameCount = options_.frameCount,
-                                   .precision = options_.cache.value_or(CachePrecision::float32)};
+                                   .precision = options_.cache.value_or(CachePrecision::float32),
+                                   .usd = usdExtras()};
   for (const std::string& name : animationsOf(options_)) {
     const std::filesystem::path path = options_.folder / name;
     auto writer = animationFormatOf(path)->resume(path, input_.groom, animation, frameCount_);
@@ -51,14 +52,37 @@ Status Writers::open() {
   return {};
 }
 
-Status Writers::addFrame(int frame, std::vector<Vec3f> points, std::span<const BodyPose> bodies) {
+UsdExtras Writers::usdExtras() const {
+  const auto has = [&](const char* value) { return std::ranges::count(options_.values, value) > 0; };
+  UsdExtras extras{.ids = has("id"),
+                   .rest = has("rest"),
+                   .velocities = has("velocities"),
+                   .head = options_.usdHead,
+                   .clipFrames = options_.clipFrames,
+                   .origin = options_.origin,
+                   .originValues = has("groom"),
+                   .originPrims = options_.usesGroomPrims};
+  if (options_.tipWidth)
+    extras.tipDiameter = static_cast<float>(*options_.tipWidth / input_.groom.metresPerUnit);
+  return extras;
+}
+
+// The head in the file's unit, as USD has it: rows.
+UsdTransform Writers::placeOf(const HeadPose& head) const {
+  return {{rotate(head.rotation, Vec3d{1, 0, 0}), rotate(head.rotation, Vec3d{0, 1, 0}),
+           rotate(head.rotation, Vec3d{0, 0, 1})},
+          head.position / input_.groom.metresPerUnit};
+}
+
+Status Writers::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& head,
+                         std::span<const BodyPose> bodies) {
   if (!isOpen_) {
     if (Status opened = open(); !opened) return opened;
   }
   if (sheet_) sheet_->offer(frame, points, placesOf(bodies));
   lastPoints_ = std::move(points);
   for (const auto& animation : animations_) {
-    if (Status added = animation->addFrame(lastPoints_); !added) return added;
+    if (Status added = animation->addFrame(lastPoints_, placeOf(head)); !added) return added;
   }
   return {};
 }
@@ -100,6 +124,7 @@ std::optional<double> Writers::errorBound() const {
 std::vector<std::string> animationsOf(const RunOptions& options) {
   std::vector<std::string> names;
   if (options.writesUsd) names.push_back("hair.usda");
+  if (options.writesUsdc) names.push_back("hair.usdc");
   if (options.cache) names.push_back("hair.rgc");
   return names;
 }

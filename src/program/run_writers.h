@@ -25,8 +25,10 @@ class Writers {
   /// are in the files, and archive() brings back what is not.
   Writers(const RunInput& input, const RunOptions& options, int frameCount);
 
-  /// Frames in order, 1 is the first; points in the groom's unit and order, finite; where bodies are.
-  Status addFrame(int frame, std::vector<Vec3f> points, std::span<const BodyPose> bodies);
+  /// Frames in order, 1 is the first; points in the groom's unit and order, finite; where head and bodies
+  /// are.
+  Status addFrame(int frame, std::vector<Vec3f> points, const HeadPose& head,
+                  std::span<const BodyPose> bodies);
   /// What was added is on the disk.
   Status sync();
   /// What is kept beside the files, for a checkpoint; but not the last frame's points, since at least one
@@ -40,6 +42,8 @@ class Writers {
 
  private:
   Status open();
+  UsdExtras usdExtras() const;
+  UsdTransform placeOf(const HeadPose& head) const;
 
   const RunInput& input_;
   const RunOptions& options_;

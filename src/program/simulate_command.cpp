@@ -14,11 +14,11 @@
 #include <string>
 #include <utility>
 
-#include "program/animation_source.h"
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
 #include "program/material_command.h"
+#include "program/output_options.h"
 #include "program/run_facts.h"
 #include "program/run_report.h"
 #include "program/run_writers.h"
@@ -84,15 +84,15 @@ constexpr const char* kExitHelp =
 struct Typed {
   std::filesystem::path input, folder;
   std::optional<int> frames, bindFrame, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
-  std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload,
-      width;
+  std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload;
   std::optional<std::string> motion, joint, animation, up, integrator, bind;
   MaterialChoice material;
   ContactChoice contacts;
-  std::string backend = "gpu", device, kernel = "auto", cache;
+  OutputChoice outputs;
+  std::string backend = "gpu", device, kernel = "auto";
   std::optional<int> checkpoint;
-  bool measuresContacts = false, noChebyshev = false, noUsd = false, untuned = false, json = false,
-       quiet = false, jsonProgress = false, resume = false, overwrite = false;
+  bool measuresContacts = false, noChebyshev = false, untuned = false, json = false, quiet = false,
+       jsonProgress = false, resume = false, overwrite = false;
 };
 
 template <class Value>
@@ -167,8 +167,7 @@ void applyOptions(const Typed& typed, SceneFile& scene) {
   if (typed.noChebyshev) simulation.chebyshev = false;
   applyContactOptions(typed.contacts, scene.contacts);
   if (!typed.folder.empty()) scene.output.folder = typed.folder;
-  replace(scene.output.width, typed.width);
-  if (!typed.cache.empty()) scene.output.cache = typed.cache;
+  applyOutputOptions(typed.outputs, scene.output);
 }
 
 // Throws CLI11's error for what makes no sense together.
@@ -178,6 +177,7 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
     throw CLI::ValidationError(typed.noChebyshev ? "--no-chebyshev" : "--iterations",
                                "only --integrator point_jacobi has iterations");
   }
+  checkOutputs(scene.output);
   checkMaterialOptions(typed.material, integratorByName(scene.simulation.integrator));
   checkContactOptions(typed.contacts);
   if (!scene.contacts.on && !typed.measuresContacts)
@@ -201,7 +201,6 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
 // How the scene is run.
 RunOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   RunOptions options = runOptionsOf(scene);
-  options.writesUsd = options.writesUsd && !typed.noUsd;
   options.measuresContacts = typed.measuresContacts;
   options.onReference = typed.backend == "reference";
   options.device = typed.device;
@@ -239,7 +238,14 @@ int run(const Typed& typed) {
   RunOptions options = optionsOf(typed, *scene);
   const std::vector<std::filesystem::path> inputs = inputFilesOf(typed.input, *scene);
   if (Status stays = checkInputsStay(inputs, outputsOf(options)); !stays) return fail(stays.error());
-  const auto loaded = loadScene(*scene);
+  std::optional<LoadedGroom> origin;
+  if (needsOrigin(scene->output)) {
+    auto read = loadGroom(scene->groom, true);
+    if (!read) return fail(read.error());
+    origin = std::move(*read);
+    if (Status chosen = chooseOrigin(*origin, options); !chosen) return fail(chosen.error());
+  }
+  const auto loaded = loadScene(*scene, origin ? &*origin : nullptr);
   if (!loaded) return fail(loaded.error());
   if (typed.checkpoint || typed.resume) {
     auto facts = factsOf(*scene, inputs);
@@ -468,19 +474,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   // What is said and written.
   const char* output = "Output";
-  command
-      ->add_option("--cache", typed->cache,
-                   "Write the animation as hair.rgc too, for `ringlet convert`: float32 (every bit) or 16bit")
-      ->check(oneOf(precisionNames()))
-      ->type_name("PRECISION")
-      ->group(output);
-  command->add_flag("--no-usd", typed->noUsd, "Leave out hair.usda")->group(output);
-  command
-      ->add_option("--width", typed->width,
-                   "Diameter of strands in hair.usda and hair.rgc, metres (default 0.0005)")
-      ->check(between(1e-9, 1))
-      ->type_name("METRES")
-      ->group(output);
+  addOutputOptions(command, typed->outputs);
   command
       ->add_option(
           "--checkpoint", typed->checkpoint,

@@ -4,24 +4,16 @@
 #include <algorithm>
 #include <utility>
 
-#include "program/animation_source.h"
+#include "program/output_options.h"
 #include "program/run_facts.h"
 
 namespace ringlet::program {
 
 RunOptions runOptionsOf(const SceneFile& scene) {
-  const SceneOutput& output = scene.output;
-  const auto writes = [&](const char* file) {
-    return std::ranges::find(output.files, file) != output.files.end();
-  };
   RunOptions options;
-  options.folder = output.folder;
-  options.writesUsd = writes("hair.usda");
-  options.writesLast = writes("last.obj");
-  options.writesSheet = writes("sheet.png");
-  if (!output.cache.empty()) options.cache = precisionByName(output.cache);
+  options.folder = scene.output.folder;
   options.up = scene.groom.up == "Z" ? UpAxis::z : UpAxis::y;
-  options.width = output.width;
+  chooseOutputs(scene.output, options);
   return options;
 }
 

@@ -15,6 +15,7 @@
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/motion/head_scalp.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
 #include "ringlet/scene/body.h"
@@ -31,12 +32,19 @@ namespace ringlet::program {
 struct RunOptions {
   std::filesystem::path folder;                                  // for the results; empty: nothing is written
   bool writesUsd = true, writesLast = true, writesSheet = true;  // hair.usda, last.obj, sheet.png
+  bool writesUsdc = false;                                       // hair.usdc
   std::optional<CachePrecision> cache;                           // of hair.rgc; none: it is not written
   int frameCount = 48;
   double preRollSeconds = 0;  // before the first frame, not written
   UpAxis up = UpAxis::y;
-  double width = 0.0005;     // diameter of strands in hair.usda and hair.rgc [m]
-  bool onReference = false;  // rather than on the GPU
+  double width = 0.0005;                // diameter of strands in what is written [m]
+  std::optional<double> tipWidth;       // at the tip, in USD files [m]
+  std::vector<std::string> values;      // that these have besides, as SceneOutput says them
+  UsdHead usdHead = UsdHead::baked;     // and where these have the head's motion
+  int clipFrames = 0;                   // above 0: hair.usda has value clips of so many frames
+  bool usesGroomPrims = false;          // hair.usdc has changes of the prims of the groom's file
+  const LoadedGroom* origin = nullptr;  // that file, where it is looked at for these
+  bool onReference = false;             // rather than on the GPU
   std::string device;
   std::optional<ComputeDevice> opened;  // in its place: runs on one device share its compiled kernels
   KernelChoice kernel;                  // its residual: measured where the integrator has one, on the GPU

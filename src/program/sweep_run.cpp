@@ -1,5 +1,6 @@
 // Implements sweep_run.h.
 #include "program/sweep_run.h"
+#include "program/output_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -190,10 +191,10 @@ class Sweep {
 
  private:
   // One groom at a time is kept for the runs that have the same.
-  Result<std::shared_ptr<const LoadedGroom>> groomOf(const SceneGroom& scene) {
+  Result<std::shared_ptr<const LoadedGroom>> groomOf(const SceneGroom& scene, bool withOrigin) {
     const std::scoped_lock lock(groomMutex_);
     if (groom_ && groomScene_ == scene) return groom_;
-    auto read = loadGroom(scene);
+    auto read = loadGroom(scene, withOrigin);
     if (!read) return read.error();
     groom_ = std::make_shared<const LoadedGroom>(std::move(*read));
     groomScene_ = scene;
@@ -201,7 +202,7 @@ class Sweep {
   }
 
   Result<LoadedScene> load(const SceneFile& scene) {
-    const auto groom = groomOf(scene.groom);
+    const auto groom = groomOf(scene.groom, needsOrigin(scene.output));
     if (!groom) return groom.error();
     return loadScene(scene, groom->get());
   }
@@ -247,6 +248,7 @@ class Sweep {
     if (!facts) return facts.error();
     auto scene = load(run.scene);
     if (!scene) return scene.error();
+    if (Status chosen = chooseOrigin(groom_, options); !chosen) return chosen.error();
     auto leftovers = prepareFolder(run, options.folder);
     if (!leftovers) return leftovers.error();
     options.leftovers = *leftovers;

@@ -16,9 +16,8 @@
 #include "python/grooms.h"
 #include "python/hair.h"
 #include "python/poses.h"
+#include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
-#include "ringlet/output/cache_reader.h"
-#include "ringlet/output/usd_reader.h"
 
 namespace ringlet::python {
 namespace {
@@ -146,7 +145,8 @@ void writePositions(WriterObject& self, const py::object& positions, const py::o
 void addWriter(py::module_& module) {
   py::class_<WriterObject, WriterHandle>(
       module, "AnimationWriter",
-      "An animation on its way into a .usda or .rgc file, frame by frame. Until it is finished the file is "
+      "An animation on its way into a .usda, .usdc or .rgc file, frame by frame. Until it is finished the "
+      "file is "
       "PATH.partial, whole at every moment. As a context manager it finishes at the end; after an exception "
       "the .partial stays, with the frames so far:\n\n"
       "    with ringlet.AnimationWriter(\"hair.usda\", groom, frames=48) as animation:\n"
@@ -154,7 +154,7 @@ void addWriter(py::module_& module) {
       .def(py::init(&makeWriter), py::arg("path"), py::arg("groom").none(false), py::kw_only(),
            py::arg("fps") = 24.0, py::arg("frames") = 1000, py::arg("metres_per_unit") = py::none(),
            py::arg("up") = "Y", py::arg("width") = 0.0005, py::arg("precision") = "float32",
-           "fps: frames per second; frames: the most that will come, for which .usda keeps room; "
+           "fps: frames per second; frames: the most that will come, for which USD files keep room; "
            "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
            "precision: of .rgc, \"float32\" or \"16bit\". ringlet.Error where the file cannot be written.")
       .def(
@@ -184,72 +184,62 @@ void addWriter(py::module_& module) {
           "Finishes the file; after an exception leaves it as PATH.partial.");
 }
 
-// Frames one after the other, from the first. Of a .usda the reader goes forward only.
+// Frames one after the other, from the first.
 class FramesObject {
  public:
-  explicit FramesObject(const std::filesystem::path& path) : path_(path) {
-    const auto whole = path.extension() == ".partial" ? path.stem() : path;
-    if (whole.extension() == ".rgc") {
-      cache_ = std::make_unique<CacheReader>(withoutGil([&] { return valueOf(CacheReader::open(path)); }));
-    } else {
-      usd_ = std::make_unique<UsdReader>(withoutGil([&] { return valueOf(UsdReader::open(path)); }));
-    }
-  }
+  explicit FramesObject(const std::filesystem::path& path)
+      : path_(path), reader_(withoutGil([&] { return valueOf(AnimationReader::open(path)); })) {}
 
   py::object next() {
     std::vector<Vec3f> points;
     const bool isThere = withoutGil([&] {
       const std::scoped_lock lock(mutex_);
-      if (usd_) return valueOf(usd_->readFrame(points));
-      if (frame_ == cache_->frameCount()) return false;
-      demand(cache_->readFrame(++frame_, points));
+      if (frame_ == reader_.frameCount()) return false;
+      demand(reader_.readFrame(++frame_));
+      points = reader_.groom().points;
       return true;
     });
     if (!isThere) throw py::stop_iteration();
     return arrayOf(std::move(points));
   }
 
-  int frameCount() const { return cache_ ? cache_->frameCount() : usd_->frameCount(); }
-  double framesPerSecond() const {
-    return cache_ ? cache_->header().framesPerSecond : usd_->framesPerSecond();
-  }
-  double metresPerUnit() const { return cache_ ? cache_->header().metresPerUnit : usd_->metresPerUnit(); }
-  bool isUpZ() const { return (cache_ ? cache_->header().up : usd_->up()) == UpAxis::z; }
-  double width() const {
-    return double(cache_ ? cache_->header().diameter : usd_->diameter()) * metresPerUnit();
-  }
+  const AnimationReader& reader() const { return reader_; }
+  int frameCount() const { return reader_.frameCount(); }
+  double width() const { return double(reader_.header().diameter) * reader_.header().metresPerUnit; }
   std::vector<std::uint32_t> counts() const {
-    if (usd_) return usd_->particleCounts();
     std::vector<std::uint32_t> counts;
-    const auto& first = cache_->firstPoint();
+    const auto& first = reader_.groom().firstPoint;
     for (std::size_t s = 0; s + 1 < first.size(); ++s) counts.push_back(first[s + 1] - first[s]);
     return counts;
   }
-  const std::vector<std::string>& warnings() const { return cache_ ? cache_->warnings() : usd_->warnings(); }
   const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
   std::mutex mutex_;
-  std::unique_ptr<CacheReader> cache_;
-  std::unique_ptr<UsdReader> usd_;
+  AnimationReader reader_;
   int frame_ = 0;
 };
 
 void addReader(py::module_& module) {
   py::class_<FramesObject>(
       module, "AnimationReader",
-      "The frames of a .usda file that Ringlet wrote, or of an .rgc, one after the other: "
+      "The frames of a .usda, .usdc or .rgc file that Ringlet wrote, one after the other: "
       "`for points in ringlet.AnimationReader(path)` gives (particles, 3) float32 in the "
       "file's unit. Of a .partial those that are whole. Goes through once.")
       .def(py::init([](const std::filesystem::path& path) { return std::make_unique<FramesObject>(path); }),
            py::arg("path"),
            "ringlet.Error for a file that is missing or damaged, or that another program wrote.")
       .def_property_readonly("frame_count", &FramesObject::frameCount, "How many frames there are.")
-      .def_property_readonly("fps", &FramesObject::framesPerSecond, "Frames per second.")
-      .def_property_readonly("metres_per_unit", &FramesObject::metresPerUnit, "The unit of points [m].")
       .def_property_readonly(
-          "up", [](const FramesObject& self) { return self.isUpZ() ? "Z" : "Y"; }, "\"Y\" or \"Z\".")
+          "fps", [](const FramesObject& self) { return self.reader().header().framesPerSecond; },
+          "Frames per second.")
+      .def_property_readonly(
+          "metres_per_unit", [](const FramesObject& self) { return self.reader().header().metresPerUnit; },
+          "The unit of points [m].")
+      .def_property_readonly(
+          "up", [](const FramesObject& self) { return self.reader().header().up == UpAxis::z ? "Z" : "Y"; },
+          "\"Y\" or \"Z\".")
       .def_property_readonly("width", &FramesObject::width, "Of strands [m].")
       .def_property_readonly(
           "counts",
@@ -258,8 +248,9 @@ void addReader(py::module_& module) {
             return py::array_t<std::uint32_t>(static_cast<py::ssize_t>(counts.size()), counts.data());
           },
           "(strands,) uint32: the particles of each strand.")
-      .def_property_readonly("warnings", &FramesObject::warnings,
-                             "What was lost of its end: a list of sentences.")
+      .def_property_readonly(
+          "warnings", [](const FramesObject& self) { return self.reader().warnings(); },
+          "What was lost of its end: a list of sentences.")
       .def(
           "__iter__", [](const py::object& self) { return self; }, "Itself.")
       .def("__next__", &FramesObject::next, "The next frame.")

@@ -231,7 +231,8 @@ void addGroomClass(py::module_& module) {
             withoutGil([&] { demand(writeGroom(path, self.groom())); });
           },
           py::arg("path"),
-          "Writes a .hair or .obj file; reading it gives the same bits. ringlet.Error for another extension, "
+          "Writes a .hair, .obj or .ply file; reading it gives the same bits. ringlet.Error for another "
+          "extension, "
           "a full disk.")
       .def("info", &infoOf,
            "What the groom is like, in metres: a dict of strands, particles, particles_per_strand, length "

@@ -17,6 +17,7 @@
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/checkpoint_file.h"
 #include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usdc_writer.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scenes/builtin_scene.h"
@@ -205,6 +206,13 @@ Status writeAnimations(const fs::path& folder) {
         !done)
       return done;
     if (isFinished) fs::copy_file(path, seed(folder, "usda_file", "own"));
+
+    AnimationOptions all{.frameCount = 2};
+    all.usd = {.ids = true, .rest = true, .velocities = true, .head = UsdHead::transform};
+    const fs::path crate = seed(folder, "usdc_reader", name);
+    if (Status done = writeFrames(UsdcWriter::create(crate, groom, all), groom, isFinished); !done)
+      return done;
+    if (isFinished) fs::copy_file(crate, seed(folder, "usdc_file", "own"));
   }
   return {};
 }

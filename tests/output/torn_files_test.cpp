@@ -16,6 +16,8 @@
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/usd_reader.h"
 #include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usdc_reader.h"
+#include "ringlet/output/usdc_writer.h"
 #include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
 
@@ -220,7 +222,24 @@ std::vector<Format> formats() {
     if (!reader->warnings().empty()) warning = reader->warnings().front();
     return reader->frameCount();
   };
+  const auto crateFrames = [](const fs::path& path, std::string& warning) {
+    auto reader = UsdcReader::open(path);
+    if (!reader) return -1;
+    std::vector<Vec3f> points;
+    for (int frame = 1; frame <= reader->frameCount(); ++frame) {
+      EXPECT_TRUE(reader->readFrame(frame, points));
+      EXPECT_EQ(points, groomOf(frame).points);
+    }
+    if (!reader->warnings().empty()) warning = reader->warnings().front();
+    return reader->frameCount();
+  };
+  AnimationOptions more = options(kFrames);  // with a head that rests, so that its transform changes no bit
+  more.usd = {
+      .tipDiameter = 0.01f, .ids = true, .rest = true, .velocities = true, .head = UsdHead::transform};
   return {formatOf<UsdWriter>("hair.usda", options(kFrames), usdFrames),
+          formatOf<UsdWriter>("more.usda", more, usdFrames),
+          formatOf<UsdcWriter>("hair.usdc", options(kFrames), crateFrames),
+          formatOf<UsdcWriter>("more.usdc", more, crateFrames),
           formatOf<CacheWriter>("hair.rgc", CacheHeader{}, cacheFrames)};
 }
 
@@ -278,12 +297,12 @@ TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
     const Status fewer = format.resume(path, 3, kFrames);
     ASSERT_FALSE(fewer);
     EXPECT_NE(fewer.error().message.find("cannot go on with"), std::string::npos) << fewer.error().message;
-    EXPECT_EQ(textOf(partial), whole.substr(0, two)) << "what was refused was changed";
+    EXPECT_TRUE(textOf(partial) == whole.substr(0, two)) << "what was refused was changed";
     std::string other = whole;
     other[40] ^= 1;
     putText(partial, other);
     EXPECT_FALSE(format.resume(path, 2, kFrames));
-    EXPECT_EQ(textOf(partial), other);
+    EXPECT_TRUE(textOf(partial) == other);
   }
 }
 

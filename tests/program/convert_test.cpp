@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/output/cache_reader.h"
 #include "tests/program/run_program.h"
 #include "tests/support/strict_usd.h"
@@ -78,6 +79,67 @@ TEST_F(Convert, AFloat32CacheBecomesTheTextThatSimulateWrites) {
 TEST_F(Convert, UsdTextBecomesTheCacheThatSimulateWrites) {
   convert({"out/hair.usda", "again.rgc"});
   EXPECT_EQ(readText(folder_ / "again.rgc"), readText(folder_ / "out/hair.rgc"));
+}
+
+// Every format that can be read, into every format there is, and by way of each back to the first.
+TEST_F(Convert, EveryFormatBecomesEveryOther) {
+  const auto usd = readUsd(folder_ / "out/hair.usda");
+  for (const AnimationFormat& from : animationFormats()) {
+    if (!from.isRead) continue;
+    const std::string input = std::string("from") + from.extension;
+    convert({"out/hair.rgc", input});
+    for (const AnimationFormat& to : animationFormats()) {
+      SCOPED_TRACE(std::string(from.extension) + " to " + to.extension);
+      const std::string output = std::string("to") + to.extension,
+                        again = std::string("again") + from.extension;
+      const json out = convert({input, output});
+      EXPECT_EQ(out["frames"], kFrames);
+      EXPECT_EQ(out["error_bound_m"], 0);
+      if (!to.isRead) {
+        EXPECT_EQ(fs::file_size(folder_ / output), 32u + 12u * 8 * kFrames);
+        EXPECT_EQ(pointsOf("to.obj"), usd.points.at(1));
+        continue;
+      }
+      convert({output, again});
+      EXPECT_TRUE(readText(folder_ / again) == readText(folder_ / input)) << "changed on the way";
+    }
+    // One file a frame.
+    for (const char* ending : {".obj", ".ply"}) {
+      convert({input, std::string("pose") + ending});
+      for (int frame = 1; frame <= kFrames; ++frame)
+        EXPECT_EQ(pointsOf("pose.000" + std::to_string(frame) + ending), usd.points.at(frame))
+            << input << ending;
+      convert({input, std::string("one") + ending, "--frame", "3"});
+      EXPECT_EQ(pointsOf(std::string("one") + ending), usd.points.at(3)) << input << ending;
+    }
+  }
+}
+
+TEST_F(Convert, ACrateIsThatOfSimulate) {
+  const auto result = run({"simulate", "groom.obj", "--up", "Z", "--fps", "30", "--width", "0.0007",
+                           "--backend", "reference", "--frames", std::to_string(kFrames), "--usdc",
+                           "--usd-values", "id,velocities", "--tip-width", "0.0001", "-o", "out"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  convert({"out/hair.usda", "again.usdc", "--usd-values", "id,velocities", "--tip-width", "0.0001"});
+  EXPECT_TRUE(readText(folder_ / "again.usdc") == readText(folder_ / "out/hair.usdc"));
+  const json info = convert({"out/hair.usdc", "--info"});
+  EXPECT_EQ(info["format"], "usdc");
+  EXPECT_EQ(info["frames"], kFrames);
+  EXPECT_EQ(info["finished"], true);
+  const auto measured = run({"measure", "groom.obj", "out/hair.usda", "--up", "Z", "--json"});
+  ASSERT_EQ(measured.exitCode, 0) << measured.err;
+  EXPECT_EQ(run({"measure", "groom.obj", "out/hair.usdc", "--up", "Z", "--json"}).out, measured.out);
+}
+
+TEST_F(Convert, ClipsAreOfSoManyFrames) {
+  convert({"out/hair.rgc", "parts.usda", "--clips", "2"});
+  const auto usd = readUsd(folder_ / "out/hair.usda");
+  for (int clip = 1; clip <= 3; ++clip) {
+    const std::string file = "parts_clips/parts.000" + std::to_string(clip) + ".usdc";
+    convert({file, "clip.obj", "--frame", "1"});
+    EXPECT_EQ(pointsOf("clip.obj"), usd.points.at(2 * clip - 1)) << file;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "parts_clips/parts.0004.usdc"));
 }
 
 TEST_F(Convert, A16BitCacheIsOffByNoMoreThanItSays) {
@@ -289,9 +351,14 @@ TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
   };
   for (const Case& c :
        {Case{{"convert", "out/hair.rgc"}, "--info"},
-        Case{{"convert", "out/hair.rgc", "a.fbx"}, ".usda, .rgc, .obj"},
+        Case{{"convert", "out/hair.rgc", "a.fbx"}, ".usda, .usdc, .rgc, .pc2, .obj"},
         Case{{"convert", "out/hair.rgc", "a.usda", "--info"}, "leave out OUT"},
         Case{{"convert", "out/hair.rgc", "a.usda", "--precision", "16bit"}, "only a cache"},
+        Case{{"convert", "out/hair.rgc", "a.usdc", "--clips", "2"}, "only a .usda has clips"},
+        Case{{"convert", "out/hair.rgc", "a.usda", "--usd-values", "velocities"},
+             "into .usdc and clips only"},
+        Case{{"convert", "out/hair.rgc", "a.rgc", "--usd-values", "id"}, "only .usda and .usdc have it"},
+        Case{{"convert", "out/hair.rgc", "a.obj", "--tip-width", "0.001"}, "only .usda and .usdc have it"},
         Case{{"convert", "out/hair.rgc", "a.rgc", "--precision", "8bit"}, "there is no '8bit'"},
         Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "2", "--frames", "1:2"}, "say one of them"},
         Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "0"}, "from 1"},

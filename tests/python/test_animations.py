@@ -10,7 +10,7 @@ def frames_of(groom, count=3):
     return [(groom.points + np.float32(k)) for k in range(count)]
 
 
-@pytest.mark.parametrize("name", ["hair.usda", "hair.rgc"])
+@pytest.mark.parametrize("name", ["hair.usda", "hair.usdc", "hair.rgc"])
 def test_points_are_read_as_they_were_written(tmp_path, swatch, name):
     with ringlet.AnimationWriter(tmp_path / name, swatch, fps=30, frames=5, up="Z", width=0.001) as animation:
         for points in frames_of(swatch):
@@ -40,9 +40,9 @@ def test_16_bits_are_as_near_as_they_say(tmp_path, swatch):
 
 def test_positions_seen_from_a_head_are_the_programs_file(device, program):
     (program.folder / "scene.toml").write_text(SCENES["pre-roll"])
-    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet", "--cache", "float32")
+    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet", "--usdc", "--cache", "float32")
     scene = ringlet.Scene.load(program.folder / "scene.toml")
-    for name in ("hair.usda", "hair.rgc"):
+    for name in ("hair.usda", "hair.usdc", "hair.rgc"):
         with ringlet.AnimationWriter(program.folder / name, scene.groom, frames=told["frames"]) as animation:
             scene.run(lambda frame: animation.write(frame.positions, frame.head), device=device)
         assert (program.folder / name).read_bytes() == (program.folder / "out" / name).read_bytes(), name
@@ -62,7 +62,7 @@ def test_after_an_exception_the_frames_so_far_are_kept(tmp_path, swatch):
 
 
 def test_a_partial_file_is_read_as_far_as_it_goes(tmp_path, swatch):
-    for name in ("hair.usda", "hair.rgc"):
+    for name in ("hair.usda", "hair.usdc", "hair.rgc"):
         animation = ringlet.AnimationWriter(tmp_path / name, swatch, frames=9)
         for points in frames_of(swatch):
             animation.write_points(points)

@@ -58,7 +58,8 @@ const std::string kEverythingElse =
     "[body.moves]\ninterpolation = 'linear'\n[[body.moves.key]]\ntime = 1\n[[body.moves.key]]\ntime = 2\n"
     "position = [1, 0, 0]\n"
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
-    "[output]\nfolder = 'out'\nwidth = 0.001\nfiles = ['sheet.png', 'last.obj']\ncache = '16bit'\n";
+    "[output]\nfolder = 'out'\nwidth = 0.001\nfiles = ['sheet.png', 'last.obj']\ncache = '16bit'\n"
+    "tip_width = 0.0002\nvalues = ['rest', 'id']\nhead = 'none'\nprims = 'groom'\nclip_frames = 12\n";
 
 const std::string kKind =
     "[groom]\nfile = 'hair.obj'\nunit = 1\nup = 'Z'\nscale = 0.9\nrotate_degrees = [90, 0, 0]\n"
@@ -319,7 +320,8 @@ TEST(SceneFile, MistakesAreNamedWithLineAndRemedy) {
       {"[groom]\nfile = 'a.obj'\n[contacts]\non = 1",
        "line 4: found the number 1 for contacts.on; expected true or false"},
       {"[groom]\nfile = 'a.obj'\n[output]\nfiles = ['hair.usd']",
-       "line 4: found a list of 1 for output.files; expected a list of hair.usda, last.obj, sheet.png"},
+       "line 4: found a list of 1 for output.files; expected a list of hair.usda, hair.usdc, last.obj, "
+       "sheet.png"},
       {"[groom]\nfile = 'a.obj'\n[[body]]\nshape = 'sphere'\nmoves = 'heda'",
        "line 5: found the text 'heda' for body.moves; expected \"head\", \"still\" or a motion, as in { kind "
        "= "

@@ -204,7 +204,8 @@ Status writeObj(const std::filesystem::path& path, const Groom& groom) {
   return writeObj(path, groom, groom.points);
 }
 
-Status writeObj(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points) {
+Status writeObj(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points,
+                ObjLines lines) {
   RINGLET_ASSERT(points.size() == topology.points.size(), "writeObj needs as many points as the groom has");
   if (Status status = checkGroom(topology, points, path); !status) return status;
   std::string text =
@@ -212,9 +213,12 @@ Status writeObj(const std::filesystem::path& path, const Groom& topology, std::s
   auto out = std::back_inserter(text);
   for (Vec3f p : points) fmt::format_to(out, "v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
   for (std::size_t s = 0; s < topology.strandCount(); ++s) {
-    text += 'l';
-    for (std::size_t i = topology.firstPoint[s]; i < topology.firstPoint[s + 1]; ++i)
-      fmt::format_to(out, " {}", i + 1);
+    const std::size_t first = topology.firstPoint[s] + 1, last = topology.firstPoint[s + 1];
+    text += fmt::format("l {}", first);
+    for (std::size_t i = first + 1; i <= last; ++i) {
+      fmt::format_to(out, " {}", i);
+      if (lines == ObjLines::edges && i < last) fmt::format_to(out, "\nl {}", i);
+    }
     text += '\n';
   }
   return writeWholeFile(path, std::as_bytes(std::span(text)));

@@ -22,7 +22,11 @@ Result<LoadedGroom> readObj(std::span<const std::byte> text, const std::filesyst
 /// writeGroom.
 Status writeObj(const std::filesystem::path& path, const Groom& groom);
 
+/// A line a strand; or a line an edge, for programs that read no longer ones, as Blender 3.
+enum class ObjLines { strands, edges };
+
 /// The same with other positions, as many as the groom's, in its order and unit: a frame of an animation.
-Status writeObj(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points);
+Status writeObj(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points,
+                ObjLines lines = ObjLines::strands);
 
 }  // namespace ringlet

@@ -2,7 +2,10 @@
 #include "ringlet/output/animation_writer.h"
 
 #include "ringlet/output/cache_writer.h"
+#include "ringlet/output/pc2_writer.h"
+#include "ringlet/output/usd_clips_writer.h"
 #include "ringlet/output/usd_writer.h"
+#include "ringlet/output/usdc_writer.h"
 
 namespace ringlet {
 namespace {
@@ -17,6 +20,7 @@ Result<Writer> owned(Result<T> writer) {
 
 Result<Writer> resumeUsd(const std::filesystem::path& path, const Groom& topology, const AnimationOptions& o,
                          int frameCount) {
+  if (o.usd.clipFrames > 0) return owned(UsdClipsWriter::resume(path, topology, o, frameCount));
   return owned(UsdWriter::resume(path, topology, o, frameCount));
 }
 
@@ -31,7 +35,20 @@ Result<Writer> resumeCache(const std::filesystem::path& path, const Groom& topol
                                    frameCount));
 }
 
-constexpr AnimationFormat kFormats[] = {{".usda", false, resumeUsd}, {".rgc", true, resumeCache}};
+Result<Writer> resumeUsdc(const std::filesystem::path& path, const Groom& topology, const AnimationOptions& o,
+                          int frameCount) {
+  return owned(UsdcWriter::resume(path, topology, o, frameCount));
+}
+
+Result<Writer> resumePc2(const std::filesystem::path& path, const Groom& topology, const AnimationOptions& o,
+                         int frameCount) {
+  return owned(Pc2Writer::resume(path, topology, o, frameCount));
+}
+
+constexpr AnimationFormat kFormats[] = {{".usda", false, true, resumeUsd},
+                                        {".usdc", false, true, resumeUsdc},
+                                        {".rgc", true, true, resumeCache},
+                                        {".pc2", false, false, resumePc2}};
 
 }  // namespace
 

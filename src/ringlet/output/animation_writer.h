@@ -11,6 +11,8 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/loaded_groom.h"
+#include "ringlet/groom/usd_matrix.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
 
@@ -22,8 +24,9 @@ namespace ringlet {
 class AnimationWriter {
  public:
   virtual ~AnimationWriter() = default;
-  /// Points in the file's unit, in groom order, finite (see finite_points.h).
-  virtual Status addFrame(std::span<const Vec3f> points) = 0;
+  /// Points in the world, in the file's unit, in groom order, finite (see finite_points.h). `head`: where the
+  /// head is, rigid, in that unit; only files that keep its motion apart look at it.
+  virtual Status addFrame(std::span<const Vec3f> points, const UsdTransform& head = {}) = 0;
   /// What was added is on the disk.
   virtual Status sync() = 0;
   /// Closes the file with the frames so far (at least one) and gives it its name.
@@ -38,6 +41,28 @@ class AnimationWriter {
   AnimationWriter(AnimationWriter&&) = default;
 };
 
+/// Where the head's motion is.
+enum class UsdHead {
+  baked,      // in the points, which stand in the world
+  transform,  // in a transform of the prim, which brings points that are seen from the head to the world
+  none,       // nowhere: points are seen from the head, and something else carries the prim
+};
+
+/// What a USD file may say beside points, widths and extents.
+struct UsdExtras {
+  std::optional<float> tipDiameter{};  // strands are evenly thinner from root to tip [file unit]
+  bool ids = false;                    // int[] primvars:id, a number a strand, from 0
+  bool rest = false;                   // point3f[] primvars:rest, the topology's own points
+  bool velocities = false;             // vector3f[] [file unit/s], in crates only: see usdc_writer.h
+  UsdHead head = UsdHead::baked;
+  int firstTimeCode = 1;  // of the first frame
+  int clipFrames = 0;     // above 0: .usda has value clips of so many frames (usd_clips_writer.h)
+  // The groom's file, where it is USD; it is looked at while the writer is made.
+  const LoadedGroom* origin = nullptr;
+  bool originValues = false;  // what that says of its curves beside their points
+  bool originPrims = false;   // crates only: the prims are changes of the origin's, in their own places
+};
+
 struct AnimationOptions {
   double framesPerSecond = 24;
   double metresPerUnit = 0.01;  // unit of points and diameter
@@ -45,11 +70,13 @@ struct AnimationOptions {
   float diameter = 0.05f;                              // of every strand [file unit]
   int frameCount = 1;                                  // most frames that will come; fewer may
   CachePrecision precision = CachePrecision::float32;  // of formats that have several
+  UsdExtras usd{};                                     // of USD files
 };
 
 struct AnimationFormat {
   const char* extension;  // with its dot
   bool hasPrecisions;
+  bool isRead;  // by AnimationReader; of others points go out only
   /// Goes on with PATH.partial after its first `frameCount` frames, to the bytes of a file written in one go;
   /// with 0 it begins anew. Only the topology's strand lengths are used. Errors: the file is not that of such
   /// an animation, or has fewer whole frames.
@@ -57,7 +84,7 @@ struct AnimationFormat {
                                                      const AnimationOptions& options, int frameCount);
 };
 
-/// .usda and .rgc.
+/// .usda, .usdc, .rgc and .pc2.
 std::span<const AnimationFormat> animationFormats();
 /// By the ending of the name; null for one that is none of theirs.
 const AnimationFormat* animationFormatOf(const std::filesystem::path& path);

@@ -86,7 +86,7 @@ Status CacheWriter::append(std::span<const std::byte> bytes) {
                written.error().fault};
 }
 
-Status CacheWriter::addFrame(std::span<const Vec3f> points) {
+Status CacheWriter::addFrame(std::span<const Vec3f> points, const UsdTransform&) {
   RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
   const auto content = encoder_.encode(header_.precision, firstPoint_, points);
   const Entry entry{end_, encoder_.errorBound() * header_.metresPerUnit};

@@ -42,7 +42,7 @@ class CacheWriter : public AnimationWriter {
 
   /// Adds a frame; points in the file's unit, in groom order, finite (see finite_points.h). Cost: one write,
   /// and about 1 ms of processor time for 64,000 points.
-  Status addFrame(std::span<const Vec3f> points) override;
+  Status addFrame(std::span<const Vec3f> points, const UsdTransform& head = {}) override;
   /// What was added is on the disk.
   Status sync() override { return file_.sync(); }
   /// Writes the index, closes the file with the frames so far (at least one) and gives it its name.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -77,20 +78,22 @@ Status UsdReader::readHeader() {
   auto frames = number();
   if (!frames) return frames.error();
   if (!(*frames >= 0 && *frames <= std::numeric_limits<int>::max())) return wanted("a number of frames");
-  frameCount_ = static_cast<int>(*frames);
   struct Entry {
     std::string_view key;
     double* value;
   };
-  for (const Entry& entry : {Entry{"metersPerUnit", &metresPerUnit_}, Entry{"startTimeCode", nullptr},
+  double firstTimeCode = 0;
+  for (const Entry& entry : {Entry{"metersPerUnit", &metresPerUnit_}, Entry{"startTimeCode", &firstTimeCode},
                              Entry{"timeCodesPerSecond", &framesPerSecond_}}) {
     if (Status found = expect(entry.key); !found) return found;
     if (Status found = expect("="); !found) return found;
     auto value = number();
     if (!value) return value.error();
     if (!(*value > 0)) return wanted(fmt::format("{} above 0", entry.key));
-    if (entry.value) *entry.value = *value;
+    *entry.value = *value;
   }
+  firstTimeCode_ = firstTimeCode;
+  frameCount_ = static_cast<int>(std::clamp(*frames - firstTimeCode + 1, 0.0, 2e9));
   for (std::string_view token : {"upAxis", "="}) {
     if (Status found = expect(token); !found) return found;
   }
@@ -101,8 +104,15 @@ Status UsdReader::readHeader() {
   }
 
   // The strands.
-  for (std::string_view token :
-       {")", "def", "BasisCurves", "\"Hair\"", "{", "int[]", "curveVertexCounts", "=", "["}) {
+  for (std::string_view token : {")", "def", "BasisCurves", "\"Hair\""}) {
+    if (Status found = expect(token); !found) return found;
+  }
+  if (accept("(")) {
+    return Error{
+        fmt::format("{}: is in parts, which are not read together; name one of its clips, {}_clips/*.usdc",
+                    path_.string(), path_.stem().string())};
+  }
+  for (std::string_view token : {"{", "int[]", "curveVertexCounts", "=", "["}) {
     if (Status found = expect(token); !found) return found;
   }
   while (!accept("]")) {
@@ -123,15 +133,80 @@ Status UsdReader::readHeader() {
   if (!width) return width.error();
   if (!(*width > 0)) return wanted("a width above 0");
   diameter_ = *width;
-  for (std::string_view token :
-       {"]", "(", "interpolation", "=", "\"constant\"", ")", "uniform", "token", "wrap", "=",
-        "\"nonperiodic\"", "float3[]", "extent.timeSamples", "=", "{"}) {
+  while (accept(",")) {
+    if (auto other = coordinate(); !other) return other.error();
+  }
+  for (std::string_view token : {"]", "(", "interpolation", "=", "\""}) {
     if (Status found = expect(token); !found) return found;
+  }
+  if (!accept("constant\"") && !accept("vertex\"")) return wanted("'constant' or 'vertex'");
+  for (std::string_view token : {")", "uniform", "token", "wrap", "=", "\"nonperiodic\""}) {
+    if (Status found = expect(token); !found) return found;
+  }
+
+  // What may stand between, up to what moves.
+  while (!accept("float3[] extent.timeSamples = {")) {
+    if (accept("matrix4d xformOp:transform.timeSamples = {")) {
+      if (Status read = readHeads(); !read) return read;
+    } else if (Status skipped = skipAttribute(); !skipped) {
+      return skipped;
+    }
   }
   if (Status read = readExtents(); !read) return read;
   for (std::string_view token : {"point3f[]", "points.timeSamples", "=", "{"}) {
     if (Status found = expect(token); !found) return found;
   }
+  return {};
+}
+
+// Of an attribute whose value is no number we need: "type name = value", and perhaps "( metadata )".
+Status UsdReader::skipAttribute() {
+  bool isValue = false;
+  for (int depth = 0;; ++at_) {
+    const char c = peek();
+    if (c == '\0') return wanted("an attribute");
+    if (c == '"') {
+      for (++at_; peek() != '"'; ++at_) {
+        if (peek() == '\\') ++at_;
+        if (peek() == '\0') return wanted("'\"'");
+      }
+    }
+    isValue |= c == '=';
+    depth += (c == '[' || c == '(') - (c == ']' || c == ')');
+    if (depth < 0 || c == '{' || c == '}') return wanted("an attribute");
+    if (depth > 0 || c != '\n' || !isValue) continue;
+    return {};
+  }
+}
+
+// Of each frame where the head is: the rows of a matrix. The last may be of a frame that is not there.
+Status UsdReader::readHeads() {
+  while (!accept("}")) {
+    auto timeCode = number();
+    if (!timeCode) return timeCode.error();
+    for (std::string_view token : {":", "("}) {
+      if (Status found = expect(token); !found) return found;
+    }
+    Vec3d rows[4];
+    for (int row = 0; row < 4; ++row) {
+      double* const numbers[]{&rows[row].x, &rows[row].y, &rows[row].z, nullptr};
+      for (int column = 0; column < 4; ++column) {
+        if (Status found = expect(column == 0 ? "(" : ","); !found) return found;
+        auto value = number();
+        if (!value) return value.error();
+        if (numbers[column]) *numbers[column] = *value;
+      }
+      if (Status found = expect(")"); !found) return found;
+      if (row < 3) {
+        if (Status found = expect(","); !found) return found;
+      }
+    }
+    for (std::string_view token : {")", ","}) {
+      if (Status found = expect(token); !found) return found;
+    }
+    heads_.push_back({{rows[0], rows[1], rows[2]}, rows[3]});
+  }
+  isHeadApart_ = true;
   return {};
 }
 
@@ -166,7 +241,8 @@ Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
   }
   auto timeCode = number();
   if (!timeCode) return timeCode.error();
-  if (*timeCode != framesRead_ + 1) return wanted(fmt::format("frame {}", framesRead_ + 1));
+  if (*timeCode != firstTimeCode_ + framesRead_)
+    return wanted(fmt::format("time code {}", firstTimeCode_ + framesRead_));
   for (std::string_view token : {":", "["}) {
     if (Status found = expect(token); !found) return found.error();
   }
@@ -179,6 +255,14 @@ Result<bool> UsdReader::readFrame(std::vector<Vec3f>& points) {
   }
   for (std::string_view token : {"]", ","}) {
     if (Status found = expect(token); !found) return found.error();
+  }
+  if (isHeadApart_) {
+    if (heads_.size() <= static_cast<std::size_t>(framesRead_))
+      return wanted("a transform of the frame before");
+    for (Vec3f& point : points) {
+      point = Vec3f(heads_[static_cast<std::size_t>(framesRead_)](Vec3d(point)));
+      if (!std::isfinite(point.x + point.y + point.z)) return wanted("a transform to finite points");
+    }
   }
   ++framesRead_;
   return true;

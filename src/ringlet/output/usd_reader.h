@@ -13,6 +13,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/groom/usd_matrix.h"
 #include "ringlet/output/byte_file.h"
 #include "ringlet/output/up_axis.h"
 
@@ -45,6 +46,8 @@ class UsdReader {
   Status readHeader();
   Status countFrames();
   Status readEnd();
+  Status skipAttribute();
+  Status readHeads();
   Status readExtents();
   Result<Vec3f> readTuple();
 
@@ -67,6 +70,9 @@ class UsdReader {
   double framesPerSecond_ = 0, metresPerUnit_ = 0;
   UpAxis up_ = UpAxis::y;
   float diameter_ = 0;
+  std::vector<UsdTransform> heads_;  // of each frame, where the head is apart
+  bool isHeadApart_ = false;
+  double firstTimeCode_ = 1;
   bool isPartial_ = false, isCounted_ = false, isFinished_ = false;
   std::vector<std::string> warnings_;
   std::vector<std::uint32_t> particleCounts_;

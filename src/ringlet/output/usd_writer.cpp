@@ -24,6 +24,9 @@
 #include <iterator>
 #include <limits>
 
+#include "ringlet/output/usd_hair_stage.h"
+#include "ringlet/output/usd_text.h"
+
 namespace ringlet {
 namespace {
 
@@ -32,6 +35,8 @@ constexpr std::string_view kEndAndNext = "};}\n#", kOpened = "   \n ";
 constexpr std::size_t kTimeCodeWidth = 10;  // digits of the largest int
 // Of a reserved line, its end included: key, 6 floats of at most 15 bytes, brackets. A page holds whole ones.
 constexpr std::size_t kExtentWidth = 128;
+// Likewise: key, 12 doubles of at most 24 bytes, brackets.
+constexpr std::size_t kHeadWidth = 512;
 constexpr std::size_t kFlushBytes = 4 << 20;  // text collected before a write: few calls, little memory
 constexpr std::size_t kFloatBytes = 15;       // most bytes of a float: -1.17549435e-38
 constexpr std::size_t kTupleBytes = 3 * kFloatBytes + 5;  // of "(x,y,z),"
@@ -87,6 +92,7 @@ UsdWriter::UsdWriter(ByteFile file, const std::filesystem::path& path, const Gro
                      const AnimationOptions& options)
     : file_(std::move(file)), path_(path), firstPoint_(topology.firstPoint), options_(options) {
   RINGLET_ASSERT(options.frameCount >= 1, "at least one frame will come");
+  RINGLET_ASSERT(!options.usd.originPrims, "text holds one prim that moves");
 }
 
 Result<UsdWriter> UsdWriter::create(const std::filesystem::path& path, const Groom& topology,
@@ -94,38 +100,43 @@ Result<UsdWriter> UsdWriter::create(const std::filesystem::path& path, const Gro
   auto file = ByteFile::create(path.string() + ".partial");
   if (!file) return file.error();
   UsdWriter writer(std::move(*file), path, topology, options);
-  if (Status written = writer.file_.writeAt(0, writer.headerText()); !written) return written.error();
+  if (Status written = writer.file_.writeAt(0, writer.headerText(topology)); !written) return written.error();
   return writer;
 }
 
 // All that stands before the first frame; notes where that is, and what will be patched.
-std::string UsdWriter::headerText() {
+std::string UsdWriter::headerText(const Groom& topology) {
   // What the file is measured in.
   std::string text(kBegin);
   endTimeCodeAt_ = text.size();
-  text += padded("0", kTimeCodeWidth);
+  text += padded(fmt::format("{}", timeCodeOf(0)), kTimeCodeWidth);
   text += fmt::format(
-      "\n    metersPerUnit = {}\n    startTimeCode = 1\n    timeCodesPerSecond = {}\n    upAxis = "
+      "\n    metersPerUnit = {}\n    startTimeCode = {}\n    timeCodesPerSecond = {}\n    upAxis = "
       "\"{}\"\n)\n\n",
-      options_.metresPerUnit, options_.framesPerSecond, options_.up == UpAxis::y ? 'Y' : 'Z');
+      options_.metresPerUnit, options_.usd.firstTimeCode, options_.framesPerSecond,
+      options_.up == UpAxis::y ? 'Y' : 'Z');
 
-  // What holds for all frames. "linear" must be said: the default is cubic.
-  text += "def BasisCurves \"Hair\"\n{\n    int[] curveVertexCounts = [";
-  for (std::size_t strand = 0; strand + 1 < firstPoint_.size(); ++strand) {
-    if (strand != 0) text += strand % 25 == 0 ? ",\n        " : ", ";
-    fmt::format_to(std::back_inserter(text), "{}", firstPoint_[strand + 1] - firstPoint_[strand]);
-  }
-  text += "]\n    uniform token type = \"linear\"\n";
-  text += fmt::format("    float[] widths = [{}] (\n        interpolation = \"constant\"\n    )\n",
-                      options_.diameter);
-  text += "    uniform token wrap = \"nonperiodic\"\n";
+  // What holds for all frames.
+  const HairStage made = hairStageOf(topology, options_);
+  const HairCurves& curves = made.curves.front();
+  margin_ = curves.margin;
+  text += "def BasisCurves \"Hair\"\n{\n";
+  for (const UsdStageAttribute& attribute : made.stage.prims.front().attributes)
+    if (attribute.elementsOfSample == 0) text += usdTextOf(attribute, 4);
 
-  // Room for the extents, and the points opened.
-  text += "    float3[] extent.timeSamples = {";
-  text.append(kExtentWidth - 1 - text.size() % kExtentWidth, ' ').append("\n");
-  extentsAt_ = text.size();
-  for (int frame = 0; frame < options_.frameCount; ++frame) text.append(kExtentWidth - 1, ' ').append("\n");
-  text += "    }\n    point3f[] points.timeSamples = {\n";
+  // Room for the head's transforms and the extents, and the points opened.
+  const auto reserve = [&](std::string_view opening, std::size_t width) {
+    text += opening;
+    text.append(width - 1 - text.size() % width, ' ').append("\n");
+    const std::uint64_t at = text.size();
+    for (int frame = 0; frame < options_.frameCount; ++frame) text.append(width - 1, ' ').append("\n");
+    text += "    }\n";
+    return at;
+  };
+  if (options_.usd.head == UsdHead::transform)
+    headsAt_ = reserve("    matrix4d xformOp:transform.timeSamples = {", kHeadWidth);
+  extentsAt_ = reserve("    float3[] extent.timeSamples = {", kExtentWidth);
+  text += "    point3f[] points.timeSamples = {\n";
   appendEnd(text, 0);
   end_ = text.size();
   return text;
@@ -141,7 +152,7 @@ Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Gro
   writer.frameCount_ = frameCount;
 
   // The header as it would be, but for what was patched since.
-  const std::string header = writer.headerText();
+  const std::string header = writer.headerText(topology);
   const auto found = writer.file_.readAt(0, header.size());
   if (!found) return found.error();
   std::string blank = *found;
@@ -149,8 +160,10 @@ Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Gro
     if (at + count <= blank.size()) blank.replace(at, count, header, at, count);
   };
   forget(writer.endTimeCodeAt_, kTimeCodeWidth);
-  for (int frame = 0; frame < options.frameCount; ++frame)
+  for (int frame = 0; frame < options.frameCount; ++frame) {
     forget(writer.extentsAt_ + frame * kExtentWidth, kExtentWidth - 1);
+    if (options.usd.head == UsdHead::transform) forget(writer.headsAt_ + frame * kHeadWidth, kHeadWidth - 1);
+  }
   forget(header.size() - kEnd.size(), kEnd.size());
   std::uint64_t begin = header.size(), end = header.size();
   bool isWhole = blank == header;
@@ -192,7 +205,7 @@ Status UsdWriter::cutAfter(std::uint64_t lineBegin, std::uint64_t lineEnd) {
   if (Status closed = file_.writeAt(end_ - kEnd.size(), kEnd); !closed) return closed;
   if (Status opened = file_.writeAt(lineBegin - kEnd.size(), kOpened); !opened) return opened;
   for (int frame = frameCount_ + 1; frame <= options_.frameCount; ++frame) {
-    if (Status cleared = writeExtent(frame, ""); !cleared) return cleared;
+    if (Status cleared = clearPlaces(frame); !cleared) return cleared;
   }
   return writeEndTimeCode();
 }
@@ -203,27 +216,37 @@ UsdWriter::~UsdWriter() {
   std::filesystem::remove(file_.path(), ignored);
 }
 
-Status UsdWriter::addFrame(std::span<const Vec3f> points) {
+Status UsdWriter::addFrame(std::span<const Vec3f> points, const UsdTransform& head) {
   RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
   RINGLET_ASSERT(frameCount_ < options_.frameCount, "more frames than announced");
-  if (Status written = writeFrame(points); !written) return keepFinishedFrames(written.error());
+  if (Status written = writeFrame(points, head); !written) return keepFinishedFrames(written.error());
   return {};
 }
 
-Status UsdWriter::writeFrame(std::span<const Vec3f> points) {
+Status UsdWriter::writeFrame(std::span<const Vec3f> points, const UsdTransform& head) {
+  if (options_.usd.head != UsdHead::baked) {
+    fromHead_.assign(points.begin(), points.end());
+    const UsdTransform fromWorld = head.inverse();
+    for (Vec3f& point : fromHead_) point = Vec3f(fromWorld(Vec3d(point)));
+    points = fromHead_;
+  }
   const float infinity = std::numeric_limits<float>::infinity();
   Vec3f low{infinity, infinity, infinity}, high = -low;
   const std::uint64_t begin = end_;
   if (Status written = writeLine(points, low, high); !written) return written;
 
   // Its extent: a strand is as thick as it is wide, so half a diameter more on every side.
-  const int timeCode = frameCount_ + 1;
-  const float radius = options_.diameter / 2;
-  const Vec3f margin{radius, radius, radius};
-  if (Status written = writeExtent(timeCode, fmt::format("        {}: [{}, {}],", timeCode,
-                                                         tuple(low - margin), tuple(high + margin)));
+  const int frame = frameCount_ + 1;
+  const Vec3f margin{margin_, margin_, margin_};
+  if (Status written = writeExtent(frame, fmt::format("        {}: [{}, {}],", timeCodeOf(frame),
+                                                      tuple(low - margin), tuple(high + margin)));
       !written)
     return written;
+  if (options_.usd.head == UsdHead::transform) {
+    if (Status written = writeHead(frame, fmt::format("        {}: {},", timeCodeOf(frame), usdTextOf(head)));
+        !written)
+      return written;
+  }
 
   // From now on it holds.
   if (Status opened = file_.writeAt(begin - kEnd.size(), kOpened); !opened) return opened;
@@ -236,7 +259,7 @@ Status UsdWriter::writeFrame(std::span<const Vec3f> points) {
 Status UsdWriter::writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& high) {
   std::uint64_t offset = end_;
   buffer_.clear();  // and keeps its memory
-  fmt::format_to(std::back_inserter(buffer_), "{}       {}: [", kNext, frameCount_ + 1);
+  fmt::format_to(std::back_inserter(buffer_), "{}       {}: [", kNext, timeCodeOf(frameCount_ + 1));
   for (std::size_t strand = 0; strand + 1 < firstPoint_.size(); ++strand) {
     auto particles = points.subspan(firstPoint_[strand], firstPoint_[strand + 1] - firstPoint_[strand]);
     std::size_t used = buffer_.size();
@@ -264,8 +287,18 @@ Status UsdWriter::writeExtent(int frame, std::string text) {
   return file_.writeAt(extentsAt_ + (frame - 1) * kExtentWidth, padded(std::move(text), kExtentWidth - 1));
 }
 
+Status UsdWriter::writeHead(int frame, std::string text) {
+  return file_.writeAt(headsAt_ + (frame - 1) * kHeadWidth, padded(std::move(text), kHeadWidth - 1));
+}
+
 Status UsdWriter::writeEndTimeCode() {
-  return file_.writeAt(endTimeCodeAt_, padded(fmt::format("{}", frameCount_), kTimeCodeWidth));
+  return file_.writeAt(endTimeCodeAt_, padded(fmt::format("{}", timeCodeOf(frameCount_)), kTimeCodeWidth));
+}
+
+// Of a frame that is not there.
+Status UsdWriter::clearPlaces(int frame) {
+  if (Status cleared = writeExtent(frame, ""); !cleared) return cleared;
+  return options_.usd.head == UsdHead::transform ? writeHead(frame, "") : Status{};
 }
 
 Status UsdWriter::flush(std::uint64_t& offset) {
@@ -278,7 +311,7 @@ Status UsdWriter::flush(std::uint64_t& offset) {
 Error UsdWriter::keepFinishedFrames(const Error& cause) {
   // Behind the end there is only a comment; where it cannot be cut off it does not matter.
   (void)file_.truncate(end_);
-  (void)writeExtent(frameCount_ + 1, "");
+  (void)clearPlaces(frameCount_ + 1);
   if (frameCount_ == 0 || !file_.isThere()) return cause;
   return {fmt::format("{} (the first {} frames are kept in {})", cause.message, frameCount_,
                       file_.path().string()),

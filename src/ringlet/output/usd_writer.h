@@ -43,7 +43,7 @@ class UsdWriter : public AnimationWriter {
   ~UsdWriter() override;
 
   /// Adds a frame; points in the file's unit, in groom order, finite (see finite_points.h).
-  Status addFrame(std::span<const Vec3f> points) override;
+  Status addFrame(std::span<const Vec3f> points, const UsdTransform& head = {}) override;
   /// What was added is on the disk.
   Status sync() override { return file_.sync(); }
   /// Closes the file with the frames so far (at least one) and gives it its name.
@@ -55,11 +55,14 @@ class UsdWriter : public AnimationWriter {
  private:
   UsdWriter(ByteFile file, const std::filesystem::path& path, const Groom& topology,
             const AnimationOptions& options);
-  std::string headerText();
-  Status writeFrame(std::span<const Vec3f> points);
+  std::string headerText(const Groom& topology);
+  Status writeFrame(std::span<const Vec3f> points, const UsdTransform& head);
   Status writeLine(std::span<const Vec3f> points, Vec3f& low, Vec3f& high);
   Status writeExtent(int frame, std::string text);
+  Status writeHead(int frame, std::string text);
+  Status clearPlaces(int frame);
   Status writeEndTimeCode();
+  int timeCodeOf(int frame) const { return options_.usd.firstTimeCode - 1 + frame; }
   Status cutAfter(std::uint64_t lineBegin, std::uint64_t lineEnd);
   Status flush(std::uint64_t& offset);
   Error keepFinishedFrames(const Error& cause);
@@ -71,6 +74,9 @@ class UsdWriter : public AnimationWriter {
   std::string buffer_;               // text on its way to the file
   std::uint64_t endTimeCodeAt_ = 0;  // where the header's reserved last time code stands [byte]
   std::uint64_t extentsAt_ = 0;      // where the reserved lines for the extents begin [byte]
+  std::uint64_t headsAt_ = 0;        // and those for the head's transforms
+  float margin_ = 0;                 // of extents [file unit]
+  std::vector<Vec3f> fromHead_;      // a frame, where the head is apart
   std::uint64_t end_ = 0;            // of what is valid: where the next frame's line begins [byte]
   std::uint64_t lineBytes_ = 0;      // of the line written last
   int frameCount_ = 0;

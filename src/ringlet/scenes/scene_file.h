@@ -148,8 +148,13 @@ struct SceneBody {
 struct SceneOutput {
   std::filesystem::path folder;
   double width = 0.0005;
+  std::optional<double> tipWidth;  // none: strands are as wide everywhere
   std::vector<std::string> files{"hair.usda", "last.obj", "sheet.png"};
-  std::string cache;  // precision of hair.rgc; empty: it is not written
+  std::vector<std::string> values;  // that USD files have beside points and widths
+  std::string head = "baked";       // into the points; "transform": beside them; "none": left out
+  std::optional<int> clipFrames;    // none: hair.usda is one file
+  std::string prims = "hair";       // one, /Hair; or "groom": those of the groom's file
+  std::string cache;                // precision of hair.rgc; empty: it is not written
 };
 
 /// What a file says, checked as far as one can without opening what it names (but a material's file).

@@ -1,5 +1,6 @@
-// AnimationSource: the frames of an animation that `ringlet simulate` or `ringlet convert` wrote, whichever
-// its format; finished or `.partial`.
+// AnimationReader: the frames of an animation that an AnimationWriter wrote, whichever its format; finished
+// or
+// `.partial`.
 #pragma once
 
 #include <cstdint>
@@ -13,35 +14,34 @@
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/usd_reader.h"
+#include "ringlet/output/usdc_reader.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
-/// float32, 16bit: as the user writes a cache's precision.
-std::vector<std::string> precisionNames();
-CachePrecision precisionByName(const std::string& name);
-std::string nameOf(CachePrecision precision);
-
-/// Whether the name is that of an animation: .usda or .rgc, and .partial after it.
+/// Whether the name is that of an animation: one of animationFormats() that is read, and .partial after it.
 bool isAnimation(const std::filesystem::path& path);
 
-/// Whether it can be one by its name and, of .usda, which others write too, by its first lines as well.
+/// Whether it can be one by its name and, of .usda and .usdc, which others write too, by how it begins.
 bool holdsAnimation(const std::filesystem::path& path);
 
-class AnimationSource {
+class AnimationReader {
  public:
-  /// Errors: the name is of neither format, and those of the format's reader.
-  static Result<AnimationSource> open(const std::filesystem::path& path);
+  /// Errors: the name is of no format, and those of the format's reader.
+  static Result<AnimationReader> open(const std::filesystem::path& path);
 
   /// Makes frame 1 to frameCount() the groom's points; a later one than the call before. Errors: the
-  /// reader's.
+  /// reader's. Cost: text is read from frame to frame, all else at once.
   Status readFrame(int frame);
 
   /// The strands; their points are those of the latest frame, none before the first.
   const Groom& groom() const { return groom_; }
-  /// Of USD text, too, whose precision is float32.
+  /// Of USD, too, whose precision is float32.
   const CacheHeader& header() const { return header_; }
   int frameCount() const { return frameCount_; }
   bool isCache() const { return std::holds_alternative<CacheReader>(reader_); }
+  /// For people "USD text", "USD crate" or "cache"; for programs "usd", "usdc" or "cache".
+  const char* formatName() const;
+  const char* formatKey() const;
   bool isFinished() const { return isFinished_; }
   std::uint64_t byteCount() const { return byteCount_; }  // of the file
   /// The farthest that a point may be from the one that was written [m].
@@ -50,11 +50,14 @@ class AnimationSource {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  Status checkEnd();
+  using Reader = std::variant<UsdReader, UsdcReader, CacheReader>;
+  explicit AnimationReader(Reader reader) : reader_(std::move(reader)) {}
+  void take(const UsdReader& usd);
+  void take(const UsdcReader& usd);
+  void take(const CacheReader& cache);
+  Status checkEnd(UsdReader& usd);
 
-  explicit AnimationSource(std::variant<UsdReader, CacheReader> reader) : reader_(std::move(reader)) {}
-
-  std::variant<UsdReader, CacheReader> reader_;
+  Reader reader_;
   Groom groom_;
   CacheHeader header_;
   int frameCount_ = 0, latest_ = 0;
@@ -63,4 +66,4 @@ class AnimationSource {
   std::vector<std::string> warnings_;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet

@@ -1,0 +1,127 @@
+// Implements output_options.h.
+#include "program/output_options.h"
+
+#include <algorithm>
+
+#include "program/command_line.h"
+#include "program/precision_names.h"
+#include "ringlet/scene/setting_field.h"
+#include "ringlet/scenes/scene_fields.h"
+
+namespace ringlet::program {
+namespace {
+
+bool holds(const std::vector<std::string>& names, const char* name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+// As the scene's table says it.
+const SceneField<SceneOutput>& fieldOf(const char* key) { return *fieldNamed(outputFields(), key); }
+
+}  // namespace
+
+void addOutputOptions(CLI::App* command, OutputChoice& choice) {
+  const char* group = "Output";
+  command
+      ->add_option("--cache", choice.cache,
+                   "Write the animation as hair.rgc too, for `ringlet convert`: float32 (every bit) or 16bit")
+      ->check(oneOf(precisionNames()))
+      ->type_name("PRECISION")
+      ->group(group);
+  command
+      ->add_flag("--usdc", choice.usdc, "Write hair.usdc too, binary USD: a third of the bytes of hair.usda")
+      ->group(group);
+  command->add_flag("--no-usd", choice.noUsd, "Leave out hair.usda")->group(group);
+  command->add_flag("--no-last", choice.noLast, "Leave out last.obj")->group(group);
+  command->add_flag("--no-sheet", choice.noSheet, "Leave out sheet.png")->group(group);
+  command
+      ->add_option("--width", choice.width, "Diameter of strands in what is written, metres (default 0.0005)")
+      ->check(between(1e-9, 1))
+      ->type_name("METRES")
+      ->group(group);
+  command->add_option("--tip-width", choice.tipWidth, fieldOf("tip_width").effect)
+      ->check(between(1e-9, 1))
+      ->type_name("METRES")
+      ->group(group);
+  command
+      ->add_option(
+          "--usd-values", choice.values,
+          std::string(fieldOf("values").effect) + " Separated by commas: " + fieldOf("values").choices)
+      ->delimiter(',')
+      ->check(oneOf(namesIn(fieldOf("values").choices)))
+      ->type_name("LIST")
+      ->group(group);
+  command->add_option("--head", choice.head, fieldOf("head").effect)
+      ->check(oneOf(namesIn(fieldOf("head").choices)))
+      ->type_name("WAY")
+      ->group(group);
+  command->add_option("--clips", choice.clips, fieldOf("clip_frames").effect)
+      ->check(wholeBetween(1, 1'000'000))
+      ->type_name("N")
+      ->group(group);
+  command->add_option("--usd-prims", choice.prims, fieldOf("prims").effect)
+      ->check(oneOf(namesIn(fieldOf("prims").choices)))
+      ->type_name("WHOSE")
+      ->group(group);
+}
+
+bool needsOrigin(const SceneOutput& output) {
+  return output.prims == "groom" || holds(output.values, "groom");
+}
+
+void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
+  const auto leaveOut = [&](bool isLeftOut, const char* file) {
+    if (isLeftOut) std::erase(output.files, file);
+  };
+  leaveOut(choice.noUsd, "hair.usda");
+  leaveOut(choice.noLast, "last.obj");
+  leaveOut(choice.noSheet, "sheet.png");
+  if (choice.usdc && !holds(output.files, "hair.usdc")) output.files.push_back("hair.usdc");
+  if (!choice.cache.empty()) output.cache = choice.cache;
+  if (choice.width) output.width = *choice.width;
+  if (choice.tipWidth) output.tipWidth = choice.tipWidth;
+  if (choice.head) output.head = *choice.head;
+  if (choice.clips) output.clipFrames = choice.clips;
+  if (choice.prims) output.prims = *choice.prims;
+  if (!choice.values.empty()) output.values = choice.values;
+}
+
+void checkOutputs(const SceneOutput& output) {
+  if (holds(output.values, "velocities") && !holds(output.files, "hair.usdc") && !output.clipFrames)
+    throw CLI::ValidationError("--usd-values",
+                               "velocities are written into hair.usdc and clips only; add --usdc");
+  if (output.clipFrames && !holds(output.files, "hair.usda"))
+    throw CLI::ValidationError("--clips", "only hair.usda has clips; leave out --no-usd");
+  if (output.prims != "groom") return;
+  if (!holds(output.files, "hair.usdc") || holds(output.files, "hair.usda"))
+    throw CLI::ValidationError("--usd-prims",
+                               "the groom's own prims are written into hair.usdc only; say --usdc --no-usd");
+  if (output.head == "transform")
+    throw CLI::ValidationError("--head",
+                               "the groom's own prims have their own transforms; choose baked or none");
+}
+
+Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {
+  if (options.usesGroomPrims && groom.prims.empty())
+    return Error{"only a USD groom has prims of its own, which --usd-prims groom would change; leave it out"};
+  options.origin = &groom;
+  return {};
+}
+
+void chooseOutputs(const SceneOutput& output, RunOptions& options) {
+  options.width = output.width;
+  options.tipWidth = output.tipWidth;
+  options.writesUsd = holds(output.files, "hair.usda");
+  options.writesUsdc = holds(output.files, "hair.usdc");
+  options.writesLast = holds(output.files, "last.obj");
+  options.writesSheet = holds(output.files, "sheet.png");
+  if (!output.cache.empty()) options.cache = precisionByName(output.cache);
+  options.values = output.values;
+  options.usdHead = output.head == "transform" ? UsdHead::transform
+                    : output.head == "none"    ? UsdHead::none
+                                               : UsdHead::baked;
+  options.usesGroomPrims = output.prims == "groom";
+  options.clipFrames = output.clipFrames.value_or(0);
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,43 @@
+// The options by which `ringlet simulate` chooses what it writes.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/simulate_run.h"
+#include "ringlet/scenes/scene_file.h"
+
+namespace ringlet::program {
+
+/// Outputs as typed; what is left out is the scene's.
+struct OutputChoice {
+  std::string cache;  // a precision of hair.rgc
+  std::optional<double> width, tipWidth;
+  std::optional<std::string> head, prims;
+  std::optional<int> clips;
+  std::vector<std::string> values;
+  bool usdc = false, noUsd = false, noLast = false, noSheet = false;
+};
+
+/// Adds the group of options "Output". `choice` must outlive the command.
+void addOutputOptions(CLI::App* command, OutputChoice& choice);
+
+/// What was typed in place of what the scene says.
+void applyOutputOptions(const OutputChoice& choice, SceneOutput& output);
+
+/// Throws CLI11's error for what makes no sense together.
+void checkOutputs(const SceneOutput& output);
+
+/// Whether what is written needs more of the groom's file than its strands.
+bool needsOrigin(const SceneOutput& output);
+
+/// Takes the groom's file as what values and prims come from; it must live as long as the run. Fails where
+/// the groom has no prims and their changes are asked for.
+Status chooseOrigin(const LoadedGroom& groom, RunOptions& options);
+
+/// Which files a run writes, and what is in them.
+void chooseOutputs(const SceneOutput& output, RunOptions& options);
+
+}  // namespace ringlet::program

@@ -1,0 +1,117 @@
+// Implements output/pc2_writer.h.
+#include "ringlet/output/pc2_writer.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "ringlet/base/assert.h"
+#include "ringlet/base/little_endian.h"
+#include "ringlet/groom/obj_file.h"
+
+namespace ringlet {
+namespace {
+
+constexpr std::string_view kMagic{"POINTCACHE2\0", 12};
+constexpr std::uint64_t kHeaderBytes = 32, kCountAt = 28, kPointBytes = 12;
+
+std::string_view textOf(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::vector<std::byte> headerOf(const Groom& topology, int frames) {
+  std::vector<std::byte> bytes;
+  for (const char c : kMagic) bytes.push_back(static_cast<std::byte>(c));
+  appendU32(bytes, 1);
+  appendU32(bytes, topology.firstPoint.back());
+  appendF32(bytes, 1);
+  appendF32(bytes, 1);
+  appendU32(bytes, static_cast<std::uint32_t>(frames));
+  return bytes;
+}
+
+}  // namespace
+
+Result<Pc2Writer> Pc2Writer::resume(const std::filesystem::path& path, const Groom& topology,
+                                    const AnimationOptions&, int frameCount) {
+  if (topology.firstPoint.back() > std::uint32_t{std::numeric_limits<std::int32_t>::max()})
+    return Error{fmt::format("cannot write {}: it can hold 2^31 - 1 points, and there are {}", path.string(),
+                             topology.firstPoint.back())};
+  auto file = frameCount == 0 ? ByteFile::create(path.string() + ".partial") : openPartial(path);
+  if (!file) return file.error();
+  Pc2Writer writer(std::move(*file), path, topology);
+  const std::vector<std::byte> expected = headerOf(topology, 0);
+  if (frameCount == 0) {
+    if (Status written = writer.file_.writeAt(0, textOf(expected)); !written) return written.error();
+    return writer;
+  }
+  writer.frameCount_ = frameCount;  // what is refused stays as it is
+  const auto header = writer.file_.readAt(0, kHeaderBytes);
+  if (!header) return header.error();
+  const auto last = writer.file_.readAt(writer.endOf(frameCount) - 1, 1);
+  if (!last) return last.error();
+  const bool isOurs =
+      header->size() == kHeaderBytes && header->substr(0, kCountAt) == textOf(expected).substr(0, kCountAt);
+  if (!isOurs || last->empty()) {
+    return Error{
+        fmt::format("cannot go on with {}: expected {} whole frames of this animation, found another "
+                    "file or fewer",
+                    writer.file_.path().string(), frameCount),
+        Fault::input};
+  }
+  if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();
+  if (Status counted = writer.writeCount(); !counted) return counted.error();
+  if (Status cut = writer.file_.truncate(writer.endOf(frameCount)); !cut) return cut.error();
+  return writer;
+}
+
+Pc2Writer::~Pc2Writer() {
+  if (!file_.isOpen() || frameCount_ > 0 || !file_.isThere()) return;
+  std::error_code ignored;
+  std::filesystem::remove(file_.path(), ignored);
+}
+
+std::uint64_t Pc2Writer::endOf(int frame) const {
+  return kHeaderBytes + static_cast<std::uint64_t>(frame) * kPointBytes * topology_.firstPoint.back();
+}
+
+Status Pc2Writer::addFrame(std::span<const Vec3f> points, const UsdTransform&) {
+  RINGLET_ASSERT(points.size() == topology_.firstPoint.back(), "one point per particle of the groom");
+  std::vector<std::byte> bytes;
+  bytes.reserve(kPointBytes * points.size());
+  for (const Vec3f p : points) {
+    for (const float number : {p.x, p.y, p.z}) appendF32(bytes, number);
+  }
+  Status written = file_.writeAt(endOf(frameCount_), textOf(bytes));
+  if (written && frameCount_ == 0) {
+    std::filesystem::path strands = path_;
+    topology_.points.assign(points.begin(), points.end());
+    written = writeObj(strands.replace_extension(".obj"), topology_, points, ObjLines::edges);
+    topology_.points = {};
+  }
+  if (!written) {
+    (void)file_.truncate(endOf(frameCount_));
+    if (frameCount_ == 0 || !file_.isThere()) return written;
+    return Error{fmt::format("{} (the first {} frames are kept in {})", written.error().message, frameCount_,
+                             file_.path().string()),
+                 written.error().fault};
+  }
+  ++frameCount_;
+  return writeCount();
+}
+
+Status Pc2Writer::writeCount() {
+  const std::vector<std::byte> header = headerOf(topology_, frameCount_);
+  return file_.writeAt(kCountAt, textOf(header).substr(kCountAt));
+}
+
+Status Pc2Writer::finish() {
+  RINGLET_ASSERT(frameCount_ > 0, "a file without frames is not finished but dropped");
+  return file_.closeAs(path_);
+}
+
+}  // namespace ringlet

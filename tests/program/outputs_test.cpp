@@ -1,0 +1,274 @@
+// What `ringlet simulate` writes: which files, what is in them, what a killed run leaves of each and how it
+// goes on.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/output/animation_reader.h"
+#include "ringlet/output/animation_writer.h"
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ProgramResult;
+using test::readText;
+using test::runProgram;
+using test::scratchFolder;
+
+constexpr const char* kUsdGroom = R"(#usda 1.0
+(
+    metersPerUnit = 0.01
+    upAxis = "Z"
+)
+def Xform "Head"
+{
+    double3 xformOp:translate = (1, 2, 3)
+    uniform token[] xformOpOrder = ["xformOp:translate"]
+    def BasisCurves "Top"
+    {
+        uniform token type = "linear"
+        int[] curveVertexCounts = [4, 3]
+        point3f[] points = [(0, 0, 0), (0.25, 0, -1), (0, 0, -2), (0.25, 0, -3), (2, 0, 0), (2, 0, -1), (2, 0.5, -2)]
+        color3f[] primvars:displayColor = [(1, 0, 0.5), (0.25, 1, 0)] (interpolation = "uniform")
+    }
+    def BasisCurves "Side"
+    {
+        uniform token type = "linear"
+        int[] curveVertexCounts = [3]
+        point3f[] points = [(5, 0, 0), (5, 0, -1), (5, 0.25, -2)]
+    }
+}
+)";
+
+class Outputs : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = scratchFolder("outputs");
+    std::ofstream(folder_ / "groom.obj") << "v 0 0 0\nv 0 -1 0.2\nv 0.1 -2 0\nv 0 -3 0.1\nv 0 -4 0\n"
+                                            "v 2 0 0\nv 2 -1 0\nv 2.1 -2 0\nl 1 2 3 4 5\nl 6 7 8\n";
+    std::ofstream(folder_ / "groom.usda") << kUsdGroom;
+  }
+
+  ProgramResult run(const std::vector<std::string>& arguments) { return runProgram(folder_, arguments); }
+  // A run of the reference, with what else is asked for.
+  ProgramResult simulate(const std::string& groom, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"simulate", groom, "--backend", "reference", "--frames", "5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+  std::set<std::string> filesIn(const std::string& folder) const {
+    std::set<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / folder))
+      if (entry.is_regular_file() && entry.path().filename() != ".ringlet.lock")
+        files.insert(entry.path().lexically_relative(folder_ / folder).string());
+    return files;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Outputs, AreThoseThatWereAskedFor) {
+  struct Case {
+    std::vector<std::string> options;
+    std::set<std::string> files;
+  };
+  for (const Case& c :
+       {Case{{}, {"hair.usda", "last.obj", "sheet.png"}}, Case{{"--no-last"}, {"hair.usda", "sheet.png"}},
+        Case{{"--no-sheet"}, {"hair.usda", "last.obj"}},
+        Case{{"--usdc", "--no-usd", "--no-last", "--no-sheet"}, {"hair.usdc"}},
+        Case{{"--usdc", "--cache", "16bit"}, {"hair.rgc", "hair.usda", "hair.usdc", "last.obj", "sheet.png"}},
+        Case{{"--clips", "2", "--no-last", "--no-sheet"},
+             {"hair.usda", "hair_clips/hair.0001.usdc", "hair_clips/hair.0002.usdc",
+              "hair_clips/hair.0003.usdc", "hair_clips/manifest.usda"}}}) {
+    fs::remove_all(folder_ / "out");
+    std::vector<std::string> options = c.options;
+    options.insert(options.end(), {"--json", "-o", "out"});
+    const auto result = simulate("groom.obj", options);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(filesIn("out"), c.files);
+    std::set<std::string> said;
+    const json told = json::parse(result.out);
+    for (const auto& path : told["outputs"])
+      said.insert(fs::path(path.get<std::string>()).lexically_relative("out").string());
+    std::set<std::string> atTop = c.files;
+    std::erase_if(atTop, [](const std::string& file) { return file.starts_with("hair_clips"); });
+    EXPECT_EQ(said, atTop);
+  }
+}
+
+TEST_F(Outputs, TheSceneSaysWhatOptionsSay) {
+  std::ofstream(folder_ / "scene.toml")
+      << "[groom]\nfile = 'groom.obj'\n[motion]\nkind = 'shake'\n[output]\nfolder = 'scene'\n"
+         "files = ['hair.usdc', 'hair.usda']\ntip_width = 0.0001\nvalues = ['id', 'rest', 'velocities']\n"
+         "head = 'transform'\n";
+  auto result = simulate("scene.toml", {});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  result =
+      simulate("groom.obj", {"--usdc", "--no-last", "--no-sheet", "--tip-width", "0.0001", "--usd-values",
+                             "id,rest,velocities", "--head", "transform", "-o", "typed"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(filesIn("scene"), filesIn("typed"));
+  for (const std::string& file : filesIn("typed"))
+    EXPECT_TRUE(readText(folder_ / "scene" / file) == readText(folder_ / "typed" / file)) << file;
+}
+
+// Wherever the head's motion is, the hair is in the same place.
+TEST_F(Outputs, TheHeadsMotionIsBakedOrApart) {
+  const std::vector<std::string> motion{"--motion", "nod", "--usdc", "--cache", "float32"};
+  const auto readAll = [&](const std::string& file) {
+    std::vector<std::vector<Vec3f>> frames;
+    auto reader = AnimationReader::open(folder_ / file);
+    EXPECT_TRUE(reader) << reader.error().message;
+    for (int frame = 1; reader && frame <= reader->frameCount(); ++frame) {
+      EXPECT_TRUE(reader->readFrame(frame));
+      frames.push_back(reader->groom().points);
+    }
+    return frames;
+  };
+  std::vector<std::vector<Vec3f>> baked;
+  for (const char* head : {"baked", "transform", "none"}) {
+    std::vector<std::string> options = motion;
+    options.insert(options.end(), {"--head", head, "-o", head});
+    const auto result = simulate("groom.obj", options);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const std::string folder = head;
+    if (folder == "baked") baked = readAll("baked/hair.rgc");
+    EXPECT_TRUE(readAll(folder + "/hair.rgc") == baked);
+    for (const char* file : {"/hair.usda", "/hair.usdc"}) {
+      const auto frames = readAll(folder + file);
+      ASSERT_EQ(frames.size(), baked.size());
+      for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+        const double apart = test::farthestApart(frames[frame], baked[frame]);
+        if (folder == "baked") {
+          EXPECT_EQ(apart, 0);
+        }
+        // Two roundings of coordinates below 8.
+        if (folder == "transform") {
+          EXPECT_LT(apart, 8 * 0x1p-24 * 4);
+        }
+        // Seen from the head roots do not move.
+        if (folder == "none") {
+          EXPECT_LT(length(Vec3d(frames[frame][5]) - Vec3d{2, 0, 0}), 8 * 0x1p-24 * 4);
+        }
+      }
+    }
+  }
+}
+
+// Laid over the groom: the groom's prims bring the points of the changes to where hair was simulated. The
+// file is Z up and the run Y up.
+TEST_F(Outputs, ChangesOfTheGroomsPrims) {
+  const auto result = simulate("groom.usda", {"--usdc", "--no-usd", "--usd-prims", "groom", "--cache",
+                                              "float32", "--motion", "still", "-o", "out"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  auto changes = AnimationReader::open(folder_ / "out/hair.usdc"),
+       cache = AnimationReader::open(folder_ / "out/hair.rgc");
+  ASSERT_TRUE(changes && cache);
+  EXPECT_EQ(changes->header().up, UpAxis::z) << "as the groom's file";
+  EXPECT_EQ(changes->groom().firstPoint, (std::vector<std::uint32_t>{0, 4, 7, 10}));
+  for (int frame = 1; frame <= 5; ++frame) {
+    ASSERT_TRUE(changes->readFrame(frame) && cache->readFrame(frame));
+    for (std::size_t i = 0; i < 10; ++i) {
+      const Vec3d local(changes->groom().points[i]), moved = local + Vec3d{1, 2, 3};
+      const Vec3d world{moved.x, moved.z, -moved.y};
+      EXPECT_LT(length(world - Vec3d(cache->groom().points[i])), 16 * 0x1p-24 * 4) << frame << " " << i;
+    }
+  }
+}
+
+TEST_F(Outputs, AWrongCommandLineIsSaid) {
+  struct Case {
+    std::vector<std::string> options;
+    std::string message;
+    int exitCode = 2;
+  };
+  for (const Case& c :
+       {Case{{"--usd-values", "velocities"}, "add --usdc"}, Case{{"--usd-values", "speed"}, "'speed'"},
+        Case{{"--head", "left"}, "'left'"}, Case{{"--clips", "0"}, "from 1"},
+        Case{{"--clips", "2", "--no-usd"}, "only hair.usda has clips"},
+        Case{{"--usd-prims", "groom"}, "--usdc --no-usd"},
+        Case{{"--usd-prims", "groom", "--usdc", "--no-usd", "--head", "transform"}, "baked or none"},
+        Case{{"--usd-prims", "groom", "--usdc", "--no-usd"}, "only a USD groom has prims", 1}}) {
+    std::vector<std::string> options = c.options;
+    options.insert(options.end(), {"-o", "no"});
+    const auto result = simulate("groom.obj", options);
+    EXPECT_EQ(result.exitCode, c.exitCode) << c.message;
+    EXPECT_NE(result.err.find(c.message), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder_ / "no"));
+  }
+}
+
+// What a killed run leaves in every format that simulate writes is refused by the next, and gone on with from
+// a checkpoint to the bytes of a run without a break.
+TEST_F(Outputs, AKilledRunGoesOnInEveryFormat) {
+  const std::vector<std::string> all{"--usdc", "--cache", "float32", "--usd-values", "id,velocities"};
+  for (const std::vector<std::string>& ways : {std::vector<std::string>{}, {"--clips", "3"}}) {
+    std::vector<std::string> arguments{"simulate", "groom.obj", "--backend", "reference",    "--motion",
+                                       "still",    "--frames",  "60",        "--checkpoint", "7"};
+    arguments.insert(arguments.end(), all.begin(), all.end());
+    arguments.insert(arguments.end(), ways.begin(), ways.end());
+    auto with = [&](std::vector<std::string> more) {
+      std::vector<std::string> typed = arguments;
+      typed.insert(typed.end(), more.begin(), more.end());
+      return typed;
+    };
+    fs::remove_all(folder_ / "whole");
+    fs::remove_all(folder_ / "broken");
+    ASSERT_EQ(run(with({"-o", "whole"})).exitCode, 0);
+    {
+      test::RunningProgram program(folder_, with({"-o", "broken", "--json-progress"}));
+      const bool began = program.waitUntil([&] {
+        const std::string lines = readText(folder_ / "stdout.txt");
+        return std::ranges::count(lines, '\n') > 10;
+      });
+      program.send(SIGKILL);
+      program.wait();
+      ASSERT_TRUE(began);
+    }
+    const auto refused = run(with({"-o", "broken"}));
+    if (fs::exists(folder_ / "broken/hair.usdc")) continue;  // it was done before it was killed
+    EXPECT_EQ(refused.exitCode, 5);
+    for (const char* file : {"hair.usda.partial", "hair.usdc.partial", "hair.rgc.partial"})
+      EXPECT_NE(refused.err.find(file), std::string::npos) << refused.err;
+    auto left = AnimationReader::open(folder_ / "broken/hair.usdc.partial");
+    ASSERT_TRUE(left) << left.error().message;
+    EXPECT_GE(left->frameCount(), 10);
+    const auto resumed = run(with({"-o", "broken", "--resume"}));
+    ASSERT_EQ(resumed.exitCode, 0) << resumed.err;
+    EXPECT_EQ(filesIn("broken"), filesIn("whole"));
+    for (const std::string& file : filesIn("whole"))
+      EXPECT_TRUE(readText(folder_ / "broken" / file) == readText(folder_ / "whole" / file)) << file;
+  }
+}
+
+// By a reader of crates that has nothing of ours.
+TEST_F(Outputs, AnotherProgramReadsTheCrate) {
+  RINGLET_NEEDS_DATA(reader, "../tools/read_usdc.py");
+  const auto result = simulate("groom.obj", {"--usdc", "--usd-values", "id,rest,velocities", "--head",
+                                             "transform", "--tip-width", "0.0001", "-o", "out"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const std::string command = "python3 " + reader.string() + " " + (folder_ / "out/hair.usdc").string() +
+                              " --json > " + (folder_ / "read.json").string();
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const json read = json::parse(readText(folder_ / "read.json"));
+  EXPECT_EQ(read["version"], (json{0, 8, 0}));
+  const json& layer = read["layer"];
+  for (const char* path : {"/", "/Hair", "/Hair.points", "/Hair.extent", "/Hair.velocities", "/Hair.widths",
+                           "/Hair.primvars:id", "/Hair.primvars:rest", "/Hair.xformOp:transform"})
+    EXPECT_TRUE(layer.contains(path)) << path;
+  EXPECT_EQ(layer["/"]["fields"]["endTimeCode"]["$v"], 5);
+}
+
+}  // namespace
+}  // namespace ringlet
