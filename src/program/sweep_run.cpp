@@ -193,11 +193,12 @@ class Sweep {
   // One groom at a time is kept for the runs that have the same.
   Result<std::shared_ptr<const LoadedGroom>> groomOf(const SceneGroom& scene, bool withOrigin) {
     const std::scoped_lock lock(groomMutex_);
-    if (groom_ && groomScene_ == scene) return groom_;
+    if (groom_ && groomScene_ == scene && groomHasOrigin_ == withOrigin) return groom_;
     auto read = loadGroom(scene, withOrigin);
     if (!read) return read.error();
     groom_ = std::make_shared<const LoadedGroom>(std::move(*read));
     groomScene_ = scene;
+    groomHasOrigin_ = withOrigin;
     return groom_;
   }
 
@@ -287,6 +288,7 @@ class Sweep {
   std::map<std::string, std::set<int>> warnings_;  // with the runs they are of
   std::shared_ptr<const LoadedGroom> groom_;
   SceneGroom groomScene_;  // whose it is
+  bool groomHasOrigin_ = false;
 };
 
 // What is said as runs end: a bar, lines of JSON, failures.
