@@ -164,6 +164,18 @@ TEST(UsdcWriter, UnfinishedFramesHaveNoValue) {
   EXPECT_EQ(fs::file_size(path) % 8, 0u);
 }
 
+// Of a run that ended early nothing is left of the frames that did not come.
+TEST(UsdcWriter, AFinishedFileHasSamplesOfItsFramesOnly) {
+  const fs::path path = write(scratchFolder("usdc_fewer"), {.frameCount = 5, .usd = {.velocities = true}}, 3,
+                              [](double frame) { return frame; });
+  const Crate crate = crateOf(path);
+  for (const char* name : {"points", "extent", "velocities"}) {
+    ASSERT_EQ(crate.sampleCount(name), 3u) << name;
+    for (const UsdSamplePlace& place : crate.attribute(name).places)
+      EXPECT_FALSE(Crate::isBlock(place.rep)) << name;
+  }
+}
+
 // Velocities are differences of what was written, in units a second: of an even motion its speed, of a
 // parabola its slope, to the rounding of what was added to the points.
 TEST(UsdcWriter, VelocitiesAreThoseOfTheMotion) {
