@@ -342,6 +342,23 @@ TEST(Sheet, SolidsMoveAndTurn) {
   EXPECT_LT(countOf(picture, 2).skin, countOf(picture, 0).skin / 10) << "seen from its edge, or from behind";
 }
 
+// A small square before a large one, and the large one before the small: handed over in both orders.
+TEST(Sheet, NearerSolidsHideFartherOnes) {
+  const Groom groom = strands({{{0, 10, 0}, {0, 0, 0}, {0, -10, 0}}});
+  const Quatd tilt = fromRotationVector(Vec3d{-0.9, 0, 0});  // lit otherwise
+  const auto drawn = [&](bool smallFirst, double smallBefore) {
+    const SheetSolid small = square(0.01), large = square(0.03);
+    const SheetPlace smallPlace{towardsCamera(smallBefore), tilt}, largePlace{};
+    Sheet sheet(groom, 1, UpAxis::y, smallFirst ? std::vector{small, large} : std::vector{large, small});
+    sheet.offer(1, groom.points,
+                smallFirst ? std::vector{smallPlace, largePlace} : std::vector{largePlace, smallPlace});
+    return sheet.draw().pixels;
+  };
+  EXPECT_EQ(drawn(true, 0.04), drawn(false, 0.04));
+  EXPECT_EQ(drawn(true, -0.04), drawn(false, -0.04));
+  EXPECT_NE(drawn(true, 0.04), drawn(true, -0.04));
+}
+
 // The camera is for the hair: what is far from it changes nothing, what is near it is in the picture.
 TEST(Sheet, SolidsThatAreFarDoNotMoveTheCamera) {
   const Groom groom = strands({{{0, 10, 0}, {0, 0, 0}, {0, -10, 0}}});
