@@ -26,7 +26,7 @@ using test::scratchFolder;
 
 constexpr int kFrames = 3;
 
-// Two prims: one moved and of twice the size, of two strands; one turned, of one. Colours of each strand, of
+// Two prims: one moved and of twice the size, of two strands; one turned, of two. Colours of each strand, of
 // all; widths of points; UVs; a name; a number that only one of them has.
 constexpr const char* kGroomText = R"(#usda 1.0
 (
@@ -55,12 +55,12 @@ def Xform "Head"
         double3 xformOp:rotateXYZ = (0, 90, 0)
         uniform token[] xformOpOrder = ["xformOp:rotateXYZ"]
         uniform token type = "linear"
-        int[] curveVertexCounts = [4]
-        point3f[] points = [(0, 0, 0), (0, -1, 0), (0, -2, 0), (0, -3, 0.5)]
-        float[] widths = [0.5, 0.25, 0.125, 0.0625] (interpolation = "vertex")
+        int[] curveVertexCounts = [4, 2]
+        point3f[] points = [(0, 0, 0), (0, -1, 0), (0, -2, 0), (0, -3, 0.5), (2, 0, 0), (2, -1, 0)]
+        float[] widths = [0.5, 0.25, 0.125, 0.0625, 0.5, 0.25] (interpolation = "vertex")
         color3f[] primvars:displayColor = [(0, 0, 1)]
-        int[] primvars:id = [11] (interpolation = "uniform")
-        texCoord2f[] primvars:st = [(1, 1)] (interpolation = "uniform")
+        int[] primvars:id = [11, 5] (interpolation = "uniform")
+        texCoord2f[] primvars:st = [(1, 1), (0.25, 0)] (interpolation = "uniform")
         float primvars:alone = 3
     }
 }
@@ -170,14 +170,14 @@ TEST(UsdValues, WhatTheGroomSaysIsCarriedOver) {
     SCOPED_TRACE(ending);
     const GroomPrim prim =
         primOf(write(ending, groom.groom, {.ids = true, .origin = &groom, .originValues = true}));
-    EXPECT_EQ(valueOf(prim, "primvars:id").numbers, (std::vector<double>{42, 7, 11}));
+    EXPECT_EQ(valueOf(prim, "primvars:id").numbers, (std::vector<double>{42, 7, 11, 5}));
     const GroomValue& colour = valueOf(prim, "primvars:displayColor");
     EXPECT_EQ(colour.type, "color3f[]");
     EXPECT_EQ(colour.interpolation, "uniform");
-    EXPECT_EQ(colour.numbers, (std::vector<double>{1, 0, 0.5, 0.25, 1, 0, 0, 0, 1}));
-    EXPECT_EQ(valueOf(prim, "primvars:st").numbers, (std::vector<double>{0, 1, 0.5, 0.75, 1, 1}));
+    EXPECT_EQ(colour.numbers, (std::vector<double>{1, 0, 0.5, 0.25, 1, 0, 0, 0, 1, 0, 0, 1}));
+    EXPECT_EQ(valueOf(prim, "primvars:st").numbers, (std::vector<double>{0, 1, 0.5, 0.75, 1, 1, 0.25, 0}));
     EXPECT_EQ(valueOf(prim, "widths").numbers,
-              (std::vector<double>{1, 0.5, 0.25, 1, 0.5, 0.5, 0.25, 0.125, 0.0625}));
+              (std::vector<double>{1, 0.5, 0.25, 1, 0.5, 0.5, 0.25, 0.125, 0.0625, 0.5, 0.25}));
     for (const char* ofOne : {"primvars:alone", "primvars:look", "primvars:odd"})
       EXPECT_EQ(std::ranges::count(prim.values, ofOne, &GroomValue::name), 0) << ofOne;
   }
