@@ -202,12 +202,6 @@ class Sweep {
     return groom_;
   }
 
-  Result<LoadedScene> load(const SceneFile& scene) {
-    const auto groom = groomOf(scene.groom, needsOrigin(scene.output));
-    if (!groom) return groom.error();
-    return loadScene(scene, groom->get());
-  }
-
   Result<std::vector<RunFact>> factsOf(const SweepRun& run) {
     const std::scoped_lock lock(mutex_);
     return facts_.of(run);
@@ -247,9 +241,11 @@ class Sweep {
     options.opened = std::move(*opened);
     auto facts = factsOf(run);
     if (!facts) return facts.error();
-    auto scene = load(run.scene);
+    const auto groom = groomOf(run.scene.groom, needsOrigin(run.scene.output));
+    if (!groom) return groom.error();
+    auto scene = loadScene(run.scene, groom->get());
     if (!scene) return scene.error();
-    if (Status chosen = chooseOrigin(groom_, options); !chosen) return chosen.error();
+    if (Status chosen = chooseOrigin(**groom, options); !chosen) return chosen.error();
     auto leftovers = prepareFolder(run, options.folder);
     if (!leftovers) return leftovers.error();
     options.leftovers = *leftovers;
