@@ -34,11 +34,11 @@ struct GroomPrim {
 /// A groom that can be used, and what a person should hear about its file, a sentence each.
 struct LoadedGroom {
   Groom groom;
-  std::vector<std::string> warnings;
-  bool statesUnit = false;       // groom.metresPerUnit is what the file says; else it is only the usual one
-  bool statesUp = false;         // the file says which axis points up
-  bool isTurned = false;         // from that one to the other
-  std::vector<GroomPrim> prims;  // in the order of their strands, where they are asked for
+  std::vector<std::string> warnings{};
+  bool statesUnit = false;         // groom.metresPerUnit is what the file says; else it is only the usual one
+  bool statesUp = false;           // the file says which axis points up
+  bool isTurned = false;           // from that one to the other
+  std::vector<GroomPrim> prims{};  // in the order of their strands, where they are asked for
 };
 
 }  // namespace ringlet
