@@ -113,7 +113,7 @@ TEST_F(Frames, ComeInOrderInTheFilesUnit) {
                             seen.push_back(f.number);
                             return {};
                           },
-                          .write = [&](int, std::vector<Vec3f> points) -> Status {
+                          .write = [&](int, std::vector<Vec3f> points, const ComputedFrame&) -> Status {
                             written.push_back(std::move(points));
                             return {};
                           }});
@@ -129,9 +129,10 @@ TEST_F(Frames, ComeInOrderInTheFilesUnit) {
 }
 
 TEST_F(Frames, ThoseAfterAFailureAreNotCounted) {
-  FrameSink sink(groom_, {.observe = {}, .write = [](int number, std::vector<Vec3f>) -> Status {
-                            return number < 4 ? Status{} : Status{Error{"full"}};
-                          }});
+  FrameSink sink(groom_,
+                 {.observe = {}, .write = [](int number, std::vector<Vec3f>, const ComputedFrame&) -> Status {
+                    return number < 4 ? Status{} : Status{Error{"full"}};
+                  }});
   bool failed = false;
   for (int number = 1; number <= 50 && !failed; ++number) failed = !sink.hand(frame(number));
   EXPECT_TRUE(failed);
