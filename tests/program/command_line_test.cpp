@@ -56,7 +56,8 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
   };
   const std::vector<Case> cases{
       {{},
-       "say what to do: make, simulate, info, measure, convert, scene, devices, tune, conform, kernels, "
+       "say what to do: make, simulate, sweep, info, measure, convert, scene, devices, tune, conform, "
+       "kernels, "
        "material"},
       {{"simulat"}, "did you mean simulate?"},
       {{"make", "crul", "-o", "a.obj"}, "did you mean curl?"},

@@ -59,8 +59,8 @@ TEST(MaterialFile, UnusualNumbersWarn) {
   EXPECT_EQ(loaded->material.bendDampingRatio, 0.02);
   ASSERT_EQ(loaded->warnings.size(), 1u);
   EXPECT_EQ(loaded->warnings[0],
-            "hair.toml: bend_damping_ratio is 0.02; usual is from 0.1 to 2. How fast swinging settles; below "
-            "0.1 bending can feed on itself and never come to rest.");
+            "hair.toml: bend_damping_ratio is 0.02; usual is from 0.1 to 2. Damping of bending: how fast a "
+            "swing settles. Below 0.1 bending may gain energy and never come to rest.");
 }
 
 // One line a kind of mistake: the text, and the message after "hair.toml: ".
