@@ -164,7 +164,7 @@ TEST(Info, SaysWhatIsWrong) {
        {Case{{"missing.usd"}, 4, "missing.usd"}, Case{{"a.abc"}, 1, "supported are .hair, .obj, .usda"},
         Case{{"nan.obj"}, 1, "line 1"}, Case{{"mesh.usda"}, 1, "found no BasisCurves"},
         Case{{"point.obj", "--fix", "a.obj"}, 1, "nothing is left to write"},
-        Case{{"point.obj", "--fix", "a.ply"}, 2, "a.ply"},
+        Case{{"point.obj", "--fix", "a.tfx"}, 2, "a.tfx"},
         Case{{"point.obj", "--particles", "4"}, 2, "only --fix"}, Case{{}, 2, "FILE"}}) {
     auto arguments = c.arguments;
     arguments.insert(arguments.begin(), "info");

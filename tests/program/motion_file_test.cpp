@@ -183,7 +183,8 @@ TEST(MotionFile, JointsWithOtherAxesAreSaidAndBindUpright) {
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
     std::string warnings;
-    for (const auto& warning : json::parse(result.out)["warnings"]) warnings += std::string(warning) + "\n";
+    const json report = json::parse(result.out);
+    for (const auto& warning : report["warnings"]) warnings += std::string(warning) + "\n";
     return warnings;
   };
   for (const auto& axis : test::kJointAxes) {
