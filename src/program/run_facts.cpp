@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,22 +20,25 @@ namespace fs = std::filesystem;
 
 // Lines of TOML that Ringlet writes, "key = value  # what it is" below "[table]", each a fact.
 void addLines(std::string_view text, std::string table, std::vector<RunFact>& facts) {
-  std::size_t lineNumber = 0;
+  std::map<std::string, int, std::less<>> tablesOfList;  // by their common name
+  std::size_t lineOfTable = 0;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
-    ++lineNumber;
+    ++lineOfTable;
     line = line.substr(0, line.find("  #"));
     if (line.empty() || line.starts_with('#')) continue;
     if (line.starts_with('[')) {
-      // Tables of a list have one name: the line's number tells them apart.
-      table = line.starts_with("[[") ? fmt::format("{} {}", line, lineNumber) : std::string(line);
+      // Tables of a list have one name and are numbered from 1.
+      table = line;
+      if (line.starts_with("[[")) table += fmt::format(" {}", ++tablesOfList[table]);
+      lineOfTable = 0;
       continue;
     }
     const std::size_t equals = line.find(" = ");
     if (equals == std::string_view::npos) {
-      facts.push_back({fmt::format("{} line {}", table, lineNumber), std::string(line)});
+      facts.push_back({fmt::format("{} line {}", table, lineOfTable), std::string(line)});
     } else {
       facts.push_back(
           {fmt::format("{} {}", table, line.substr(0, equals)), std::string(line.substr(equals + 3))});

@@ -444,7 +444,7 @@ def test_writers(tmp_path, groom):
         with pytest.raises(ValueError):
             ringlet.AnimationWriter(tmp_path / "x.rgc", groom, **values)
     for name in ("x", "x.abc", "x.obj"):
-        with pytest.raises(ValueError, match=r"\.usda, \.rgc"):
+        with pytest.raises(ValueError, match=r"\.usda, \.usdc, \.rgc, \.pc2"):
             ringlet.AnimationWriter(tmp_path / name, groom)
     writer = ringlet.AnimationWriter(tmp_path / "x.rgc", groom)
     with pytest.raises(TypeError):
