@@ -14,5 +14,5 @@ build/release/ringlet simulate "$out/head.obj" --motion shake --amplitude 0.04 -
 echo
 echo "Results are in $(realpath "$out"):"
 echo "  sheet.png   six frames side by side"
-echo "  hair.usda   the animation, for usdview, Houdini, Blender 4 and others"
+echo "  hair.usda   the animation, for USD programs (docs/pipelines.md: Blender, Houdini, Maya)"
 echo "  last.obj    the last frame as OBJ polylines"

@@ -85,6 +85,22 @@ CLI::Validator endsIn(std::vector<std::string> extensions) {
       "");
 }
 
+CLI::Option* addBackendOption(CLI::App& command, std::string& backend) {
+  return command
+      .add_option("--backend", backend, "gpu (Vulkan) or reference (CPU, double precision) (default gpu)")
+      ->check(oneOf({"gpu", "reference"}))
+      ->type_name("NAME");
+}
+
+CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
+  return command
+      .add_option(
+          "--device", device,
+          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
+          "else the best)")
+      ->type_name("D");
+}
+
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);
   std::string what = error.what();

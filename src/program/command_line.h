@@ -25,6 +25,10 @@ CLI::Validator wholeBetween(int low, int high);
 /// Accepts a path that ends in one of these extensions, in either case.
 CLI::Validator endsIn(std::vector<std::string> extensions);
 
+/// `--backend`, of commands that step hair, and `--device`, of all that use one.
+CLI::Option* addBackendOption(CLI::App& command, std::string& backend);
+CLI::Option* addDeviceOption(CLI::App& command, std::string& device);
+
 /// Of `--subgroup`, in simulate and scene.
 inline constexpr const char* kSubgroupHelp =
     "Invocations of a subgroup of the strand kernel: one of the widths `ringlet devices` shows (default: "

@@ -159,12 +159,7 @@ void addConformCommand(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("conform", "Checks whether a device and its driver compute hair correctly");
   command->footer(kHelp);
-  command
-      ->add_option(
-          "--device", typed->device,
-          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
-          "else the best)")
-      ->type_name("D");
+  addDeviceOption(*command, typed->device);
   command->add_flag("--quick", typed->quick, "Leaves out what takes long; see below");
   command->add_option("--json", typed->json, "Writes the report to this file as one JSON object, too")
       ->type_name("FILE");

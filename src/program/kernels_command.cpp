@@ -181,12 +181,7 @@ void addKernelsCommand(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("kernels", "Compiles every kernel on a device, and says what the driver made of it");
   command->footer(kHelp);
-  command
-      ->add_option(
-          "--device", typed->device,
-          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
-          "else the best)")
-      ->type_name("D");
+  addDeviceOption(*command, typed->device);
   command->add_flag("--statistics", typed->statistics,
                     "Tell of registers, spills, scratch, code size, waves");
   command->add_option("--json", typed->json, "Writes it to this file as one JSON object, too")

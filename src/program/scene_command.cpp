@@ -428,17 +428,8 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->check(between(0.001, 36'000))
       ->type_name("S")
       ->group(solver);
-  command
-      ->add_option("--backend", typed->names.backend,
-                   "gpu (Vulkan) or reference (CPU, double precision) (default gpu)")
-      ->check(oneOf({"gpu", "reference"}))
-      ->type_name("NAME")
-      ->group(solver);
-  command
-      ->add_option("--device", typed->run.device,
-                   "Vulkan device, by index or part of its name; see `ringlet devices`")
-      ->type_name("D")
-      ->group(solver);
+  addBackendOption(*command, typed->names.backend)->group(solver);
+  addDeviceOption(*command, typed->run.device)->group(solver);
   command->add_option("--subgroup", typed->subgroup, kSubgroupHelp)
       ->check(wholeBetween(1, 128))
       ->type_name("N")

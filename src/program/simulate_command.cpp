@@ -428,19 +428,8 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
 
   // Where it runs.
   const char* machine = "Machine";
-  command
-      ->add_option("--backend", typed->backend,
-                   "gpu (Vulkan) or reference (CPU, double precision) (default gpu)")
-      ->check(oneOf({"gpu", "reference"}))
-      ->type_name("NAME")
-      ->group(machine);
-  command
-      ->add_option(
-          "--device", typed->device,
-          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, else "
-          "the best)")
-      ->type_name("D")
-      ->group(machine);
+  addBackendOption(*command, typed->backend)->group(machine);
+  addDeviceOption(*command, typed->device)->group(machine);
   command
       ->add_option("--kernel", typed->kernel,
                    "Form of the strand kernel: auto, lanes or serial (default auto)")

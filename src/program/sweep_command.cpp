@@ -198,19 +198,8 @@ void addSweepCommand(CLI::App& app, int& exitCode) {
   command->add_flag("--overwrite", options.overwrites, "Run all anew, whatever DIR holds");
 
   const char* machine = "Machine";
-  command
-      ->add_option("--backend", typed->backend,
-                   "gpu (Vulkan) or reference (CPU, double precision) (default gpu)")
-      ->check(oneOf({"gpu", "reference"}))
-      ->type_name("NAME")
-      ->group(machine);
-  command
-      ->add_option(
-          "--device", options.device,
-          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
-          "else the best)")
-      ->type_name("D")
-      ->group(machine);
+  addBackendOption(*command, typed->backend)->group(machine);
+  addDeviceOption(*command, options.device)->group(machine);
   command
       ->add_flag("--untuned", typed->untuned,
                  "Choose kernels by the built-in model, whatever `ringlet tune` measured")

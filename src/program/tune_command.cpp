@@ -191,12 +191,7 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
           "How long it may take, about; a third of it for timing, the rest for compiling (default 20)")
       ->check(between(0.1, 3600))
       ->type_name("S");
-  command
-      ->add_option(
-          "--device", typed->device,
-          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
-          "else the best)")
-      ->type_name("D");
+  addDeviceOption(*command, typed->device);
   command->add_flag("--json", typed->json, "Print one JSON object instead of the table");
   command->add_flag("--quiet", typed->quiet, "No progress bar and no table");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });
