@@ -1,6 +1,5 @@
 // Implements runHair of simulate_run.h.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +16,7 @@
 #include "program/interruption.h"
 #include "program/progress_bar.h"
 #include "program/run_checkpoints.h"
+#include "program/run_facts.h"
 #include "program/run_folder.h"
 #include "program/run_writers.h"
 #include "program/simulate_run.h"
@@ -104,16 +104,7 @@ std::vector<RunFact> factsOf(const RunInput& input, const RunOptions& options, c
   add("steps a frame", input.settings.stepsPerFrame);
   add("max_stretch", input.settings.maxStretch);
   add("pre-roll", options.preRollSeconds);
-  add("hair.usda", options.writesUsd);
-  add("hair.usdc", options.writesUsdc);
-  add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);
-  add("sheet.png", options.writesSheet);
-  add("width", options.width);
-  add("tip_width", options.tipWidth.value_or(0));
-  add("USD values", fmt::format("{}", fmt::join(options.values, ", ")));
-  add("head", static_cast<int>(options.usdHead));
-  add("groom's prims", options.usesGroomPrims);
-  add("clip_frames", options.clipFrames);
+  addOutputFacts(options, facts);
   add("measured contacts", options.measuresContacts);
   add("measured residual", measuresResidual(input, options));
   return facts;

@@ -2,6 +2,7 @@
 #include "program/run_facts.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <zlib.h>
 
 #include <functional>
@@ -10,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "program/simulate_run.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/rest/material_file.h"
 
@@ -78,6 +80,20 @@ Result<std::vector<RunFact>> factsOf(const SceneFile& scene, const std::vector<f
 
 void addMaterialFacts(const Material& material, std::vector<RunFact>& facts) {
   addLines(materialText(material), "material", facts);
+}
+
+void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
+  const auto add = [&](const char* name, auto value) { facts.push_back({name, fmt::format("{}", value)}); };
+  add("hair.usda", options.writesUsd);
+  add("hair.usdc", options.writesUsdc);
+  add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);
+  add("sheet.png", options.writesSheet);
+  add("width", options.width);
+  add("tip_width", options.tipWidth.value_or(0));
+  add("USD values", fmt::format("{}", fmt::join(options.values, ", ")));
+  add("head", static_cast<int>(options.usdHead));
+  add("groom's prims", options.usesGroomPrims);
+  add("clip_frames", options.clipFrames);
 }
 
 }  // namespace ringlet::program

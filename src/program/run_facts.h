@@ -12,6 +12,8 @@
 
 namespace ringlet::program {
 
+struct RunOptions;
+
 /// Every file that a scene reads; `input`: what the user named, the scene or its groom.
 std::vector<std::filesystem::path> inputFilesOf(const std::filesystem::path& input, const SceneFile& scene);
 
@@ -22,5 +24,8 @@ Result<std::vector<RunFact>> factsOf(const SceneFile& scene,
 
 /// Every parameter that is not the default.
 void addMaterialFacts(const Material& material, std::vector<RunFact>& facts);
+
+/// What a run writes, and what is in it.
+void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts);
 
 }  // namespace ringlet::program

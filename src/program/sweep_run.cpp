@@ -1,6 +1,5 @@
 // Implements sweep_run.h.
 #include "program/sweep_run.h"
-#include "program/output_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,6 +20,7 @@
 #include "program/exit_codes.h"
 #include "program/interruption.h"
 #include "program/measure_report.h"
+#include "program/output_options.h"
 #include "program/progress_bar.h"
 #include "program/run_facts.h"
 #include "program/run_report.h"
@@ -49,7 +49,10 @@ RunOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
   RunOptions options = runOptionsOf(run.scene);
   options.folder = folderOf(run, sweep);
   options.writesLast = true;  // the sheet is drawn of it
-  if (sweep.lastOnly) options.writesUsd = options.writesSheet = false, options.cache.reset();
+  if (sweep.lastOnly) {
+    options.writesUsd = options.writesUsdc = options.writesSheet = options.usesGroomPrims = false;
+    options.cache.reset();
+  }
   options.onReference = sweep.onReference;
   options.device = sweep.device;
   options.usesTuned = sweep.usesTuned;
@@ -87,16 +90,12 @@ class SweepFacts {
       contents_[inputs] = std::move(*contents);
     }
     facts->insert(facts->end(), contents_[inputs].begin(), contents_[inputs].end());
-    const RunOptions files = optionsOf(run, options_);
     const auto add = [&](const char* name, auto value) {
       facts->push_back({name, fmt::format("{}", value)});
     };
     add("program", RINGLET_VERSION);
     add("backend", options_.onReference ? "reference" : "gpu");
-    add("hair.usda", files.writesUsd);
-    add("hair.rgc", files.cache ? static_cast<int>(*files.cache) : -1);
-    add("sheet.png", files.writesSheet);
-    add("width", files.width);
+    addOutputFacts(optionsOf(run, options_), *facts);
     add("measured frames", options_.measures);
     return facts;
   }

@@ -193,6 +193,19 @@ TEST_F(Sweep, AFolderOfSomethingElseIsRefused) {
   EXPECT_EQ(onCpu(vary, {"--overwrite"}).exitCode, 0);
 }
 
+TEST_F(Sweep, WhatUsdHoldsIsKeptApart) {
+  const std::string files = "output.files=[\"hair.usdc\", \"last.obj\"]", vary = "material.dials.hold=1,2";
+  ASSERT_EQ(onCpu({vary, files}, {"--last-only"}).exitCode, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "out/run-0001/hair.usdc")) << "--last-only";
+  fs::remove_all(folder_ / "out");
+  const auto whole = onCpu({vary, files});
+  ASSERT_EQ(whole.exitCode, 0) << whole.err;
+  EXPECT_TRUE(fs::exists(folder_ / "out/run-0001/hair.usdc"));
+  const auto other = onCpu({vary, files, "output.tip_width=0.0001"});
+  EXPECT_EQ(other.exitCode, 4);
+  EXPECT_NE(other.err.find("tip_width"), std::string::npos) << other.err;
+}
+
 TEST_F(Sweep, ARunThatFailsDoesNotLoseTheOthers) {
   std::ofstream(folder_ / "groom.obj") << "v 0 0 0\nv 0 -10 0\nv 10 -10 0\nl 1 2 3\n";
   std::ofstream(folder_ / "scene.toml") << "[groom]\nfile = 'groom.obj'\n[simulation]\nframes = 2\n";

@@ -70,13 +70,7 @@ Result<AnimationReader> AnimationReader::open(const fs::path& path) {
   return extension == ".usdc" ? made(UsdcReader::open(path)) : made(UsdReader::open(path));
 }
 
-void AnimationReader::take(const UsdReader& usd) {
-  std::uint64_t total = 0;
-  for (const std::uint32_t count : usd.particleCounts()) {
-    total += count;
-    groom_.firstPoint.push_back(static_cast<std::uint32_t>(total));
-  }
-  if (total > std::numeric_limits<std::uint32_t>::max()) groom_.firstPoint = {0};
+void AnimationReader::takeHeader(const auto& usd) {
   header_ = {.precision = CachePrecision::float32,
              .up = usd.up(),
              .diameter = usd.diameter(),
@@ -86,15 +80,19 @@ void AnimationReader::take(const UsdReader& usd) {
   warnings_ = usd.warnings();
 }
 
+void AnimationReader::take(const UsdReader& usd) {
+  std::uint64_t total = 0;
+  for (const std::uint32_t count : usd.particleCounts()) {
+    total += count;
+    groom_.firstPoint.push_back(static_cast<std::uint32_t>(total));
+  }
+  if (total > std::numeric_limits<std::uint32_t>::max()) groom_.firstPoint = {0};
+  takeHeader(usd);
+}
+
 void AnimationReader::take(const UsdcReader& usd) {
   groom_.firstPoint = usd.firstPoint();
-  header_ = {.precision = CachePrecision::float32,
-             .up = usd.up(),
-             .diameter = usd.diameter(),
-             .framesPerSecond = usd.framesPerSecond(),
-             .metresPerUnit = usd.metresPerUnit()};
-  frameCount_ = usd.frameCount();
-  warnings_ = usd.warnings();
+  takeHeader(usd);
 }
 
 void AnimationReader::take(const CacheReader& cache) {

@@ -55,6 +55,7 @@ class AnimationReader {
   void take(const UsdReader& usd);
   void take(const UsdcReader& usd);
   void take(const CacheReader& cache);
+  void takeHeader(const auto& usd);
   Status checkEnd(UsdReader& usd);
 
   Reader reader_;
