@@ -1,10 +1,11 @@
 // What the subcommands' options share: checks whose messages tell a person what would be right.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

@@ -1,7 +1,7 @@
 // `ringlet conform`: holds a device and its driver against the reference, and says what is wrong.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

@@ -1,6 +1,7 @@
 // Implements contact_options.h.
 #include "program/contact_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <iterator>

@@ -1,10 +1,10 @@
 // The options by which commands choose contacts between hairs.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
+#include "program/cli_fwd.h"
 #include "program/setting_options.h"
 #include "ringlet/scene/contact_settings.h"
 

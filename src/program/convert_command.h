@@ -1,7 +1,7 @@
 // `ringlet convert`: an animation as another file, and what is in one.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

@@ -1,7 +1,7 @@
 // `ringlet devices`: what simulations could run on.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

@@ -1,7 +1,7 @@
 // `ringlet info`: what is in a groom's file, and what is wrong with it.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

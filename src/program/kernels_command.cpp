@@ -3,6 +3,7 @@
 #include "program/standard_error.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>

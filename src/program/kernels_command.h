@@ -1,7 +1,7 @@
 // `ringlet kernels`: what the driver's compiler makes of every kernel.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

@@ -1,7 +1,7 @@
 // `ringlet make curl|swatch|head`: grooms to try things on, without a file to start from.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

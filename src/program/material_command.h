@@ -2,11 +2,11 @@
 // choose it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "program/cli_fwd.h"
 #include "ringlet/base/result.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/scenes/scene_file.h"

@@ -1,7 +1,7 @@
 // `ringlet measure`: what became of the curl, in numbers.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

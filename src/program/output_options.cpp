@@ -1,6 +1,7 @@
 // Implements output_options.h.
 #include "program/output_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "program/command_line.h"

@@ -1,11 +1,11 @@
 // The options by which `ringlet simulate` chooses what it writes.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "program/cli_fwd.h"
 #include "program/simulate_run.h"
 #include "ringlet/scenes/scene_file.h"
 

@@ -4,6 +4,7 @@
 #include "program/standard_error.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cctype>

@@ -1,7 +1,7 @@
 // `ringlet scene`: the built-in scenes, run and measured.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

@@ -1,11 +1,11 @@
 // Options for settings: made from their tables (scene/setting_field.h), and read back through them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <span>
 #include <string>
 
+#include "program/cli_fwd.h"
 #include "ringlet/scene/setting_field.h"
 
 namespace ringlet::program {

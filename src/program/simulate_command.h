@@ -1,7 +1,7 @@
 // `ringlet simulate`: hair from a file, moved by a head, written as an animation.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

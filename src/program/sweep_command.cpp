@@ -3,6 +3,7 @@
 #include "program/sweep_command.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>

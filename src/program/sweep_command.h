@@ -1,7 +1,7 @@
 // `ringlet sweep`: a scene with some of its keys varied, every combination a run.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 

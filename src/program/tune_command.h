@@ -1,7 +1,7 @@
 // `ringlet tune`: which strand shapes are fastest on a device, measured and remembered.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "program/cli_fwd.h"
 
 namespace ringlet::program {
 
