@@ -28,8 +28,8 @@ double smoothingLengthByRule(const CurlShape& curl, double arcLength) {
 
 // alpha of a whole strand, whose curl may vary: the smallest that serves nine tenths of its curled length,
 // turn by turn, perversions aside.
-double smoothingLengthByRule(std::span<const Vec3d> points, double arcLength) {
-  std::vector<CurlStretch> curled = measureCurlAlong(points);
+double smoothingLengthByRule(const CurlAlong& curl, double arcLength) {
+  std::vector<CurlStretch> curled = curl.stretches;
   std::erase_if(curled, [](const CurlStretch& stretch) { return stretch.shape.perversions > 0; });
   double smallest = 0;
   for (const CurlStretch& candidate : curled) {
@@ -41,7 +41,7 @@ double smoothingLengthByRule(std::span<const Vec3d> points, double arcLength) {
     }
     if (served >= 0.9 * all && (smallest == 0 || alpha < smallest)) smallest = alpha;
   }
-  return curled.empty() ? smoothingLengthByRule(measureCurl(points), arcLength) : smallest;
+  return curled.empty() ? smoothingLengthByRule(curl.whole, arcLength) : smallest;
 }
 
 /// The strand's stiffnesses and dampings before they are divided by the edge's length: K [N], C [N s].
@@ -197,8 +197,9 @@ RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double metres
   }
   if (settings.integrator == Integrator::paper) strand.masses.assign(edgeCount + 1, 1.0);
 
-  const double ruleLength = smoothingLengthByRule(curve, strand.arcLength);
-  strand.changesHand = measureCurl(curve).perversions > 0;
+  const CurlAlong curl = measureCurlAlong(curve);
+  const double ruleLength = smoothingLengthByRule(curl, strand.arcLength);
+  strand.changesHand = curl.whole.perversions > 0;
   strand.bendSmoothingLength = material.bendSmoothingLength.value_or(ruleLength);
   strand.coreSmoothingLength = material.coreSmoothingLength.value_or(ruleLength);
   strand.bendSmoothingShare = smoothingShare(strand.meanEdgeLength, strand.bendSmoothingLength);

@@ -160,7 +160,7 @@ TEST(CurlShape, StretchesFollowACurlThatVaries) {
   // Loose at the root, tight at the tip.
   const Helix loose{.turns = 4, .length = 0.2}, tight{.turns = 12, .length = 0.1};
   const Strand strand = joined({loose, tight}, 240);
-  const std::vector<CurlStretch> stretches = measureCurlAlong(turned(strand));
+  const std::vector<CurlStretch> stretches = measureCurlAlong(turned(strand)).stretches;
   ASSERT_GE(stretches.size(), 6u);
   EXPECT_NEAR(stretches.front().shape.turnLength, std::hypot(2 * kPi * 0.01, 0.05), 0.002);
   EXPECT_NEAR(stretches.front().shape.pitch, 0.05, 0.002);
@@ -174,7 +174,7 @@ TEST(CurlShape, StretchesFollowACurlThatVaries) {
 
 TEST(CurlShape, StretchesLeaveOutWhatIsStraight) {
   const Strand strand = joined({{.turns = 0, .length = 0.2}, {.turns = 6, .length = 0.15}}, 128);
-  const std::vector<CurlStretch> stretches = measureCurlAlong(strand);
+  const std::vector<CurlStretch> stretches = measureCurlAlong(strand).stretches;
   ASSERT_FALSE(stretches.empty());
   double length = 0;
   for (const CurlStretch& stretch : stretches) {
@@ -185,15 +185,17 @@ TEST(CurlShape, StretchesLeaveOutWhatIsStraight) {
   EXPECT_NEAR(length, curled, 0.2 * curled);  // to a stretch at the border
 
   // Exactly one helix: every stretch is it. A straight strand has none, a perversion is told of.
-  for (const CurlStretch& stretch : measureCurlAlong(cut(Helix{}, 64))) {
+  for (const CurlStretch& stretch : measureCurlAlong(cut(Helix{}, 64)).stretches) {
     EXPECT_NEAR(stretch.shape.radius, 0.01, 1e-9);
     EXPECT_NEAR(stretch.shape.pitch, 0.25 / 8, 1e-9);
     EXPECT_EQ(stretch.shape.perversions, 0);
   }
-  EXPECT_TRUE(measureCurlAlong(cut(Helix{.radius = 0}, 64)).empty());
+  EXPECT_TRUE(measureCurlAlong(cut(Helix{.radius = 0}, 64)).stretches.empty());
   int perversions = 0;
-  for (const CurlStretch& stretch : measureCurlAlong(
-           joined({{.turns = 5, .length = 0.1}, {.turns = 5, .length = 0.1, .handedness = -1}}, 80))) {
+  for (const CurlStretch& stretch :
+       measureCurlAlong(
+           joined({{.turns = 5, .length = 0.1}, {.turns = 5, .length = 0.1, .handedness = -1}}, 80))
+           .stretches) {
     perversions += stretch.shape.perversions;
   }
   EXPECT_EQ(perversions, 1);

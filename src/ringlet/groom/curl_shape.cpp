@@ -113,6 +113,7 @@ class Joints {
     measureArcs(strand, arcs);
     for (std::size_t index : edges_.indices) arcs_.push_back(arcs[index]);
     bends_ = measureBends(edges_.directions);
+    for (const std::complex<double>& bend : bends_) sizes_.push_back(std::abs(bend));
     // A first guess of the turn needs the hands, and the hands over a turn need its length.
     readHands(kShortestWindow);
     readHands(jointsPerTurn());
@@ -144,8 +145,8 @@ class Joints {
   double handBalance(Range range) const {
     double balance = 0, all = 0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      balance += std::abs(bends_[i]) * hands_[i];
-      all += std::abs(bends_[i]);
+      balance += sizes_[i] * hands_[i];
+      all += sizes_[i];
     }
     return all > 0 ? balance / all : 0;
   }
@@ -166,7 +167,7 @@ class Joints {
     for (std::size_t i = 0; i < bends_.size(); ++i) {
       if (i > 0) phase += phi * hands_[i];
       sums.push_back(sums.back() + bends_[i] * std::polar(1.0, -phase));
-      sizes.push_back(sizes.back() + std::abs(bends_[i]));
+      sizes.push_back(sizes.back() + sizes_[i]);
     }
     const std::size_t window = std::min(bends_.size(), std::max(kShortestWindow, jointsPerTurn()));
     double together = 0, apart = 0;
@@ -188,7 +189,7 @@ class Joints {
   // Mean bend of a range's joints [rad], and their arc length.
   double meanBend(Range range) const {
     double sum = 0;
-    for (std::size_t i = range.begin; i < range.end; ++i) sum += std::abs(bends_[i]);
+    for (std::size_t i = range.begin; i < range.end; ++i) sum += sizes_[i];
     return sum / static_cast<double>(range.end - range.begin);
   }
   double arcOf(Range range) const {
@@ -208,7 +209,7 @@ class Joints {
   Turn turnOf(Range range) const {
     double weight = 0, thetaSum = 0, chordSum = 0, arcSum = 0, along = 0, across = 0;
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const double bend = std::abs(bends_[i]);
+      const double bend = sizes_[i];
       weight += bend;
       thetaSum += bend * bend;
       chordSum += bend * (edges_.chords[i] + edges_.chords[i + 1]) / 2;
@@ -257,6 +258,7 @@ class Joints {
   Edges edges_;
   std::vector<double> arcs_;                 // of the usable edges [unit]
   std::vector<std::complex<double>> bends_;  // of each joint
+  std::vector<double> sizes_;                // of the bends [rad]
   std::vector<int> hands_;                   // +1 or -1, of each joint
 };
 
@@ -287,15 +289,17 @@ CurlShape measureCurl(std::span<const Vec3d> strand) {
   return joints.areEnough() ? wholeCurl(joints) : CurlShape{};
 }
 
-std::vector<CurlStretch> measureCurlAlong(std::span<const Vec3d> strand) {
-  if (strand.size() < 4) return {};
+CurlAlong measureCurlAlong(std::span<const Vec3d> strand) {
+  CurlAlong curl;
+  if (strand.size() < 4) return curl;
   const Joints joints(strand);
-  if (!joints.areEnough() || wholeCurl(joints).turns == 0) return {};
+  if (!joints.areEnough()) return curl;
+  curl.whole = wholeCurl(joints);
+  if (curl.whole.turns == 0) return curl;
 
   const std::size_t count = joints.all().end;
   const std::size_t stretchCount =
       std::max<std::size_t>(1, count / std::max(kShortestWindow, joints.jointsPerTurn()));
-  std::vector<CurlStretch> stretches;
   for (std::size_t k = 0; k < stretchCount; ++k) {
     const Range range{count * k / stretchCount, count * (k + 1) / stretchCount};
     if (joints.meanBend(range) < kStraightBendShare * joints.meanBend(joints.all())) continue;
@@ -303,9 +307,9 @@ std::vector<CurlStretch> measureCurlAlong(std::span<const Vec3d> strand) {
     if (shape.turns == 0) continue;
     shape.handedness = handOf(joints.handBalance(range), shape.turns);
     shape.perversions = joints.perversions({range.begin > 0 ? range.begin - 1 : 0, range.end});
-    stretches.push_back({.length = joints.arcOf(range), .shape = shape});
+    curl.stretches.push_back({.length = joints.arcOf(range), .shape = shape});
   }
-  return stretches;
+  return curl;
 }
 
 void measureArcs(std::span<const Vec3d> strand, std::span<double> arcs) {

@@ -39,9 +39,15 @@ struct CurlStretch {
   CurlShape shape;    // turns: of this part
 };
 
-/// The same from root to tip, a turn at a time: curl varies along real hair. Straight parts of a curled
-/// strand are left out; of a straight strand there are none. Cost: one pass.
-std::vector<CurlStretch> measureCurlAlong(std::span<const Vec3d> strand);
+/// A strand's curl as a whole, and from root to tip a turn at a time: curl varies along real hair. Straight
+/// parts of a curled strand are left out; a straight strand has no stretches.
+struct CurlAlong {
+  CurlShape whole;
+  std::vector<CurlStretch> stretches;
+};
+
+/// As measureCurl, whose cost it has.
+CurlAlong measureCurlAlong(std::span<const Vec3d> strand);
 
 /// Arc length of each of the strand's edges [unit]: the chord lengthened to the circular arc through its
 /// neighbours, chord (a/2) / sin(a/2) with a the mean turning angle at its two ends. n - 1 values. An edge

@@ -54,7 +54,6 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
   LiveMaterial self;
   self.settings_ = settings;
   self.lineDensity_ = material.lineDensity;
-  self.groomStrandCount_ = rest.groomStrandCount;
   self.particles_ = std::move(base->particles);
   for (std::size_t i = 0; i < self.particles_.size(); ++i)
     self.loads_.push_back({minus(self.particles_[i].target, loaded->particles[i].target),
@@ -82,7 +81,7 @@ std::vector<layout::ParticleRest> LiveMaterial::with(const Material& material,
                                                      std::span<layout::StrandRest> strands,
                                                      std::vector<std::string>& warnings) const {
   std::vector<layout::ParticleRest> particles = particles_;
-  MaterialExtremes extremes(groomStrandCount_);
+  MaterialExtremes extremes;
   for (std::size_t s = 0; s < strands_.size(); ++s) {
     const Strand& strand = strands_[s];
     const StrandConstants now =

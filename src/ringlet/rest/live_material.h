@@ -48,7 +48,6 @@ class LiveMaterial {
 
   Settings settings_;
   double lineDensity_ = 0;
-  std::size_t groomStrandCount_ = 0;
   std::vector<Strand> strands_;                  // device order
   std::vector<layout::ParticleRest> particles_;  // without load
   std::vector<Load> loads_;

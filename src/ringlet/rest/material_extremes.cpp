@@ -9,6 +9,13 @@
 #include "ringlet/rest/material_presets.h"
 
 namespace ringlet {
+namespace {
+
+double longestBendStep(const StrandConstants& strand, double stiffest) {
+  return strand.longestBendStep / std::sqrt(stiffest);
+}
+
+}  // namespace
 
 void MaterialExtremes::add(const StrandConstants& strand, double stiffest, double load,
                            std::size_t groomIndex, const Settings& settings) {
@@ -16,10 +23,8 @@ void MaterialExtremes::add(const StrandConstants& strand, double stiffest, doubl
     ++cappedStrands;
     smallestCoreShare = std::min(smallestCoreShare, strand.coreStiffness / strand.coreStiffnessAsked);
   }
-  const double longestBendStep = strand.longestBendStep / std::sqrt(stiffest);
-  if (settings.stepSeconds() > longestBendStep) ++feedingStrands;
-  calmSteps[groomIndex] = std::min(strand.longestCoreStep, longestBendStep);
-  longestCalmStep = std::min(longestCalmStep, calmSteps[groomIndex]);
+  if (settings.stepSeconds() > longestBendStep(strand, stiffest)) ++feedingStrands;
+  longestCalmStep = std::min(longestCalmStep, longestCalmStepOf(strand, stiffest));
   if (load > 0.5) ++overloadedStrands;
   if (load > largestLoad) largestLoad = load, largestLoadStrand = groomIndex;
 }
@@ -52,6 +57,10 @@ std::vector<std::string> MaterialExtremes::warnings(std::size_t strandCount, con
         overloadedStrands, strandCount, largestLoadStrand, largestLoad));
   }
   return sentences;
+}
+
+double longestCalmStepOf(const StrandConstants& strand, double stiffest) {
+  return std::min(strand.longestCoreStep, longestBendStep(strand, stiffest));
 }
 
 int stepsOf(double longestStep, const Settings& settings) {

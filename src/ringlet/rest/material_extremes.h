@@ -16,12 +16,9 @@ struct MaterialExtremes {
   double smallestCoreShare = 1;
   std::size_t feedingStrands = 0;  // the step is too long for their bending
   double longestCalmStep = 1;      // [s]
-  std::vector<double> calmSteps;   // that of each strand, in groom order; 0: it is carried rigidly [s]
   std::size_t overloadedStrands = 0;
   double largestLoad = 0;
   std::size_t largestLoadStrand = 0;
-
-  explicit MaterialExtremes(std::size_t groomStrandCount = 0) : calmSteps(groomStrandCount) {}
 
   /// `stiffest`: the largest factor of its bend stiffness profile; `load`: the largest of its preload.
   void add(const StrandConstants& strand, double stiffest, double load, std::size_t groomIndex,
@@ -31,6 +28,10 @@ struct MaterialExtremes {
   std::vector<std::string> warnings(std::size_t strandCount, const Material& material,
                                     const Settings& settings) const;
 };
+
+/// The longest outer step that needs no warning of this strand, whose bend stiffness profile is at most
+/// `stiffest` [s].
+double longestCalmStepOf(const StrandConstants& strand, double stiffest);
 
 /// Steps a frame that are no longer than this [s].
 int stepsOf(double longestStep, const Settings& settings);

@@ -26,34 +26,61 @@ layout::vec3 packed3(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+// A strand's points in double, and its edges' arcs [m].
+struct RestCurve {
+  std::vector<Vec3d> points;
+  std::vector<double> arcs;
+
+  explicit RestCurve(std::span<const Vec3f> strand) : arcs(strand.size() - 1) {
+    for (Vec3f p : strand) points.push_back(static_cast<Vec3d>(p));
+    measureArcs(points, arcs);
+  }
+};
+
+// Shares of the strand's arc length, at the middle of each edge.
+std::vector<double> middlesOf(std::span<const double> arcs, double arcLength) {
+  std::vector<double> middles;
+  double arcBefore = 0;
+  for (const double arc : arcs) {
+    middles.push_back((arcBefore + arc / 2) / arcLength);
+    arcBefore += arc;
+  }
+  return middles;
+}
+
+// Of the bend stiffness profile.
+std::vector<double> bendFactorsOf(std::span<const double> middles, const Material& material,
+                                  const Settings& settings) {
+  std::vector<double> factors(middles.size(), 1.0);
+  if (settings.integrator == Integrator::paper) return factors;
+  for (std::size_t i = 0; i < middles.size(); ++i) factors[i] = material.bendStiffnessProfile.at(middles[i]);
+  return factors;
+}
+
 // The sizes the strand is cut into: chords, floored lengths, masses, factors of the profiles.
-struct Cut {
-  std::vector<Vec3d> points, edges;
-  std::vector<double> arcs, edgeLengths, masses;
+struct Cut : RestCurve {
+  std::vector<Vec3d> edges;
+  std::vector<double> edgeLengths, masses;
   std::vector<double>
       edgeScale;  // times this, the strand's constants are the edge's: 1 / length, or 1 for `paper`
   std::vector<double> bendFactors;  // of the bend stiffness profile, at the middle of each edge
   StrandConstants constants;
   double massUnit = 1;  // [kg]
 
-  Cut(std::span<const Vec3f> strand, const Material& material, const Settings& settings) {
+  Cut(std::span<const Vec3f> strand, const StrandGeometry& geometry, const Material& material,
+      const Settings& settings)
+      : RestCurve(strand), constants(strandConstants(geometry, material, settings)) {
     const bool paper = settings.integrator == Integrator::paper;
-    for (Vec3f p : strand) points.push_back(static_cast<Vec3d>(p));
-    arcs.resize(points.size() - 1);
-    measureArcs(points, arcs);
-    constants = strandConstants(strandGeometry(points, arcs), material, settings);
     massUnit = paper ? 1.0 : material.lineDensity * constants.meanEdgeLength;
     masses.resize(points.size(), paper ? 1.0 : 0.0);
-    double arcBefore = 0;
+    const std::vector<double> middles = middlesOf(arcs, constants.arcLength);
+    bendFactors = bendFactorsOf(middles, material, settings);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       edges.push_back(points[i + 1] - points[i]);
       edgeLengths.push_back(std::max(length(edges[i]), kShortestEdge * constants.meanEdgeLength));
       edgeScale.push_back(paper ? 1.0 : 1 / edgeLengths[i]);
-      const double along = (arcBefore + arcs[i] / 2) / constants.arcLength;
-      arcBefore += arcs[i];
-      bendFactors.push_back(paper ? 1.0 : material.bendStiffnessProfile.at(along));
       if (paper) continue;
-      const double half = 0.5 * material.lineDensity * material.lineDensityProfile.at(along) *
+      const double half = 0.5 * material.lineDensity * material.lineDensityProfile.at(middles[i]) *
                           std::max(arcs[i], edgeLengths[i]);
       masses[i] += half;
       masses[i + 1] += half;
@@ -142,8 +169,9 @@ layout::StrandRest strandRest(const Cut& cut, std::span<const Vec3d> coreEdges, 
 
 // Appends one strand to the state, in device order.
 void appendStrand(RestState& state, MaterialExtremes& extremes, std::span<const Vec3f> strand,
-                  std::size_t groomIndex, const Material& material, const Settings& settings) {
-  const Cut cut(strand, material, settings);
+                  const StrandGeometry& geometry, std::size_t groomIndex, const Material& material,
+                  const Settings& settings) {
+  const Cut cut(strand, geometry, material, settings);
   const StrandConstants& c = cut.constants;
   // The device smooths with the float weights; the rest state must be at rest under exactly those.
   const auto frames = framesBeforeEdges(smoothEdges(cut.edges, static_cast<float>(c.bendBeta)), cut.edges[0]);
@@ -235,29 +263,70 @@ Result<std::vector<StrandSize>> sizesOf(const Groom& groom) {
       tooShort - sizes.begin(), tooShort->length, kLeastStrandLength)};
 }
 
+// What of a groom is measured before anything is made of it; all in groom order.
+struct Survey {
+  std::vector<StrandSize> sizes;
+  std::vector<StrandGeometry> geometry;  // of strands that are not too fine
+  std::vector<double> longestSteps;      // that are calm, and that the motion needs; 0: too fine [s]
+  std::vector<std::uint32_t> tooFine{}, tooQuick{};
+  std::vector<bool> isRigid;   // either
+  double longestCalmStep = 1;  // of all that are simulated [s]
+};
+
+Result<Survey> surveyOf(const Groom& groom, const Material& material, const Settings& settings) {
+  if (Status status = checkSettings(settings, material); !status) return status.error();
+  if (Status status = checkGroom(groom); !status) return status.error();
+  auto sizes = sizesOf(groom);
+  if (!sizes) return sizes.error();
+
+  const std::size_t count = groom.strandCount();
+  Survey survey{.sizes = std::move(*sizes),
+                .geometry = std::vector<StrandGeometry>(count),
+                .longestSteps = std::vector<double>(count),
+                .isRigid = std::vector<bool>(count)};
+  survey.tooFine = tooFineStrands(survey.sizes, settings.maxStretch);
+  for (const std::uint32_t s : survey.tooFine) survey.isRigid[s] = true;
+  std::vector<double> calmSteps(count);
+  for (std::size_t s = 0; s < count; ++s) {
+    if (survey.isRigid[s]) continue;
+    const RestCurve curve(inMetres(groom.strand(s), groom.metresPerUnit));
+    const StrandGeometry& geometry = survey.geometry[s] = strandGeometry(curve.points, curve.arcs);
+    const Material own = materialOfStrand(material, s);
+    const auto factors = bendFactorsOf(middlesOf(curve.arcs, geometry.arcLength), own, settings);
+    calmSteps[s] =
+        longestCalmStepOf(strandConstants(geometry, own, settings), *std::ranges::max_element(factors));
+    survey.longestSteps[s] = std::min(calmSteps[s], longestMotionStep(settings));
+  }
+  survey.tooQuick = tooQuickStrands(survey.sizes, survey.longestSteps, settings.stepSeconds());
+  for (const std::uint32_t s : survey.tooQuick) survey.isRigid[s] = true;
+  for (std::size_t s = 0; s < count; ++s) {
+    if (!survey.isRigid[s]) survey.longestCalmStep = std::min(survey.longestCalmStep, calmSteps[s]);
+  }
+  return survey;
+}
+
 // All strands but those carried rigidly.
 RestState assemble(const Groom& groom, const Material& material, const Settings& settings,
-                   std::span<const std::uint32_t> order, const std::vector<bool>& isRigid,
-                   MaterialExtremes& extremes) {
+                   std::span<const std::uint32_t> order, const Survey& survey, MaterialExtremes& extremes) {
   RestState state;
-  extremes = MaterialExtremes(groom.strandCount());
   // Doubling as they grow would take up to half as much again.
   state.strands.reserve(groom.strandCount());
   state.particles.reserve(groom.points.size());
   state.points.reserve(groom.points.size());
   for (std::uint32_t index : order) {
-    if (isRigid[index]) continue;
+    if (survey.isRigid[index]) continue;
     const auto strand = inMetres(groom.strand(index), groom.metresPerUnit);
-    appendStrand(state, extremes, strand, index, materialOfStrand(material, index), settings);
+    appendStrand(state, extremes, strand, survey.geometry[index], index, materialOfStrand(material, index),
+                 settings);
     state.firstInGroom.push_back(groom.firstPoint[index]);
   }
-  for (std::uint32_t s = 0; s < isRigid.size(); ++s) {
-    if (isRigid[s])
+  for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
+    if (survey.isRigid[s])
       state.rigid.push_back({s, groom.firstPoint[s], inMetres(groom.strand(s), groom.metresPerUnit)});
   }
   state.groomStrandCount = groom.strandCount();
   state.groomParticleCount = groom.points.size();
-  state.longestCalmStep = extremes.longestCalmStep;
+  state.longestCalmStep = survey.longestCalmStep;
   return state;
 }
 
@@ -295,29 +364,19 @@ Groom groomOf(const RestState& state) {
 
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const std::uint32_t> order) {
-  if (Status status = checkSettings(settings, material); !status) return status.error();
-  if (Status status = checkGroom(groom); !status) return status.error();
-  const auto sizes = sizesOf(groom);
-  if (!sizes) return sizes.error();
+  const auto survey = surveyOf(groom, material, settings);
+  if (!survey) return survey.error();
   std::vector<std::uint32_t> groomOrder;
   if (order.empty()) order = groomOrder = deviceOrder(groom);
   RINGLET_ASSERT(isDeviceOrder(order, groom), "the order names every strand once, by rising particle count");
 
-  std::vector<bool> isRigid(groom.strandCount());
-  const auto tooFine = tooFineStrands(*sizes, settings.maxStretch);
-  for (std::uint32_t s : tooFine) isRigid[s] = true;
   MaterialExtremes extremes;
-  RestState state = assemble(groom, material, settings, order, isRigid, extremes);
-  std::vector<double> longestSteps = extremes.calmSteps;
-  for (double& step : longestSteps) step = std::min(step, longestMotionStep(settings));
-  const auto tooQuick = tooQuickStrands(*sizes, longestSteps, settings.stepSeconds());
-  for (std::uint32_t s : tooQuick) isRigid[s] = true;
-  if (!tooQuick.empty()) state = assemble(groom, material, settings, order, isRigid, extremes);
-
+  RestState state = assemble(groom, material, settings, order, *survey, extremes);
   state.warnings = extremes.warnings(state.strands.size(), material, settings);
   state.materialWarningCount = state.warnings.size();
-  for (const auto& warnings : {roundingWarnings(*sizes, tooFine), tooFineWarnings(*sizes, tooFine),
-                               tooQuickWarnings(*sizes, tooQuick, longestSteps, settings)})
+  for (const auto& warnings :
+       {roundingWarnings(survey->sizes, survey->tooFine), tooFineWarnings(survey->sizes, survey->tooFine),
+        tooQuickWarnings(survey->sizes, survey->tooQuick, survey->longestSteps, settings)})
     state.warnings.insert(state.warnings.end(), warnings.begin(), warnings.end());
   return state;
 }
@@ -326,9 +385,9 @@ Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Se
   const int most = static_cast<int>(layout::kMaxStepPoses - 1);
   const int fewest = std::clamp(stepsOf(longestMotionStep(settings), settings), 1, most);
   settings.stepsPerFrame = fewest;
-  const auto rest = buildRestState(groom, material, settings);
-  if (!rest) return rest.error();
-  return std::clamp(stepsOf(rest->longestCalmStep, settings), fewest, std::min(4 * fewest, most));
+  const auto survey = surveyOf(groom, material, settings);
+  if (!survey) return survey.error();
+  return std::clamp(stepsOf(survey->longestCalmStep, settings), fewest, std::min(4 * fewest, most));
 }
 
 Status checkSettings(const Settings& s, const Material& material) {

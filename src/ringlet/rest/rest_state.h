@@ -40,9 +40,9 @@ struct RestState {
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and
-/// where half the strands have no length. Cost: two passes over the groom, in double, three where strands are
-/// carried rigidly for their steps. `order`: the groom's index of each strand, by rising particle
-/// count (rest/strand_order.h makes some); empty: groom order among equals.
+/// where half the strands have no length. Cost: three passes over the groom, in double. `order`: the groom's
+/// index of each strand, by rising particle count (rest/strand_order.h makes some); empty: groom order among
+/// equals.
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const std::uint32_t> order = {});
 
@@ -55,7 +55,7 @@ Groom groomOf(const RestState& state);
 /// The fewest outer steps per frame that resolve the motion (1/192 s each; `paper` 1/720 s, its own) and need
 /// no warning: the core spring in full, bending calm, of all strands but those too quick to be simulated
 /// (rest/rigid_strands.h). At most four times what the motion needs; a groom that
-/// wants more is warned of. Fails as buildRestState does, whose cost it has.
+/// wants more is warned of. Fails as buildRestState does. Cost: two passes over the groom.
 Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings);
 
 /// The sentence that says what is wrong with the settings or material, if anything is.

@@ -36,19 +36,19 @@ double smoothingLengthOf(const CurlShape& shape, double arcLength) {
   return std::min(longest, shape.turnLength * std::max(0.5, needed));
 }
 
-double smoothingLengthOf(std::span<const Vec3d> points, double arcLength) {
+double smoothingLengthOf(const CurlAlong& curl, double arcLength) {
   constexpr double kShareOfCurl = 0.9;
   struct Wanted {
     double smoothingLength = 0, length = 0;
   };
   std::vector<Wanted> wanted;
   double curledLength = 0;
-  for (const CurlStretch& stretch : measureCurlAlong(points)) {
+  for (const CurlStretch& stretch : curl.stretches) {
     if (stretch.shape.perversions > 0) continue;
     wanted.push_back({smoothingLengthOf(stretch.shape, arcLength), stretch.length});
     curledLength += stretch.length;
   }
-  if (wanted.empty()) return smoothingLengthOf(measureCurl(points), arcLength);
+  if (wanted.empty()) return smoothingLengthOf(curl.whole, arcLength);
 
   std::ranges::sort(wanted, {}, &Wanted::smoothingLength);
   double covered = 0;
@@ -64,8 +64,9 @@ StrandGeometry strandGeometry(std::span<const Vec3d> points, std::span<const dou
   g.arcLength = std::accumulate(arcs.begin(), arcs.end(), 0.0);
   for (std::size_t i = 0; i + 1 < points.size(); ++i) g.meanEdgeLength += length(points[i + 1] - points[i]);
   g.meanEdgeLength /= static_cast<double>(std::max<std::size_t>(1, arcs.size()));
-  g.smoothingLength = smoothingLengthOf(points, g.arcLength);
-  g.hasPerversions = measureCurl(points).perversions > 0;
+  const CurlAlong curl = measureCurlAlong(points);
+  g.smoothingLength = smoothingLengthOf(curl, g.arcLength);
+  g.hasPerversions = curl.whole.perversions > 0;
   return g;
 }
 

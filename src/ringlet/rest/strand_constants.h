@@ -35,7 +35,7 @@ double smoothingLengthOf(const CurlShape& shape, double arcLength);
 
 /// The same for a real strand, whose curl varies: enough for nine tenths of its curled length, a turn at a
 /// time and without its perversions, which are flat for half a turn and would ask for any length [unit].
-double smoothingLengthOf(std::span<const Vec3d> points, double arcLength);
+double smoothingLengthOf(const CurlAlong& curl, double arcLength);
 
 /// What of a strand's shape at rest its constants depend on.
 struct StrandGeometry {
