@@ -1,6 +1,7 @@
 // Implements groom/obj_file.h.
 #include "ringlet/groom/obj_file.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -211,12 +212,13 @@ Status writeObj(const std::filesystem::path& path, const Groom& topology, std::s
   std::string text =
       fmt::format("# Written by Ringlet: {} strands, {} particles\n", topology.strandCount(), points.size());
   auto out = std::back_inserter(text);
-  for (Vec3f p : points) fmt::format_to(out, "v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
+  // The fewest digits that give back the same float.
+  for (Vec3f p : points) fmt::format_to(out, FMT_COMPILE("v {} {} {}\n"), p.x, p.y, p.z);
   for (std::size_t s = 0; s < topology.strandCount(); ++s) {
     const std::size_t first = topology.firstPoint[s] + 1, last = topology.firstPoint[s + 1];
     text += fmt::format("l {}", first);
     for (std::size_t i = first + 1; i <= last; ++i) {
-      fmt::format_to(out, " {}", i);
+      fmt::format_to(out, FMT_COMPILE(" {}"), i);
       if (lines == ObjLines::edges && i < last) fmt::format_to(out, "\nl {}", i);
     }
     text += '\n';
