@@ -18,6 +18,7 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/output_options.h"
 #include "program/run_report.h"
 #include "program/standard_error.h"
 #include "program/sweep_plan.h"
@@ -148,6 +149,8 @@ int run(Typed& typed) {
 
   const auto runs = planRuns(typed.scene, axes);
   if (!runs) return fail(runs.error());
+  if (!options.lastOnly)
+    for (const SweepRun& run : *runs) checkOutputs(run.scene.output);
   auto entries = lookAtRuns(*runs, options);
   if (!entries) return fail(entries.error());
   if (!typed.list) {

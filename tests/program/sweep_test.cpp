@@ -302,6 +302,7 @@ TEST_F(Sweep, WhatMakesNoSenseIsRefusedByName) {
       {{"material.dials.hold=1", "material.dials.hold=2"}, 1, "varied twice"},
       {{"output.folder=a"}, 1, "output.folder"},
       {{"groom.seed=1:10001:10001"}, 1, "10000 at most"},
+      {{"output.prims=groom"}, 2, "written into hair.usdc only"},  // hair.usda is what a scene writes
       {{"hold"}, 2, "KEY=a:b:n"},
       {{"=1"}, 2, "KEY=a:b:n"},
       {{"material.dials.hold="}, 2, "lacks a value"},
