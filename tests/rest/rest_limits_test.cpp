@@ -80,6 +80,41 @@ TEST(RestLimits, StepsAreChosenByTheStiffestEdge) {
   }
 }
 
+// Each strand counts with its own stiffness.
+TEST(RestLimits, TheStiffestOfStrandsThatVaryDecides) {
+  Material material = stiffAt(1, 1);
+  material.variation = {.bendStiffness = 0.5, .seed = 3};
+  Groom groom = horizontal();
+  for (int s = 1; s < 100; ++s) groom.addStrand(line({}, {0.2, 0, 0}, 41));
+  double stiffest = 0;
+  for (std::size_t s = 0; s < 100; ++s)
+    stiffest = std::max(stiffest, materialOfStrand(material, s).bendStiffness / material.bendStiffness);
+  ASSERT_GT(stiffest, 1.4);
+  const double calm = calmBendStep(material, stiffest);
+  const auto rest = buildRestState(groom, material, {});
+  ASSERT_TRUE(rest) << rest.error().message;
+  EXPECT_NEAR(rest->longestCalmStep, calm, 1e-6 * calm);
+  EXPECT_EQ(*chooseStepsPerFrame(groom, material, {}), static_cast<int>(std::ceil(1 / (24 * calm))));
+}
+
+// Its constants are its own, profiles or not.
+TEST(RestLimits, ThePaperKnowsNoProfiles) {
+  Settings settings;
+  settings.integrator = Integrator::paper;
+  Material plain = stiffAt(1, 1);
+  plain.bendStiffnessProfile = {};
+  Material varying = stiffAt(4, 0.5);
+  varying.lineDensityProfile = varying.bendStiffnessProfile;
+  const auto a = buildRestState(horizontal(), plain, settings),
+             b = buildRestState(horizontal(), varying, settings);
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->particles.size(), b->particles.size());
+  for (std::size_t i = 0; i < a->particles.size(); ++i) {
+    EXPECT_EQ(a->particles[i].bendFactor, b->particles[i].bendFactor) << "particle " << i;
+    EXPECT_EQ(a->particles[i].mass, b->particles[i].mass) << "particle " << i;
+  }
+}
+
 // An edge's load is what bends it, the preloaded weight beyond it across it, over its stiffness times its
 // length: the tangent of the angle, 0.5 is 27 degrees. The reference has masses and stiffnesses of its own.
 TEST(RestLimits, ALoadOfMoreThanAHalfIsWarnedOf) {
