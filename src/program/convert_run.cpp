@@ -69,7 +69,7 @@ Status toSheet(AnimationReader& source, const ConvertPlan& plan) {
 
 Status toFrames(AnimationReader& source, const ConvertPlan& plan) {
   const bool isSequence = plan.to == ConvertTo::frameSequence;
-  if (isSequence && framePath(plan.output, 1).parent_path() == plan.output) {
+  if (isSequence && !isFrameFile(plan.output)) {
     std::error_code code;
     fs::create_directories(plan.output, code);
     if (code)

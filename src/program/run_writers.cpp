@@ -67,13 +67,6 @@ UsdExtras Writers::usdExtras() const {
   return extras;
 }
 
-// The head in the file's unit, as USD has it: rows.
-UsdTransform Writers::placeOf(const HeadPose& head) const {
-  return {{rotate(head.rotation, Vec3d{1, 0, 0}), rotate(head.rotation, Vec3d{0, 1, 0}),
-           rotate(head.rotation, Vec3d{0, 0, 1})},
-          head.position / input_.groom.metresPerUnit};
-}
-
 Status Writers::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& head,
                          std::span<const BodyPose> bodies) {
   if (!isOpen_) {
@@ -81,8 +74,9 @@ Status Writers::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& h
   }
   if (sheet_) sheet_->offer(frame, points, placesOf(bodies));
   lastPoints_ = std::move(points);
+  const UsdTransform place = rigidTransform(head.rotation, head.position / input_.groom.metresPerUnit);
   for (const auto& animation : animations_) {
-    if (Status added = animation->addFrame(lastPoints_, placeOf(head)); !added) return added;
+    if (Status added = animation->addFrame(lastPoints_, place); !added) return added;
   }
   return {};
 }

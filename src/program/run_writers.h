@@ -43,7 +43,6 @@ class Writers {
  private:
   Status open();
   UsdExtras usdExtras() const;
-  UsdTransform placeOf(const HeadPose& head) const;
 
   const RunInput& input_;
   const RunOptions& options_;

@@ -37,7 +37,7 @@ class WriterObject {
     writer_ = withoutGil([&] { return valueOf(format->resume(path_, groom_->groom(), options_, 0)); });
   }
 
-  void add(std::span<const Vec3f> points) {
+  void add(std::span<const Vec3f> points, const UsdTransform& head = {}) {
     withoutGil([&] {
       const std::scoped_lock lock(mutex_);
       demandOpen();
@@ -45,7 +45,7 @@ class WriterObject {
         throw Failure({fmt::format("{} was made for {} frames, and has them: say more as frames=",
                                    path_.string(), options_.frameCount),
                        Fault::output});
-      demand(writer_->addFrame(points));
+      demand(writer_->addFrame(points, head));
       frameCount_ = writer_->frameCount();
     });
   }
@@ -102,14 +102,60 @@ class WriterObject {
 };
 using WriterHandle = std::shared_ptr<WriterObject>;
 
+double demandAbove(const char* name, double value) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw py::value_error(fmt::format("{} must be above 0, got {}", name, value));
+  return value;
+}
+
+// What only USD files have.
+struct UsdChoice {
+  std::optional<double> tipWidth{};  // [m]
+  std::vector<std::string> values{};
+  std::string head = "baked";
+  int clipFrames = 0;
+};
+
+UsdExtras usdExtrasOf(const UsdChoice& choice, const std::filesystem::path& path, double metresPerUnit) {
+  const std::string extension = path.extension().string();
+  const bool isText = extension == ".usda";
+  if (choice.clipFrames < 0 || (choice.clipFrames > 0 && !isText))
+    throw py::value_error(fmt::format("clip_frames must be 0 or, of a .usda, more; got {} for {}",
+                                      choice.clipFrames, path.filename().string()));
+  const bool isAsked = choice.tipWidth || !choice.values.empty() || choice.head != "baked";
+  if (isAsked && !isText && extension != ".usdc")
+    throw py::value_error(
+        fmt::format("tip_width, values and head are of .usda and .usdc; got {}", path.filename().string()));
+
+  UsdExtras extras{.clipFrames = choice.clipFrames};
+  if (choice.tipWidth)
+    extras.tipDiameter = static_cast<float>(demandAbove("tip_width", *choice.tipWidth) / metresPerUnit);
+  for (const std::string& value : choice.values) {
+    if (value == "id") {
+      extras.ids = true;
+    } else if (value == "rest") {
+      extras.rest = true;
+    } else if (value == "velocities") {
+      if (isText && choice.clipFrames == 0)
+        throw py::value_error("velocities are written into .usdc and clips only");
+      extras.velocities = true;
+    } else {
+      throw py::value_error(unknownName("value", value, {"id", "rest", "velocities"}));
+    }
+  }
+  if (choice.head == "transform") {
+    extras.head = UsdHead::transform;
+  } else if (choice.head == "none") {
+    extras.head = UsdHead::none;
+  } else if (choice.head != "baked") {
+    throw py::value_error(unknownName("head", choice.head, {"baked", "transform", "none"}));
+  }
+  return extras;
+}
+
 WriterHandle makeWriter(const std::filesystem::path& path, const GroomHandle& groom, double fps, int frames,
                         const std::optional<double>& metresPerUnit, const std::string& up, double width,
-                        const std::string& precision) {
-  const auto demandAbove = [](const char* name, double value) {
-    if (!(value > 0) || !std::isfinite(value))
-      throw py::value_error(fmt::format("{} must be above 0, got {}", name, value));
-    return value;
-  };
+                        const std::string& precision, const UsdChoice& usd) {
   constexpr int kMostFrames = 1'000'000;
   if (frames < 1 || frames > kMostFrames)
     throw py::value_error(fmt::format("frames must be from 1 to {}, got {}", kMostFrames, frames));
@@ -124,6 +170,7 @@ WriterHandle makeWriter(const std::filesystem::path& path, const GroomHandle& gr
   options.diameter = static_cast<float>(demandAbove("width", width) / options.metresPerUnit);
   options.frameCount = frames;
   options.precision = precision == "16bit" ? CachePrecision::bits16 : CachePrecision::float32;
+  options.usd = usdExtrasOf(usd, path, options.metresPerUnit);
   return std::make_shared<WriterObject>(path, groom, options);
 }
 
@@ -137,9 +184,10 @@ void writePositions(WriterObject& self, const py::object& positions, const py::o
   const PointsIn in(positions, "positions", self.groom()->particleCount());
   demandFinite(in.points(), "positions");
   std::vector<Vec3f> points(in.points().begin(), in.points().end());
-  placeInWorld(points, head.is_none() ? HeadPose{} : poseOf(head, "head"), self.metresPerUnit());
+  const HeadPose pose = head.is_none() ? HeadPose{} : poseOf(head, "head");
+  placeInWorld(points, pose, self.metresPerUnit());
   demandFinite(points, "positions in the file's unit");
-  self.add(points);
+  self.add(points, rigidTransform(pose.rotation, pose.position / self.metresPerUnit()));
 }
 
 void addWriter(py::module_& module) {
@@ -151,12 +199,27 @@ void addWriter(py::module_& module) {
       "the .partial stays, with the frames so far:\n\n"
       "    with ringlet.AnimationWriter(\"hair.usda\", groom, frames=48) as animation:\n"
       "        scene.run(lambda frame: animation.write(frame.positions, frame.head), frames=48)")
-      .def(py::init(&makeWriter), py::arg("path"), py::arg("groom").none(false), py::kw_only(),
-           py::arg("fps") = 24.0, py::arg("frames") = 1000, py::arg("metres_per_unit") = py::none(),
-           py::arg("up") = "Y", py::arg("width") = 0.0005, py::arg("precision") = "float32",
-           "fps: frames per second; frames: the most that will come, for which USD files keep room; "
-           "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
-           "precision: of .rgc, \"float32\" or \"16bit\". ringlet.Error where the file cannot be written.")
+      .def(
+          py::init([](const std::filesystem::path& path, const GroomHandle& groom, double fps, int frames,
+                      const std::optional<double>& metresPerUnit, const std::string& up, double width,
+                      const std::string& precision, const std::optional<double>& tipWidth,
+                      const std::vector<std::string>& values, const std::string& head, int clipFrames) {
+            return makeWriter(path, groom, fps, frames, metresPerUnit, up, width, precision,
+                              {tipWidth, values, head, clipFrames});
+          }),
+          py::arg("path"), py::arg("groom").none(false), py::kw_only(), py::arg("fps") = 24.0,
+          py::arg("frames") = 1000, py::arg("metres_per_unit") = py::none(), py::arg("up") = "Y",
+          py::arg("width") = 0.0005, py::arg("precision") = "float32", py::arg("tip_width") = py::none(),
+          py::arg("values") = std::vector<std::string>{}, py::arg("head") = "baked",
+          py::arg("clip_frames") = 0,
+          "fps: frames per second; frames: the most that will come, for which USD files keep room; "
+          "metres_per_unit: of the file, None: the groom's; up: \"Y\" or \"Z\"; width: of strands [m]; "
+          "precision: of .rgc, \"float32\" or \"16bit\". Of .usda and .usdc: tip_width: of strands at the "
+          "tip [m], None: as width; values: of \"id\", \"rest\" and \"velocities\" (.usdc and clips only); "
+          "head: where the motion of write()'s head is, \"baked\" into the points, as a \"transform\" of the "
+          "prim, or \"none\"; clip_frames: frames of a value clip of a .usda, 0: one file. ringlet.Error "
+          "where "
+          "the file cannot be written.")
       .def(
           "write", &writePositions, py::arg("positions"), py::arg("head") = py::none(),
           "Adds a frame: (particles, 3) float32 [m] seen from the head, as positions() gives them, and where "

@@ -185,6 +185,8 @@ TEST_F(Convert, FramesBecomeObjFiles) {
   const json some = convert({"out/hair.usda", "frames", "--frames", "2:3"});
   EXPECT_EQ(some["outputs"], (json{"frames/hair.0002.obj", "frames/hair.0003.obj"}));
   EXPECT_EQ(some["frames"], 2);
+  EXPECT_EQ(convert({"out/hair.usda", "deep/down/", "--frames", "2:2"})["frames"], 1);
+  EXPECT_EQ(pointsOf("deep/down/hair.0002.obj"), usd.points.at(2));
   for (int frame = 1; frame <= kFrames; ++frame)
     EXPECT_EQ(pointsOf("pose.000" + std::to_string(frame) + ".obj"), usd.points.at(frame));
   EXPECT_EQ(pointsOf("frames/hair.0003.obj"), usd.points.at(3));

@@ -48,6 +48,32 @@ def test_positions_seen_from_a_head_are_the_programs_file(device, program):
         assert (program.folder / name).read_bytes() == (program.folder / "out" / name).read_bytes(), name
 
 
+# The same choices, as the program's options and as the writer's.
+USD_CHOICES = {
+    "values": ("hair.usdc", ["--usd-values", "id,rest,velocities", "--tip-width", "0.0001"],
+               {"values": ["id", "rest", "velocities"], "tip_width": 0.0001}),
+    "transform": ("hair.usdc", ["--head", "transform"], {"head": "transform"}),
+    "no head": ("hair.usdc", ["--head", "none"], {"head": "none"}),
+    "clips": ("hair.usda", ["--clips", "3", "--usd-values", "velocities"], {"clip_frames": 3, "values": ["velocities"]}),
+}
+
+
+@pytest.mark.parametrize("choice", USD_CHOICES)
+def test_what_usd_holds_beside_points_is_the_programs(device, program, choice):
+    name, options, arguments = USD_CHOICES[choice]
+    (program.folder / "scene.toml").write_text(SCENES["pre-roll"])
+    told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet", "--usdc", *options)
+    scene = ringlet.Scene.load(program.folder / "scene.toml")
+    with ringlet.AnimationWriter(program.folder / name, scene.groom, frames=told["frames"], **arguments) as animation:
+        scene.run(lambda frame: animation.write(frame.positions, frame.head), device=device)
+    assert (program.folder / name).read_bytes() == (program.folder / "out" / name).read_bytes()
+    clips = sorted(path.name for path in (program.folder / "out").glob("hair_clips/*"))
+    assert bool(clips) == (choice == "clips")
+    for clip in clips:
+        mine, theirs = (folder / "hair_clips" / clip for folder in (program.folder, program.folder / "out"))
+        assert mine.read_bytes() == theirs.read_bytes(), clip
+
+
 def test_after_an_exception_the_frames_so_far_are_kept(tmp_path, swatch):
     with pytest.raises(LookupError):
         with ringlet.AnimationWriter(tmp_path / "hair.rgc", swatch) as animation:

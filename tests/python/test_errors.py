@@ -443,6 +443,12 @@ def test_writers(tmp_path, groom):
                    {"precision": "8bit"}, {"metres_per_unit": 0}, {"metres_per_unit": math.inf}):
         with pytest.raises(ValueError):
             ringlet.AnimationWriter(tmp_path / "x.rgc", groom, **values)
+    for name, values in (("x.rgc", {"tip_width": 1}), ("x.pc2", {"values": ["id"]}), ("x.rgc", {"head": "none"}),
+                         ("x.usdc", {"clip_frames": 9}), ("x.usda", {"clip_frames": -1}), ("x.usda", {"tip_width": 0}),
+                         ("x.usda", {"values": ["velocities"]}), ("x.usdc", {"values": ["idd"]}),
+                         ("x.usdc", {"head": "bake"})):
+        with pytest.raises(ValueError):
+            ringlet.AnimationWriter(tmp_path / name, groom, **values)
     for name in ("x", "x.abc", "x.obj"):
         with pytest.raises(ValueError, match=r"\.usda, \.usdc, \.rgc, \.pc2"):
             ringlet.AnimationWriter(tmp_path / name, groom)

@@ -34,4 +34,11 @@ struct UsdTransform {
   bool operator==(const UsdTransform&) const = default;
 };
 
+/// A turn, and then a move.
+inline UsdTransform rigidTransform(Quatd rotation, Vec3d move) {
+  return {
+      {rotate(rotation, Vec3d{1, 0, 0}), rotate(rotation, Vec3d{0, 1, 0}), rotate(rotation, Vec3d{0, 0, 1})},
+      move};
+}
+
 }  // namespace ringlet
