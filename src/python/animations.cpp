@@ -218,8 +218,7 @@ void addWriter(py::module_& module) {
           "tip [m], None: as width; values: of \"id\", \"rest\" and \"velocities\" (.usdc and clips only); "
           "head: where the motion of write()'s head is, \"baked\" into the points, as a \"transform\" of the "
           "prim, or \"none\"; clip_frames: frames of a value clip of a .usda, 0: one file. ringlet.Error "
-          "where "
-          "the file cannot be written.")
+          "where the file cannot be written.")
       .def(
           "write", &writePositions, py::arg("positions"), py::arg("head") = py::none(),
           "Adds a frame: (particles, 3) float32 [m] seen from the head, as positions() gives them, and where "
