@@ -170,7 +170,7 @@ int run(Typed& typed) {
     if (!typed.list) fmt::print("{}\n", (options.folder / "sweep.csv").string());
     if (!typed.list && options.drawsSheet) fmt::print("{}\n", (options.folder / "sheet.png").string());
   }
-  return exitCodeOf(*entries);
+  return typed.list ? kExitFine : exitCodeOf(*entries);
 }
 
 }  // namespace

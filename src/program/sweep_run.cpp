@@ -408,7 +408,8 @@ Status runSweep(std::vector<SweepEntry>& entries, std::span<const SweepAxis> axe
 int exitCodeOf(std::span<const SweepEntry> entries) {
   int code = kExitFine;
   for (const SweepEntry& entry : entries) {
-    if (entry.state == RunState::interrupted) return kExitInterrupted;
+    const bool wasLeft = entry.isOurs && entry.state == RunState::open;
+    if (wasLeft || entry.state == RunState::interrupted) return kExitInterrupted;
     const bool isWorse = entry.exitCode != kExitFine && (code == kExitFine || code == kExitNonfinite);
     if (entry.isOurs && isWorse) code = entry.exitCode;
   }

@@ -62,8 +62,8 @@ Result<std::vector<SweepEntry>> lookAtRuns(std::span<const SweepRun> runs, const
 Status runSweep(std::vector<SweepEntry>& entries, std::span<const SweepAxis> axes,
                 const SweepOptions& options);
 
-/// Of the program: that of an interruption, else of the first run that failed, else of particles that were
-/// lost.
+/// Of the program, once runSweep() is done: that of an interruption, which runs that are still open tell too,
+/// else of the first run that failed, else of particles that were lost.
 int exitCodeOf(std::span<const SweepEntry> entries);
 
 }  // namespace ringlet::program
