@@ -239,9 +239,8 @@ TEST_F(Sweep, ALostDeviceLosesOneRun) {
 
 TEST_F(Sweep, AnInterruptionKeepsWhatIsFinished) {
   const auto arguments = [](const char* frames) {
-    return std::vector<std::string>{"sweep",       "scene.toml", "-o",     "out", "--backend", "reference",
-                                    "--vary",      frames,       "--jobs", "1",   "--no-sheet",
-                                    "--last-only"};
+    return std::vector<std::string>{"sweep",  "scene.toml", "-o",     "out", "--backend",  "reference",
+                                    "--vary", frames,       "--jobs", "1",   "--no-sheet", "--last-only"};
   };
   test::RunningProgram running(folder_, arguments("simulation.frames=3,1000000"));
   ASSERT_TRUE(test::RunningProgram::waitUntil([&] { return fs::exists(folder_ / "out/run-0001/run.json"); }));
