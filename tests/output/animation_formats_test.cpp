@@ -6,7 +6,6 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <random>
 #include <string>
@@ -20,6 +19,7 @@ namespace ringlet {
 namespace {
 
 namespace fs = std::filesystem;
+using test::readText;
 using test::scratchFolder;
 
 constexpr int kFrames = 7;
@@ -42,10 +42,6 @@ Groom mixedGroom() {
   return groom;
 }
 
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 void putText(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
 }
@@ -228,7 +224,7 @@ TEST_P(Formats, DamageIsRefusedOrHarmless) {
   ASSERT_TRUE(writer);
   add(**writer, 1, 3);
   ASSERT_TRUE((*writer)->finish());
-  const std::string whole = textOf(path_);
+  const std::string whole = readText(path_);
   std::mt19937 random(3);
   for (int i = 0; i < 300; ++i) {
     std::string damaged = whole;

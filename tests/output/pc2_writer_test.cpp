@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -22,11 +21,6 @@ Groom groomAt(int frame) {
   groom.addStrand(std::vector<Vec3f>{{0, 0, static_cast<float>(frame)}, {0, -1, 0.1f}, {0.5f, -2, 0}});
   groom.addStrand(std::vector<Vec3f>{{1, 0, 0}, {1, -1.5f, static_cast<float>(frame) / 3}});
   return groom;
-}
-
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 template <class Number>
@@ -57,10 +51,10 @@ TEST(Pc2Writer, IsWholeAfterEveryFrame) {
   ASSERT_TRUE(writer) << writer.error().message;
   for (int frame = 1; frame <= 4; ++frame) {
     ASSERT_TRUE(writer->addFrame(groomAt(frame).points));
-    expectFrames(textOf(partial), frame);
+    expectFrames(test::readText(partial), frame);
   }
   ASSERT_TRUE(writer->finish());
-  expectFrames(textOf(path), 4);
+  expectFrames(test::readText(path), 4);
   const auto strands = readGroom(fs::path(path).replace_extension(".obj"));
   ASSERT_TRUE(strands) << strands.error().message;
   EXPECT_EQ(strands->groom.points, groomAt(1).points);
@@ -78,12 +72,12 @@ TEST(Pc2Writer, IsGoneOnWithToTheSameBytes) {
   for (int from = 1; from <= 3; ++from) {
     ASSERT_TRUE(write(0, 3));
     ASSERT_TRUE(write(from, 4));
-    expectFrames(textOf(path), 4);
+    expectFrames(test::readText(path), 4);
     fs::remove(path);
   }
   ASSERT_TRUE(write(0, 2));
   EXPECT_FALSE(write(3, 4)) << "it has two";
-  expectFrames(textOf(partial), 2);
+  expectFrames(test::readText(partial), 2);
   std::ofstream(partial, std::ios::binary | std::ios::trunc) << std::string(200, 'x');
   EXPECT_FALSE(write(1, 4)) << "it is none";
 }

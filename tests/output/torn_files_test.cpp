@@ -9,7 +9,6 @@
 #include <csignal>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 
 #include "ringlet/output/cache_reader.h"
@@ -25,15 +24,12 @@ namespace ringlet {
 namespace {
 
 namespace fs = std::filesystem;
+using test::readText;
 using test::readUsd;
 using test::scratchFolder;
 
 constexpr int kFrames = 4;
 
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 void putText(const fs::path& path, std::string_view text) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
 }
@@ -76,7 +72,7 @@ TEST(TornFiles, WhatIsPatchedIsWithinAPage) {
   ASSERT_TRUE(writer);
   int moved = 0;
   for (int frame = 1; frame <= kMany; ++frame) {
-    const std::string before = frame % 100 == 1 ? textOf(path.string() + ".partial") : "";
+    const std::string before = frame % 100 == 1 ? readText(path.string() + ".partial") : "";
     const std::uint64_t end =
         writer->byteCount();  // of "};}", its line break; then the next line's first byte
     EXPECT_EQ((end - 4) / ByteFile::kPage, end / ByteFile::kPage) << "frame " << frame;
@@ -84,7 +80,7 @@ TEST(TornFiles, WhatIsPatchedIsWithinAPage) {
     ASSERT_TRUE(writer->addFrame(groomOf(frame).points));
     if (before.empty()) continue;
     ASSERT_EQ(before.size(), end);
-    const auto changes = changesOf(before, textOf(path.string() + ".partial"));
+    const auto changes = changesOf(before, readText(path.string() + ".partial"));
     ASSERT_EQ(changes.size(), 3u) << "time code, extent, end";
     EXPECT_EQ(changes[0].begin / ByteFile::kPage, (changes[0].end - 1) / ByteFile::kPage);
     EXPECT_EQ(changes[1].begin / ByteFile::kPage, (changes[1].end - 1) / ByteFile::kPage);
@@ -99,9 +95,9 @@ TEST(TornFiles, UsdTextIsWholeAllTheTime) {
   auto writer = UsdWriter::create(path, groomOf(0), options(kFrames));
   ASSERT_TRUE(writer);
   ASSERT_TRUE(writer->addFrame(groomOf(1).points));
-  const std::string before = textOf(partial);
+  const std::string before = readText(partial);
   ASSERT_TRUE(writer->addFrame(groomOf(2).points));
-  const std::string after = textOf(partial);
+  const std::string after = readText(partial);
   const auto changes = changesOf(before, after);
   ASSERT_EQ(changes.size(), 3u);
   const fs::path state = path.parent_path() / "state.usda.partial";
@@ -243,12 +239,12 @@ TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
     const fs::path folder = scratchFolder(std::string("torn_") + format.name);
     const fs::path path = folder / format.name, partial = path.string() + ".partial";
     format.write(path, kFrames, true);
-    const std::string finished = textOf(path);
+    const std::string finished = readText(path);
     fs::remove(path);
     format.write(path, 2, false);
     const std::size_t two = fs::file_size(partial);
     format.write(path, kFrames, false);
-    const std::string whole = textOf(partial);
+    const std::string whole = readText(partial);
     ASSERT_GT(whole.size(), two + 100);
 
     int most = 0;
@@ -264,7 +260,7 @@ TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
       }
       const Status resumed = format.resume(path, 2, kFrames);
       ASSERT_TRUE(resumed) << size << ": " << resumed.error().message;
-      EXPECT_TRUE(textOf(path) == finished) << size;
+      EXPECT_TRUE(readText(path) == finished) << size;
       fs::remove(path);
     }
     EXPECT_EQ(most, kFrames);
@@ -273,30 +269,30 @@ TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
     for (int from = 0; from <= kFrames; ++from) {
       putText(partial, whole);
       ASSERT_TRUE(format.resume(path, from, kFrames)) << from;
-      EXPECT_TRUE(textOf(path) == finished) << from;
+      EXPECT_TRUE(readText(path) == finished) << from;
       ASSERT_TRUE(format.resume(path, std::max(from, 1), kFrames)) << "of a finished file, from " << from;
-      EXPECT_TRUE(textOf(path) == finished) << from;
+      EXPECT_TRUE(readText(path) == finished) << from;
       fs::remove(path);
     }
     // And no further: nothing of what came after is left.
     format.write(path, 2, true);
-    const std::string shorter = textOf(path);
+    const std::string shorter = readText(path);
     fs::remove(path);
     putText(partial, whole);
     ASSERT_TRUE(format.resume(path, 2, 2));
-    EXPECT_TRUE(textOf(path) == shorter);
+    EXPECT_TRUE(readText(path) == shorter);
     fs::remove(path);
     // Not from fewer, nor from another animation's.
     putText(partial, std::string_view(whole).substr(0, two));
     const Status fewer = format.resume(path, 3, kFrames);
     ASSERT_FALSE(fewer);
     EXPECT_NE(fewer.error().message.find("cannot go on with"), std::string::npos) << fewer.error().message;
-    EXPECT_TRUE(textOf(partial) == whole.substr(0, two)) << "what was refused was changed";
+    EXPECT_TRUE(readText(partial) == whole.substr(0, two)) << "what was refused was changed";
     std::string other = whole;
     other[40] ^= 1;
     putText(partial, other);
     EXPECT_FALSE(format.resume(path, 2, kFrames));
-    EXPECT_TRUE(textOf(partial) == other);
+    EXPECT_TRUE(readText(partial) == other);
   }
 }
 
@@ -304,11 +300,11 @@ TEST(TornFiles, AFileHasOneWriter) {
   const fs::path path = scratchFolder("torn_two") / "hair.usda";
   const auto first = UsdWriter::create(path, groomOf(0), options(2));
   ASSERT_TRUE(first);
-  const std::string before = textOf(path.string() + ".partial");
+  const std::string before = readText(path.string() + ".partial");
   const auto second = UsdWriter::create(path, groomOf(0, 5), options(7));
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().fault, Fault::busy);
-  EXPECT_EQ(textOf(path.string() + ".partial"), before);
+  EXPECT_EQ(readText(path.string() + ".partial"), before);
 }
 
 }  // namespace

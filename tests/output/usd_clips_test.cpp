@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,6 +17,7 @@ namespace ringlet {
 namespace {
 
 namespace fs = std::filesystem;
+using test::readText;
 using test::scratchFolder;
 
 constexpr int kClipFrames = 4, kFrames = 10;
@@ -34,16 +33,12 @@ AnimationOptions options() {
   return {.frameCount = kFrames, .usd = {.ids = true, .velocities = true, .clipFrames = kClipFrames}};
 }
 
-std::string textOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 // Every file below a folder, by its name there.
 std::map<std::string, std::string> filesOf(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file())
-      files[entry.path().lexically_relative(folder).string()] = textOf(entry.path());
+      files[entry.path().lexically_relative(folder).string()] = readText(entry.path());
   return files;
 }
 std::vector<std::string> namesOf(const std::map<std::string, std::string>& files) {
@@ -79,7 +74,7 @@ TEST(UsdClips, EveryFrameIsInItsClip) {
   }
   // Clips count as the whole does.
   for (int clip = 1; clip <= 3; ++clip) {
-    const std::string bytes = textOf(UsdClipsWriter::clipPath(path, clip));
+    const std::string bytes = readText(UsdClipsWriter::clipPath(path, clip));
     const auto layer = readUsdc(std::as_bytes(std::span(bytes)), "clip", {.keepsPlaces = true});
     ASSERT_TRUE(layer) << layer.error().message;
     for (const UsdAttribute& attribute : layer->prims.front().attributes) {
@@ -89,7 +84,7 @@ TEST(UsdClips, EveryFrameIsInItsClip) {
     }
   }
 
-  const std::string top = textOf(path);
+  const std::string top = readText(path);
   for (const char* part :
        {"endTimeCode = 10\n", "startTimeCode = 1\n", "double2[] active = [(1, 0), (5, 1), (9, 2)]",
         "asset[] assetPaths = [@./hair_clips/hair.0001.usdc@, @./hair_clips/hair.0002.usdc@, "
@@ -99,7 +94,7 @@ TEST(UsdClips, EveryFrameIsInItsClip) {
         "int[] primvars:id = [0, 1]", "\n    point3f[] points\n", "\n    float3[] extent\n",
         "\n    vector3f[] velocities\n"})
     EXPECT_NE(top.find(part), std::string::npos) << part << " is missing in\n" << top;
-  const std::string manifest = textOf(path.parent_path() / "hair_clips" / "manifest.usda");
+  const std::string manifest = readText(path.parent_path() / "hair_clips" / "manifest.usda");
   for (const std::string& text : {top, manifest}) {
     const auto layer = readUsda(text, "text");
     ASSERT_TRUE(layer) << layer.error().message;
@@ -114,7 +109,7 @@ TEST(UsdClips, AKilledRunLeavesItsClipsAndFrames) {
     const fs::path path = scratchFolder("clips_killed") / "hair.usda";
     write(path, 0, frames, false);
     EXPECT_FALSE(fs::exists(path));
-    const std::string top = textOf(path.string() + ".partial");
+    const std::string top = readText(path.string() + ".partial");
     const int whole = frames / kClipFrames;
     EXPECT_NE(top.find("endTimeCode = " + std::to_string(whole * kClipFrames) + "\n"), std::string::npos)
         << top;
@@ -150,7 +145,7 @@ TEST(UsdClips, AreGoneOnWithToTheSameBytes) {
 TEST(UsdClips, FewerFramesThanAnnounced) {
   const fs::path path = scratchFolder("clips_few") / "hair.usda";
   write(path, 0, 6, true);
-  EXPECT_NE(textOf(path).find("endTimeCode = 6\n"), std::string::npos);
+  EXPECT_NE(readText(path).find("endTimeCode = 6\n"), std::string::npos);
   const auto reader = UsdcReader::open(UsdClipsWriter::clipPath(path, 2));
   ASSERT_TRUE(reader);
   EXPECT_EQ(reader->frameCount(), 2);

@@ -5,7 +5,6 @@
 
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <random>
 
 #include "ringlet/output/usd_writer.h"
@@ -15,6 +14,7 @@
 namespace ringlet {
 namespace {
 
+using test::readText;
 using test::scratchFolder;
 
 // Strands of 2, 3 and 31 particles, at places of every size a float has.
@@ -30,11 +30,6 @@ Groom mixedGroom(std::uint32_t seed) {
     groom.addStrand(strand);
   }
   return groom;
-}
-
-std::string textOf(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 // Writes frames of seeds 1, 2, ... and leaves the file unfinished or not.
@@ -106,7 +101,7 @@ TEST(UsdReader, ReadsFilesLargerThanItsBuffer) {
 TEST(UsdReader, RefusesAnythingElse) {
   const auto folder = scratchFolder("usd_reader_broken");
   write(folder / "hair.usda", 2, 2, true);
-  const std::string whole = textOf(folder / "hair.usda");
+  const std::string whole = readText(folder / "hair.usda");
   auto errorOfText = [&](const std::string& text) {
     std::ofstream(folder / "broken.usda", std::ios::binary) << text;
     return errorOf(folder / "broken.usda");
@@ -147,7 +142,7 @@ TEST(UsdReader, RefusesAnythingElse) {
 TEST(UsdReader, MemoryIsTakenForPointsThatAreThere) {
   const auto path = scratchFolder("usd_reader_memory") / "hair.usda";
   write(path, 1, 1, true);
-  std::string text = textOf(path);
+  std::string text = readText(path);
   const std::string counts = "[2, 3, 31]";
   const std::size_t at = text.find(counts);
   ASSERT_NE(at, std::string::npos);

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -70,10 +68,7 @@ std::vector<std::byte> bytesOf(std::string_view text) {
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
 }
-std::vector<std::byte> fileBytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return bytesOf(std::string{std::istreambuf_iterator<char>(file), {}});
-}
+std::vector<std::byte> fileBytes(const fs::path& path) { return bytesOf(test::readText(path)); }
 
 LoadedGroom groomOf(const char* text = kGroomText) {
   auto read = readUsd(bytesOf(text), "groom.usda", {.keepsPrims = true});

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -69,8 +68,7 @@ struct Crate {
 };
 
 Crate crateOf(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = test::readText(path);
   Crate crate;
   crate.bytes.resize(text.size());
   std::memcpy(crate.bytes.data(), text.data(), text.size());
@@ -252,11 +250,7 @@ TEST(UsdcWriter, AnyFrameIsReadAtOnce) {
 
 TEST(UsdcReader, RefusesCratesOfOthers) {
   const fs::path path = write(scratchFolder("usdc_other"), {.frameCount = 1}, 1, [](double) { return 0; });
-  std::string text;
-  {
-    std::ifstream file(path, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(file), {});
-  }
+  std::string text = test::readText(path);
   text[88] = 'r';  // of "Ringlet frames 1"
   std::ofstream(path, std::ios::binary | std::ios::trunc) << text;
   const auto reader = UsdcReader::open(path);

@@ -1,6 +1,7 @@
 // `ringlet material`, and the options by which `ringlet simulate` chooses it.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "ringlet/rest/material_file.h"

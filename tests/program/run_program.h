@@ -11,12 +11,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/support/test_support.h"
 
 namespace ringlet::test {
 
@@ -24,11 +24,6 @@ struct ProgramResult {
   int exitCode = -1;  // -1: it was killed by a signal
   std::string out, err;
 };
-
-inline std::string readText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Standard error without what is said where the driver compiles for longer than a second.
 inline std::string withoutCompileNotes(const std::string& err) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "ringlet/groom/groom_file.h"
@@ -408,8 +409,9 @@ class Interruption : public testing::Test {
 
   bool waitForFrames() const {
     return RunningProgram::waitUntil([this] {
-      const std::string key = "endTimeCode = ",
-                        text = readText(folder_ / "out/hair.usda.partial").substr(0, 200);
+      const std::string key = "endTimeCode = ";
+      std::string text(200, ' ');
+      std::ifstream(folder_ / "out/hair.usda.partial").read(text.data(), 200);
       const std::size_t at = text.find(key);
       return at != std::string::npos && text.compare(at + key.size(), 1, "0") != 0;
     });

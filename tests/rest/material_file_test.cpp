@@ -271,8 +271,7 @@ TEST(MaterialFile, WrittenFilesExplainEveryNumber) {
   const auto path = test::scratchFolder("material_file") / "coil.toml";
   const Material coil = materialPreset("coil").value();
   ASSERT_TRUE(writeMaterial(path, coil));
-  std::ifstream file(path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = test::readText(path);
   auto expectLine = [&](const std::string& line) {
     EXPECT_NE(text.find("\n" + line), std::string::npos) << line << " is missing in:\n" << text;
   };

@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <utility>
 
 #include "ringlet/base/assert.h"
 
@@ -17,6 +20,12 @@ std::optional<std::filesystem::path> dataFile(const std::string& relative) {
       (folder ? fs::path(folder) : fs::path(RINGLET_SOURCE_DIR) / ".." / "shared" / "data") / relative;
   if (!fs::exists(path)) return std::nullopt;
   return path;
+}
+
+std::string readText(const std::filesystem::path& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return std::move(bytes).str();
 }
 
 double farthestApart(std::span<const Vec3f> a, std::span<const Vec3f> b) {

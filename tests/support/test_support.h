@@ -17,6 +17,9 @@ std::optional<std::filesystem::path> dataFile(const std::string& relative);
 /// A fresh empty folder for this test, below the system's temporary one.
 std::filesystem::path scratchFolder(const std::string& name);
 
+/// All bytes of a file; none where it cannot be read.
+std::string readText(const std::filesystem::path& path);
+
 /// The largest distance of two that stand in the same place of a and b; not a number where one is none.
 double farthestApart(std::span<const Vec3f> a, std::span<const Vec3f> b);
 
