@@ -91,14 +91,11 @@ Error afterFrames(int frameCount, const Error& cause, const RunOptions& options)
                cause.fault};
 }
 
-// What this run and one that goes on with it must have in common.
-std::vector<RunFact> factsOf(const RunInput& input, const RunOptions& options, const Backend& backend) {
+// What this run and one that goes on with it must have in common, but for the device.
+std::vector<RunFact> factsOf(const RunInput& input, const RunOptions& options) {
   std::vector<RunFact> facts = options.facts;
   const auto add = [&](const char* name, auto value) { facts.push_back({name, fmt::format("{}", value)}); };
   add("program", RINGLET_VERSION);
-  add("device", backend.device());
-  add("driver", backend.driver());
-  add("kernel", backend.kernel());
   add("strands", input.groom.strandCount());
   add("frames", options.frameCount);
   add("steps a frame", input.settings.stepsPerFrame);
@@ -176,14 +173,19 @@ Status HairRun::openFolder() {
 
 // What can fail before the first step; and the steps before the first frame.
 Status HairRun::makeHair() {
+  const bool hasCheckpoints = folder_ && (options_.checkpointFrames > 0 || folder_->checkpoint());
+  if (hasCheckpoints) {
+    auto made = RunCheckpoints::make(*folder_, options_.checkpointFrames, factsOf(input_, options_));
+    if (!made) return made.error();
+    checkpoints_ = std::move(*made);
+  }
   auto backend = makeBackend(input_, options_);
   if (!backend) return backend.error();
   backend_ = std::move(*backend);
-  if (folder_ && (options_.checkpointFrames > 0 || folder_->checkpoint())) {
-    auto made =
-        RunCheckpoints::make(*folder_, options_.checkpointFrames, factsOf(input_, options_, *backend_));
-    if (!made) return made.error();
-    checkpoints_ = std::move(*made);
+  if (hasCheckpoints) {
+    Status same =
+        checkpoints_.addDevice(*folder_, backend_->device(), backend_->driver(), backend_->kernel());
+    if (!same) return same;
   }
   if (outcome_.resumedFrom == 0) {
     if (checkpoints_.areWanted()) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,11 @@ class RunCheckpoints {
  public:
   /// None: without a folder, or where the options ask for none and there is nothing to go on from.
   RunCheckpoints() = default;
-  /// `facts`: all that the run depends on. Fails where they differ from those of the folder's checkpoint.
-  static Result<RunCheckpoints> make(const RunFolder& folder, int everyFrames, std::vector<RunFact> facts);
+  /// `asked`: all that the run depends on but its device. Fails where that differs from what the folder's
+  /// checkpoint was asked.
+  static Result<RunCheckpoints> make(const RunFolder& folder, int everyFrames, std::vector<RunFact> asked);
+  /// The rest of what the run depends on, known once kernels are compiled. Fails in the same way.
+  Status addDevice(const RunFolder& folder, std::string device, std::string driver, std::string kernel);
 
   bool areWanted() const { return every_ > 0; }
   bool areDueAt(int frame) const { return every_ > 0 && frame % every_ == 0; }
