@@ -61,4 +61,4 @@ def usd_frames(path):
 
 
 def no_animation(path):
-    return RingletError(f"{path} is no animation of one groom, as `ringlet simulate` writes it")
+    return RingletError(f"{path} is no animation of one groom, as `ringlet simulate` writes it: choose the hair.usda of a run")
