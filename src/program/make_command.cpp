@@ -122,6 +122,8 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
       make->add_subcommand("head", "A head of curls about the origin, Y up, looking along +Z");
   addCurlOptions(headCommand, *head);
   addNumber(headCommand, "--strands", head->head.strandCount, "Strands", "N");
+  addNumber(headCommand, "--locks", head->head.lockCount,
+            "Locks, of curls that wind alike; 0: every strand is a curl of its own", "N");
   addNumber(headCommand, "--scalp-radius", head->head.scalpRadius, "Radius of the head, metres", "METRES");
   addVariationOptions(headCommand, head->variation);
   headCommand->footer("Example:\n  ringlet make head --strands 2000 --turns 10 --seed 7 -o head.hair");

@@ -327,10 +327,10 @@ void addGrooms(py::module_& module) {
       "strands that wind the other way. Everything else as in make_curl.");
   module.def(
       "make_head",
-      [](int strands, double scalpRadius, double browElevation, double napeElevation, double bendLength,
-         double rampShare, double radius, double turns, double length, int particles, int handedness,
-         double phase, double varyRadius, double varyLength, double varyPhase, double leftHandedShare,
-         std::uint64_t seed, double metresPerUnit) {
+      [](int strands, int locks, double scalpRadius, double browElevation, double napeElevation,
+         double bendLength, double rampShare, double radius, double turns, double length, int particles,
+         int handedness, double phase, double varyRadius, double varyLength, double varyPhase,
+         double leftHandedShare, std::uint64_t seed, double metresPerUnit) {
         const CurlParameters curl =
             curlOf(radius, turns, length, particles, handedness, phase, metresPerUnit);
         return withoutGil([&] {
@@ -338,6 +338,7 @@ void addGrooms(py::module_& module) {
               makeHead({.curl = curl,
                         .variation = variationOf(varyRadius, varyLength, varyPhase, leftHandedShare, seed),
                         .strandCount = strands,
+                        .lockCount = locks,
                         .scalpRadius = scalpRadius,
                         .browElevation = browElevation,
                         .napeElevation = napeElevation,
@@ -346,18 +347,20 @@ void addGrooms(py::module_& module) {
               curl);
         });
       },
-      py::kw_only(), py::arg("strands") = h.strandCount, py::arg("scalp_radius") = h.scalpRadius,
-      py::arg("brow_elevation") = h.browElevation, py::arg("nape_elevation") = h.napeElevation,
-      py::arg("bend_length") = h.bendLength, py::arg("ramp_share") = h.rampShare,
-      py::arg("radius") = c.radius, py::arg("turns") = c.turns, py::arg("length") = c.length,
-      py::arg("particles") = c.particleCount, py::arg("handedness") = c.handedness,
-      py::arg("phase") = c.phase, py::arg("vary_radius") = v.radius, py::arg("vary_length") = v.length,
-      py::arg("vary_phase") = v.phase, py::arg("left_handed_share") = v.leftHandedShare,
-      py::arg("seed") = v.seed, py::arg("metres_per_unit") = c.metresPerUnit,
+      py::kw_only(), py::arg("strands") = h.strandCount, py::arg("locks") = h.lockCount,
+      py::arg("scalp_radius") = h.scalpRadius, py::arg("brow_elevation") = h.browElevation,
+      py::arg("nape_elevation") = h.napeElevation, py::arg("bend_length") = h.bendLength,
+      py::arg("ramp_share") = h.rampShare, py::arg("radius") = c.radius, py::arg("turns") = c.turns,
+      py::arg("length") = c.length, py::arg("particles") = c.particleCount,
+      py::arg("handedness") = c.handedness, py::arg("phase") = c.phase, py::arg("vary_radius") = v.radius,
+      py::arg("vary_length") = v.length, py::arg("vary_phase") = v.phase,
+      py::arg("left_handed_share") = v.leftHandedShare, py::arg("seed") = v.seed,
+      py::arg("metres_per_unit") = c.metresPerUnit,
       "A head of curls: a sphere of scalp_radius [m] about the origin whose hair grows above a hairline, "
       "brow_elevation high in front and nape_elevation behind [rad]. A strand turns from the scalp's normal "
       "to "
-      "hanging within bend_length [m]; its curl grows to its radius over ramp_share of its length. Y is up, "
+      "hanging within bend_length [m]; its curl grows to its radius over ramp_share of its length. locks: of "
+      "curls that wind alike; 0: each for itself. Y is up, "
       "the face looks along +Z. Everything else as in make_swatch.");
   module.def(
       "write_obj",

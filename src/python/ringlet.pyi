@@ -51,7 +51,7 @@ def make_swatch(*, columns: int = 8, rows: int = 8, spacing: float = 0.025, radi
                 length: float = 0.25, particles: int = 64, handedness: int = 1, phase: float = 0.0,
                 vary_radius: float = 0.1, vary_length: float = 0.1, vary_phase: float = 1.0,
                 left_handed_share: float = 0.5, seed: int = 1, metres_per_unit: float = 0.01) -> Groom: ...
-def make_head(*, strands: int = 1000, scalp_radius: float = 0.09, brow_elevation: float = 0.75,
+def make_head(*, strands: int = 1000, locks: int = 0, scalp_radius: float = 0.09, brow_elevation: float = 0.75,
               nape_elevation: float = -0.6, bend_length: float = 0.025, ramp_share: float = 0.2, radius: float = 0.01,
               turns: float = 8.0, length: float = 0.25, particles: int = 64, handedness: int = 1, phase: float = 0.0,
               vary_radius: float = 0.1, vary_length: float = 0.1, vary_phase: float = 1.0,

@@ -209,6 +209,62 @@ TEST(MakeHead, WearsCurls) {
   EXPECT_LT(leftCount, 200);
 }
 
+// How far a strand's points are from those of its nearest neighbour, beyond what their roots are [m].
+double distanceOfNeighbours(const Groom& groom, const std::vector<std::size_t>& lock) {
+  double sum = 0;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const auto strand = metresOf(groom, s);
+    double nearest = 1;
+    std::vector<Vec3d> neighbour;
+    for (std::size_t other = 0; other < groom.strandCount(); ++other) {
+      const auto candidate = metresOf(groom, other);
+      const double apart = length(candidate[0] - strand[0]);
+      if (other == s || lock[other] != lock[s] || apart >= nearest) continue;
+      nearest = apart;
+      neighbour = candidate;
+    }
+    const std::size_t middle = strand.size() / 2;
+    if (!neighbour.empty()) sum += length(neighbour[middle] - strand[middle]) - nearest;
+  }
+  return sum / static_cast<double>(groom.strandCount());
+}
+
+TEST(MakeHead, StrandsOfALockWindAlike) {
+  constexpr int kLocks = 20;
+  const Result<Groom> places = makeHead({.strandCount = kLocks}), each = makeHead({.strandCount = 400});
+  const Result<Groom> groom = makeHead({.strandCount = 400, .lockCount = kLocks});
+  ASSERT_TRUE(places && each && groom);
+  std::vector<std::size_t> lock;
+  std::vector<int> hands(kLocks, 0);
+  std::vector<double> least(kLocks, 1e9), most(kLocks, 0);  // arc lengths [m]
+  for (std::size_t s = 0; s < groom->strandCount(); ++s) {
+    const auto strand = metresOf(*groom, s);
+    EXPECT_EQ(strand[0], metresOf(*each, s)[0]) << "locks move no root";
+    std::size_t nearest = 0;
+    for (std::size_t place = 0; place < kLocks; ++place) {
+      const auto apart = [&](std::size_t p) { return length(metresOf(*places, p)[0] - strand[0]); };
+      if (apart(place) < apart(nearest)) nearest = place;
+    }
+    lock.push_back(nearest);
+    const int hand = measureCurl(strand).handedness;
+    if (hands[nearest] == 0) hands[nearest] = hand;
+    EXPECT_EQ(hand, hands[nearest]) << "strand " << s;
+    double arc = 0;
+    for (std::size_t i = 1; i < strand.size(); ++i) arc += length(strand[i] - strand[i - 1]);
+    least[nearest] = std::min(least[nearest], arc);
+    most[nearest] = std::max(most[nearest], arc);
+  }
+  EXPECT_GT(std::ranges::count(hands, 1), 4);
+  EXPECT_GT(std::ranges::count(hands, -1), 4);
+  for (std::size_t k = 0; k < kLocks; ++k) {
+    EXPECT_GT(most[k], 1.001 * least[k]) << "strands of a lock differ a little";
+    EXPECT_LT(most[k], 1.04 * least[k]);
+  }
+  EXPECT_GT(std::ranges::max(most), 1.15 * std::ranges::min(least)) << "locks differ more";
+  EXPECT_LT(distanceOfNeighbours(*groom, lock), 0.5 * distanceOfNeighbours(*each, lock))
+      << "their curls lie side by side";
+}
+
 TEST(MakeHead, TheSeedDecides) {
   const Result<Groom> a = makeHead({.strandCount = 50}), b = makeHead({.strandCount = 50});
   const Result<Groom> other = makeHead({.variation = {.seed = 2}, .strandCount = 50});
@@ -221,6 +277,8 @@ TEST(MakeHead, TheSeedDecides) {
 TEST(MakeHead, RefusesBadParameters) {
   expectError(makeHead({.curl = {.particleCount = 1}}), "the number of particles per strand is 1");
   expectError(makeHead({.strandCount = 0}), "the number of strands is 0; it must be between 1 and 1000000");
+  expectError(makeHead({.lockCount = -1}), "the number of locks is -1; it must be between 0 and 10000");
+  expectError(makeHead({.lockCount = 10001}), "the number of locks is 10001;");
   expectError(makeHead({.scalpRadius = 0.01}),
               "the scalp radius is 0.01 m; it must be between 0.02 and 10 m");
   expectError(makeHead({.browElevation = 2}), "the elevation of the hairline at the brow is 2 rad");

@@ -106,12 +106,12 @@ def test_generators_make_what_the_program_makes(program):
     made = {
         "curl": ringlet.make_curl(turns=5, particles=40),
         "swatch": ringlet.make_swatch(columns=3, rows=2, particles=20, seed=7),
-        "head": ringlet.make_head(strands=30, particles=24, left_handed_share=0.25),
+        "head": ringlet.make_head(strands=30, locks=5, particles=24, left_handed_share=0.25),
     }
     options = {
         "curl": ["--turns", 5, "--particles", 40],
         "swatch": ["--columns", 3, "--rows", 2, "--particles", 20, "--seed", 7],
-        "head": ["--strands", 30, "--particles", 24, "--other-hand", 0.25],
+        "head": ["--strands", 30, "--locks", 5, "--particles", 24, "--other-hand", 0.25],
     }
     for kind, groom in made.items():
         program("make", kind, *options[kind], "-o", f"{kind}.hair", tells=False)

@@ -79,7 +79,7 @@ const std::string kFile =
     "[[body]]\nshape = 'sphere'\njoint = 'Spine1'\n";
 
 const std::string kKeys =
-    "[groom]\ngenerate = 'head'\nstrands = 20\nscalp_radius = 0.1\n"
+    "[groom]\ngenerate = 'head'\nstrands = 20\nlocks = 4\nscalp_radius = 0.1\n"
     "[motion]\ninterpolation = 'linear'\n"
     "[[motion.key]]\ntime = -1\nposition = [1, 2, 3]\nrotate_degrees = [0, 90, 0]\n"
     "[[motion.key]]\ntime = 0.5\nquaternion = [0, 0, 2, 0]\n";
@@ -217,6 +217,7 @@ TEST(SceneFile, EveryOtherGroomAndMotionIsRead) {
 
   const SceneFile keys = parsed(kKeys);
   EXPECT_EQ(keys.groom.strands, 20);
+  EXPECT_EQ(keys.groom.locks, 4);
   EXPECT_EQ(keys.groom.scalpRadius, 0.1);
   EXPECT_EQ(keys.motion.interpolation, "linear");
   ASSERT_EQ(keys.motion.keys.size(), 2u);

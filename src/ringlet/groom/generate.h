@@ -52,6 +52,7 @@ struct HeadParameters {
   CurlParameters curl{};
   Variation variation{};
   int strandCount = 1000;       // in [1, 1000000]
+  int lockCount = 0;            // in [0, 10000]; 0: every strand is a curl of its own
   double scalpRadius = 0.09;    // [m], in (0, 10], and at least 2 curl.radius
   double browElevation = 0.75;  // of the hairline above the head's centre in front [rad], in [-1.5, 1.5]
   double napeElevation = -0.6;  // likewise behind [rad]
@@ -71,7 +72,9 @@ Result<Groom> makeCurl(const CurlParameters& parameters = {});
 Result<Groom> makeSwatch(const SwatchParameters& parameters = {});
 
 /// Guides evenly spread over the scalp. Each starts on it along its normal, bends over to hang down beside or
-/// behind the head, combed away from the face, and stays outside the sphere. Errors as for makeSwatch.
+/// behind the head, combed away from the face, and stays outside the sphere. With locks a strand belongs to
+/// the nearest of `lockCount` places, evenly spread too: strands of a lock wind the same way, and differ from
+/// each other by a tenth of what locks differ by. Errors as for makeSwatch. Cost: with strands times locks.
 Result<Groom> makeHead(const HeadParameters& parameters = {});
 
 }  // namespace ringlet

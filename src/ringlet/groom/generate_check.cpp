@@ -79,6 +79,7 @@ Status checkParameters(const HeadParameters& p) {
   if (Status status = checkParameters(p.curl); !status) return status;
   if (Status status = checkVariation(p.variation); !status) return status;
   const Range ranges[] = {{"the number of strands", double(p.strandCount), 1, 1e6},
+                          {"the number of locks", double(p.lockCount), 0, 10000},
                           {"the scalp radius", p.scalpRadius, 2 * p.curl.radius, 10, " m"},
                           {"the elevation of the hairline at the brow", p.browElevation, -1.5, 1.5, " rad"},
                           {"the elevation of the hairline at the nape", p.napeElevation, -1.5, 1.5, " rad"},

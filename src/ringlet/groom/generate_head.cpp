@@ -33,6 +33,9 @@ constexpr double kCombFull = 0.7, kCombGone = -0.4;
 // what it rises beyond that per length, so that hair from above lies on hair from below.
 constexpr double kGap = 1.2, kLift = 0.08;
 
+// What strands of a lock differ by, as a share of what locks differ by.
+constexpr double kVariationInLock = 0.1;
+
 constexpr double kLongestStep = 5e-4;  // [m], of the core's integration: a 50th of the default bend
 
 double smoothstep(double low, double high, double x) {
@@ -40,21 +43,47 @@ double smoothstep(double low, double high, double x) {
   return s * s * (3 - 2 * s);
 }
 
-// Root directions, evenly spread over the cap above the hairline: Fibonacci's spiral about the cap's axis.
-std::vector<Vec3d> spreadRoots(const HeadParameters& parameters) {
+// Directions, evenly spread over the cap above the hairline: Fibonacci's spiral about the cap's axis.
+std::vector<Vec3d> spreadRoots(const HeadParameters& parameters, int count) {
   // The plane of the hairline meets the sphere at the two elevations: tilted by half their difference.
   const double tilt = (parameters.browElevation - parameters.napeElevation) / 2;
   const double lowest = std::sin((parameters.browElevation + parameters.napeElevation) / 2);
   const Vec3d axis{0, std::cos(tilt), -std::sin(tilt)}, side{1, 0, 0}, front = cross(side, axis);
 
   std::vector<Vec3d> directions;
-  for (int i = 0; i < parameters.strandCount; ++i) {
-    const double height = 1 - (1 - lowest) * (i + 0.5) / parameters.strandCount;
+  for (int i = 0; i < count; ++i) {
+    const double height = 1 - (1 - lowest) * (i + 0.5) / count;
     const double around = std::sqrt(std::max(0.0, 1 - height * height)), angle = kGoldenAngle * i;
     directions.push_back(axis * height + (side * std::cos(angle) + front * std::sin(angle)) * around);
   }
   return directions;
 }
+
+// The curl of each strand, varied by its lock and within it; without locks each for itself.
+class VariedCurls {
+ public:
+  explicit VariedCurls(const HeadParameters& parameters)
+      : parameters_(parameters),
+        locks_(spreadRoots(parameters, parameters.lockCount)),
+        within_(parameters.variation) {
+    for (double* share : {&within_.radius, &within_.length, &within_.phase}) *share *= kVariationInLock;
+    within_.leftHandedShare = 0;
+  }
+
+  CurlParameters curlAt(Vec3d rootDirection, std::size_t strand) const {
+    if (locks_.empty()) return varyCurl(parameters_.curl, parameters_.variation, strand);
+    const auto nearer = [&](Vec3d a, Vec3d b) { return dot(a, rootDirection) < dot(b, rootDirection); };
+    const auto lock = std::ranges::max_element(locks_, nearer) - locks_.begin();
+    const CurlParameters curl =
+        varyCurl(parameters_.curl, parameters_.variation, static_cast<std::size_t>(lock));
+    return varyCurl(curl, within_, locks_.size() + strand);
+  }
+
+ private:
+  const HeadParameters& parameters_;
+  std::vector<Vec3d> locks_;
+  Variation within_;
+};
 
 // Where hair wants to go at a place on or above the head: down, and in front also away from the face.
 Vec3d fallDirection(Vec3d outward) {
@@ -120,10 +149,9 @@ Result<Groom> makeHead(const HeadParameters& parameters) {
   if (Status status = checkParameters(parameters); !status) return status.error();
   Groom groom;
   groom.metresPerUnit = parameters.curl.metresPerUnit;
-  for (const Vec3d& direction : spreadRoots(parameters)) {
-    addStrand(groom, direction, varyCurl(parameters.curl, parameters.variation, groom.strandCount()),
-              parameters);
-  }
+  const VariedCurls curls(parameters);
+  for (const Vec3d& direction : spreadRoots(parameters, parameters.strandCount))
+    addStrand(groom, direction, curls.curlAt(direction, groom.strandCount()), parameters);
   return groom;
 }
 

@@ -39,7 +39,8 @@ struct SceneGroom {
   std::string generate;  // curl, swatch or head, in place of a file
 
   // Generated (groom/generate.h).
-  int strands = HeadParameters{}.strandCount, particles = CurlParameters{}.particleCount;
+  int strands = HeadParameters{}.strandCount, locks = HeadParameters{}.lockCount;
+  int particles = CurlParameters{}.particleCount;
   int columns = SwatchParameters{}.columnCount, rows = SwatchParameters{}.rowCount;
   double radius = CurlParameters{}.radius, turns = CurlParameters{}.turns, length = CurlParameters{}.length;
   double phase = CurlParameters{}.phase;

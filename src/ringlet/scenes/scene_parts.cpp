@@ -67,6 +67,7 @@ Result<Groom> generatedGroom(const SceneGroom& groom) {
   head.curl = curl;
   head.variation = variation;
   head.strandCount = groom.strands;
+  head.lockCount = groom.locks;
   head.scalpRadius = groom.scalpRadius;
   return makeHead(head);
 }
