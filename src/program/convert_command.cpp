@@ -39,6 +39,7 @@ constexpr const char* kExample =
     "  ringlet convert out/hair.rgc hair.usda --clips 100        in parts of 100 frames, hair_clips/\n"
     "  ringlet convert out/hair.rgc hair.pc2                     and hair.obj, for Blender 3\n"
     "  ringlet convert out/hair.rgc sheet.png\n"
+    "  ringlet convert out/hair.rgc full.usdc --hairs 20000 --groom groom.obj\n"
     "  ringlet convert out/hair.rgc.partial --info               of a run that was cut short, or goes on\n"
     "  ringlet convert groom.usdc groom.hair                     another program's groom; .hair, .obj or "
     ".ply\n"
@@ -65,6 +66,8 @@ struct Typed {
   std::vector<std::string> values;
   std::optional<int> clips;
   std::optional<double> tipWidth;
+  std::optional<int> hairs;
+  std::filesystem::path groom;
   bool info = false, json = false, quiet = false, overwrite = false;
 };
 
@@ -107,13 +110,32 @@ std::optional<ConvertTo> kindOf(const Typed& typed) {
   return std::nullopt;
 }
 
+// Hair that follows the strands of IN, where it is asked for.
+Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit) {
+  if (!typed.hairs) return std::optional<FullHair>();
+  auto hair = FullHair::make(rest, metresPerUnit, {.hairCount = *typed.hairs});
+  if (!hair) return hair.error();
+  return std::optional(std::move(*hair));
+}
+
+// The same, of an animation.
+Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit) {
+  if (!typed.hairs) return std::optional<FullHair>();
+  const auto rest = readGroom(typed.groom);
+  if (!rest) return rest.error();
+  return fullHairOf(typed, rest->groom, metresPerUnit);
+}
+
 // Throws CLI11's error for what makes no sense together.
 void checkOptions(const Typed& typed) {
   if (typed.output.empty() && !typed.info)
     throw CLI::ValidationError("OUT", "name the file to write, or say --info");
-  if (typed.info &&
-      (!typed.output.empty() || typed.frame || !typed.frames.empty() || !typed.precision.empty()))
+  if (typed.info && (!typed.output.empty() || typed.frame || !typed.frames.empty() ||
+                     !typed.precision.empty() || typed.hairs))
     throw CLI::ValidationError("--info", "only says what is in IN; leave out OUT and what OUT is to be");
+  if (typed.hairs && typed.groom.empty())
+    throw CLI::ValidationError("--hairs", "name with --groom the groom that IN was simulated from");
+  if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
   if (typed.frame && !typed.frames.empty())
     throw CLI::ValidationError("--frame", "is one frame, --frames several; say one of them");
   if (typed.info) return;
@@ -225,16 +247,16 @@ void printInfo(const Typed& typed, const AnimationReader& source) {
   fmt::print("  points        {}\n", boundText(source.errorBound()));
 }
 
-void printOutcome(const Typed& typed, const AnimationReader& source, const ConvertOutcome& outcome,
-                  int frameCount) {
-  const std::size_t strands = source.groom().strandCount(), particles = source.groom().firstPoint.back();
+void printOutcome(const Typed& typed, const Groom& groom, const std::vector<std::string>& warnings,
+                  const ConvertOutcome& outcome, int frameCount) {
+  const std::size_t strands = groom.strandCount(), particles = groom.firstPoint.back();
   if (typed.json) {
     nlohmann::ordered_json json{{"frames", frameCount},
                                 {"strands", strands},
                                 {"particles", particles},
                                 {"bytes", outcome.byteCount},
                                 {"error_bound_m", outcome.errorBound},
-                                {"warnings", source.warnings()},
+                                {"warnings", warnings},
                                 {"outputs", nlohmann::json::array()}};
     for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
     printJson(json);
@@ -254,8 +276,10 @@ Status runGroomConvert(const Typed& typed) {
   const auto loaded = readGroom(typed.input);
   if (!loaded) return loaded.error();
   for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
-  if (Status written = writeGroom(typed.output, loaded->groom); !written) return written;
-  const Groom& groom = loaded->groom;
+  const auto hair = fullHairOf(typed, loaded->groom, loaded->groom.metresPerUnit);
+  if (!hair) return hair.error();
+  const Groom& groom = *hair ? (*hair)->groom() : loaded->groom;
+  if (Status written = writeGroom(typed.output, groom); !written) return written;
   std::error_code code;
   const std::uint64_t bytes = std::filesystem::file_size(typed.output, code);
   if (typed.json) {
@@ -288,6 +312,8 @@ Status runConvert(const Typed& typed) {
   auto range = chooseFrames(typed, *source);
   if (!range) return range.error();
   if (Status free = checkOutput(typed); !free) return free;
+  auto hair = fullHairOf(typed, source->header().metresPerUnit);
+  if (!hair) return hair.error();
   const auto outcome = convert(
       *source,
       {.to = *kindOf(typed),
@@ -296,9 +322,11 @@ Status runConvert(const Typed& typed) {
        .lastFrame = range->last,
        .precision = typed.precision.empty() ? source->header().precision : precisionByName(typed.precision),
        .usd = usdExtras(typed, source->header().metresPerUnit),
+       .hair = *hair ? &**hair : nullptr,
        .showProgress = !typed.quiet});
   if (!outcome) return outcome.error();
-  printOutcome(typed, *source, *outcome, range->last - range->first + 1);
+  const Groom& written = *hair ? (*hair)->groom() : source->groom();
+  printOutcome(typed, written, source->warnings(), *outcome, range->last - range->first + 1);
   return {};
 }
 
@@ -308,6 +336,8 @@ int run(const Typed& typed) {
     throw CLI::ValidationError("IN", "a groom has no frames and no precision");
   if (isGroom && !typed.info && typed.output.empty())
     throw CLI::ValidationError("OUT", "name the file to write, .hair, .obj or .ply");
+  if (isGroom && !typed.groom.empty())
+    throw CLI::ValidationError("--groom", "IN is a groom itself; only the hairs of an animation need one");
   if (!isGroom) checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
@@ -364,6 +394,15 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
           "Frames of a value clip: OUT.usda is then a small file beside OUT_clips/, which has them in parts")
       ->check(wholeBetween(1, 1'000'000))
       ->type_name("N");
+  command
+      ->add_option(
+          "--hairs", typed->hairs,
+          "Hairs to write in place of the strands of IN, which they follow: about as many strands are "
+          "what one sees as locks. Hairs know no bodies")
+      ->check(wholeBetween(1, 10'000'000))
+      ->type_name("N");
+  command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
+      ->type_name("FILE");
   command->add_flag("--overwrite", typed->overwrite,
                     "Begin anew where OUT.partial holds frames of something that did not end");
   command->add_flag("--info", typed->info, "Say what is in IN, and write nothing");

@@ -19,13 +19,23 @@ namespace fs = std::filesystem;
 
 int frameCountOf(const ConvertPlan& plan) { return plan.lastFrame - plan.firstFrame + 1; }
 
-// Calls visit(frame) once the source's groom is in the pose of that frame of the animation.
+// What is written: the animation's strands, or the hair that follows them.
+const Groom& shownGroom(const AnimationReader& source, const ConvertPlan& plan) {
+  return plan.hair ? plan.hair->groom() : source.groom();
+}
+
+// Calls visit(frame) once shownGroom() is in the pose of that frame of the animation.
 Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
                     const std::function<Status(int)>& visit) {
   ProgressBar progress(0, frameCountOf(plan), plan.showProgress);
   for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) {
     progress.show(frame - plan.firstFrame);
     if (Status read = source.readFrame(frame); !read) return read;
+    if (plan.hair) {
+      const Status checked = frame == plan.firstFrame ? plan.hair->checkPose(source.groom()) : Status();
+      if (!checked) return checked;
+      plan.hair->follow(source.groom().points);
+    }
     if (Status visited = visit(frame); !visited) return visited;
   }
   return {};
@@ -34,7 +44,7 @@ Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
 Status toAnimation(AnimationReader& source, const ConvertPlan& plan) {
   const CacheHeader& header = source.header();
   const auto made = animationFormatOf(plan.output)
-                        ->resume(plan.output, source.groom(),
+                        ->resume(plan.output, shownGroom(source, plan),
                                  {.framesPerSecond = header.framesPerSecond,
                                   .metresPerUnit = header.metresPerUnit,
                                   .up = header.up,
@@ -45,7 +55,7 @@ Status toAnimation(AnimationReader& source, const ConvertPlan& plan) {
                                  0);
   if (!made) return made.error();
   AnimationWriter& writer = **made;
-  const auto add = [&](int) { return writer.addFrame(source.groom().points); };
+  const auto add = [&](int) { return writer.addFrame(shownGroom(source, plan).points); };
   if (Status added = forEachFrame(source, plan, add); !added) {
     const std::string partial = plan.output.string() + ".partial";
     const bool isSaid = added.error().message.find(partial) != std::string::npos;  // by the writer
@@ -58,9 +68,9 @@ Status toAnimation(AnimationReader& source, const ConvertPlan& plan) {
 }
 
 Status toSheet(AnimationReader& source, const ConvertPlan& plan) {
-  Sheet sheet(source.groom(), frameCountOf(plan), source.header().up);
+  Sheet sheet(shownGroom(source, plan), frameCountOf(plan), source.header().up);
   const auto offer = [&](int frame) -> Status {
-    sheet.offer(frame - plan.firstFrame + 1, source.groom().points);
+    sheet.offer(frame - plan.firstFrame + 1, shownGroom(source, plan).points);
     return {};
   };
   if (Status seen = forEachFrame(source, plan, offer); !seen) return seen;
@@ -76,7 +86,7 @@ Status toFrames(AnimationReader& source, const ConvertPlan& plan) {
       return Error{fmt::format("cannot create the folder {}: {}", plan.output.string(), code.message())};
   }
   return forEachFrame(source, plan, [&](int frame) {
-    return writeGroom(isSequence ? framePath(plan.output, frame) : plan.output, source.groom());
+    return writeGroom(isSequence ? framePath(plan.output, frame) : plan.output, shownGroom(source, plan));
   });
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "program/full_hair.h"
 #include "ringlet/base/result.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
@@ -18,6 +19,7 @@ struct ConvertPlan {
   int firstFrame = 1, lastFrame = 1;  // of the animation
   CachePrecision precision = CachePrecision::float32;
   UsdExtras usd{};
+  FullHair* hair = nullptr;  // that follows the animation, and is written in its place
   bool showProgress = true;
 };
 

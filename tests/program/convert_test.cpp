@@ -305,6 +305,42 @@ TEST_F(Convert, AKilledRunLeavesItsFrames) {
   EXPECT_FALSE(reader->isFinished());
 }
 
+TEST_F(Convert, HairsFollowTheStrands) {
+  ASSERT_EQ(run({"make", "head", "--strands", "12", "--particles", "32", "-o", "h.obj"}).exitCode, 0);
+  ASSERT_EQ(run({"simulate", "h.obj", "--backend", "reference", "--motion", "turn", "--frames", "6",
+                 "--cache", "float32", "--no-usd", "-o", "turned"})
+                .exitCode,
+            0);
+  EXPECT_EQ(convert({"h.obj", "rest.obj", "--hairs", "100"})["strands"], 100);
+  const json out = convert({"turned/hair.rgc", "full.rgc", "--hairs", "100", "--groom", "h.obj"});
+  EXPECT_EQ(out["strands"], 100);
+  EXPECT_EQ(out["particles"], 100 * 32);
+  EXPECT_EQ(out["frames"], 6);
+  const json info = convert({"full.rgc", "--info"});
+  EXPECT_EQ(info["strands"], 100);
+  EXPECT_EQ(info["fps"], 24);
+  convert({"full.rgc", "six.obj", "--frame", "6"});
+  convert({"turned/hair.rgc", "alone.obj", "--frame", "6", "--hairs", "100", "--groom", "h.obj"});
+  EXPECT_EQ(readText(folder_ / "alone.obj"), readText(folder_ / "six.obj"))
+      << "frames know nothing of others";
+
+  // Roots move as the head does: none comes nearer to another. Tips move by themselves.
+  const auto rest = pointsOf("rest.obj"), six = pointsOf("six.obj");
+  ASSERT_EQ(six.size(), rest.size());
+  double changed = 0, moved = 0, bent = 0;
+  const auto apart = [](const std::vector<Vec3f>& points, std::size_t a, std::size_t b) {
+    return length(Vec3d(points[a]) - Vec3d(points[b]));
+  };
+  for (std::size_t h = 32; h < rest.size(); h += 32) {
+    changed = std::max(changed, std::abs(apart(rest, 0, h) - apart(six, 0, h)));
+    moved = std::max(moved, length(Vec3d(rest[h]) - Vec3d(six[h])));
+    bent = std::max(bent, std::abs(apart(rest, 31, h + 31) - apart(six, 31, h + 31)));
+  }
+  EXPECT_LT(changed, 0.001) << "[cm]";
+  EXPECT_GT(moved, 1);
+  EXPECT_GT(bent, 0.05);
+}
+
 TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
   std::ofstream(folder_ / "wrong.rgc") << "hello";
   std::ofstream(folder_ / "file") << "x";
@@ -317,6 +353,9 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
   fs::create_directories(folder_ / "here");
   fs::copy(folder_ / "out/hair.rgc", folder_ / "here/hair.rgc.partial");
   std::ofstream(folder_ / "left.usda.partial") << "frames of another";
+  std::ofstream(folder_ / "large.obj") << "v 0 0 0\nv 0 -100 20\nv 10 -200 0\nv 0 -300 10\nv 0 -400 0\n"
+                                          "v 200 0 0\nv 200 -100 0\nv 210 -200 0\nl 1 2 3 4 5\nl 6 7 8\n";
+  std::ofstream(folder_ / "point.obj") << "v 0 0 0\nv 0 0 0\nv 2 0 0\nv 2 -1 0\nl 1 2\nl 3 4\n";
   struct Case {
     std::vector<std::string> arguments;
     std::string message;
@@ -332,6 +371,11 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
         Case{{"out/hair.rgc", "out/hair.rgc"}, "choose another name"},
         Case{{"here/hair.rgc.partial", "here/hair.rgc"}, "choose another name"},
         Case{{"out/hair.rgc", "left.usda"}, "left.usda.partial holds frames", 5},
+        Case{{"out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "none.obj"}, "none.obj", 4},
+        Case{{"out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "large.obj"},
+             "times as long as the groom's: one of them is in another unit"},
+        Case{{"out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "point.obj"},
+             "strand 1 of the groom has no length"},
         Case{{"out/hair.rgc", "none/a.usda"}, "none/a.usda", 5}, Case{{"out/hair.rgc", "file"}, "file"}}) {
     std::vector<std::string> arguments{"convert"};
     arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
@@ -365,6 +409,12 @@ TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
         Case{{"convert", "out/hair.rgc", "a.rgc", "--precision", "8bit"}, "there is no '8bit'"},
         Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "2", "--frames", "1:2"}, "say one of them"},
         Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "0"}, "from 1"},
+        Case{{"convert", "out/hair.rgc", "a.rgc", "--hairs", "9"}, "name with --groom the groom"},
+        Case{{"convert", "out/hair.rgc", "a.rgc", "--groom", "groom.obj"}, "only --hairs needs it"},
+        Case{{"convert", "out/hair.rgc", "--info", "--hairs", "9"}, "leave out OUT"},
+        Case{{"convert", "groom.obj", "a.obj", "--hairs", "9", "--groom", "groom.obj"},
+             "IN is a groom itself"},
+        Case{{"convert", "groom.obj", "a.obj", "--hairs", "0"}, "from 1 to 10000000"},
         Case{{"convert", "out/hair.rgc", "a.obj", "--frames", "5:2"}, "as 1:24"},
         Case{{"convert", "out/hair.rgc", "a.obj", "--frames", "2"}, "as 1:24"},
         Case{{"simulate", "groom.obj", "--cache", "float16", "-o", "x"}, "there is no 'float16'"}}) {

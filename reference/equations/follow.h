@@ -1,0 +1,65 @@
+// Where a point of a hair is that follows a guide. The guide's curl is its particles less its core, seen from
+// the frame F that parallel transport carries along the core; a hair has that curl, turned and scaled, about
+// a core of its own, the guide's shifted by its offset d. With s the share of the way from root to tip,
+//
+//     r = smoothstep(0, 1/5, s),   k = 1 + (spread - 1) smoothstep(0, 2/5, s)
+//     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) F_root d + r F d)
+//
+// At the root x is the guide's root + F_root d, with F_root the frame at rest carried by the head: a hair's
+// root stays where it is on the scalp, however its guide bends there. The idea is Choe and Ko's (2005, wisps:
+// a master strand and variation about it).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/fields.h"
+#include "ringlet/follow/follow_hairs.h"
+
+namespace ringlet::reference {
+
+/// Of a guide, at one place along it.
+template <class Real>
+struct GuidePlace {
+  Vector3<Real> core;    // [m]
+  Vector3<Real> curl;    // of the strand from its core, along `frame` [m]
+  Rotation<Real> frame;  // takes normal, binormal, tangent to the world's axes
+};
+
+/// 0 up to 0, 1 from `end` on, smooth between.
+template <class Real>
+Real risesOver(Real end, Real share) {
+  const Real x = std::clamp(share / end, Real(0), Real(1));
+  return x * x * (3 - 2 * x);
+}
+
+/// Between two places; frames the shorter way. A curl turns from place to place, so its length goes from one
+/// to the other too: a straight way between them would cut the corners of every turn.
+template <class Real>
+GuidePlace<Real> placeBetween(const GuidePlace<Real>& a, const GuidePlace<Real>& b, Real share) {
+  const Real sign = a.frame.dot(b.frame) < 0 ? Real(-1) : Real(1);
+  Rotation<Real> frame;
+  frame.coeffs() = (1 - share) * a.frame.coeffs() + share * sign * b.frame.coeffs();
+  const Vector3<Real> curl = (1 - share) * a.curl + share * b.curl;
+  const Real length = (1 - share) * a.curl.norm() + share * b.curl.norm();
+  return {(1 - share) * a.core + share * b.core, length * directionOr(curl, Vector3<Real>::Zero()),
+          frame.normalized()};
+}
+
+/// `share`: of the way from root to tip. `rootFrame`: F_root. [m]
+template <class Real>
+Vector3<Real> followedPoint(const FollowHair& hair, const GuidePlace<Real>& place,
+                            const Rotation<Real>& rootFrame, Real share) {
+  const Real r = risesOver(Real(1) / 5, share);
+  const Real angle = r * static_cast<Real>(hair.phase);
+  const Real scale = 1 + (static_cast<Real>(hair.radius) - 1) * r;
+  const Real spread = 1 + (static_cast<Real>(hair.spread) - 1) * risesOver(Real(2) / 5, share);
+  const Vector3<Real>& z = place.curl;
+  const Vector3<Real> curl = {std::cos(angle) * z.x() - std::sin(angle) * z.y(),
+                              std::sin(angle) * z.x() + std::cos(angle) * z.y(), z.z()};
+  const Vector3<Real> offset = toEigen<Real>(hair.offset);
+  return place.core + place.frame * (scale * curl) +
+         spread * ((1 - r) * (rootFrame * offset) + r * (place.frame * offset));
+}
+
+}  // namespace ringlet::reference

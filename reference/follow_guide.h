@@ -1,0 +1,26 @@
+// Hairs that follow a guide through a pose: the guide's core, frames and curl, then each hair's points.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "reference/equations/follow.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/follow/follow_hairs.h"
+
+namespace ringlet::reference {
+
+/// A guide in a pose.
+struct GuidePose {
+  std::vector<GuidePlace<double>> places;  // one a particle
+  Rotation<double> rootFrame;              // the frame at rest, carried by the head
+};
+
+/// `positions` [m]: one a particle, in the world or relative to the head's origin alike. `head`: how the head
+/// has turned since the rest pose.
+GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Quatd head);
+
+/// The points of a hair, as many as its guide's [m].
+std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide);
+
+}  // namespace ringlet::reference

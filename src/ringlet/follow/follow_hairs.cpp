@@ -1,0 +1,181 @@
+// Implements follow/follow_hairs.h.
+#include "ringlet/follow/follow_hairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "ringlet/groom/seeded_random.h"
+
+namespace ringlet {
+namespace {
+
+constexpr std::size_t kNeighbours = 8;  // roots that bound a guide's part of the scalp
+constexpr double kReach = 0.75;         // its largest radius, in the median distance of the neighbours
+constexpr double kLoneRadius = 0.0025;  // without neighbours [m]
+constexpr double kGoldenAngle = 2.399963229728653;  // pi (3 - sqrt 5) [rad]
+
+// By eye: strays differ in phase and stay off by these factors.
+constexpr double kStrayPhase = 2.5, kStraySpread = 1.4;
+
+Status checkOptions(std::span<const GuideRest> guides, const FollowOptions& o) {
+  if (guides.empty()) return Error{"there is no guide that hairs could follow"};
+  const struct {
+    const char* name;
+    double value, low, high;
+  } ranges[] = {{"the number of hairs", double(o.hairCount), 1, 1e7},
+                {"the largest turn of a hair's curl", o.phase, 0, std::numbers::pi},
+                {"the variation of the curl radius", o.radius, 0, 0.9},
+                {"the variation of the length", o.length, 0, 0.9},
+                {"the share by which hairs gather", o.gather, 0, 1},
+                {"the share of strays", o.strayShare, 0, 1}};
+  for (const auto& range : ranges) {
+    if (range.value >= range.low && range.value <= range.high) continue;  // false for NaN
+    return Error{fmt::format("{} is {}; it must be between {} and {}", range.name, range.value, range.low,
+                             range.high)};
+  }
+  return {};
+}
+
+// The roots nearest to each, seen from it, nearest first. Roots are sorted along an axis, and looked through
+// to both sides of each until what is left is further off along that axis than those found.
+std::vector<std::vector<Vec3d>> neighboursOf(std::span<const GuideRest> guides) {
+  std::vector<std::size_t> order(guides.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t g) { return guides[g].root.y; });
+  std::vector<std::vector<Vec3d>> all(guides.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Vec3d root = guides[order[i]].root;
+    std::vector<Vec3d>& found = all[order[i]];
+    const auto isBeyond = [&](std::size_t k) {
+      return found.size() == kNeighbours && std::abs(guides[order[k]].root.y - root.y) > length(found.back());
+    };
+    const auto look = [&](std::size_t k) {
+      const Vec3d apart = guides[order[k]].root - root;
+      if (length(apart) == 0) return;
+      const auto at = std::ranges::upper_bound(found, length(apart), {}, [](Vec3d v) { return length(v); });
+      found.insert(at, apart);
+      if (found.size() > kNeighbours) found.pop_back();
+    };
+    for (std::size_t k = i; k-- > 0 && !isBeyond(k);) look(k);
+    for (std::size_t k = i + 1; k < order.size() && !isBeyond(k); ++k) look(k);
+  }
+  return all;
+}
+
+// Of the plane through a root and those about it: the mean of what pairs of them span. Which side it points
+// to is left open. `fallback`: where they span none.
+Vec3d normalOf(std::span<const Vec3d> around, Vec3d fallback) {
+  Vec3d widest{};
+  const auto forEachPair = [&](auto&& use) {
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (std::size_t k = i + 1; k < around.size(); ++k) use(cross(around[i], around[k]));
+  };
+  forEachPair([&](Vec3d plane) {
+    if (dot(plane, plane) > dot(widest, widest)) widest = plane;
+  });
+  Vec3d sum{};
+  forEachPair([&](Vec3d plane) { sum += plane * (dot(plane, widest) < 0 ? -1.0 : 1.0); });
+  return normalizedOr(sum, fallback);
+}
+
+// x of M x = b, M symmetric of these columns (Cramer); zero where M is singular but for rounding.
+Vec3d solveSymmetric(Vec3d first, Vec3d second, Vec3d third, Vec3d b) {
+  const double determinant = dot(first, cross(second, third));
+  if (!(std::abs(determinant) > 1e-9 * length(first) * length(second) * length(third))) return {};
+  return Vec3d{dot(b, cross(second, third)), dot(first, cross(b, third)), dot(first, cross(second, b))} /
+         determinant;
+}
+
+// The scalp about a root: the paraboloid z = slopes . (x, y, x^2 + y^2) that fits the roots about it best.
+// Its slopes matter at the hairline, where all of them are on one side.
+struct ScalpPatch {
+  Vec3d across, along, normal;
+  Vec3d slopes{};
+  double radius = kLoneRadius;
+  std::span<const Vec3d> neighbours;
+
+  ScalpPatch(const GuideRest& guide, std::span<const Vec3d> around) : neighbours(around) {
+    normal = normalOf(around, guide.frame.tangent);
+    across = anyNormal(normal);
+    along = cross(normal, across);
+    if (around.empty()) return;
+    const double unit = length(around[around.size() / 2]);  // so that squares are as large as distances
+    Vec3d columns[3]{}, right{};
+    for (const Vec3d& v : around) {
+      const Vec3d terms = termsAt(dot(v, across) / unit, dot(v, along) / unit);
+      right += terms * (dot(v, normal) / unit);
+      columns[0] += terms * terms.x;
+      columns[1] += terms * terms.y;
+      columns[2] += terms * terms.z;
+    }
+    slopes = solveSymmetric(columns[0], columns[1], columns[2], right);
+    slopes.z /= unit;
+    radius = kReach * unit;
+  }
+
+  static Vec3d termsAt(double x, double y) { return {x, y, x * x + y * y}; }
+  Vec3d at(double x, double y) const { return across * x + along * y + normal * dot(slopes, termsAt(x, y)); }
+  bool isOwn(Vec3d place) const {
+    return std::ranges::all_of(neighbours, [&](Vec3d v) { return dot(place, v) <= 0.5 * dot(v, v); });
+  }
+};
+
+// `count` places spread evenly over the guide's part of the scalp: a sunflower (Vogel 1979) of just so many
+// seeds that enough of them are the guide's own.
+std::vector<Vec3d> placesOn(const ScalpPatch& patch, std::size_t count, double firstAngle) {
+  std::vector<Vec3d> places;
+  for (std::size_t seeds = count; places.size() < count; seeds += std::max<std::size_t>(1, seeds / 20)) {
+    places.clear();
+    for (std::size_t k = 0; k < seeds && places.size() < count; ++k) {
+      const double distance = patch.radius * std::sqrt((double(k) + 0.5) / double(seeds));
+      const double angle = firstAngle + kGoldenAngle * double(k);
+      const Vec3d place = patch.at(distance * std::cos(angle), distance * std::sin(angle));
+      if (patch.isOwn(place)) places.push_back(place);
+    }
+  }
+  return places;
+}
+
+FollowHair variedHair(const FollowOptions& options, SeededRandom random) {
+  // Always the same draws in the same order, so that one option does not change the others.
+  const bool isStray = random.uniform() < options.strayShare;
+  const double turn = random.uniform() + random.uniform() - 1;  // triangular
+  const double wider = random.between(-1, 1), shorter = random.uniform(),
+               together = random.between(-0.2, 2.2);
+  FollowHair hair;
+  hair.phase = static_cast<float>(turn * options.phase * (isStray ? kStrayPhase : 1));
+  hair.radius = static_cast<float>(1 + options.radius * wider);
+  hair.length = static_cast<float>(1 - options.length * shorter);
+  hair.spread = static_cast<float>(isStray ? kStraySpread : std::max(0.0, 1 - options.gather * together));
+  return hair;
+}
+
+}  // namespace
+
+Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const FollowOptions& options) {
+  if (Status checked = checkOptions(guides, options); !checked) return checked.error();
+  const auto neighbours = neighboursOf(guides);
+  const auto hairCount = static_cast<std::size_t>(options.hairCount);
+  std::vector<FollowHair> hairs;
+  hairs.reserve(hairCount);
+  for (std::size_t g = 0; g < guides.size(); ++g) {
+    const std::size_t count = (g + 1) * hairCount / guides.size() - g * hairCount / guides.size();
+    const ScalpPatch patch(guides[g], neighbours[g]);
+    const double firstAngle = SeededRandom(options.seed, g).between(0, 2 * std::numbers::pi);
+    for (const Vec3d& place : placesOn(patch, count, firstAngle)) {
+      FollowHair hair = variedHair(options, SeededRandom(options.seed, guides.size() + hairs.size()));
+      const MeasuringFrame& frame = guides[g].frame;
+      hair.guide = static_cast<std::uint32_t>(g);
+      hair.offset =
+          Vec3f(Vec3d{dot(place, frame.normal), dot(place, frame.binormal), dot(place, frame.tangent)});
+      hairs.push_back(hair);
+    }
+  }
+  return hairs;
+}
+
+}  // namespace ringlet

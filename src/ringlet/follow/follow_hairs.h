@@ -1,0 +1,42 @@
+// Hairs that follow guides: where each stands beside its guide, and how its curl differs. A few hundred or
+// thousand guides are simulated; what one sees are tens of thousands of hairs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/follow/guide_rest.h"
+
+namespace ringlet {
+
+/// A hair has as many points as its guide. reference/equations/follow.h says where they are.
+struct FollowHair {
+  std::uint32_t guide = 0;
+  Vec3f offset{};    // of its root from the guide's, along GuideRest::frame: normal, binormal, tangent [m]
+  float phase = 0;   // by which the guide's curl is turned about its core [rad]
+  float radius = 1;  // of its curl, over the guide's
+  float length = 1;  // share of the guide that it follows, in (0, 1]
+  float spread = 1;  // what becomes of the offset beyond the root: below 1 hairs of a guide gather
+};
+
+/// How hairs of one guide differ.
+struct FollowOptions {
+  int hairCount = 30000;    // in [1, 10000000]
+  double phase = 0.45;      // largest turn of a curl [rad], in [0, pi]; small turns are more frequent
+  double radius = 0.12;     // largest relative difference of a curl's radius, in [0, 0.9]
+  double length = 0.15;     // share by which the shortest hair is shorter, in [0, 0.9]
+  double gather = 0.25;     // mean share by which hairs come together, in [0, 1]
+  double strayShare = 0.1;  // share of hairs, in [0, 1], that keep apart and whose phase differs more
+  std::uint64_t seed = 1;
+};
+
+/// Hairs of all guides, those of a guide one after the other, as many of each as of any other, or one more.
+/// Roots are spread evenly over the guide's part of the scalp: where no other guide's root is nearer. The
+/// scalp there is the paraboloid through the roots about it. Errors: an option outside its range; no guide.
+/// Cost: guides^1.5, and with hairs.
+Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const FollowOptions& options);
+
+}  // namespace ringlet

@@ -1,0 +1,243 @@
+// Hairs that follow guides: roots, curls, evenness, and what is refused. On poses that bend and turn.
+#include "ringlet/follow/follow_hairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "reference/follow_guide.h"
+#include "ringlet/groom/curl_shape.h"
+#include "ringlet/groom/generate.h"
+
+namespace ringlet {
+namespace {
+
+using reference::followGuide;
+using reference::GuidePose;
+using reference::poseGuide;
+
+using Strand = std::vector<Vec3d>;
+
+std::vector<Strand> headOf(int strands, double turns = 8) {
+  const Result<Groom> groom = makeHead({.curl = {.turns = turns}, .strandCount = strands});
+  std::vector<Strand> all;
+  for (std::size_t s = 0; s < groom->strandCount(); ++s) {
+    Strand& strand = all.emplace_back();
+    for (const Vec3f& p : groom->strand(s)) strand.push_back(Vec3d(p) * groom->metresPerUnit);
+  }
+  return all;
+}
+
+std::vector<GuideRest> restsOf(const std::vector<Strand>& strands) {
+  std::vector<GuideRest> rests;
+  for (const Strand& strand : strands) rests.push_back(restOfGuide(strand));
+  return rests;
+}
+
+const Quatd kTurned = normalized(Quatd{0.2, -0.5, 0.3, 0.8});
+
+// The strand on a head that has turned, swung aside by up to half a radian at its tip.
+Strand swung(const Strand& rest) {
+  Strand pose;
+  for (const Vec3d& p : rest) {
+    const double drop = std::max(0.0, rest.front().y - p.y), angle = 2 * drop;
+    const Vec3d swing = {drop * std::sin(angle), drop * (1 - std::cos(angle)), 0};
+    pose.push_back(rotate(kTurned, p + swing));
+  }
+  return pose;
+}
+
+double meanDistance(const Strand& a, const Strand& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += length(a[i] - b[i]);
+  return sum / static_cast<double>(a.size());
+}
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+TEST(FollowGuide, AHairThatDiffersInNothingIsItsGuide) {
+  for (const Strand& strand : headOf(20)) {
+    const GuideRest rest = restOfGuide(strand);
+    EXPECT_LT(meanDistance(followGuide({}, poseGuide(rest, strand, {0, 0, 0, 1})), strand), 1e-12);
+    const Strand pose = swung(strand);
+    EXPECT_LT(meanDistance(followGuide({}, poseGuide(rest, pose, kTurned)), pose), 1e-12);
+  }
+}
+
+TEST(FollowGuide, RootsGoWithTheHead) {
+  const auto strands = headOf(30);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = 900});
+  ASSERT_TRUE(hairs);
+  for (const FollowHair& hair : *hairs) {
+    const Strand& guide = strands[hair.guide];
+    const Vec3d atRest = followGuide(hair, poseGuide(rests[hair.guide], guide, {0, 0, 0, 1})).front();
+    const Vec3d moved = followGuide(hair, poseGuide(rests[hair.guide], swung(guide), kTurned)).front();
+    EXPECT_LT(length(moved - rotate(kTurned, atRest)), 1e-12);
+  }
+}
+
+// Radius and turns of a hair over its guide's, at rest and in a pose.
+TEST(FollowGuide, CurlsStayCurls) {
+  const auto strands = headOf(60);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = 1200, .radius = 0, .length = 0});
+  ASSERT_TRUE(hairs);
+  for (const bool isMoved : {false, true}) {
+    std::vector<double> radius, turns;
+    int straight = 0, otherHand = 0;
+    for (const FollowHair& hair : *hairs) {
+      const Strand guide = isMoved ? swung(strands[hair.guide]) : strands[hair.guide];
+      const Quatd head = isMoved ? kTurned : Quatd{0, 0, 0, 1};
+      const CurlShape own = measureCurl(followGuide(hair, poseGuide(rests[hair.guide], guide, head)));
+      const CurlShape its = measureCurl(guide);
+      straight += own.turns == 0;
+      otherHand += own.handedness != its.handedness;
+      radius.push_back(std::abs(own.radius / its.radius - 1));
+      turns.push_back(std::abs(own.turns / its.turns - 1));
+    }
+    EXPECT_EQ(straight, 0);
+    EXPECT_EQ(otherHand, 0);
+    EXPECT_LT(median(radius), 0.02) << isMoved;
+    EXPECT_LT(median(turns), 0.02) << isMoved;
+    EXPECT_LT(std::ranges::max(turns), 0.2) << isMoved;
+  }
+}
+
+TEST(FollowGuide, DifferencesAreWhatIsAsked) {
+  const auto strands = headOf(10);
+  const auto rests = restsOf(strands);
+  const Strand& guide = strands[3];
+  const GuidePose pose = poseGuide(rests[3], guide, {0, 0, 0, 1});
+  const auto curlOf = [&](const FollowHair& hair) { return measureCurl(followGuide(hair, pose)); };
+  EXPECT_NEAR(curlOf({.radius = 1.2f}).radius / curlOf({}).radius, 1.2, 0.03);
+  const auto arc = [](const Strand& strand) {
+    double sum = 0;
+    for (std::size_t i = 1; i < strand.size(); ++i) sum += length(strand[i] - strand[i - 1]);
+    return sum;
+  };
+  // 0.8 of 63 edges are 50.4.
+  const double guideArc = arc({guide.begin(), guide.begin() + 51}) + 0.4 * length(guide[51] - guide[50]);
+  EXPECT_NEAR(arc(followGuide({.length = 0.8f}, pose)) / guideArc, 1, 0.01);
+  EXPECT_NEAR(curlOf({.length = 0.8f}).radius / measureCurl(std::span(guide).first(51)).radius, 1, 0.02);
+  // Half a turn puts a point across the core.
+  const Strand across = followGuide({.phase = std::numbers::pi_v<float>}, pose);
+  const auto& place = pose.places[40];
+  const Vec3d core{place.core.x(), place.core.y(), place.core.z()};
+  EXPECT_LT(length((across[40] - core) + (guide[40] - core)), 0.1 * length(guide[40] - core));
+  // An offset goes along unshortened, or as far as `spread` says, turned with the frame.
+  const Vec3f offset{0.004f, 0.003f, 0};
+  EXPECT_NEAR(length(followGuide({.offset = offset}, pose)[50] - guide[50]), 0.005, 1e-6);
+  EXPECT_NEAR(length(followGuide({.offset = offset, .spread = 0.5f}, pose)[50] - guide[50]), 0.0025, 1e-6);
+  EXPECT_NEAR(length(followGuide({.offset = offset, .spread = 0.5f}, pose)[0] - guide[0]), 0.005, 1e-6);
+}
+
+TEST(PlanHairs, RootsAreEvenAndNearestToTheirGuide) {
+  constexpr int kHairs = 6000;
+  constexpr int kGuides = 600;  // 8 mm apart
+  const auto strands = headOf(kGuides);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = kHairs});
+  ASSERT_TRUE(hairs);
+  ASSERT_EQ(hairs->size(), kHairs);
+  std::vector<int> counts(rests.size(), 0);
+  std::vector<Vec3d> roots;
+  std::size_t nearerToAnother = 0;
+  double offScalp = 0;
+  for (const FollowHair& hair : *hairs) {
+    ++counts[hair.guide];
+    const MeasuringFrame& frame = rests[hair.guide].frame;
+    const Vec3d offset = Vec3d(hair.offset);
+    const Vec3d root = rests[hair.guide].root + frame.normal * offset.x + frame.binormal * offset.y +
+                       frame.tangent * offset.z;
+    for (const GuideRest& other : rests)
+      nearerToAnother += length(root - other.root) < length(root - rests[hair.guide].root) - 1e-6;
+    offScalp = std::max(offScalp, std::abs(length(root) - 0.09));
+    roots.push_back(root);
+  }
+  EXPECT_EQ(std::ranges::count(counts, kHairs / kGuides), kGuides);
+  EXPECT_EQ(nearerToAnother, 0u);
+  EXPECT_LT(offScalp, 1e-4);
+  // How even: the nearest other place of nearly all is not far below the mean one.
+  std::vector<double> nearest;
+  for (std::size_t i = 0; i < roots.size(); i += 7) {
+    double best = 1;
+    for (std::size_t k = 0; k < roots.size(); ++k)
+      if (k != i) best = std::min(best, length(roots[k] - roots[i]));
+    nearest.push_back(best);
+  }
+  const double spacing = median(nearest);
+  EXPECT_NEAR(spacing, 0.0026, 0.0006);  // 6,000 on the cap
+  std::ranges::sort(nearest);
+  EXPECT_GT(nearest[nearest.size() / 20], 0.35 * spacing) << "of random places: 0.27";
+}
+
+TEST(PlanHairs, CountsNeedNotDivide) {
+  const auto rests = restsOf(headOf(7));
+  for (const int count : {1, 6, 7, 8, 100}) {
+    const auto hairs = planHairs(rests, {.hairCount = count});
+    ASSERT_TRUE(hairs);
+    EXPECT_EQ(hairs->size(), static_cast<std::size_t>(count));
+    EXPECT_TRUE(std::ranges::is_sorted(*hairs, {}, &FollowHair::guide));
+  }
+  const auto one = planHairs(std::span(rests).first(1), {.hairCount = 50});
+  ASSERT_TRUE(one);
+  for (const FollowHair& hair : *one) EXPECT_LE(length(Vec3d(hair.offset)), 0.0025 * 1.001);
+}
+
+TEST(PlanHairs, OptionsSayHowHairsDiffer) {
+  const auto rests = restsOf(headOf(20));
+  const auto plan = [&](const FollowOptions& options) { return *planHairs(rests, options); };
+  const auto alike =
+      plan({.hairCount = 2000, .phase = 0, .radius = 0, .length = 0, .gather = 0, .strayShare = 0});
+  for (const FollowHair& hair : alike) {
+    EXPECT_EQ(hair.phase, 0);
+    EXPECT_EQ(hair.radius, 1);
+    EXPECT_EQ(hair.length, 1);
+    EXPECT_EQ(hair.spread, 1);
+  }
+  const auto hairs = plan({.hairCount = 2000});
+  const auto strays = std::ranges::count(hairs, 1.4f, &FollowHair::spread);
+  EXPECT_NEAR(static_cast<double>(strays), 200, 60);
+  double widest = 0, narrowest = 2, shortest = 2, turned = 0;
+  for (const FollowHair& hair : hairs) {
+    widest = std::max(widest, double(hair.radius));
+    narrowest = std::min(narrowest, double(hair.radius));
+    shortest = std::min(shortest, double(hair.length));
+    if (hair.spread < 1.4f) turned = std::max(turned, std::abs(double(hair.phase)));
+  }
+  EXPECT_NEAR(widest, 1.12, 0.005);
+  EXPECT_NEAR(narrowest, 0.88, 0.005);
+  EXPECT_NEAR(shortest, 0.85, 0.005);
+  EXPECT_NEAR(turned, 0.43, 0.03);
+  const auto again = plan({.hairCount = 2000}), other = plan({.hairCount = 2000, .seed = 2});
+  const auto isSame = [](const FollowHair& a, const FollowHair& b) {
+    return a.offset == b.offset && a.phase == b.phase && a.radius == b.radius && a.length == b.length &&
+           a.spread == b.spread;
+  };
+  EXPECT_TRUE(std::ranges::equal(hairs, again, isSame));
+  EXPECT_FALSE(std::ranges::equal(hairs, other, isSame));
+}
+
+TEST(PlanHairs, RefusesWhatMakesNoSense) {
+  const auto rests = restsOf(headOf(3));
+  const auto refusal = [&](const FollowOptions& options) {
+    return planHairs(rests, options).error().message;
+  };
+  EXPECT_EQ(refusal({.hairCount = 0}), "the number of hairs is 0; it must be between 1 and 10000000");
+  EXPECT_EQ(refusal({.phase = -1}).find("the largest turn of a hair's curl is -1;"), 0u);
+  EXPECT_EQ(refusal({.radius = 1}).find("the variation of the curl radius is 1;"), 0u);
+  EXPECT_EQ(refusal({.length = std::nan("")}).find("the variation of the length is nan;"), 0u);
+  EXPECT_EQ(refusal({.gather = 2}).find("the share by which hairs gather is 2;"), 0u);
+  EXPECT_EQ(refusal({.strayShare = -0.1}).find("the share of strays is -0.1;"), 0u);
+  EXPECT_EQ(planHairs({}, {}).error().message, "there is no guide that hairs could follow");
+}
+
+}  // namespace
+}  // namespace ringlet
