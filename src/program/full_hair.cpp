@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
+#include <limits>
 #include <thread>
 
 #include "reference/follow_guide.h"
@@ -45,11 +47,16 @@ Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const F
                       "`ringlet info --fix` drops such strands",
                       s + 1)};
     hair.guides_.push_back(restOfGuide(strand));
-    hair.restRoots_.push_back(strand.front());
   }
   auto planned = planHairs(hair.guides_, options);
   if (!planned) return planned.error();
   hair.hairs_ = std::move(*planned);
+
+  std::uint64_t points = 0;
+  for (const FollowHair& each : hair.hairs_) points += hair.guides_[each.guide].arcs.size();
+  if (points > std::numeric_limits<std::uint32_t>::max())
+    return Error{fmt::format("{} hairs have {} points; at most {} can be numbered", hair.hairs_.size(),
+                             points, std::numeric_limits<std::uint32_t>::max())};
 
   hair.groom_.metresPerUnit = rest.metresPerUnit;
   hair.firstHair_.assign(hair.guides_.size() + 1, 0);
@@ -84,10 +91,12 @@ Status FullHair::checkPose(const Groom& groom) const {
 }
 
 void FullHair::follow(std::span<const Vec3f> points) {
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < guides_.size(); ++s)
+  std::vector<Vec3d> restRoots, roots;
+  for (std::size_t s = 0; s < guides_.size(); ++s) {
+    restRoots.push_back(guides_[s].root);
     roots.push_back(Vec3d(points[firstPoint_[s]]) * metresPerUnit_);
-  const Quatd head = fitHeadRotation(restRoots_, roots);
+  }
+  const Quatd head = fitHeadRotation(restRoots, roots);
   std::atomic<std::size_t> next = 0;
   inParallel(std::max(1u, std::thread::hardware_concurrency()), [&] {
     for (std::size_t s; (s = next++) < guides_.size();) {

@@ -32,7 +32,6 @@ class FullHair {
   double metresPerUnit_ = 0.01;
   std::vector<std::uint32_t> firstPoint_;  // of strands
   std::vector<GuideRest> guides_;
-  std::vector<Vec3d> restRoots_;
   std::vector<FollowHair> hairs_;
   std::vector<std::size_t> firstHair_;  // of each strand, and one more
   Groom groom_;

@@ -191,6 +191,21 @@ TEST(PlanHairs, CountsNeedNotDivide) {
   for (const FollowHair& hair : *one) EXPECT_LE(length(Vec3d(hair.offset)), 0.0025 * 1.001);
 }
 
+// Five roots a nanometre apart, a centimetre from the next five: most of the ground is nearer to another.
+TEST(PlanHairs, RootsMayBeInClusters) {
+  std::vector<GuideRest> rests;
+  for (int i = 0; i < 50; ++i) {
+    const double x = 0.01 * (i / 5 % 5), y = 0.01 * (i / 25), angle = 2 * std::numbers::pi * (i % 5) / 5;
+    const Vec3d root{x + 1e-9 * std::cos(angle), y, 1e-9 * std::sin(angle)};
+    rests.push_back(restOfGuide(Strand{root, root + Vec3d{0, -0.1, 0.01}, root + Vec3d{0, -0.2, 0}}));
+  }
+  rests.push_back(restOfGuide(Strand{{0, 0, 0}, {0, -0.1, 0.01}, {0, -0.2, 0}}));  // in the middle of five
+  const auto hairs = planHairs(rests, {.hairCount = 510});
+  ASSERT_TRUE(hairs);
+  EXPECT_EQ(hairs->size(), 510u);
+  EXPECT_LT(length(Vec3d(hairs->back().offset)), 1e-9) << "it has no more ground than that";
+}
+
 TEST(PlanHairs, OptionsSayHowHairsDiffer) {
   const auto rests = restsOf(headOf(20));
   const auto plan = [&](const FollowOptions& options) { return *planHairs(rests, options); };

@@ -353,6 +353,7 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
   fs::create_directories(folder_ / "here");
   fs::copy(folder_ / "out/hair.rgc", folder_ / "here/hair.rgc.partial");
   std::ofstream(folder_ / "left.usda.partial") << "frames of another";
+  ASSERT_EQ(run({"make", "curl", "--particles", "65536", "-o", "long.hair"}).exitCode, 0);
   std::ofstream(folder_ / "large.obj") << "v 0 0 0\nv 0 -100 20\nv 10 -200 0\nv 0 -300 10\nv 0 -400 0\n"
                                           "v 200 0 0\nv 200 -100 0\nv 210 -200 0\nl 1 2 3 4 5\nl 6 7 8\n";
   std::ofstream(folder_ / "point.obj") << "v 0 0 0\nv 0 0 0\nv 2 0 0\nv 2 -1 0\nl 1 2\nl 3 4\n";
@@ -372,6 +373,7 @@ TEST_F(Convert, FailuresAreOneSentenceAndHaveAnExitStatus) {
         Case{{"here/hair.rgc.partial", "here/hair.rgc"}, "choose another name"},
         Case{{"out/hair.rgc", "left.usda"}, "left.usda.partial holds frames", 5},
         Case{{"out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "none.obj"}, "none.obj", 4},
+        Case{{"long.hair", "a.hair", "--hairs", "70000"}, "70000 hairs have 4587520000 points"},
         Case{{"out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "large.obj"},
              "times as long as the groom's: one of them is in another unit"},
         Case{{"out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "point.obj"},

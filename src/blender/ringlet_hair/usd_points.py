@@ -61,4 +61,5 @@ def usd_frames(path):
 
 
 def no_animation(path):
-    return RingletError(f"{path} is no animation of one groom, as `ringlet simulate` writes it: choose the hair.usda of a run")
+    return RingletError(f"{path} is no animation of one groom, as `ringlet simulate` writes it: "
+                        "choose the hair.usda of a run")

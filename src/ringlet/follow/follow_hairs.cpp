@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kNeighbours = 8;  // roots that bound a guide's part of the scalp
 constexpr double kReach = 0.75;         // its largest radius, in the median distance of the neighbours
+constexpr std::size_t kMostSeeds = 10;  // tried for each hair
 constexpr double kLoneRadius = 0.0025;  // without neighbours [m]
 constexpr double kGoldenAngle = 2.399963229728653;  // pi (3 - sqrt 5) [rad]
 
@@ -125,13 +126,19 @@ struct ScalpPatch {
 };
 
 // `count` places spread evenly over the guide's part of the scalp: a sunflower (Vogel 1979) of just so many
-// seeds that enough of them are the guide's own.
+// seeds that enough of them are the guide's own. Where few are, as other roots are much nearer than most, the
+// sunflower shrinks.
 std::vector<Vec3d> placesOn(const ScalpPatch& patch, std::size_t count, double firstAngle) {
   std::vector<Vec3d> places;
+  double radius = patch.radius;
   for (std::size_t seeds = count; places.size() < count; seeds += std::max<std::size_t>(1, seeds / 20)) {
+    if (seeds > kMostSeeds * count) {
+      radius /= 2;
+      seeds = count;
+    }
     places.clear();
     for (std::size_t k = 0; k < seeds && places.size() < count; ++k) {
-      const double distance = patch.radius * std::sqrt((double(k) + 0.5) / double(seeds));
+      const double distance = radius * std::sqrt((double(k) + 0.5) / double(seeds));
       const double angle = firstAngle + kGoldenAngle * double(k);
       const Vec3d place = patch.at(distance * std::cos(angle), distance * std::sin(angle));
       if (patch.isOwn(place)) places.push_back(place);
