@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "program/planned_shapes.h"
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/solver/contact_kernels.h"
-#include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/strand_kernels.h"
 #include "ringlet/solver/volume_kernels.h"
 

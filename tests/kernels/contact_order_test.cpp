@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/solver/contact_kernels.h"
-#include "ringlet/solver/device_buffers.h"
 #include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 

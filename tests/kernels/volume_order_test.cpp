@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/volume_kernels.h"
 #include "shared/layout.h"
 #include "tests/support/gpu_test.h"

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "ringlet/solver/device_buffers.h"
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/solver/groom_chunks.h"
 
 namespace ringlet {

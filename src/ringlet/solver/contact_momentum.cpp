@@ -2,7 +2,7 @@
 #include "ringlet/solver/contact_momentum.h"
 
 #include "ringlet/base/vec3.h"
-#include "ringlet/solver/device_buffers.h"
+#include "ringlet/gpu/device_buffers.h"
 
 namespace ringlet {
 

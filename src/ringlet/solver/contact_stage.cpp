@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/solver/contact_kernels.h"
-#include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/neighbour_table.h"
 
 namespace ringlet {

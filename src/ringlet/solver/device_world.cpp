@@ -9,7 +9,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/base/half.h"
-#include "ringlet/solver/device_buffers.h"
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/solver/packed.h"
 
 namespace ringlet {

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/solver/contact_momentum.h"
-#include "ringlet/solver/device_buffers.h"
 #include "ringlet/solver/groom_chunks.h"
 #include "ringlet/solver/packed.h"
 #include "ringlet/solver/simulation_implementation.h"

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "ringlet/solver/device_buffers.h"
+#include "ringlet/gpu/device_buffers.h"
 
 namespace ringlet {
 namespace {

@@ -1,5 +1,5 @@
-// Storage buffers filled at creation, and read back whole: the ways between host and device that solver/
-// uses.
+// Storage buffers filled at creation, and read back whole: the ways between host and device that modules
+// above use.
 #pragma once
 
 #include <cstddef>
