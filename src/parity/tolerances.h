@@ -50,6 +50,11 @@ inline constexpr double kMeetingMetres = 1e-6;
 // Lying still: how far a particle may wander in 10 s, share of the arc length.
 inline constexpr double kAtRest = 1e-5;
 
+// A point of a hair that follows a guide, device against double, in metres: positions half a metre away are
+// right to 6e-8, which turns core edges of millimetres by up to 1e-4, and with them offsets and curls of
+// centimetres.
+inline constexpr double kFollowMetres = 4e-6;
+
 // Rest state, the solver's (double, stored as float) against the reference's own: rounding to float.
 inline constexpr double kRestState = 1e-6;
 

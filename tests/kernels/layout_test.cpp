@@ -247,6 +247,35 @@ const std::vector<CppStruct> kCppStructs = {
                                            RINGLET_MEMBER(listedAhead),    RINGLET_MEMBER(sampleStride),
                                            RINGLET_MEMBER(warmth),         RINGLET_MEMBER(cellsPerMetre)}};
     }(),
+    [] {
+      using S = layout::CoreRow;
+      return CppStruct{"CoreRow",
+                       sizeof(S),
+                       {RINGLET_MEMBER(firstParticle), RINGLET_MEMBER(firstRecord),
+                        RINGLET_MEMBER(recordCount), RINGLET_MEMBER(unused)}};
+    }(),
+    [] {
+      using S = layout::FollowGuide;
+      return CppStruct{"FollowGuide",
+                       sizeof(S),
+                       {RINGLET_MEMBER(restFrame), RINGLET_MEMBER(firstParticle),
+                        RINGLET_MEMBER(particleCount), RINGLET_MEMBER(unused)}};
+    }(),
+    [] {
+      using S = layout::FollowHair;
+      return CppStruct{"FollowHair",
+                       sizeof(S),
+                       {RINGLET_MEMBER(offset), RINGLET_MEMBER(guide), RINGLET_MEMBER(phase),
+                        RINGLET_MEMBER(radius), RINGLET_MEMBER(lengthShare), RINGLET_MEMBER(spread),
+                        RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(unused)}};
+    }(),
+    [] {
+      using S = layout::FollowParameters;
+      return CppStruct{
+          "FollowParameters",
+          sizeof(S),
+          {RINGLET_MEMBER(head), RINGLET_MEMBER(count), RINGLET_MEMBER(stride), RINGLET_MEMBER(particles)}};
+    }(),
 };
 
 const CppStruct* cppStruct(const std::string& name) {
@@ -293,14 +322,16 @@ TEST(Layout, PushConstantsFitEveryDevice) {
   EXPECT_LE(sizeof(layout::StepParameters), 128u) << "Vulkan guarantees 128 bytes";
   EXPECT_LE(sizeof(layout::ContactParameters), 128u);
   EXPECT_LE(sizeof(layout::VolumeParameters), 128u);
+  EXPECT_LE(sizeof(layout::FollowParameters), 128u);
 }
 
 // They are read as texels of 16 bytes (shared/texels.glsl).
 TEST(Layout, TexelRecordsAreWholeTexels) {
   for (const char* name :
-       {"ParticleRest", "StrandRest", "RootPose", "BodyRest", "BodyPose", "StepAir", "WindWave",
-        "ContactRest", "ContactPair", "ContactLife", "ContactForce", "ContactSystem", "ContactPlace",
-        "ContactHistory", "VolumeParticle", "VolumeState", "VolumeParcel"})
+       {"ParticleRest", "StrandRest",    "RootPose",     "BodyRest",       "BodyPose",
+        "StepAir",      "WindWave",      "ContactRest",  "ContactPair",    "ContactLife",
+        "ContactForce", "ContactSystem", "ContactPlace", "ContactHistory", "VolumeParticle",
+        "VolumeState",  "VolumeParcel",  "CoreRow",      "FollowGuide",    "FollowHair"})
     EXPECT_EQ(cppStruct(name)->size % sizeof(layout::vec4), 0u) << name;
 }
 

@@ -1,6 +1,9 @@
 // Implements follow/guide_rest.h.
 #include "ringlet/follow/guide_rest.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "ringlet/groom/curl_shape.h"
 
 namespace ringlet {
@@ -12,6 +15,18 @@ GuideRest restOfGuide(std::span<const Vec3d> strand) {
   rest.root = strand.front();
   rest.frame = rootFrameOf(smoothCore(strand, rest.arcs, rest.window));
   return rest;
+}
+
+// Each component's square is a sum of the matrix's diagonal; the largest is divided by.
+Quatd quaternionOf(const MeasuringFrame& frame) {
+  const auto& [x, y, z] = frame;  // columns
+  const double squares[] = {1 + x.x - y.y - z.z, 1 - x.x + y.y - z.z, 1 - x.x - y.y + z.z,
+                            1 + x.x + y.y + z.z};
+  const Quatd ways[] = {{squares[0], x.y + y.x, z.x + x.z, y.z - z.y},
+                        {x.y + y.x, squares[1], y.z + z.y, z.x - x.z},
+                        {z.x + x.z, y.z + z.y, squares[2], x.y - y.x},
+                        {y.z - z.y, z.x - x.z, x.y - y.x, squares[3]}};
+  return normalized(ways[std::max_element(std::begin(squares), std::end(squares)) - std::begin(squares)]);
 }
 
 }  // namespace ringlet

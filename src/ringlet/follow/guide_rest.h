@@ -19,4 +19,7 @@ struct GuideRest {
 /// Of a strand's rest points [m], at least two and not all in one place. Cost: n log n.
 GuideRest restOfGuide(std::span<const Vec3d> strand);
 
+/// Takes x, y and z to the frame's normal, binormal and tangent.
+Quatd quaternionOf(const MeasuringFrame& frame);
+
 }  // namespace ringlet

@@ -1,0 +1,49 @@
+// Where a point of a hair is that follows a guide. With s the share of the way from root to tip,
+//
+//     r = smoothstep(0, 1/5, s),   k = 1 + (spread - 1) smoothstep(0, 2/5, s)
+//     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) F_root d + r F d)
+//
+// c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, F_root: the frame at
+// rest carried by the head. Choe and Ko 2005 (wisps). Mirrored by reference/equations/follow.h.
+#ifndef RINGLET_FOLLOW
+#define RINGLET_FOLLOW
+
+#include "equations/turbulence.glsl"
+#include "maths/quaternion.glsl"
+
+/// Of a guide, at one place along it.
+struct GuidePlace {
+  vec3 core;   // [m]
+  vec3 curl;   // of the strand from its core, along `frame` [m]
+  vec4 frame;  // takes normal, binormal, tangent to the world's axes
+};
+
+/// 0 up to 0, 1 from `end` on, smooth between.
+float risesOver(float end, float share) {
+  float x = clamp(share / end, 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+/// Between two places; frames the shorter way. A curl's length goes from one to the other too.
+GuidePlace placeBetween(GuidePlace a, GuidePlace b, float share) {
+  vec4 frame = mix(a.frame, dot(a.frame, b.frame) < 0.0 ? -b.frame : b.frame, share);
+  vec3 curl = mix(a.curl, b.curl, share);
+  float size = mix(length(a.curl), length(b.curl), share);
+  return GuidePlace(mix(a.core, b.core, share), curl * (size * inversesqrt(max(dot(curl, curl), 1e-30))),
+                    normalize(frame));
+}
+
+/// phase [rad], radius, spread: of the hair; offset, along the frames [m]; rootFrame: F_root; share: s. [m]
+vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePlace place, vec4 rootFrame, float share) {
+  float r = risesOver(0.2, share);
+  float angle = r * phase;
+  float cosine = cosOfFolded(foldedAngle(angle));
+  float sine = cosOfFolded(foldedAngle(angle - 1.5707963268));
+  vec3 z = place.curl;
+  vec3 curl = (1.0 + (radius - 1.0) * r) * vec3(cosine * z.x - sine * z.y, sine * z.x + cosine * z.y, z.z);
+  float k = 1.0 + (spread - 1.0) * risesOver(0.4, share);
+  return place.core + rotate(place.frame, curl) +
+         k * ((1.0 - r) * rotate(rootFrame, offset) + r * rotate(place.frame, offset));
+}
+
+#endif

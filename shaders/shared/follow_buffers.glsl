@@ -1,0 +1,47 @@
+// The buffers and parameters of the follow_* kernels (layout.h).
+#ifndef RINGLET_FOLLOW_BUFFERS
+#define RINGLET_FOLLOW_BUFFERS
+
+#include "maths/quaternion.glsl"
+#include "shared/layout.h"
+#include "shared/texels.glsl"
+
+layout(local_size_x_id = kSpecGroupSize) in;
+
+layout(set = 0, binding = kBindGuidePoints) readonly buffer GuidePoints { vec4 guidePoints[]; };
+layout(set = 0, binding = kBindCoreRows) readonly buffer CoreRows { CoreRow coreRows[]; };
+layout(set = 0, binding = kBindCoreWeights) readonly buffer CoreWeights { vec4 coreWeights[]; };
+layout(set = 0, binding = kBindFollowGuides) readonly buffer FollowGuides { FollowGuide followGuides[]; };
+layout(set = 0, binding = kBindFollowHairs) readonly buffer FollowHairs { FollowHair followHairs[]; };
+layout(set = 0, binding = kFollowTexels + kBindGuidePoints) uniform usamplerBuffer guidePointTexels;
+layout(set = 0, binding = kFollowTexels + kBindCoreRows) uniform usamplerBuffer coreRowTexels;
+layout(set = 0, binding = kFollowTexels + kBindCoreWeights) uniform usamplerBuffer coreWeightTexels;
+layout(set = 0, binding = kFollowTexels + kBindCores) uniform usamplerBuffer coreTexels;
+layout(set = 0, binding = kFollowTexels + kBindFollowGuides) uniform usamplerBuffer followGuideTexels;
+layout(set = 0, binding = kFollowTexels + kBindCoreFrames) uniform usamplerBuffer coreFrameTexels;
+layout(set = 0, binding = kFollowTexels + kBindCurls) uniform usamplerBuffer curlTexels;
+layout(set = 0, binding = kFollowTexels + kBindFollowHairs) uniform usamplerBuffer followHairTexels;
+layout(push_constant) uniform Parameters { FollowParameters parameters; };
+
+vec3 guidePoint(uint i) { return (kTexels ? vectorAt(guidePointTexels, i) : guidePoints[i]).xyz; }
+vec4 coreWeight(uint i) { return kTexels ? vectorAt(coreWeightTexels, i) : coreWeights[i]; }
+CoreRow coreRow(uint i) {
+  if (!kTexels) return coreRows[i];
+  uvec4 row = recordAt(coreRowTexels, i);
+  return CoreRow(row.x, row.y, row.z, row.w);
+}
+FollowGuide followGuide(uint i) {
+  if (!kTexels) return followGuides[i];
+  uvec4 count = recordAt(followGuideTexels, 2 * i + 1);
+  return FollowGuide(vectorAt(followGuideTexels, 2 * i), count.x, count.y, uint[2](count.z, count.w));
+}
+FollowHair followHair(uint i) {
+  if (!kTexels) return followHairs[i];
+  uvec4 place = recordAt(followHairTexels, 3 * i);
+  vec4 differs = vectorAt(followHairTexels, 3 * i + 1);
+  uvec4 points = recordAt(followHairTexels, 3 * i + 2);
+  return FollowHair(uintBitsToFloat(place.xyz), place.w, differs.x, differs.y, differs.z, differs.w, points.x,
+                    uint[3](points.y, points.z, points.w));
+}
+
+#endif

@@ -1,0 +1,57 @@
+// FollowStage: hairs that follow guides, on one device (shaders/kernels/follow_*.comp). Mirrored by
+// reference/follow_guide.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/follow/follow_hairs.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
+#include "ringlet/gpu/kernel.h"
+
+namespace ringlet {
+
+class FollowStage {
+ public:
+  /// `hairs`: of planHairs, of these guides. Errors: the device lacks memory, or sees too little of a buffer
+  /// at once; the message says how many hairs it has room for. Cost: the guides' cores, on all processors.
+  static Result<FollowStage> create(gpu::Device& device, std::span<const GuideRest> guides,
+                                    std::span<const FollowHair> hairs);
+  FollowStage(FollowStage&&) = default;
+
+  /// The guides' particles [m], one after the other in the guides' order. The next frame follows them. No
+  /// submission may be using them meanwhile.
+  Status setPose(std::span<const Vec3d> positions);
+
+  /// Moves the hairs to the pose. `head`: how the head has turned since the rest pose. Ends with a barrier.
+  void record(gpu::CommandList& list, Quatd head) const;
+
+  /// uvec4[pointCount()]: x, y, z as the bits of floats [m]; the hair's number, with kHairEnd (layout.h) at
+  /// its last point.
+  const gpu::Buffer& points() const { return points_; }
+  std::uint32_t pointCount() const { return pointCount_; }
+  std::uint32_t hairCount() const { return hairCount_; }
+  /// Of each hair, and one more.
+  const std::vector<std::uint32_t>& firstPoint() const { return firstPoint_; }
+  std::uint64_t byteCount() const;  // of all its buffers
+
+ private:
+  explicit FollowStage(gpu::Buffer positions, gpu::Buffer points)
+      : positions_(std::move(positions)), points_(std::move(points)) {}
+  Status makeGuides(gpu::Device& device, std::span<const GuideRest> guides);
+  Status makeKernels(gpu::Device& device);
+
+  gpu::Buffer positions_, points_;
+  std::vector<gpu::Buffer> others_;
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;
+  std::vector<gpu::Bindings> bindings_;
+  std::vector<std::uint32_t> firstPoint_;
+  std::uint32_t guideCount_ = 0, particleCount_ = 0, hairCount_ = 0, pointCount_ = 0, stride_ = 0;
+};
+
+}  // namespace ringlet

@@ -1,0 +1,199 @@
+// Hairs that follow guides: the device against the reference, over grooms of every kind that makes a core.
+#include "ringlet/follow/follow_stage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "parity/tolerances.h"
+#include "reference/follow_guide.h"
+#include "ringlet/follow/core_weights.h"
+#include "ringlet/gpu/device_buffers.h"
+#include "ringlet/gpu/recorder.h"
+#include "shared/layout.h"
+#include "tests/support/gpu_test.h"
+
+namespace ringlet::test {
+namespace {
+
+using Strand = std::vector<Vec3d>;
+
+// Hanging from y = 0: a helix of so many turns (none: straight) of a radius that grows from the root.
+Strand strandOf(int particles, double length, double turns, double radius, Vec3d root) {
+  Strand strand;
+  for (int i = 0; i < particles; ++i) {
+    const double s = static_cast<double>(i) / (particles - 1), angle = 2 * std::numbers::pi * turns * s;
+    const double r = radius * std::min(1.0, 4 * s);
+    strand.push_back(root + Vec3d{r * std::cos(angle), -length * s, r * std::sin(angle)});
+  }
+  return strand;
+}
+
+struct Guides {
+  std::string name;
+  std::vector<Strand> strands;
+};
+
+// Curls, waves, straight hair, two particles, and all of them in one groom.
+std::vector<Guides> allGuides() {
+  std::vector<Guides> all;
+  const auto add = [&](const char* name, int particles, double turns, double radius) {
+    Guides guides{name, {}};
+    for (int s = 0; s < 9; ++s)
+      guides.strands.push_back(
+          strandOf(particles, 0.2 + 0.01 * s, turns, radius, {0.02 * (s % 3), 0.001 * s, 0.02 * (s / 3)}));
+    all.push_back(guides);
+  };
+  add("curls", 64, 8, 0.008);
+  add("coarse curls", 20, 3, 0.01);
+  add("long curls", 300, 20, 0.006);
+  add("straight", 33, 0, 0);
+  add("two particles", 2, 0, 0);
+  Guides mixed{"mixed", {}};
+  for (const Guides& guides : all)
+    for (std::size_t s = 0; s < 3; ++s) mixed.strands.push_back(guides.strands[3 * s + all.size() % 3]);
+  all.push_back(mixed);
+  return all;
+}
+
+const Quatd kTurned = normalized(Quatd{0.2, -0.5, 0.3, 0.8});
+
+// On a head that has turned and moved, each strand swung aside.
+Strand posed(const Strand& rest) {
+  Strand pose;
+  for (const Vec3d& p : rest) {
+    const double drop = std::max(0.0, rest.front().y - p.y), angle = 4 * drop;
+    pose.push_back(rotate(kTurned, p + Vec3d{drop * std::sin(angle), drop * (1 - std::cos(angle)), 0}) +
+                   Vec3d{0.3, -0.2, 0.1});
+  }
+  return pose;
+}
+
+struct Plan {
+  std::vector<GuideRest> guides;
+  std::vector<FollowHair> hairs;
+};
+
+Plan planOf(const Guides& guides, int hairCount) {
+  Plan plan;
+  for (const Strand& strand : guides.strands) plan.guides.push_back(restOfGuide(strand));
+  plan.hairs = *planHairs(plan.guides, {.hairCount = hairCount});
+  return plan;
+}
+
+// The points that the device finds, in the order of hairs.
+std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
+                            Quatd head) {
+  auto stage = FollowStage::create(device, plan.guides, plan.hairs);
+  EXPECT_TRUE(stage) << stage.error().message;
+  std::vector<Vec3d> positions;
+  for (const Strand& strand : pose) positions.insert(positions.end(), strand.begin(), strand.end());
+  EXPECT_TRUE(stage->setPose(positions));
+  auto recorder = gpu::Recorder::create(device, "follow");
+  EXPECT_TRUE(recorder->begin());
+  stage->record(*recorder, head);
+  EXPECT_TRUE(recorder->submitAndWait());
+  const auto records = downloadAll<layout::uvec4>(stage->points(), stage->pointCount());
+  std::vector<Vec3d> points;
+  std::uint32_t hair = 0;
+  for (std::size_t i = 0; i < records->size(); ++i) {
+    const layout::uvec4& record = (*records)[i];
+    points.push_back(
+        {std::bit_cast<float>(record.x), std::bit_cast<float>(record.y), std::bit_cast<float>(record.z)});
+    const bool isEnd = i + 1 == stage->firstPoint()[hair + 1];
+    EXPECT_EQ(record.w, isEnd ? hair | layout::kHairEnd : hair) << i;
+    hair += isEnd;
+  }
+  EXPECT_EQ(hair, plan.hairs.size());
+  return points;
+}
+
+double largestDifference(const Plan& plan, const std::vector<Strand>& pose, Quatd head,
+                         const std::vector<Vec3d>& found) {
+  double largest = 0;
+  std::size_t at = 0;
+  for (const FollowHair& hair : plan.hairs) {
+    const auto guide = reference::poseGuide(plan.guides[hair.guide], pose[hair.guide], head);
+    for (const Vec3d& expected : reference::followGuide(hair, guide)) {
+      const double difference = length(expected - found.at(at++));
+      if (!(difference <= largest)) largest = difference;  // NaN too
+    }
+  }
+  EXPECT_EQ(at, found.size());
+  return largest;
+}
+
+TEST(CoreWeights, AreTheCoreOfAnyPoints) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (const Guides& guides : allGuides()) {
+    SCOPED_TRACE(guides.name);
+    for (const Strand& strand : guides.strands) {
+      const GuideRest rest = restOfGuide(strand);
+      std::vector<Vec3d> points(strand.size());
+      for (Vec3d& point : points) point = {any(random), any(random), any(random)};
+      const std::vector<Vec3d> core = smoothCore(points, rest.arcs, rest.window);
+      const auto rows = coreWeightsOf(rest);
+      ASSERT_EQ(rows.size(), points.size());
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        Vec3d sum;
+        for (std::size_t k = 0; k < rows[i].weights.size(); ++k)
+          sum += points.at(rows[i].first + k) * static_cast<double>(rows[i].weights[k]);
+        ASSERT_LT(length(sum - core[i]), 1e-5) << "particle " << i << " of " << rows.size();
+      }
+    }
+  }
+}
+
+using FollowStageTest = GpuTest;
+
+TEST_F(FollowStageTest, IsTheReference) {
+  for (const Guides& guides : allGuides()) {
+    SCOPED_TRACE(guides.name);
+    const Plan plan = planOf(guides, 500);
+    std::vector<Strand> pose;
+    for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+    for (const bool isPosed : {false, true}) {
+      const auto& strands = isPosed ? pose : guides.strands;
+      const Quatd head = isPosed ? kTurned : Quatd{};
+      const auto found = followOn(gpu(), plan, strands, head);
+      const double largest = largestDifference(plan, strands, head, found);
+      EXPECT_LT(largest, parity::kFollowMetres) << isPosed;
+      if (isPosed) RecordProperty(guides.name + "_m", std::to_string(largest));
+    }
+  }
+}
+
+TEST_F(FollowStageTest, StorageAndTexelsGiveTheSameBits) {
+  const Guides guides = allGuides().back();
+  const Plan plan = planOf(guides, 300);
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  const auto texels = followOn(gpu(), plan, pose, kTurned);
+  const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
+  ASSERT_TRUE(few) << few.error().message;
+  EXPECT_EQ(followOn(**few, plan, pose, kTurned), texels);
+  EXPECT_EQ(followOn(gpu(), plan, pose, kTurned), texels) << "a second time";
+}
+
+TEST_F(FollowStageTest, TooManyHairsAreRefusedWithTheNumberThereIsRoomFor) {
+  Guides guides{"one", {strandOf(64, 0.2, 8, 0.008, {})}};
+  Plan plan = planOf(guides, 1);
+  const auto& limits = gpu().properties();
+  const std::uint64_t most =
+      std::min(limits.maxStorageBufferRange / 16, std::uint64_t{limits.maxGroupCount} * 256) / 64;
+  if (most > 4'000'000) GTEST_SKIP() << "the device sees " << most << " hairs at once";
+  plan.hairs.resize(most + 1, plan.hairs.front());
+  const auto stage = FollowStage::create(gpu(), plan.guides, plan.hairs);
+  ASSERT_FALSE(stage);
+  expectParts(stage.error().message, {std::to_string(most + 1) + " hairs", "of " + std::to_string(most)});
+}
+
+}  // namespace
+}  // namespace ringlet::test
