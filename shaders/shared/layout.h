@@ -550,6 +550,99 @@ struct FollowParameters {
 // A point of a hair says which hair it is of, and whether it is the last of it.
 RINGLET_CONSTANT uint kHairEnd = 0x80000000u;
 
+// Bindings of the render_* kernels: pictures of hair and bodies, without a graphics pipeline.
+RINGLET_CONSTANT uint kBindPicture = 0;       // uniform: Picture
+RINGLET_CONSTANT uint kBindDrawnPoints = 1;   // uvec4[points], as kBindHairPoints
+RINGLET_CONSTANT uint kBindDrawnHairs = 2;    // DrawnHair[hairs]
+RINGLET_CONSTANT uint kBindShadows = 3;       // uint[2][slices][cells][cells]: hair before each light (shadow_volume.glsl)
+RINGLET_CONSTANT uint kBindDensity = 4;       // uint[cells^3]: hair about each place
+RINGLET_CONSTANT uint kBindOpenness = 5;      // float[cells^3]: share of the sky that is seen from there
+RINGLET_CONSTANT uint kBindSamples = 6;       // uvec2[samples]: what is seen and its nearness; then its colour
+RINGLET_CONSTANT uint kBindSeen = 7;          // uint[samples]: those in which hair is seen
+RINGLET_CONSTANT uint kBindSeenCounts = 8;    // SeenCounts
+RINGLET_CONSTANT uint kBindSolidPoints = 9;   // SolidPoint[points of bodies, then patches]
+RINGLET_CONSTANT uint kBindSolidTriangles = 10;  // SolidTriangle[triangles of bodies]
+RINGLET_CONSTANT uint kBindSeenSolids = 11;   // uvec2[pixels]: pixels in which bodies are seen, and a sample there
+RINGLET_CONSTANT uint kBindSolidColours = 12; // uvec2[pixels]: their colour, in halves
+RINGLET_CONSTANT uint kBindPixels = 13;       // vec4[pixels]: sum of pictures, linear; w: their number
+RINGLET_CONSTANT uint kBindShown = 14;        // uint[pixels]: red, green, blue, 255, as they are shown
+RINGLET_CONSTANT uint kRenderBindingCount = 15;
+// Those read as texels, these numbers further:
+RINGLET_CONSTANT uint kRenderTexels = 20;
+
+RINGLET_CONSTANT uint kSpecPass = 2;     // of render_hairs and render_solids without 64-bit atomics: 0 nearness, 1 what
+RINGLET_CONSTANT uint kSolid = 0x80000000u;  // what is seen is a triangle of a body
+RINGLET_CONSTANT uint kShadedHair = 0x80000000u;  // of a sample's second word: it holds a colour, no nearness
+
+// Of a picture and its camera.
+struct Picture {
+  vec4 view[3];            // rows: from the world to the camera's right, up and forward axes [m]
+  vec4 eye;                // [m], 0
+  vec4 lightAxes[6];       // rows, three a light: from the world to the light's box, each of x, y and depth in [0, 1]
+  vec4 lightDirection[2];  // towards it, 0
+  vec4 lightColour[2];     // irradiance, 0
+  vec4 skyAbove;           // radiance, 0
+  vec4 skyBelow;
+  vec4 densityBox;         // lower corner [m], cell [m]
+  vec4 pigments[2];        // absorption over a fibre's radius, between which hairs are; 0
+  vec4 solidColour;        // reflected share, 0
+  vec4 backColours[2];     // radiance behind all: in the middle, at the edge; 0
+  uint width;
+  uint height;
+  uint side;               // samples along a pixel's side
+  uint hairCount;
+  uint pointsPerHair;      // the most of any hair
+  uint pointCount;
+  uint triangleCount;
+  uint shadowCells;        // across a light's box
+  uint shadowSlices;       // along it
+  uint densityCells;       // along each side of the density's box
+  uint shadowStride;       // every so many hairs count, for as many
+  float focus;             // pixels a metre one metre away
+  float near;              // what is nearer is left out [m]
+  float shadowCellArea;    // [m^2]
+  float fixedPoint;        // units a square metre of hair
+  float shadowOpacity;     // share of light that a hair keeps from what is behind it
+  float along;             // HairFibre
+  float about;
+  float tilt;
+  float exposure;
+  float tipRadius;         // share of a hair's radius that is left at its tip
+  float throughHair;       // brightness of light that came through other hairs
+};
+
+// Constant per hair.
+struct DrawnHair {
+  uint firstPoint;
+  uint pointCount;
+  float radius;   // at the root [m]
+  float pigment;  // place between the picture's two pigments, in [0, 1]
+};
+
+struct SolidPoint {
+  vec4 position;  // [m]; w: of a patch, its area [m^2]
+  vec4 normal;    // 0
+};
+
+struct SolidTriangle {
+  uint points[3];
+  uint unused;
+};
+
+// What is seen of hair and of bodies, as groups of invocations and as numbers.
+struct SeenCounts {
+  uint indirectHairs[3];
+  uint hairs;
+  uint indirectSolids[3];
+  uint solids;
+};
+
+// A part of a picture: whole rows of pixels.
+struct PictureBand {
+  uint firstRow;
+  uint rowCount;
+};
+
 #ifdef __cplusplus
 }  // namespace ringlet::layout
 #endif

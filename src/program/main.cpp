@@ -19,6 +19,7 @@
 #include "program/make_command.h"
 #include "program/material_command.h"
 #include "program/measure_command.h"
+#include "program/render_command.h"
 #include "program/scene_command.h"
 #include "program/simulate_command.h"
 #include "program/standard_error.h"
@@ -43,6 +44,7 @@ int main(int argumentCount, char** arguments) {
   addSweepCommand(app, exitCode);
   addInfoCommand(app, exitCode);
   addMeasureCommand(app, exitCode);
+  addRenderCommand(app, exitCode);
   addConvertCommand(app, exitCode);
   addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);

@@ -276,6 +276,49 @@ const std::vector<CppStruct> kCppStructs = {
           sizeof(S),
           {RINGLET_MEMBER(head), RINGLET_MEMBER(count), RINGLET_MEMBER(stride), RINGLET_MEMBER(particles)}};
     }(),
+    [] {
+      using S = layout::Picture;
+      return CppStruct{
+          "Picture",
+          sizeof(S),
+          {RINGLET_MEMBER(view),           RINGLET_MEMBER(eye),          RINGLET_MEMBER(lightAxes),
+           RINGLET_MEMBER(lightDirection), RINGLET_MEMBER(lightColour),  RINGLET_MEMBER(skyAbove),
+           RINGLET_MEMBER(skyBelow),       RINGLET_MEMBER(densityBox),   RINGLET_MEMBER(pigments),
+           RINGLET_MEMBER(solidColour),    RINGLET_MEMBER(backColours),  RINGLET_MEMBER(width),
+           RINGLET_MEMBER(height),         RINGLET_MEMBER(side),         RINGLET_MEMBER(hairCount),
+           RINGLET_MEMBER(pointsPerHair),  RINGLET_MEMBER(pointCount),   RINGLET_MEMBER(triangleCount),
+           RINGLET_MEMBER(shadowCells),    RINGLET_MEMBER(shadowSlices), RINGLET_MEMBER(densityCells),
+           RINGLET_MEMBER(shadowStride),   RINGLET_MEMBER(focus),        RINGLET_MEMBER(near),
+           RINGLET_MEMBER(shadowCellArea), RINGLET_MEMBER(fixedPoint),   RINGLET_MEMBER(shadowOpacity),
+           RINGLET_MEMBER(along),          RINGLET_MEMBER(about),        RINGLET_MEMBER(tilt),
+           RINGLET_MEMBER(exposure),       RINGLET_MEMBER(tipRadius),    RINGLET_MEMBER(throughHair)}};
+    }(),
+    [] {
+      using S = layout::DrawnHair;
+      return CppStruct{"DrawnHair",
+                       sizeof(S),
+                       {RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(pointCount), RINGLET_MEMBER(radius),
+                        RINGLET_MEMBER(pigment)}};
+    }(),
+    [] {
+      using S = layout::SolidPoint;
+      return CppStruct{"SolidPoint", sizeof(S), {RINGLET_MEMBER(position), RINGLET_MEMBER(normal)}};
+    }(),
+    [] {
+      using S = layout::SolidTriangle;
+      return CppStruct{"SolidTriangle", sizeof(S), {RINGLET_MEMBER(points), RINGLET_MEMBER(unused)}};
+    }(),
+    [] {
+      using S = layout::SeenCounts;
+      return CppStruct{"SeenCounts",
+                       sizeof(S),
+                       {RINGLET_MEMBER(indirectHairs), RINGLET_MEMBER(hairs), RINGLET_MEMBER(indirectSolids),
+                        RINGLET_MEMBER(solids)}};
+    }(),
+    [] {
+      using S = layout::PictureBand;
+      return CppStruct{"PictureBand", sizeof(S), {RINGLET_MEMBER(firstRow), RINGLET_MEMBER(rowCount)}};
+    }(),
 };
 
 const CppStruct* cppStruct(const std::string& name) {

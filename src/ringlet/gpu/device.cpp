@@ -174,6 +174,11 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
     size.pNext = std::exchange(memory.pNext, &size);
     features.pNext = &sizeFeatures;
   }
+  const bool hasAtomics64InCore = p.apiVersion >= VK_API_VERSION_1_2;
+  const bool mayHaveAtomics64 = hasAtomics64InCore || has(VK_KHR_SHADER_ATOMIC_INT64_EXTENSION_NAME);
+  auto atomics64 = zeroed<VkPhysicalDeviceShaderAtomicInt64Features>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES);
+  if (mayHaveAtomics64) atomics64.pNext = std::exchange(features.pNext, &atomics64);
   auto inspectionFeatures = zeroed<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR);
   const bool mayInspect =
@@ -181,6 +186,10 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   if (mayInspect) inspectionFeatures.pNext = std::exchange(features.pNext, &inspectionFeatures);
   vkGetPhysicalDeviceProperties2(handle, &properties);
   vkGetPhysicalDeviceFeatures2(handle, &features);
+  p.hasAtomicInt64 =
+      features.features.shaderInt64 && atomics64.shaderBufferInt64Atomics && !options.withoutAtomicInt64;
+  if (p.hasAtomicInt64 && !hasAtomics64InCore)
+    candidate.extensions.push_back(VK_KHR_SHADER_ATOMIC_INT64_EXTENSION_NAME);
   if (mayInspect && inspectionFeatures.pipelineExecutableInfo) {
     p.inspection = options.inspection;
     candidate.extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
@@ -350,12 +359,20 @@ Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const De
   sizeControl.subgroupSizeControl = has.canChooseSubgroupSize;
   sizeControl.computeFullSubgroups = has.hasFullSubgroups;
 
+  auto atomics64 = zeroed<VkPhysicalDeviceShaderAtomicInt64Features>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES);
+  atomics64.shaderBufferInt64Atomics = VK_TRUE;
+  VkPhysicalDeviceFeatures enabled{};
+  enabled.shaderInt64 = has.hasAtomicInt64;
+
   auto inspection = zeroed<VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR);
   inspection.pipelineExecutableInfo = VK_TRUE;
 
   auto info = zeroed<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
   info.pNext = has.canChooseSubgroupSize || has.hasFullSubgroups ? &sizeControl : nullptr;
+  if (has.hasAtomicInt64) atomics64.pNext = const_cast<void*>(std::exchange(info.pNext, &atomics64));
+  info.pEnabledFeatures = &enabled;
   if (has.inspection != Inspection::none)
     inspection.pNext = const_cast<void*>(std::exchange(info.pNext, &inspection));
   info.queueCreateInfoCount = 1;
@@ -380,7 +397,7 @@ Result<DeviceNeeds> Device::needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
                                   VkPhysicalDevice physical, std::uint32_t apiVersion) {
   auto adopted = Instance::adopt(getInstanceProcAddr, instance, apiVersion);
   if (!adopted) return adopted.error();
-  const Candidate candidate = inspect(**adopted, physical, 0, {});
+  const Candidate candidate = inspect(**adopted, physical, 0, {.withoutAtomicInt64 = true});
   const DeviceProperties& p = candidate.listing.properties;
   if (!candidate.listing.usable)
     return Error{fmt::format("the Vulkan device {} cannot run Ringlet: {}", p.name, candidate.listing.why)};
@@ -398,7 +415,8 @@ Result<std::shared_ptr<Device>> Device::adopt(const HostDevice& host,
     return Error{"a host hands over no physical device, no device or no queue"};
   if (bool(host.allocator.allocate) != bool(host.allocator.free))
     return Error{"a host's allocator either allocates and frees, or does neither"};
-  Candidate candidate = inspect(**instance, host.physical, 0, {});
+  Candidate candidate =
+      inspect(**instance, host.physical, 0, {.withoutAtomicInt64 = true});  // a host does not say
   DeviceProperties& p = candidate.listing.properties;
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(host.physical);
   if (host.queueFamily >= families.size() || !(families[host.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT))

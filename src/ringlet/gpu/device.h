@@ -50,6 +50,7 @@ struct DeviceProperties {
   std::uint32_t maxSubgroupSize = 1;
   bool canChooseSubgroupSize = false;       // a kernel can ask for any power of two of the range
   bool hasSubgroupShuffle = false;          // basic and shuffle operations in compute kernels
+  bool hasAtomicInt64 = false;              // 64-bit integers, and atomics on them in storage buffers
   bool hasFullSubgroups = false;            // a kernel can insist that no subgroup of it has gaps
   std::uint32_t maxGroupSubgroups = 0;      // of a workgroup that asks for a width or for full subgroups
   std::uint64_t maxStorageBufferRange = 0;  // [bytes] largest buffer a kernel can see
@@ -81,6 +82,7 @@ struct DeviceOptions {
   bool alwaysStage = false;            // never map storage buffers, copy through a staging buffer
   bool withoutTimestamps = false;      // time by the host's clock
   bool withoutFullSubgroups = false;   // leave subgroup sizes to the driver
+  bool withoutAtomicInt64 = false;     // two passes of 32 bits in place of one of 64
   bool withoutMemoryBudget = false;    // count what this device took; a budget moves with other programs
   std::uint64_t mostTexelRecords = 0;  // a kernel sees as texels; 0: as many as the device has
   Inspection inspection = Inspection::none;  // for `ringlet kernels`; drivers crash in their own statistics

@@ -1,0 +1,51 @@
+// What is seen in each pixel: samples of hair go into a list, to be shaded; where bodies are seen, the pixel and one of
+// their triangles go into another.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/picture.glsl"
+
+layout(set = 0, binding = kBindSamples) readonly buffer Samples { uvec2 samples[]; };
+layout(set = 0, binding = kBindSeen) writeonly buffer Seen { uint seen[]; };
+layout(set = 0, binding = kBindSeenCounts) buffer Counts { SeenCounts counts; };
+layout(set = 0, binding = kBindSeenSolids) writeonly buffer SeenSolids { uvec2 seenSolids[]; };
+
+void main() {
+  uint pixel = gl_GlobalInvocationID.x;
+  if (pixel >= picture.width * band.rowCount) return;
+  uint side = picture.side;
+  uint stride = side * picture.width;
+  uint row = pixel / picture.width;
+  uint first = row * side * stride + (pixel - row * picture.width) * side;
+  uint end = first + side * stride;
+  uint hairs = 0;
+  uint solid = 0;  // and the triangle there
+  uint marks = 0;  // a bit for each sample of hair
+  for (uint at = first; at < end; at += stride) {
+    for (uint k = 0; k < side; ++k) {
+      uint what = samples[at + k].x;
+      bool isHair = what != 0 && (what & kSolid) == 0;
+      marks = marks << 1 | uint(isHair);
+      hairs += uint(isHair);
+      solid = (what & kSolid) != 0 ? what : solid;
+    }
+  }
+  if (solid != 0) {
+    uint k = atomicAdd(counts.solids, 1);
+    if (k % gl_WorkGroupSize.x == 0) atomicAdd(counts.indirectSolids[0], 1);
+    seenSolids[k] = uvec2(pixel, (solid & ~kSolid) - 1);
+  }
+  uint place = 0;
+  if (hairs != 0) {
+    place = atomicAdd(counts.hairs, hairs);
+    atomicAdd(counts.indirectHairs[0], (place + hairs + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x -
+                                           (place + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x);
+  }
+  // The last sample has the lowest bit. A loop with as many turns as there are samples of hair: none for most pixels.
+  while (marks != 0) {
+    uint k = uint(findMSB(marks));
+    marks ^= 1u << k;
+    uint fromFirst = side * side - 1 - k;
+    uint down = fromFirst / side;
+    seen[place++] = first + down * stride + fromFirst - down * side;
+  }
+}

@@ -1,0 +1,64 @@
+// Hairs, segment by segment, onto the samples of a picture. A segment is walked along its longer axis; a sample it passes is
+// hit with the hair's coverage as chance, drawn from hair and segment, so that the noise goes with the hair. Hits are spread
+// evenly along the segment: work goes with the area that is covered, not with length.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/drawn_hairs.glsl"
+#include "shared/visible.glsl"
+
+void main() {
+  uint p = gl_GlobalInvocationID.x;
+  if (p >= picture.pointCount) return;
+  uvec4 record = pointRecord(p);
+  if ((record.w & kHairEnd) != 0) return;
+  vec3 a = inView(uintBitsToFloat(record.xyz));
+  vec3 b = inView(hairPoint(p + 1));
+  if (min(a.z, b.z) < picture.near) return;
+
+  // Along the longer axis and across it; the band's samples are from low to high. All depends on the whole picture, so that
+  // bands meet without a seam.
+  vec2 from = inSamples(a);
+  vec2 to = inSamples(b);
+  vec2 low = vec2(0, bandTop());
+  vec2 high = low + vec2(bandSize());
+  bool isSteep = abs(to.y - from.y) > abs(to.x - from.x);
+  if (isSteep) from = from.yx, to = to.yx, low = low.yx, high = high.yx;
+  float run = to.x - from.x;
+  float start = ceil(min(from.x, to.x) - 0.5);
+  float end = ceil(max(from.x, to.x) - 0.5);
+
+  DrawnHair hair = drawnHair(record.w);
+  uint i = p - hair.firstPoint;
+  float share = (float(i) + 0.5) / float(hair.pointCount - 1);
+  float across = 2.0 * radiusAt(hair, share) * picture.focus * float(picture.side) / (0.5 * (a.z + b.z));
+  float width = across * length(to - from) / max(abs(run), 1e-6);  // along the shorter axis [samples]
+  // A hair thinner than a sample hits every so many steps, one that is wider all of them.
+  float rate = min(width, 1.0);
+  uint seed = mixed(record.w * 747796405u + 1u);
+  float phase = fract(unitOf(seed) + float(i) * 0.618034);
+  seed += i * 83492791u;
+  float m = floor((clamp(low.x, start, end) - start) * rate + phase);
+  float hits = floor((clamp(high.x, start, end) - start) * rate + phase);
+  float apart = 1.0 / rate;
+  float inverse = 1.0 / run;
+  float nearnessA = picture.near / a.z;
+  float nearnessB = picture.near / b.z;
+  uint stride = picture.side * picture.width;
+  if (m < hits) do {
+    uint random = seed + uint(m) * 0x9e3779b9u;
+    random = (random ^ random >> 15) * 0x2c1b3c6du;
+    float chance = float((random ^ random >> 12) >> 8) * (1.0 / 16777216.0);
+    float x = clamp(start + ceil((m + 1.0 - phase) * apart) - 1.0, low.x, high.x - 1.0);
+    float t = (x + 0.5 - from.x) * inverse;
+    // Nearness is linear across the picture.
+    float nearness = mix(nearnessA, nearnessB, clamp(t, 0.0, 1.0));
+    float rows = max(floor(width + chance), 1.0);
+    float y = floor(mix(from.y, to.y, t) + (width < 1.0 ? chance - 0.5 : 0.5 - 0.5 * rows));
+    float q = 0.0;
+    do {
+      vec2 at = vec2(x, y + q) - low;
+      if (at.y >= 0.0 && y + q < high.y)
+        show(isSteep ? uint(at.x) * stride + uint(at.y) : uint(at.y) * stride + uint(at.x), nearness, p + 1);
+    } while (++q < rows);
+  } while (++m < hits);
+}

@@ -1,0 +1,34 @@
+// Colour of every pixel in which a body is seen, at the pixel's middle.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/lighting.glsl"
+#include "shared/solids.glsl"
+
+layout(set = 0, binding = kBindSeenSolids) readonly buffer SeenSolids { uvec2 seenSolids[]; };
+layout(set = 0, binding = kBindSeenCounts) readonly buffer Counts { SeenCounts counts; };
+layout(set = 0, binding = kBindSolidColours) writeonly buffer SolidColours { uvec2 solidColours[]; };
+
+void main() {
+  if (gl_GlobalInvocationID.x >= counts.solids) return;
+  uvec2 here = seenSolids[gl_GlobalInvocationID.x];
+  uvec3 corners = solidTriangle(here.y);
+  vec3 a = solidPosition(corners.x).xyz;
+  vec3 b = solidPosition(corners.y).xyz;
+  vec3 c = solidPosition(corners.z).xyz;
+
+  // The way of light through the pixel's middle, to where it meets the triangle's plane.
+  vec2 pixel = vec2(here.x % picture.width, here.x / picture.width + band.firstRow) + 0.5;
+  vec2 aside = (pixel - 0.5 * vec2(picture.width, picture.height)) / picture.focus;
+  vec3 way = normalize(picture.view[2].xyz + aside.x * picture.view[0].xyz - aside.y * picture.view[1].xyz);
+  vec3 face = cross(b - a, c - a);
+  float slant = dot(face, way);
+  vec3 x = picture.eye.xyz + way * (dot(face, a - picture.eye.xyz) / (abs(slant) > 1e-20 ? slant : 1e-20));
+  float size = dot(face, face);
+  // A triangle that only touches the pixel may lie beside its middle.
+  float v = clamp(dot(cross(x - a, c - a), face) / size, 0.0, 1.0);
+  float w = clamp(dot(cross(b - a, x - a), face) / size, 0.0, 1.0 - v);
+  x = a + v * (b - a) + w * (c - a);
+  vec3 normal = normalize((1.0 - v - w) * solidNormal(corners.x) + v * solidNormal(corners.y) + w * solidNormal(corners.z));
+  vec3 colour = min(shadedSolid(x, normal), vec3(60000));
+  solidColours[here.x] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, 1)));
+}

@@ -1,0 +1,60 @@
+// Light on hair and on bodies: two lights and a sky, through the hair that is before them.
+//
+// Light that reaches a hair is of two kinds: what came straight, less by every hair before it; and what came through hairs
+// and took on their colour, which is scattered to all sides (dual scattering, Zinke et al. 2008, with the two factors below
+// in place of its sums).
+#ifndef RINGLET_LIGHTING
+#define RINGLET_LIGHTING
+
+#define RINGLET_READS_SHADOWS
+#include "equations/hair_scattering.glsl"
+#include "shared/shadow_volume.glsl"
+
+const float kDims = 0.9;     // of straight light behind a hair
+const float kScattered = 0.10;  // what light through hair loses at each: white hair, and
+const float kAbsorbed = 0.45;   // black hair, more
+
+/// Radiance towards the eye of a hair at x. colour: of light that went through a fibre.
+vec3 shadedHair(vec3 x, vec3 tangent, HairFibre fibre) {
+  vec3 eye = normalize(picture.eye.xyz - x);
+  vec3 colour = exp(-4.0 * fibre.absorption);
+  vec3 kept = sqrt(colour);
+  vec3 facing = normalize(eye - tangent * dot(eye, tangent) + 1e-6);
+  vec3 radiance = vec3(0);
+  for (uint l = 0; l < 2; ++l) {
+    vec3 light = picture.lightDirection[l].xyz;
+    float hairs = hairsBefore(l, x);
+    vec3 straight = exp(-kDims * hairs) * scatteredByHair(fibre, tangent, light, eye);
+    float wrapped = clamp(0.25 * (dot(facing, light) + 1.0), 0.0, 1.0);
+    float across = 1.0 - abs(dot(tangent, light));
+    vec3 through = exp(-hairs * (kScattered + kAbsorbed * (1.0 - kept)));
+    radiance += picture.lightColour[l].rgb * (straight + picture.throughHair * mix(wrapped, across, 0.33) * through * colour);
+  }
+  float open = opennessAt(x);
+  vec3 sky = mix(picture.skyBelow.rgb, picture.skyAbove.rgb, 0.5 + 0.5 * facing.y);
+  // Where little of the sky is seen, what comes from it went through hair.
+  return radiance + sky * (0.8 * colour * mix(vec3(open), vec3(1), colour) * sqrt(open) + 0.012 * open * open);
+}
+
+/// Of a body's surface.
+vec3 shadedSolid(vec3 x, vec3 normal) {
+  vec3 colour = picture.solidColour.rgb;
+  vec3 eye = normalize(picture.eye.xyz - x);
+  vec3 above = x + normal * (1.5 * sqrt(picture.shadowCellArea));  // clear of the cells that hold the surface itself
+  vec3 radiance = vec3(0);
+  for (uint l = 0; l < 2; ++l) {
+    vec3 light = picture.lightDirection[l].xyz;
+    float facing = dot(normal, light);
+    vec3 wrapped = clamp((facing + vec3(0.22, 0.17, 0.15)) / vec3(1.22, 1.17, 1.15), 0.0, 1.0);
+    float shine = max(dot(normal, normalize(light + eye)), 0.0);
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    radiance += picture.lightColour[l].rgb * exp(-hairsBefore(l, above + light * picture.densityBox.w)) *
+                (0.31830989 * colour * wrapped + 0.04 * shine * shine * shine * max(facing, 0.0));
+  }
+  float open = opennessAt(above);
+  return radiance + mix(picture.skyBelow.rgb, picture.skyAbove.rgb, 0.5 + 0.5 * normal.y) * colour * (0.6 * open);
+}
+
+#endif

@@ -1,0 +1,37 @@
+// PictureSolids: what stands in a picture beside the hair: the bodies of a scene, or else a head for hair
+// whose roots lie on a ball.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/vec3.h"
+#include "ringlet/render/hair_renderer.h"
+#include "ringlet/scenes/load_scene.h"
+
+namespace ringlet::program {
+
+class PictureSolids {
+ public:
+  /// The bodies of a scene, which must live as long. `hairSize`: of all hair [m]; a plane is shown some way
+  /// beyond.
+  static PictureSolids ofScene(const LoadedScene& scene, double hairSize);
+  /// A head under hair with these roots [m], at rest; nothing where they are on no ball of a head's size.
+  /// `up`: of the groom.
+  static PictureSolids ofRoots(std::span<const Vec3d> roots, Vec3d up);
+
+  const std::vector<SolidMesh>& meshes() const { return meshes_; }
+  /// In a frame, from 1; `roots` as they are then [m], in the order of those at rest, and how the head has
+  /// turned.
+  std::vector<SolidPlace> placesAt(int frame, std::span<const Vec3d> roots, Quatd head) const;
+
+ private:
+  const LoadedScene* scene_ = nullptr;
+  std::vector<SolidMesh> meshes_;
+  std::vector<std::size_t> bodies_;  // of the scene, one a mesh
+  Vec3d fromRoots_{};                // of the head's ball, from the mean of the roots at rest
+  Quatd upright_{};
+};
+
+}  // namespace ringlet::program

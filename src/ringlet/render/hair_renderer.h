@@ -1,0 +1,100 @@
+// HairRenderer: pictures of hair and bodies by compute kernels, on the device where the hair is; no window
+// system and no graphics pipeline. What is nearest at each sample is found by atomics (render_hairs.comp,
+// render_solids.comp), only what is seen is shaded, and shadows and skylight come from volumes that the hair
+// is counted into (shadow_volume.glsl).
+//
+//     create -> { setFrame -> record, submitted by the caller }, once for each moment of a picture -> picture
+//
+// The same hair, camera and device give the same bits.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/bodies/bounds.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/render/camera.h"
+#include "ringlet/render/look.h"
+#include "ringlet/render/render_kernels.h"
+#include "ringlet/render/solid_mesh.h"
+
+namespace ringlet {
+
+struct PictureSize {
+  int width = 960, height = 540;           // [pixels], each in [1, 16384]
+  int side = 4;                            // samples along a pixel's side, in [1, 4]
+  std::uint64_t mostBytes = 128ull << 20;  // of samples drawn together; a larger picture is drawn in bands
+};
+
+/// Hair to be drawn, on the device.
+struct DrawnHairs {
+  const gpu::Buffer& points;                  // as FollowStage::points: uvec4[]
+  std::span<const std::uint32_t> firstPoint;  // of each hair, and one more
+  double width = 0.0002;                      // diameter at the root [m], above 0
+};
+
+/// Where a body is: world from body.
+struct SolidPlace {
+  Vec3d position;  // [m]
+  Quatd rotation;
+};
+
+class HairRenderer {
+ public:
+  /// `hairs.points` must live as long. Errors: a size out of its range; the device has too little memory.
+  static Result<HairRenderer> create(gpu::Device& device, const DrawnHairs& hairs,
+                                     std::vector<SolidMesh> solids, const PictureSize& size,
+                                     const Look& look);
+  HairRenderer(HairRenderer&&) = default;
+
+  /// Of the next moment. `hair`: what all hair is within, for shadows; a place for each body. Nothing may be
+  /// under way.
+  Status setFrame(const Camera& camera, const Bounds& hair, std::span<const SolidPlace> places);
+
+  /// Draws the moment, with a stage for each part. `isFirst`: of a picture; later moments are added to it
+  /// (motion blur).
+  void record(gpu::CommandList& list, bool isFirst) const;
+
+  /// The mean of the moments since the first: width * height pixels, row by row from the top: red in the
+  /// lowest byte, green, blue, 255.
+  Result<std::vector<std::uint32_t>> picture() const;
+
+  /// The same in linear light, before the exposure: red, green, blue, one after the other.
+  Result<std::vector<float>> light() const;
+
+  std::uint64_t byteCount() const;  // of its buffers, without the hair
+
+ private:
+  HairRenderer() = default;
+  Status makeBuffers(gpu::Device& device, const DrawnHairs& hairs);
+  Status makeKernels(gpu::Device& device, const gpu::Buffer& points);
+  void dispatch(gpu::CommandList& list, RenderKernel kernel, std::uint64_t invocations,
+                std::uint32_t firstRow = 0, std::uint32_t rowCount = 0) const;
+  void recordShadows(gpu::CommandList& list) const;
+  void recordBand(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const;
+  void recordSeen(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const;
+
+  const gpu::Buffer& buffer(std::uint32_t binding) const { return buffers_[binding]; }
+
+  PictureSize size_;
+  Look look_;
+  std::vector<SolidMesh> solids_;
+  std::uint32_t hairCount_ = 0, pointCount_ = 0, pointsPerHair_ = 0;
+  std::uint32_t solidPointCount_ = 0, patchCount_ = 0, triangleCount_ = 0;
+  std::uint32_t bandRows_ = 0;  // of pixels, drawn together
+  double width_ = 0;
+  bool hasAtomic64_ = false;
+  std::vector<gpu::Buffer> buffers_;   // by binding
+  std::vector<gpu::Buffer> noneSeen_;  // SeenCounts before there is anything: one
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;
+  std::vector<gpu::Bindings> bindings_;
+};
+
+}  // namespace ringlet

@@ -1,0 +1,32 @@
+// The compiled kernels of pictures (shaders/kernels/render_*.comp), in the order of a picture.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "ringlet/gpu/kernel.h"
+
+namespace ringlet {
+
+enum class RenderKernel {
+  shadowHairs,
+  shadowSolids,
+  shadowSum,
+  openness,
+  solids,    // what is seen of bodies; without 64-bit atomics their nearness,
+  hairs,     // and of hair;
+  solidsId,  // then what is nearest: only without 64-bit atomics
+  hairsId,
+  compact,
+  shadeHairs,
+  shadeSolids,
+  resolve,
+  tone,
+};
+inline constexpr std::size_t kRenderKernelCount = 13;
+
+/// hasAtomic64: of the device. texels: points and triangles are read as texels.
+gpu::KernelDescription describeRenderKernel(RenderKernel which, std::uint32_t groupSize, bool hasAtomic64,
+                                            bool texels);
+
+}  // namespace ringlet
