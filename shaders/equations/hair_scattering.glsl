@@ -1,11 +1,15 @@
-// Light that a hair scatters, far away from it: d'Eon et al. 2011 along the hair, Marschner et al. 2003 about it. Of light
+// Light that a hair scatters, far away from it: d'Eon et al. 2011 along the hair, Marschner et al. 2003 about it. Of
+// light
 // that arrives in a direction at elevation theta_i, the hair scatters into elevation theta_o and azimuth phi
 //
 //     S = sum over p of A_p(theta_d) N_p(phi) M_p(theta_i, theta_o) / (greater^(3/4) less^(1/4))
 //
-// p: reflected (R), through (TT), once reflected inside (TRT), and all the rest. theta_d: half the difference of elevations.
-// M_p is normalized over theta_o, N_p over phi; A_p are shares of the light, their sum just below 1 in hair that absorbs
-// nothing. The last factor, of the greater and the less of cos theta_i and cos theta_o, makes S the same when light goes the
+// p: reflected (R), through (TT), once reflected inside (TRT), and all the rest. theta_d: half the difference of
+// elevations.
+// M_p is normalized over theta_o, N_p over phi; A_p are shares of the light, their sum just below 1 in hair that
+// absorbs
+// nothing. The last factor, of the greater and the less of cos theta_i and cos theta_o, makes S the same when light
+// goes the
 // other way; these powers keep nearly all light. A_p, N_TT and N_TRT are fits to the integrals over a fibre of
 // refractive index 1.55, which tests/equations/hair_scattering_test.cpp takes. Mirrored by
 // reference/equations/hair_scattering.h.
@@ -67,7 +71,8 @@ vec2 tilted(float sine, float cosine, float angle) {
   return vec2(sine - cosine * angle, abs(cosine + sine * angle)) * inversesqrt(1.0 + angle * angle);
 }
 
-/// S times cos theta_i: radiance towards `out` over irradiance across the light's way. All vectors of length 1; `tangent` from
+/// S times cos theta_i: radiance towards `out` over irradiance across the light's way. All vectors of length 1;
+// `tangent` from
 /// root to tip, the others away from the hair.
 vec3 scatteredByHair(HairFibre fibre, vec3 tangent, vec3 towardsLight, vec3 towardsEye) {
   float sineIn = clamp(dot(tangent, towardsLight), -1.0, 1.0);
@@ -91,7 +96,8 @@ vec3 scatteredByHair(HairFibre fibre, vec3 tangent, vec3 towardsLight, vec3 towa
   float halfPhi = sqrt(0.5 + 0.5 * cosinePhi);
   vec2 light = tilted(sineIn, cosineIn, fibre.tilt);
   vec2 eye = tilted(sineOut, cosineOut, fibre.tilt);
-  vec3 sum = vec3(alongHair(fibre.along, light.x, light.y, eye.x, eye.y) * 0.25 * halfPhi * reflectedShare(cosineHalf * halfPhi));
+  vec3 sum = vec3(alongHair(fibre.along, light.x, light.y, eye.x, eye.y) * 0.25 * halfPhi *
+                  reflectedShare(cosineHalf * halfPhi));
 
   float spread = 0.55 * (1.0 + 0.65 * beyond);
   light = tilted(sineIn, cosineIn, -0.5 * fibre.tilt);

@@ -1,4 +1,5 @@
-// The core of every guide at each of its particles: a weighted sum of particles about it, which src/ringlet/follow/core_weights.h
+// The core of every guide at each of its particles: a weighted sum of particles about it, which
+// src/ringlet/follow/core_weights.h
 // makes of measure/core.h. Mirrored by reference/follow_guide.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -28,7 +28,8 @@ void main() {
   // A shorter hair lags behind its guide, but for the root.
   float along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
   uint k = min(uint(along), last - 1);
-  GuidePlace place = placeBetween(placeAt(guide.firstParticle + k), placeAt(guide.firstParticle + k + 1), along - float(k));
+  uint at = guide.firstParticle + k;
+  GuidePlace place = placeBetween(placeAt(at), placeAt(at + 1), along - float(k));
   vec3 x = followedPoint(hair.phase, hair.radius, hair.spread, hair.offset, place,
                          multiply(parameters.head, guide.restFrame), share);
   hairPoints[hair.firstPoint + i] = uvec4(floatBitsToUint(x), i == last ? h | kHairEnd : h);

@@ -18,8 +18,10 @@ void main() {
   uint first = row * side * stride + (pixel - row * picture.width) * side;
   uint end = first + side * stride;
   uint hairs = 0;
-  uint solid = 0;  // and the triangle there
-  uint marks = 0;  // a bit for each sample of hair
+  uint solid = 0;    // and the triangle there,
+  uint solidAt = 0;  // at this sample of the pixel
+  uint marks = 0;    // a bit for each sample of hair
+  uint index = 0;      // the sample
   for (uint at = first; at < end; at += stride) {
     for (uint k = 0; k < side; ++k) {
       uint what = samples[at + k].x;
@@ -27,12 +29,14 @@ void main() {
       marks = marks << 1 | uint(isHair);
       hairs += uint(isHair);
       solid = (what & kSolid) != 0 ? what : solid;
+      solidAt = (what & kSolid) != 0 ? index : solidAt;
+      ++index;
     }
   }
   if (solid != 0) {
     uint k = atomicAdd(counts.solids, 1);
     if (k % gl_WorkGroupSize.x == 0) atomicAdd(counts.indirectSolids[0], 1);
-    seenSolids[k] = uvec2(pixel, (solid & ~kSolid) - 1);
+    seenSolids[k] = uvec2(pixel << 4 | solidAt, (solid & ~kSolid) - 1);
   }
   uint place = 0;
   if (hairs != 0) {

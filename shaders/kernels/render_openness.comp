@@ -1,4 +1,5 @@
-// Share of the sky seen from each cell: the way out in 14 directions, through the hair about it. Steps grow with distance.
+// Share of the sky seen from each cell: the way out in 14 directions, through the hair about it. Steps grow with
+// distance.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"

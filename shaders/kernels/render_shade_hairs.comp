@@ -1,4 +1,5 @@
-// Colour of every sample in which hair is seen. Where on its segment a sample is follows from where the two lie in the picture.
+// Colour of every sample in which hair is seen. Where on its segment a sample is follows from where the two lie in the
+// picture.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/drawn_hairs.glsl"

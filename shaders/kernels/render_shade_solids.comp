@@ -1,4 +1,4 @@
-// Colour of every pixel in which a body is seen, at the pixel's middle.
+// Colour of every pixel in which a body is seen, at one of the samples in which it is.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/lighting.glsl"
@@ -16,19 +16,23 @@ void main() {
   vec3 b = solidPosition(corners.y).xyz;
   vec3 c = solidPosition(corners.z).xyz;
 
-  // The way of light through the pixel's middle, to where it meets the triangle's plane.
-  vec2 pixel = vec2(here.x % picture.width, here.x / picture.width + band.firstRow) + 0.5;
-  vec2 aside = (pixel - 0.5 * vec2(picture.width, picture.height)) / picture.focus;
+  // The way of light through the sample, to where it meets the triangle.
+  uint pixel = here.x >> 4;
+  uint index = here.x & 15u;
+  uint y = pixel / picture.width;
+  uint down = index / picture.side;
+  vec2 inPixel = (vec2(index - down * picture.side, down) + 0.5) / float(picture.side);
+  vec2 place = vec2(pixel - y * picture.width, y + band.firstRow) + inPixel;
+  vec2 aside = (place - 0.5 * vec2(picture.width, picture.height)) / picture.focus;
   vec3 way = normalize(picture.view[2].xyz + aside.x * picture.view[0].xyz - aside.y * picture.view[1].xyz);
   vec3 face = cross(b - a, c - a);
   float slant = dot(face, way);
   vec3 x = picture.eye.xyz + way * (dot(face, a - picture.eye.xyz) / (abs(slant) > 1e-20 ? slant : 1e-20));
   float size = dot(face, face);
-  // A triangle that only touches the pixel may lie beside its middle.
   float v = clamp(dot(cross(x - a, c - a), face) / size, 0.0, 1.0);
   float w = clamp(dot(cross(b - a, x - a), face) / size, 0.0, 1.0 - v);
   x = a + v * (b - a) + w * (c - a);
-  vec3 normal = normalize((1.0 - v - w) * solidNormal(corners.x) + v * solidNormal(corners.y) + w * solidNormal(corners.z));
-  vec3 colour = min(shadedSolid(x, normal), vec3(60000));
-  solidColours[here.x] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, 1)));
+  vec3 normal = (1.0 - v - w) * solidNormal(corners.x) + v * solidNormal(corners.y) + w * solidNormal(corners.z);
+  vec3 colour = min(shadedSolid(x, normalize(normal)), vec3(60000));
+  solidColours[pixel] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, 1)));
 }

@@ -1,4 +1,5 @@
-// Hair's area into the boxes of the lights and of the sky: every so many hairs, for as many. Sums of integers, the same in any
+// Hair's area into the boxes of the lights and of the sky: every so many hairs, for as many. Sums of integers, the
+// same in any
 // order.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -17,6 +18,7 @@ void main() {
   vec3 edge = hairPoint(p + 1) - from;
   float share = (float(i) + 0.5) / float(hair.pointCount - 1);
   float width = 2.0 * radiusAt(hair, share) * picture.shadowOpacity * float(picture.shadowStride);
-  vec2 areas = width * vec2(length(cross(edge, picture.lightDirection[0].xyz)), length(cross(edge, picture.lightDirection[1].xyz)));
+  vec2 areas = width * vec2(length(cross(edge, picture.lightDirection[0].xyz)),
+                            length(cross(edge, picture.lightDirection[1].xyz)));
   addAt(from + unitOf(mixed(p)) * edge, areas, 0.785398 * width * length(edge));
 }

@@ -1,4 +1,5 @@
-// Triangles of bodies onto the samples of a picture. An invocation has one triangle and kRows rows of samples, and in each
+// Triangles of bodies onto the samples of a picture. An invocation has one triangle and kRows rows of samples, and in
+// each
 // row the samples between the triangle's edges.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// From linear light to what a screen shows: a filmic curve (Narkowicz 2016, a fit of ACES), sRGB, and noise of one step, so that
+// From linear light to what a screen shows: a filmic curve (Narkowicz 2016, a fit of ACES), sRGB, and noise of one
+// step, so that
 // smooth shades have no bands.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,7 +1,9 @@
 // Light on hair and on bodies: two lights and a sky, through the hair that is before them.
 //
-// Light that reaches a hair is of two kinds: what came straight, less by every hair before it; and what came through hairs
-// and took on their colour, which is scattered to all sides (dual scattering, Zinke et al. 2008, with the two factors below
+// Light that reaches a hair is of two kinds: what came straight, less by every hair before it; and what came through
+// hairs
+// and took on their colour, which is scattered to all sides (dual scattering, Zinke et al. 2008, with the two factors
+// below
 // in place of its sums).
 #ifndef RINGLET_LIGHTING
 #define RINGLET_LIGHTING
@@ -28,7 +30,8 @@ vec3 shadedHair(vec3 x, vec3 tangent, HairFibre fibre) {
     float wrapped = clamp(0.25 * (dot(facing, light) + 1.0), 0.0, 1.0);
     float across = 1.0 - abs(dot(tangent, light));
     vec3 through = exp(-hairs * (kScattered + kAbsorbed * (1.0 - kept)));
-    radiance += picture.lightColour[l].rgb * (straight + picture.throughHair * mix(wrapped, across, 0.33) * through * colour);
+    vec3 scattered = picture.throughHair * mix(wrapped, across, 0.33) * through * colour;
+    radiance += picture.lightColour[l].rgb * (straight + scattered);
   }
   float open = opennessAt(x);
   vec3 sky = mix(picture.skyBelow.rgb, picture.skyAbove.rgb, 0.5 + 0.5 * facing.y);
@@ -36,11 +39,20 @@ vec3 shadedHair(vec3 x, vec3 tangent, HairFibre fibre) {
   return radiance + sky * (0.8 * colour * mix(vec3(open), vec3(1), colour) * sqrt(open) + 0.012 * open * open);
 }
 
+/// Share of a light that arrives about x: the mean over the corners of a cube, since patches and hairs are counted into cells
+/// and leave steps at their borders.
+float softLight(uint light, vec3 x) {
+  float reach = 1.5 * sqrt(picture.shadowCellArea);
+  float sum = 0.0;
+  for (uint k = 0; k < 8; ++k) sum += exp(-hairsBefore(light, x + reach * (2.0 * vec3(cornerOf(k)) - 1.0)));
+  return 0.125 * sum;
+}
+
 /// Of a body's surface.
 vec3 shadedSolid(vec3 x, vec3 normal) {
   vec3 colour = picture.solidColour.rgb;
   vec3 eye = normalize(picture.eye.xyz - x);
-  vec3 above = x + normal * (1.5 * sqrt(picture.shadowCellArea));  // clear of the cells that hold the surface itself
+  vec3 above = x + normal * (3.0 * sqrt(picture.shadowCellArea));  // clear of the cells that hold the surface
   vec3 radiance = vec3(0);
   for (uint l = 0; l < 2; ++l) {
     vec3 light = picture.lightDirection[l].xyz;
@@ -50,7 +62,7 @@ vec3 shadedSolid(vec3 x, vec3 normal) {
     shine *= shine;
     shine *= shine;
     shine *= shine;
-    radiance += picture.lightColour[l].rgb * exp(-hairsBefore(l, above + light * picture.densityBox.w)) *
+    radiance += picture.lightColour[l].rgb * softLight(l, above + light * picture.densityBox.w) *
                 (0.31830989 * colour * wrapped + 0.04 * shine * shine * shine * max(facing, 0.0));
   }
   float open = opennessAt(above);

@@ -1,5 +1,7 @@
-// What is seen at each sample: the nearest. A sample holds nearness (near / distance, as bits, which order as numbers do)
-// and what it is of; the greater pair wins, so that a cleared sample holds nothing and the order of drawing does not count.
+// What is seen at each sample: the nearest. A sample holds nearness (near / distance, as bits, which order as numbers
+// do)
+// and what it is of; the greater pair wins, so that a cleared sample holds nothing and the order of drawing does not
+// count.
 // Where a device has no 64-bit atomics, one pass finds the nearness and a second what has it: the same bits.
 #ifndef RINGLET_VISIBLE
 #define RINGLET_VISIBLE

@@ -55,7 +55,7 @@ constexpr const char* kExample =
 
 struct Typed {
   std::filesystem::path input, output, groom, scene;
-  std::string frames, size = "960x540", colour = "auburn", device;
+  std::string frames, size = "960x540", colour = "auburn", up = "Y", device;
   std::optional<int> hairs;
   std::optional<double> width, melanin;
   double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
@@ -126,6 +126,8 @@ void checkOptions(const Typed& typed) {
         "IN",
         "is a scene, which is simulated into the folder of its pictures: name a folder "
         "with -o, and neither --scene nor --groom");
+  if (!isGroom && typed.up != "Y")
+    throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
   if (isGroom && (!typed.frames.empty() || !typed.groom.empty() || !typed.scene.empty()))
     throw CLI::ValidationError("IN",
                                "is a groom, which has no frames; leave out --frames, --groom and --scene");
@@ -184,7 +186,7 @@ Result<RenderOutcome> runGroom(const Typed& typed, const ComputeDevice& device, 
   for (const std::string& warning : groom->warnings) say("ringlet render: warning: {}\n", warning);
   RenderPlan one = plan;
   if (one.output.extension() != ".png") one.output /= "frame.0001.png";
-  return renderGroom(groom->groom, UpAxis::y, device, one);
+  return renderGroom(groom->groom, typed.up == "Z" ? UpAxis::z : UpAxis::y, device, one);
 }
 
 Result<RenderOutcome> runAnimation(const Typed& typed, const ComputeDevice& device, RenderPlan plan) {
@@ -347,6 +349,10 @@ void addRenderCommand(CLI::App& app, int& exitCode) {
       ->check(between(-36000, 36000))
       ->capture_default_str()
       ->type_name("DEG");
+  command->add_option("--up", typed->up, "Of a groom: the axis that points up, Y or Z")
+      ->check(oneOf({"Y", "Z"}))
+      ->capture_default_str()
+      ->type_name("AXIS");
   command->add_flag("--no-bodies", typed->noBodies, "Hair alone: no bodies and no head");
   addDeviceOption(*command, typed->device);
   command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");

@@ -282,7 +282,9 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
   const Groom rest = plan.rest ? *plan.rest : seen->groom();
   Rendering rendering(drawn->groom(), seen->header().metresPerUnit, seen->header().up, device, plan);
   for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) {
-    if (Status read = seen->readFrame(frame); !read) return read.error();
+    if (frame > 1) {
+      if (Status read = seen->readFrame(frame); !read) return read.error();
+    }
     rendering.see(seen->groom());
   }
   if (Status ready = rendering.prepare(rest); !ready) return ready.error();

@@ -4,7 +4,8 @@
 #include "equations/hair_scattering.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, set = 0, binding = 0) readonly buffer Cases { vec4 cases[]; };  // light, eye, absorption and along, about and tilt
+// Of each: towards the light, towards the eye, absorption and along, about and tilt.
+layout(std430, set = 0, binding = 0) readonly buffer Cases { vec4 cases[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer Found { vec4 found[]; };
 
 void main() {

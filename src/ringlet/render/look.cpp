@@ -51,6 +51,8 @@ std::optional<Look> lookByName(std::string_view name) {
   return std::nullopt;
 }
 
-double widthOfHairs(double count) { return 0.00018 * std::sqrt(30000 / std::max(count, 1.0)); }
+double widthOfHairs(double count) {
+  return std::min(0.0015, 0.00018 * std::sqrt(30000 / std::max(count, 1.0)));
+}
 
 }  // namespace ringlet

@@ -39,7 +39,7 @@ std::string hairColourNames();
 std::optional<Look> lookByName(std::string_view colour);
 
 /// Diameter of hairs where nothing says it [m]: 0.18 mm where there are 30,000, and so that any number of
-/// them covers as much.
+/// them covers as much; at most 1.5 mm.
 double widthOfHairs(double count);
 
 }  // namespace ringlet
