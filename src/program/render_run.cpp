@@ -58,8 +58,8 @@ class Rendering {
         device_(device),
         plan_(plan) {}
 
-  /// `rest`: the strands at rest, of which `first` is frame 1.
-  Status prepare(const Groom& rest);
+  /// `first`: frame 1, which hairs follow as if it were at rest, unless the plan has the strands at rest.
+  Status prepare(const Groom& first);
   Status drawFrame(int frame, const Points& before, const Points& points);
   /// Of each frame that the camera must show, before prepare.
   void see(const Groom& pose);
@@ -150,9 +150,12 @@ Status Rendering::makeSolids(const Groom& rest) {
   return {};
 }
 
-Status Rendering::prepare(const Groom& rest) {
-  if (Status made = makeHair(rest); !made) return made;
-  if (Status made = makeSolids(rest); !made) return made;
+Status Rendering::prepare(const Groom& first) {
+  if (Status made = makeHair(plan_.rest ? *plan_.rest : first); !made) return made;
+  if (follow_) {
+    if (Status belongs = follow_->checkPose(first); !belongs) return belongs;
+  }
+  if (Status made = makeSolids(follow_ && plan_.rest ? *plan_.rest : first); !made) return made;
   const DrawnHairs drawn{hairs_ ? hairs_->points() : lines_->points(),
                          hairs_ ? hairs_->firstPoint() : lines_->firstPoint(), outcome_.width};
   auto renderer = HairRenderer::create(
@@ -279,7 +282,7 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
   if (Status made = makeFolder(plan.output); !made) return made.error();
 
   if (Status read = seen->readFrame(1); !read) return read.error();
-  const Groom rest = plan.rest ? *plan.rest : seen->groom();
+  const Groom first = seen->groom();
   Rendering rendering(drawn->groom(), seen->header().metresPerUnit, seen->header().up, device, plan);
   for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) {
     if (frame > 1) {
@@ -287,7 +290,7 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
     }
     rendering.see(seen->groom());
   }
-  if (Status ready = rendering.prepare(rest); !ready) return ready.error();
+  if (Status ready = rendering.prepare(first); !ready) return ready.error();
   const double ready = now();
 
   Points before;

@@ -1,0 +1,205 @@
+// `ringlet render`: pictures of everything that it takes, what it says of them, and what it refuses.
+#include <gtest/gtest.h>
+#include <png.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "tests/program/run_program.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ProgramResult;
+using test::runProgram;
+using test::scratchFolder;
+
+constexpr int kFrames = 4;
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> bytes;  // red, green, blue
+  bool operator==(const Image&) const = default;
+};
+
+Image readPng(const fs::path& path) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  Image image;
+  EXPECT_TRUE(png_image_begin_read_from_file(&header, path.c_str())) << path << ": " << header.message;
+  header.format = PNG_FORMAT_RGB;
+  image.width = static_cast<int>(header.width);
+  image.height = static_cast<int>(header.height);
+  image.bytes.resize(PNG_IMAGE_SIZE(header));
+  EXPECT_TRUE(png_image_finish_read(&header, nullptr, image.bytes.data(), 0, nullptr)) << header.message;
+  return image;
+}
+
+// Pixels that two pictures of one size do not share.
+int differing(const Image& a, const Image& b) {
+  EXPECT_EQ(a.bytes.size(), b.bytes.size());
+  int count = 0;
+  for (std::size_t i = 0; i + 2 < std::min(a.bytes.size(), b.bytes.size()); i += 3)
+    count += !std::equal(a.bytes.begin() + static_cast<std::ptrdiff_t>(i),
+                         a.bytes.begin() + static_cast<std::ptrdiff_t>(i) + 3,
+                         b.bytes.begin() + static_cast<std::ptrdiff_t>(i));
+  return count;
+}
+
+// A folder with head.obj, a head of 120 strands, and out/, a run of it in every format.
+class Render : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = scratchFolder("render");
+    RINGLET_NEEDS_DEVICE(folder_);
+    ASSERT_EQ(run({"make", "head", "--strands", "120", "--particles", "24", "-o", "head.obj"}).exitCode, 0);
+    const auto result = run({"simulate", "head.obj", "--motion", "shake", "--frames", std::to_string(kFrames),
+                             "--cache", "float32", "--usdc", "--no-sheet", "-o", "out"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  }
+
+  ProgramResult run(const std::vector<std::string>& arguments) { return runProgram(folder_, arguments); }
+
+  // Small pictures, and what is printed of them.
+  json render(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    for (const char* each : {"--size", "96x54", "--samples", "1", "--json"}) arguments.push_back(each);
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return json::parse(result.out, nullptr, false);
+  }
+
+  void expectRefused(std::vector<std::string> arguments, int exitCode,
+                     const std::vector<std::string>& parts) {
+    arguments.insert(arguments.begin(), "render");
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exitCode, exitCode) << result.err;
+    for (const std::string& part : parts)
+      EXPECT_NE(result.err.find(part), std::string::npos) << "'" << part << "' is not in: " << result.err;
+  }
+
+  Image picture(const fs::path& path) { return readPng(folder_ / path); }
+
+  fs::path folder_;
+};
+
+TEST_F(Render, ARunIsAPictureAFrame) {
+  const json said = render({"out", "-o", "pictures"});
+  EXPECT_EQ(said["frames"], kFrames);
+  EXPECT_EQ(said["strands"], 120);
+  EXPECT_EQ(said["hairs"], 30000);
+  EXPECT_EQ(said["points"], 30000 * 24);
+  EXPECT_NEAR(said["width_m"].get<double>(), 0.00018, 1e-9);
+  EXPECT_TRUE(said["head"]);
+  EXPECT_GT(said["seconds_per_frame"].get<double>(), 0);
+  EXPECT_GT(said["cpu_seconds_per_frame"].get<double>(), 0);
+  EXPECT_GT(said["device_bytes"].get<double>(), 30000 * 24 * 16);
+  for (const char* stage : {"follow", "shadows", "draw", "shade", "tone"})
+    EXPECT_TRUE(said["stages_ms"].contains(stage)) << stage;
+  EXPECT_EQ(said["outputs"], json({"pictures/frame.0001.png", "pictures/frame.0004.png"}));
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    const Image image = picture("pictures/frame.000" + std::to_string(frame) + ".png");
+    EXPECT_EQ(image.width, 96);
+    EXPECT_EQ(image.height, 54);
+    if (frame > 1) {
+      EXPECT_GT(differing(image, picture("pictures/frame.0001.png")), 100);
+    }
+  }
+}
+
+// One picture, whichever file it comes from; and the same again.
+TEST_F(Render, EveryFormatGivesTheSamePicture) {
+  render({"out/hair.rgc", "-o", "rgc.png", "--frames", "3:3"});
+  const Image image = picture("rgc.png");
+  for (const char* source : {"out/hair.usdc", "out/hair.usda", "out", "out/hair.rgc"}) {
+    render({source, "-o", "other.png", "--frames", "3:3"});
+    EXPECT_EQ(picture("other.png"), image) << source;
+  }
+}
+
+TEST_F(Render, AGroomIsOnePicture) {
+  const json said = render({"head.obj", "-o", "head.png"});
+  EXPECT_EQ(said["frames"], 1);
+  EXPECT_EQ(said["outputs"], json({"head.png"}));
+  EXPECT_EQ(render({"head.obj", "-o", "folder"})["outputs"], json({"folder/frame.0001.png"}));
+  EXPECT_EQ(picture("folder/frame.0001.png"), picture("head.png"));
+}
+
+TEST_F(Render, ASceneIsSimulatedFirst) {
+  std::ofstream(folder_ / "scene.toml")
+      << "[groom]\nfile = \"head.obj\"\n[motion]\nkind = \"shake\"\n"
+         "[simulation]\nframes = 3\n[[body]]\nshape = \"sphere\"\nradius = 0.085\n";
+  const json said = render({"scene.toml", "-o", "shot"});
+  EXPECT_EQ(said["frames"], 3);
+  EXPECT_FALSE(said["head"]);
+  EXPECT_TRUE(fs::exists(folder_ / "shot/hair.rgc"));
+  // The same from the animation, with the scene's body and groom.
+  render({"shot", "--scene", "scene.toml", "-o", "again"});
+  for (const char* frame : {"frame.0001.png", "frame.0003.png"})
+    EXPECT_EQ(picture(fs::path("again") / frame), picture(fs::path("shot") / frame));
+  render({"shot", "--scene", "scene.toml", "-o", "alone", "--no-bodies"});
+  EXPECT_GT(differing(picture("alone/frame.0003.png"), picture("shot/frame.0003.png")), 100);
+}
+
+TEST_F(Render, OptionsChangeThePicture) {
+  const std::vector<std::string> base = {"head.obj", "-o", "a.png"};
+  render(base);
+  const Image image = picture("a.png");
+  const std::vector<std::vector<std::string>> changes = {
+      {"--hairs", "0"},     {"--hairs", "2000"}, {"--width", "0.001"},  {"--colour", "blond"},
+      {"--melanin", "0.9"}, {"--azimuth", "90"}, {"--elevation", "40"}, {"--distance", "2"},
+      {"--no-bodies"},      {"--up", "Z"}};
+  for (const auto& change : changes) {
+    std::vector<std::string> arguments = {"head.obj", "-o", "b.png"};
+    arguments.insert(arguments.end(), change.begin(), change.end());
+    render(arguments);
+    EXPECT_GT(differing(picture("b.png"), image), 50) << change.front();
+  }
+  EXPECT_EQ(render({"head.obj", "-o", "b.png", "--hairs", "0"})["hairs"], 120);
+  EXPECT_EQ(render({"head.obj", "-o", "b.png", "--no-bodies"})["head"], false);
+}
+
+TEST_F(Render, BlurAndOrbitAreOfAnimations) {
+  render({"out", "-o", "sharp"});
+  render({"out", "-o", "blurred", "--blur", "3"});
+  EXPECT_EQ(picture("blurred/frame.0001.png"), picture("sharp/frame.0001.png"))
+      << "nothing is before frame 1";
+  EXPECT_GT(differing(picture("blurred/frame.0003.png"), picture("sharp/frame.0003.png")), 100);
+  render({"out", "-o", "round", "--orbit", "180"});
+  EXPECT_EQ(picture("round/frame.0001.png"), picture("sharp/frame.0001.png"));
+  EXPECT_GT(differing(picture("round/frame.0004.png"), picture("sharp/frame.0004.png")), 500);
+}
+
+// A picture of a later frame does not depend on which others are drawn, but for the camera, which shows them
+// all.
+TEST_F(Render, FramesAreThoseAskedFor) {
+  EXPECT_EQ(render({"out", "-o", "some", "--frames", "2:3"})["frames"], 2);
+  EXPECT_FALSE(fs::exists(folder_ / "some/frame.0001.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "some/frame.0002.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "some/frame.0004.png"));
+}
+
+TEST_F(Render, WhatMakesNoSenseIsRefused) {
+  expectRefused({"out", "-o", "x.png"}, 2, {"one picture", "--frames 12:12"});
+  expectRefused({"out", "-o", "x", "--frames", "3:2"}, 2, {"comes after the last"});
+  expectRefused({"out", "-o", "x", "--frames", "2:9"}, 1, {"has 4 frames", "2 to 9"});
+  expectRefused({"out", "-o", "x", "--size", "10by10"}, 2, {"960x540", "10by10"});
+  expectRefused({"out", "-o", "x", "--colour", "bleu"}, 2, {"auburn", "bleu"});
+  expectRefused({"out", "-o", "x", "--up", "Z"}, 2, {"--up"});
+  expectRefused({"head.obj", "-o", "x", "--frames", "1:1"}, 2, {"is a groom"});
+  expectRefused({"out", "-o", "x", "--scene", "a.toml", "--groom", "head.obj"}, 2, {"--groom"});
+  fs::create_directory(folder_ / "empty");
+  expectRefused({"empty", "-o", "x"}, 4, {"hair.rgc", "simulate"});
+  expectRefused({"out", "-o", "x", "--groom", "other.obj"}, 4, {"other.obj"});
+  ASSERT_EQ(run({"make", "head", "--strands", "130", "-o", "other.obj"}).exitCode, 0);
+  expectRefused({"out", "-o", "x", "--groom", "other.obj"}, 1, {"do not belong together"});
+  EXPECT_FALSE(fs::exists(folder_ / "x/frame.0001.png"));
+}
+
+}  // namespace
+}  // namespace ringlet
