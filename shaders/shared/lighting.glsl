@@ -39,8 +39,8 @@ vec3 shadedHair(vec3 x, vec3 tangent, HairFibre fibre) {
   return radiance + sky * (0.8 * colour * mix(vec3(open), vec3(1), colour) * sqrt(open) + 0.012 * open * open);
 }
 
-/// Share of a light that arrives about x: the mean over the corners of a cube, since patches and hairs are counted into cells
-/// and leave steps at their borders.
+/// Share of a light that arrives about x: the mean over the corners of a cube, since patches and hairs are counted into
+/// cells and leave steps at their borders.
 float softLight(uint light, vec3 x) {
   float reach = 1.5 * sqrt(picture.shadowCellArea);
   float sum = 0.0;
