@@ -1,4 +1,4 @@
-// The air in the lanes form: drag on this lane's particles. Included by kernels/strand_step.comp.
+// The air: drag on this lane's particles. Included by kernels/strand_step.comp.
 #include "equations/air_drag.glsl"
 #include "equations/turbulence.glsl"
 
@@ -9,17 +9,18 @@ vec3 wind[RUN];     // relative to the head's translation [m/s]
 // From positions and velocities at the step's start.
 void feelAir(uint step) {
   StepAir air = stepAir(step);
-  [[unroll]] for (int k = 0; k < RUN; ++k) wind[k] = air.wind.xyz;
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) wind[k] = air.wind.xyz;
   if (kTurbulent) {
     [[unroll]] for (uint wave = 0; wave < kWindWaves; ++wave) {
       WindWave mode = windWave(wave);
       float phase = air.phases[wave / 4][wave % 4];
-      [[unroll]] for (int k = 0; k < RUN; ++k) wind[k] += windOfMode(mode.wave.xyz, mode.amplitude.xyz, phase, p[k]);
+      RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k)
+        wind[k] += windOfMode(mode.wave.xyz, mode.amplitude.xyz, phase, p[k]);
     }
   }
   vec3 before = fromRootward(eHat[RUN - 1], 1);
   if (lane == 0) before = vec3(0);
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     vec3 here = isEdge(k) ? eHat[k] : vec3(0);
     tangent[k] = directionOf((k > 0 ? eHat[max(k - 1, 0)] : before) + here);
     drag[k] = airDrag(v[k] - wind[k], tangent[k], parameters.dragStrength, parameters.dragAlong, stepSeconds());

@@ -1,4 +1,4 @@
-// Bodies in the lanes form: what they ask of this lane's particles, in the velocity solve and after the move. Included
+// Bodies: what they ask of this lane's particles, in the velocity solve and after the move. Included
 // by kernels/strand_step.comp. Mirrored by reference/kernels/body_step.h. First all particles are looked at, and those
 // that may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one.
 // Looks are a loop too, over some at a time: written out for every particle they were half of the kernel's code.
@@ -22,15 +22,33 @@ float nextTarget;
 
 vec3 pStart[RUN];  // where particles were before the move
 
-// Particle k of the run; RUN is the next lane's first.
+// Looks are over some particles at a time, a part of the run; the next lane's first is looked at too. What is noted
+// fills a word after ten parts; a run in memory may have more, and is gone through word by word.
+const int kPart = 3;
+const uint kLookParts = (RUN + kPart) / kPart;
+const uint kPartsOfWord = 10;
+bool fillsWord(uint part) { return kInMemory && part % kPartsOfWord == 0; }
+// Whether looks go on in another word; else the run is done.
+bool isAnotherWord(uint part) { return kInMemory && part < kLookParts; }
+
+// Picks, from registers by comparing: an array that is indexed by a variable lives in memory.
+//   RINGLET_PICK(values, next, k)           of particle k of the run; RUN is the next lane's first
+//   RINGLET_LOOK_AT(values, next, part, j)  the same for looks: of the j-th in a part of the run
+//   RINGLET_AT(j, k, something)             does something to particle j, which is k, if the run has it
+#ifdef RINGLET_IN_MEMORY
+#define RINGLET_PICK(values, next, k) ((k) < RUN ? values[min(k, RUN - 1)] : next)
+#define RINGLET_LOOK_AT(values, next, part, j) RINGLET_PICK(values, next, int(part) * kPart + j)
+#define RINGLET_AT(j, k, something) \
+  if ((k) < RUN) {                  \
+    int j = min(k, RUN - 1);        \
+    something;                      \
+  }
+#else
 vec3 picked(vec3 values[RUN], vec3 next, int k) {
   vec3 value = next;
   [[unroll]] for (int j = 0; j < RUN; ++j) value = j == k ? values[j] : value;
   return value;
 }
-// The same for looks, of the j-th in a part of the run.
-const int kPart = 3;
-const uint kLookParts = (RUN + kPart) / kPart;  // the next lane's first is looked at too
 vec3 pickedInPart(vec3 values[RUN], vec3 next, uint part, int j) {
   vec3 value = next;
   [[unroll]] for (int q = 0; q < kLookParts; ++q) {
@@ -39,17 +57,21 @@ vec3 pickedInPart(vec3 values[RUN], vec3 next, uint part, int j) {
   }
   return value;
 }
+#define RINGLET_PICK(values, next, k) picked(values, next, k)
+#define RINGLET_LOOK_AT(values, next, part, j) pickedInPart(values, next, part, j)
+#define RINGLET_AT(j, k, something) \
+  [[unroll]] for (int j = 0; j < RUN; ++j) { if (j == (k)) something; }
+#endif
+
 // Along the strand at particle k; edgeBefore: direction of the edge that ends at this lane's first.
 vec3 tangentAt(int k, vec3 edgeBefore) {
   vec3 sum = vec3(0);
-  [[unroll]] for (int j = 0; j < RUN; ++j) {
-    if (j == k) sum = (j > 0 ? eHat[max(j - 1, 0)] : edgeBefore) + (isEdge(j) ? eHat[j] : vec3(0));
-  }
+  RINGLET_AT(j, k, sum = (j > 0 ? eHat[max(j - 1, 0)] : edgeBefore) + (isEdge(j) ? eHat[j] : vec3(0)))
   return directionOf(sum);
 }
 
 void clearPushes() {
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     pushWeight[k] = symmetricDiagonal(0.0);
     pushMomentum[k] = vec3(0);
     pushNormal[k] = vec4(0);
@@ -64,17 +86,21 @@ void clearPushes() {
   nextTarget = 0.0;
 }
 
-void push(int k, float weight, vec3 n, float target, vec3 u, float friction) {
-  [[unroll]] for (int j = 0; j < RUN; ++j) {
-    float here = j == k ? weight : 0.0;
-    pushWeight[j] = addOuter(pushWeight[j], here, n);
-    pushMomentum[j] += (here * target) * n;
-    if (here > pushNormal[j].w) {
-      pushNormal[j] = vec4(n, here);
-      pushBody[j] = vec4(u, friction);
-      pushTarget[j] = target;
-    }
+void pushParticle(int j, float weight, vec3 n, float target, vec3 u, float friction) {
+  pushWeight[j] = addOuter(pushWeight[j], weight, n);
+  pushMomentum[j] += (weight * target) * n;
+  if (weight > pushNormal[j].w) {
+    pushNormal[j] = vec4(n, weight);
+    pushBody[j] = vec4(u, friction);
+    pushTarget[j] = target;
   }
+}
+void push(int k, float weight, vec3 n, float target, vec3 u, float friction) {
+#ifdef RINGLET_IN_MEMORY
+  if (k < RUN) pushParticle(min(k, RUN - 1), weight, n, target, u, friction);
+#else
+  [[unroll]] for (int j = 0; j < RUN; ++j) pushParticle(j, j == k ? weight : 0.0, n, target, u, friction);
+#endif
   float beyond = k == RUN ? weight : 0.0;
   nextWeight = addOuter(nextWeight, beyond, n);
   nextMomentum += (beyond * target) * n;
@@ -104,7 +130,7 @@ void passPushesOn() {
 
 float massAt(int k, float next) {
   float mass = next;
-  [[unroll]] for (int j = 0; j < RUN; ++j) mass = j == k ? restEdge[j].x : mass;
+  RINGLET_AT(j, k, mass = restEdge[j].x)
   return mass;
 }
 bool isPinnedAt(int k) { return first + k < parameters.rootCount; }
@@ -119,7 +145,7 @@ bool findPushes(uint step) {
   vec3 edgeBefore = fromRootward(eHat[RUN - 1], 1);
   Room room = emptyRoom();
   float fastest = 0.0;
-  [[unroll]] for (int k = 0; k <= RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k <= RUN; ++k) {
     if (k < RUN ? !isParticle(k) : !isEdge(RUN - 1)) continue;
     include(room, k < RUN ? p[min(k, RUN - 1)] : pNext);
     vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : vNext;
@@ -130,66 +156,70 @@ bool findPushes(uint step) {
   uint b = nextNear(room, reach, step, parameters.bodyCount, 0);
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
-    uint particleBits = 0;
-    uint edgeBits = 0;
     float roomBefore = 0.0;  // what is left to the body when particle k - 1 has gone its way
     bool isBuried = lane == 0;
     vec3 placeBefore = vec3(0);
     uint part = 0;
-    [[dont_unroll]] do {
-      [[unroll]] for (int j = 0; j < kPart; ++j) {
-        int k = int(part) * kPart + j;
-        vec3 position = pickedInPart(p, pNext, part, j);
-        vec3 velocity = pickedInPart(v, vNext, part, j);
-        float way = T * length(velocity - bodyVelocityAt(body, position, T));
-        float distance = bodyDistance(body.rest, placeAtStart(body, position)).distance;
-        float left = distance - 1.001 * way - 2.0 * kTouchDistance;
-        isBuried = isBuried && k < kMostBuried && distance < -kOutside;
-        if (k < RUN && isFree(k) && left <= 0.0 && !isBuried) particleBits |= 1u << k;
-        if (k > 0 && k <= RUN && isEdge(k - 1) && left + roomBefore <= length(position - placeBefore))
-          edgeBits |= 1u << (k - 1);
-        roomBefore = left;
-        placeBefore = position;
-      }
-    } while (++part < kLookParts);
-    if (particleBits != 0) do {
-      int k = findLSB(particleBits);
-      particleBits &= particleBits - 1;
-      vec3 position = picked(p, pNext, k);
-      vec3 velocity = picked(v, vNext, k);
-      Touch touch = traceParticle(body.rest, placeAtStart(body, position), placeAtEnd(body, position + T * velocity));
-      bool isDeep = touch.surface.distance < -kDeep;
-      vec3 n = outward(body, touch.surface.normal);
-      if (isDeep) n = wayOutOfDepth(n, tangentAt(k, edgeBefore));
-      vec3 u = bodyVelocityAt(body, position, T);
-      float target = dot(n, u) + leastParting(touch, T);
-      float deficit = target - dot(n, velocity);
-      if (!touch.found || !(deficit > 0.0)) continue;
-      push(k, (isDeep ? kDeepShare : 1.0) * bodyWeight(massAt(k, massNext), deficit), n, target, u, body.rest.friction);
-      asked = 1;
-    } while (particleBits != 0);
-    if (edgeBits != 0) do {
-      int k = findLSB(edgeBits);
-      edgeBits &= edgeBits - 1;
-      vec3 a = picked(p, pNext, k);
-      vec3 c = picked(p, pNext, k + 1);
-      vec3 va = picked(v, vNext, k);
-      vec3 vc = picked(v, vNext, k + 1);
-      Touch touch = traceEdge(body.rest, placeAtStart(body, a), placeAtEnd(body, a + T * va), placeAtStart(body, c),
-                              placeAtEnd(body, c + T * vc));
-      vec3 n = outward(body, touch.surface.normal);
-      vec2 shares = vec2(1.0 - touch.along, touch.along);
-      vec3 u = bodyVelocityAt(body, shares.x * a + shares.y * c, T);
-      float deficit = dot(n, u) + leastParting(touch, T) - dot(n, shares.x * va + shares.y * vc);
-      if (!touch.found || !(deficit > 0.0)) continue;
-      vec2 part = shares * (deficit / dot(shares, shares));
-      if (!isPinnedAt(k) && shares.x >= kLeastShare)
-        push(k, shares.x * bodyWeight(massAt(k, massNext), deficit), n, dot(n, va) + part.x, u, body.rest.friction);
-      if (!isPinnedAt(k + 1) && shares.y >= kLeastShare)
-        push(k + 1, shares.y * bodyWeight(massAt(k + 1, massNext), deficit), n, dot(n, vc) + part.y, u,
-            body.rest.friction);
-      asked = 1;
-    } while (edgeBits != 0);
+    do {
+      int before = int(part) * kPart - 1;  // bit 0's edge ends at bit 0's particle
+      uint particleBits = 0;
+      uint edgeBits = 0;
+      [[dont_unroll]] do {
+        [[unroll]] for (int j = 0; j < kPart; ++j) {
+          int k = int(part) * kPart + j;
+          vec3 position = RINGLET_LOOK_AT(p, pNext, part, j);
+          vec3 velocity = RINGLET_LOOK_AT(v, vNext, part, j);
+          float way = T * length(velocity - bodyVelocityAt(body, position, T));
+          float distance = bodyDistance(body.rest, placeAtStart(body, position)).distance;
+          float left = distance - 1.001 * way - 2.0 * kTouchDistance;
+          isBuried = isBuried && k < kMostBuried && distance < -kOutside;
+          if (k < RUN && isFree(k) && left <= 0.0 && !isBuried) particleBits |= 1u << (k - before - 1);
+          if (k > 0 && k <= RUN && isEdge(k - 1) && left + roomBefore <= length(position - placeBefore))
+            edgeBits |= 1u << (k - before - 1);
+          roomBefore = left;
+          placeBefore = position;
+        }
+      } while (++part < kLookParts && !fillsWord(part));
+      if (particleBits != 0) do {
+        int k = before + 1 + findLSB(particleBits);
+        particleBits &= particleBits - 1;
+        vec3 position = RINGLET_PICK(p, pNext, k);
+        vec3 velocity = RINGLET_PICK(v, vNext, k);
+        Touch touch = traceParticle(body.rest, placeAtStart(body, position), placeAtEnd(body, position + T * velocity));
+        bool isDeep = touch.surface.distance < -kDeep;
+        vec3 n = outward(body, touch.surface.normal);
+        if (isDeep) n = wayOutOfDepth(n, tangentAt(k, edgeBefore));
+        vec3 u = bodyVelocityAt(body, position, T);
+        float target = dot(n, u) + leastParting(touch, T);
+        float deficit = target - dot(n, velocity);
+        if (!touch.found || !(deficit > 0.0)) continue;
+        float weight = (isDeep ? kDeepShare : 1.0) * bodyWeight(massAt(k, massNext), deficit);
+        push(k, weight, n, target, u, body.rest.friction);
+        asked = 1;
+      } while (particleBits != 0);
+      if (edgeBits != 0) do {
+        int k = before + findLSB(edgeBits);
+        edgeBits &= edgeBits - 1;
+        vec3 a = RINGLET_PICK(p, pNext, k);
+        vec3 c = RINGLET_PICK(p, pNext, k + 1);
+        vec3 va = RINGLET_PICK(v, vNext, k);
+        vec3 vc = RINGLET_PICK(v, vNext, k + 1);
+        Touch touch = traceEdge(body.rest, placeAtStart(body, a), placeAtEnd(body, a + T * va), placeAtStart(body, c),
+                                placeAtEnd(body, c + T * vc));
+        vec3 n = outward(body, touch.surface.normal);
+        vec2 shares = vec2(1.0 - touch.along, touch.along);
+        vec3 u = bodyVelocityAt(body, shares.x * a + shares.y * c, T);
+        float deficit = dot(n, u) + leastParting(touch, T) - dot(n, shares.x * va + shares.y * vc);
+        if (!touch.found || !(deficit > 0.0)) continue;
+        vec2 part = shares * (deficit / dot(shares, shares));
+        if (!isPinnedAt(k) && shares.x >= kLeastShare)
+          push(k, shares.x * bodyWeight(massAt(k, massNext), deficit), n, dot(n, va) + part.x, u, body.rest.friction);
+        if (!isPinnedAt(k + 1) && shares.y >= kLeastShare)
+          push(k + 1, shares.y * bodyWeight(massAt(k + 1, massNext), deficit), n, dot(n, vc) + part.y, u,
+              body.rest.friction);
+        asked = 1;
+      } while (edgeBits != 0);
+    } while (isAnotherWord(part));
     b = nextNear(room, reach, step, parameters.bodyCount, b + 1);
   } while (b < parameters.bodyCount);
   passPushesOn();
@@ -204,7 +234,7 @@ vec3 slidingVelocity(int k) {
 
 // Friction's weights, from what the pushes came to at the velocities solved without it.
 void addFriction() {
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     vec3 n = pushNormal[k].xyz;
     rubbing[k] = isFree(k) ? frictionWeight(slidingVelocity(k), normalMomentum(k), pushBody[k].w, restEdge[k].x) : 0.0;
     pushWeight[k] = addOuter(addDiagonal(pushWeight[k], rubbing[k]), -rubbing[k], n);
@@ -214,10 +244,15 @@ void addFriction() {
 
 // And what is left of it, at the velocities solved with it.
 void rubRun() {
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     vec3 slowed = rubbed(v[k], slidingVelocity(k), rubbing[k], normalMomentum(k), pushBody[k].w, restEdge[k].x);
     if (isFree(k)) v[k] = slowed;
   }
+}
+
+void moveParticle(int j, vec3 place, vec3 change) {
+  p[j] = place;
+  v[j] += change;
 }
 
 void keepParticlesOut(uint step, Room room) {
@@ -225,35 +260,42 @@ void keepParticlesOut(uint step, Room room) {
   uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
-    uint bits = 0;
     uint part = 0;
-    [[dont_unroll]] do {
-      [[unroll]] for (int j = 0; j < kPart; ++j) {
-        int k = int(part) * kPart + j;
-        vec3 y1 = placeAtEnd(body, pickedInPart(p, vec3(0), part, j));
-        float way = length(y1 - placeAtStart(body, pickedInPart(pStart, vec3(0), part, j)));
-        bool isNear = bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance;
-        if (k < RUN && isFree(k) && isNear) bits |= 1u << k;
-      }
-    } while (++part < kLookParts);
-    if (bits != 0) do {
-      int k = findLSB(bits);
-      bits &= bits - 1;
-      vec3 start = picked(pStart, vec3(0), k);
-      KeptOut kept = keptOut(body.rest, placeAtStart(body, start), placeAtEnd(body, picked(p, vec3(0), k)));
-      vec3 place = outOfBody(body, kept.place);
-      vec3 n = outward(body, kept.normal);
-      vec3 slowed = slowedInward(picked(v, vec3(0), k) - bodyVelocityAt(body, start, T), n,
-                                 dot(n, place - picked(p, vec3(0), k)), T);
-      [[unroll]] for (int j = 0; j < RUN; ++j) {
-        if (j == k && kept.moved) {
-          p[j] = place;
-          v[j] += slowed;
+    do {
+      int begin = int(part) * kPart;
+      uint bits = 0;
+      [[dont_unroll]] do {
+        [[unroll]] for (int j = 0; j < kPart; ++j) {
+          int k = int(part) * kPart + j;
+          vec3 y1 = placeAtEnd(body, RINGLET_LOOK_AT(p, vec3(0), part, j));
+          float way = length(y1 - placeAtStart(body, RINGLET_LOOK_AT(pStart, vec3(0), part, j)));
+          bool isNear = bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance;
+          if (k < RUN && isFree(k) && isNear) bits |= 1u << (k - begin);
         }
-      }
-    } while (bits != 0);
+      } while (++part < kLookParts && !fillsWord(part));
+      if (bits != 0) do {
+        int k = begin + findLSB(bits);
+        bits &= bits - 1;
+        vec3 start = RINGLET_PICK(pStart, vec3(0), k);
+        KeptOut kept = keptOut(body.rest, placeAtStart(body, start), placeAtEnd(body, RINGLET_PICK(p, vec3(0), k)));
+        vec3 place = outOfBody(body, kept.place);
+        vec3 n = outward(body, kept.normal);
+        vec3 slowed = slowedInward(RINGLET_PICK(v, vec3(0), k) - bodyVelocityAt(body, start, T), n,
+                                   dot(n, place - RINGLET_PICK(p, vec3(0), k)), T);
+        if (kept.moved) {
+          RINGLET_AT(j, k, moveParticle(j, place, slowed))
+        }
+      } while (bits != 0);
+    } while (isAnotherWord(part));
     b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1);
   } while (b < parameters.bodyCount);
+}
+
+// Of two ways the one that is further, with its change of velocity.
+void furtherOf(inout vec3 shift, inout vec3 change, vec3 wanted, vec3 wantedChange) {
+  if (dot(wanted, wanted) <= dot(shift, shift)) return;
+  shift = wanted;
+  change = wantedChange;
 }
 
 // Edges leave at kLeaveSpeed at most; of two edges the one that moves a particle further.
@@ -264,56 +306,52 @@ void keepEdgesOut(uint step, Room room) {
   vec3 startNext = fromTipward(pStart[0], 1);
   vec3 shift[RUN];
   vec3 change[RUN];
-  [[unroll]] for (int k = 0; k < RUN; ++k) shift[k] = change[k] = vec3(0);
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) shift[k] = change[k] = vec3(0);
   vec3 nextShift = vec3(0);
   vec3 nextChange = vec3(0);
   if (isEdge(RUN - 1)) include(room, pNext);
   uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
-    uint bits = 0;
     float distanceBefore = 0.0;
     vec3 placeBefore = vec3(0);
     uint part = 0;
-    [[dont_unroll]] do {
-      [[unroll]] for (int j = 0; j < kPart; ++j) {
-        int k = int(part) * kPart + j;
-        vec3 here = pickedInPart(p, pNext, part, j);
-        float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
-        bool isNear = distance + distanceBefore <= 1.001 * length(here - placeBefore);
-        if (k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - 1);
-        distanceBefore = distance;
-        placeBefore = here;
-      }
-    } while (++part < kLookParts);
-    if (bits != 0) do {
-      int k = findLSB(bits);
-      bits &= bits - 1;
-      EdgeSurface deepest =
-          edgeDistance(body.rest, placeAtEnd(body, picked(p, pNext, k)), placeAtEnd(body, picked(p, pNext, k + 1)));
-      if (!deepest.isWithin || deepest.surface.distance >= 0.0) continue;
-      vec3 n = outward(body, deepest.surface.normal);
-      vec2 shares = vec2(1.0 - deepest.along, deepest.along);
-      vec2 part = shares / dot(shares, shares);
-      float outBy = min(-deepest.surface.distance, kLeaveSpeed * T);
-      vec3 start = shares.x * picked(pStart, startNext, k) + shares.y * picked(pStart, startNext, k + 1);
-      vec3 velocity = shares.x * picked(v, vNext, k) + shares.y * picked(v, vNext, k + 1);
-      vec3 slowed = slowedInward(velocity - bodyVelocityAt(body, start, T), n, outBy, T);
-      [[unroll]] for (int side = 0; side < 2; ++side) {
-        vec3 wanted = (part[side] * outBy) * n;
-        if (isPinnedAt(k + side)) continue;
-        [[unroll]] for (int j = 0; j < RUN; ++j) {
-          if (j == k + side && dot(wanted, wanted) > dot(shift[j], shift[j])) {
-            shift[j] = wanted;
-            change[j] = part[side] * slowed;
-          }
+    do {
+      int before = int(part) * kPart - 1;
+      uint bits = 0;
+      [[dont_unroll]] do {
+        [[unroll]] for (int j = 0; j < kPart; ++j) {
+          int k = int(part) * kPart + j;
+          vec3 here = RINGLET_LOOK_AT(p, pNext, part, j);
+          float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
+          bool isNear = distance + distanceBefore <= 1.001 * length(here - placeBefore);
+          if (k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - before - 1);
+          distanceBefore = distance;
+          placeBefore = here;
         }
-        if (k + side == RUN && dot(wanted, wanted) > dot(nextShift, nextShift)) {
-          nextShift = wanted;
-          nextChange = part[side] * slowed;
+      } while (++part < kLookParts && !fillsWord(part));
+      if (bits != 0) do {
+        int k = before + findLSB(bits);
+        bits &= bits - 1;
+        EdgeSurface deepest = edgeDistance(body.rest, placeAtEnd(body, RINGLET_PICK(p, pNext, k)),
+                                           placeAtEnd(body, RINGLET_PICK(p, pNext, k + 1)));
+        if (!deepest.isWithin || deepest.surface.distance >= 0.0) continue;
+        vec3 n = outward(body, deepest.surface.normal);
+        vec2 shares = vec2(1.0 - deepest.along, deepest.along);
+        vec2 part = shares / dot(shares, shares);
+        float outBy = min(-deepest.surface.distance, kLeaveSpeed * T);
+        vec3 start =
+            shares.x * RINGLET_PICK(pStart, startNext, k) + shares.y * RINGLET_PICK(pStart, startNext, k + 1);
+        vec3 velocity = shares.x * RINGLET_PICK(v, vNext, k) + shares.y * RINGLET_PICK(v, vNext, k + 1);
+        vec3 slowed = slowedInward(velocity - bodyVelocityAt(body, start, T), n, outBy, T);
+        [[unroll]] for (int side = 0; side < 2; ++side) {
+          vec3 wanted = (part[side] * outBy) * n;
+          if (isPinnedAt(k + side)) continue;
+          RINGLET_AT(j, k + side, furtherOf(shift[j], change[j], wanted, part[side] * slowed))
+          if (k + side == RUN) furtherOf(nextShift, nextChange, wanted, part[side] * slowed);
         }
-      }
-    } while (bits != 0);
+      } while (bits != 0);
+    } while (isAnotherWord(part));
     b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1);
   } while (b < parameters.bodyCount);
   vec3 rootwardShift = fromRootward(nextShift, 1);
@@ -322,7 +360,7 @@ void keepEdgesOut(uint step, Room room) {
     shift[0] = rootwardShift;
     change[0] = rootwardChange;
   }
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     p[k] += shift[k];
     v[k] += change[k];
   }
@@ -330,7 +368,7 @@ void keepEdgesOut(uint step, Room room) {
 
 void keepRunOut(uint step) {
   Room room = emptyRoom();
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     if (!isParticle(k)) continue;
     include(room, pStart[k]);
     include(room, p[k]);

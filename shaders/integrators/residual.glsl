@@ -2,9 +2,9 @@
 // in only where asked for.
 #include "equations/velocity_residual.glsl"
 
-void measureResidual(vec3 before[RUN]) {
+void measureResidual() {
   vec3 after[RUN];
-  [[unroll]] for (int k = 0; k < RUN; ++k) after[k] = v[k];
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) after[k] = v[k];
   vec3 forceBefore = forceFromRootward();
   vec3 vBefore = fromRootward(v[RUN - 1], 1);
   vec3 vNext = fromTipward(v[0], 1);
@@ -14,8 +14,8 @@ void measureResidual(vec3 before[RUN]) {
   if (lane == 0) rootwardEdge = voidEdge();
   float residualSquared = 0.0;
   float scaleSquared = 0.0;
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
-    v[k] = before[k];
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+    v[k] = vStart[k];
     vec3 rhs = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
     v[k] = after[k];
     ImplicitEdge edge = implicitEdgeOf(k);

@@ -1,11 +1,11 @@
-// The strand kernel, lanes x run: all outer steps of a dispatch for one strand, in registers; global memory is touched
-// at its start and end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose
-// stages these are, in the same order. Mirrored by reference/kernels/strand_step.h; one thread per strand:
-// strand_step_serial.comp. Loops ask after their body (do, or if and do): a driver that masks lanes (lavapipe) runs the
-// body of one that asks before it once more than it has turns. Specialized with RUN = particles per lane, the lanes per
-// strand and the integrator. With contacts every solve is a dispatch of its own; the last of a step moves the strand
-// and goes on to the next step's first. Compiled four times: `jacobi` by itself; with RINGLET_CONTACTS, contacts; with
-// RINGLET_SURROUNDINGS, contacts, bodies and air; with RINGLET_BASELINES, the other integrators.
+// The strand kernel, lanes x run: all outer steps of a dispatch for one strand; buffers are touched at its start and
+// end only. Model: Iben et al. 2012, sections 3 and 5, with the choices of reference/step.h, whose stages these are, in
+// the same order. Mirrored by reference/kernels/strand_step.h. Loops ask after their body (do, or if and do): a driver
+// that masks lanes (lavapipe) runs the body of one that asks before it once more than it has turns. Specialized with
+// RUN = particles per lane, the lanes per strand and the integrator. With contacts every solve is a dispatch of its
+// own; the last of a step moves the strand and goes on to the next step's first. Compiled for `jacobi` by itself; with
+// RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies and air; with RINGLET_BASELINES, the other
+// integrators; each with the run in registers and, with RINGLET_IN_MEMORY, in memory (scan/lanes.glsl).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -25,9 +25,8 @@
 #include "scan/lanes.glsl"
 #include "scan/prefix_sum.glsl"
 
-// This lane's run: particle k and its edge to k + 1. Every loop over a run says [[unroll]]: left to themselves, drivers
-// unroll some, and an array that is indexed by a variable anywhere lives in memory, lane by lane (lavapipe: 3 x slower
-// and 4 x longer to compile).
+// This lane's run: particle k and its edge to k + 1. Every loop over a run says RINGLET_OVER_RUN. No function takes a
+// whole run: in memory it would be copied, element by element and unrolled.
 vec3 p[RUN];
 vec3 v[RUN];
 vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest
@@ -48,6 +47,7 @@ vec3 directionBefore[RUN];  // of the frame before the edge; its normal, but for
 vec3 normalBefore[RUN];
 vec3 directionAfter;        // of the frame after the run
 vec3 normalAfter;
+vec3 vStart[RUN];   // velocities before the solve
 float coreScale;    // blend of the core's constants
 
 // What the report will say:
@@ -70,7 +70,7 @@ void loadStrand() {
   vec3 direction = restDirection();
   vec3 normal = someNormal(direction);
   vec3 binormal = cross(direction, normal);
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     bool real = isParticle(k);
     uint i = strand.firstParticle + (real ? first + k : 0);
     p[k] = real ? positionAtStart(i) : vec3(0);
@@ -97,7 +97,7 @@ float bendDampingOf(int k) {
 void measureEdges() {
   vec3 pNext = fromTipward(p[0], 1);
   vec3 vNext = fromTipward(v[0], 1);
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
     dv[k] = (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k];
     float squared = dot(e[k], e[k]);
@@ -119,7 +119,7 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
   FilterState velocity = velocityStartState;
   if (kLanes > 1) {
     if (lane > 0) bend = core = velocity = emptyFilter();
-    [[unroll]] for (int k = 0; k < RUN; ++k) {
+    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
       smoothNext(bend, e[k], strand.bendBeta);
       if (!kOneSmoothing) smoothNext(core, e[k], strand.coreBeta);
       smoothNext(velocity, dv[k], strand.coreBeta);
@@ -135,7 +135,7 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
   // The paper damps in its own loop.
   float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping * share;
   float coreLength = 0.0;
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     smoothNext(bend, e[k], strand.bendBeta);
     if (!kOneSmoothing) smoothNext(core, e[k], strand.coreBeta);
     smoothNext(velocity, dv[k], strand.coreBeta);
@@ -172,7 +172,7 @@ vec4 frameAfter(int k, vec2 twist) {
 // Frames carried along the smoothed curve, each edge's target in the frame before it, stretch and bend springs.
 void shapeForces() {
   vec2 twist = twistOfRun(directionBefore[0], normalBefore[0], normalAfter);
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     vec3 direction = directionBefore[k];
     vec3 normal = normalBefore[k];
     vec4 rest = restTarget[k];
@@ -197,16 +197,16 @@ void coreForces() {
   if (kIntegrator != kIntegratorPaper) {
     FilterState state = emptyFilter();
     if (kLanes > 1) {
-      [[unroll]] for (int k = RUN - 1; k >= 0; --k) smoothNext(state, h[k], strand.coreBeta);
+      RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) smoothNext(state, h[k], strand.coreBeta);
       state = filterBeyondRun(state, strand.coreBeta);
     }
-    [[unroll]] for (int k = RUN - 1; k >= 0; --k) {
+    RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
       smoothNext(state, h[k], strand.coreBeta);
       h[k] = state.d;
     }
     scale *= smoothedShare(strand.coreBeta);
   }
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     h[k] *= scale;
     if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(h[k], 0));
     force[k] += h[k];
@@ -238,13 +238,11 @@ vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN -
 // The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is
 // one solve in the code.
 void solveAmongBodies(uint step, vec3 pinned[3]) {
-  vec3 before[RUN];
-  [[unroll]] for (int k = 0; k < RUN; ++k) before[k] = v[k];
   clearPushes();
   bool pushed = false;
   uint turn = 0;
   do {
-    [[unroll]] for (int k = 0; k < RUN; ++k) v[k] = before[k];
+    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) v[k] = vStart[k];
     solveStrandBlock(pinned);
     if (turn == 0) pushed = findPushes(step);
     if (turn == 1) addFriction();
@@ -258,8 +256,7 @@ void solveVelocities(uint step) {
   [[unroll]] for (int k = 0; k < 3; ++k) {
     pinned[k] = pinnedVelocity(step, k);
   }
-  vec3 before[RUN];
-  [[unroll]] for (int k = 0; k < RUN; ++k) before[k] = v[k];
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) vStart[k] = v[k];
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) feelAir(step);
   if (kBodies) solveAmongBodies(step, pinned);
@@ -275,8 +272,8 @@ void solveVelocities(uint step) {
   if (kIntegrator == kIntegratorPointJacobi) iteratePointJacobi(pinned);
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
 #endif
-  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual(before);
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual();
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
   }
 }
@@ -286,7 +283,7 @@ void solveVelocities(uint step) {
 bool limitEdges(bool velocitiesFollow) {
   vec3 shift = vec3(0);
   uint limited = 0;
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     float share = isPinned(k + 1) ? 0.0 : limitedEdgeShare(e[k], restEdge[k].y);
     limited += share < 0.0 ? 1 : 0;
     vec3 edge = e[k];
@@ -294,7 +291,7 @@ bool limitEdges(bool velocitiesFollow) {
     shift += share * edge;
   }
   vec3 before = sumBeforeRun(shift);
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     vec3 s = isPinned(k) ? vec3(0) : before + e[k];
     p[k] += s;
     if (velocitiesFollow) v[k] += (1.0 / stepSeconds()) * s;
@@ -312,7 +309,7 @@ void keepAmongBodies(uint step) {
     keepRunOut(step);
     if (round == kKeepOutRounds) break;
     vec3 pNext = fromTipward(p[0], 1);
-    [[unroll]] for (int k = 0; k < RUN; ++k) e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
+    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
     again = limitEdges(false);
     ++round;
   } while (again);
@@ -323,11 +320,11 @@ void keepAmongBodies(uint step) {
 void moveAndLimit(uint step) {
   float T = stepSeconds();
 #ifdef RINGLET_SURROUNDINGS
-  [[unroll]] for (int k = 0; k < RUN; ++k) pStart[k] = p[k];
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) pStart[k] = p[k];
 #endif
   // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
   vec3 vNext = fromTipward(v[0], 1);
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
     e[k] += T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
   }
@@ -340,7 +337,7 @@ void moveAndLimit(uint step) {
 void storeStrand(uint strandIndex) {
   uint nonfinite = 0;
   uint firstNonfinite = ~0u;
-  [[unroll]] for (int k = RUN - 1; k >= 0; --k) {
+  RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
     if (!isParticle(k)) continue;
     uint i = strand.firstParticle + first + k;
     positions[i] = vec4(p[k], 0);  // whole records: parts of one cost lavapipe more
@@ -369,7 +366,7 @@ void storeStrand(uint strandIndex) {
 
 #ifdef RINGLET_CONTACTS
 void storeSolved() {
-  [[unroll]] for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     if (isParticle(k)) solved[strand.firstParticle + first + k] = vec4(v[k], 0);
   }
 }
@@ -377,7 +374,7 @@ void storeSolved() {
 
 // The forces of a step, from positions and velocities at its start.
 void computeForces(uint step) {
-  [[unroll]] for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
   measureEdges();
   vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge);
   vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
@@ -411,8 +408,7 @@ void main() {
   if (kContacts && control.isHalted != 0) return;
 #endif
   findLane();
-  uint invocation = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
-  uint strandIndex = parameters.strandBegin + invocation / kLanes;
+  uint strandIndex = parameters.strandBegin + invocationOfDispatch() / kLanes;
   // No early return: the lanes of an idle strand repeat the last one and store nothing, so that every shuffle is whole.
   bool idle = strandIndex >= parameters.strandEnd;
   strandAt = min(strandIndex, parameters.strandEnd - 1);

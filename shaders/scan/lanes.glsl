@@ -1,21 +1,57 @@
 // Lanes x run: a strand's particles are cut into kLanes runs of RUN consecutive ones, and each subgroup invocation
-// keeps one run in registers. Several strands share a subgroup; kLanes is a power of two no larger than the subgroup.
+// keeps one run, in registers or with RINGLET_IN_MEMORY in its own memory. Several strands share a subgroup; kLanes is
+// a power of two no larger than the subgroup. With RINGLET_ONE_LANE a strand has one lane, on devices without subgroup
+// operations too: what comes from other lanes is never used there.
 //
 //   strand   o-o-o-o | o-o-o-o | o-o-o-o | o-o          RUN = 4, kLanes = 4
 //   lane        0         1         2       3
 #ifndef RINGLET_LANES
 #define RINGLET_LANES
 
+// 4 to 64, in memory 1,024; arrays of such a size GLSL copies only element by element.
+layout(constant_id = kSpecRun) const int RUN = 16;
+// Before every loop over a run. In registers it must be unrolled: an array that is indexed by a variable anywhere lives
+// in memory, lane by lane (lavapipe: 6 x slower).
+#ifdef RINGLET_IN_MEMORY
+#define RINGLET_OVER_RUN [[dont_unroll]]
+const bool kInMemory = true;
+#else
+#define RINGLET_OVER_RUN [[unroll]]
+const bool kInMemory = false;
+#endif
+
+#ifdef RINGLET_ONE_LANE
+
+const uint kLanes = 1;
+const uint lane = 0;
+
+void findLane() {}
+uint invocationOfDispatch() { return gl_GlobalInvocationID.x; }
+
+float fromRootward(float x, uint offset) { return x; }
+vec2 fromRootward(vec2 x, uint offset) { return x; }
+vec3 fromRootward(vec3 x, uint offset) { return x; }
+vec4 fromRootward(vec4 x, uint offset) { return x; }
+vec3 fromTipward(vec3 x, uint offset) { return x; }
+
+float sumOverStrand(float x) { return x; }
+uint sumOverStrand(uint x) { return x; }
+float maxOverStrand(float x) { return x; }
+uint minOverStrand(uint x) { return x; }
+
+#else
+
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_shuffle : require
 
 layout(constant_id = kSpecLanes) const uint kLanes = 1;
-// 4 to 64; arrays of such a size GLSL copies only element by element.
-layout(constant_id = kSpecRun) const int RUN = 16;
 
 uint lane;  // this invocation's place along its strand, 0 at the root
 
 void findLane() { lane = gl_SubgroupInvocationID & (kLanes - 1); }
+uint invocationOfDispatch() {
+  return gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
+}
 
 // Source invocation `offset` lanes towards the root or the tip; where there is none, this one itself, whose value the
 // caller must not use.
@@ -47,5 +83,7 @@ uint minOverStrand(uint x) {
   [[unroll]] for (uint o = 1; o < kLanes; o *= 2) x = min(x, subgroupShuffle(x, gl_SubgroupInvocationID ^ o));
   return x;
 }
+
+#endif
 
 #endif

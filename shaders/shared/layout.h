@@ -49,8 +49,7 @@ RINGLET_CONSTANT uint kBindVelocities = 1;  // vec4[particles]: velocity relativ
 RINGLET_CONSTANT uint kBindParticles = 2;   // ParticleRest[particles]
 RINGLET_CONSTANT uint kBindStrands = 3;     // StrandRest[strands]
 RINGLET_CONSTANT uint kBindReports = 4;     // StrandReport[strands]
-RINGLET_CONSTANT uint kBindScratch = 5;     // serial form: vec4[particles][kScratchPerParticle]; taps:
-                                            // vec4[field][particles]
+RINGLET_CONSTANT uint kBindTaps = 5;        // vec4[field][particles]
 RINGLET_CONSTANT uint kBindPoses = 6;       // uniform: StepPose[kMaxStepPoses]
 // And of those that solve with contacts:
 RINGLET_CONSTANT uint kBindSolved = 7;          // vec4[particles]: the solve's last iterate v^k [m/s], 0
@@ -92,20 +91,12 @@ RINGLET_CONSTANT uint kIntegratorPaper = 2;
 // Within 16 KiB, the smallest uniform buffer Vulkan guarantees: 340 outer steps in a frame and the pose it starts from.
 RINGLET_CONSTANT uint kMaxStepPoses = 341;
 RINGLET_CONSTANT uint kMaxRootCount = 3;
-RINGLET_CONSTANT uint kScratchPerParticle = 8;
-RINGLET_CONSTANT uint kBodyScratch = 7;  // more of it, where there are bodies
-RINGLET_CONSTANT uint kAirScratch = 2;   // or air
 RINGLET_CONSTANT uint kWindWaves = 12;   // modes of the turbulent wind: a multiple of 4
 
-// Parts of an outer step. A dispatch of the serial form may do only some: where one step of a long strand would exceed
-// what an invocation may loop on this device, its solve is spread over several dispatches.
-RINGLET_CONSTANT uint kPhaseSprings = 1;
-RINGLET_CONSTANT uint kPhaseSolve = 2;
-RINGLET_CONSTANT uint kPhaseMove = 4;
-RINGLET_CONSTANT uint kPhaseAll = 7;
 // With contacts a step is several dispatches: the solve without contacts, then iterations with them, the last of which
-// moves. This one makes the solve of step stepBegin an iteration with the contacts' systems.
-RINGLET_CONSTANT uint kPhaseContacts = 8;
+// moves. What the dispatch's solve of step stepBegin is:
+RINGLET_CONSTANT uint kPhaseMove = 1;      // the last: the strand moves, and goes on to the next step's first
+RINGLET_CONSTANT uint kPhaseContacts = 2;  // an iteration with the contacts' systems
 
 // Fields the kernels write when compiled with RINGLET_TAPS, each vec4[particles]; an edge's fields stand at its
 // particle i.
@@ -237,9 +228,7 @@ struct StepParameters {
   uint forceLoops;
   uint dampingLoops;
   uint particleCount;  // of the chunk: stride of the taps
-  uint phases;         // serial form: which parts of the step to do
-  uint loopBegin;      // serial form: which of the solve's iterations (point_jacobi) or force loops (paper) to do
-  uint loopEnd;
+  uint phases;         // with contacts: kPhaseMove, kPhaseContacts
   uint bodyCount;
   float dragStrength;  // g / U^2, U the fall speed [1/m]
   float dragAlong;     // share of drag that what passes along a strand has

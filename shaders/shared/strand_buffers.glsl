@@ -42,7 +42,7 @@ layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]
 layout(set = 0, binding = kBindParticles) readonly buffer Particles { ParticleRest particles[]; };
 layout(set = 0, binding = kBindStrands) readonly buffer Strands { StrandRest strands[]; };
 layout(set = 0, binding = kBindReports) buffer Reports { StrandReport reports[]; };
-layout(set = 0, binding = kBindScratch) buffer Scratch { vec4 scratch[]; };
+layout(set = 0, binding = kBindTaps) buffer Taps { vec4 taps[]; };
 layout(set = 0, binding = kBindPoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
 layout(set = 0, binding = kBindOutsideForces) readonly buffer Forces { vec4 forces[]; };
 layout(set = 0, binding = kBindPositionTexels) uniform usamplerBuffer positionTexels;
@@ -121,7 +121,7 @@ bool isFiniteVec3(vec3 x) { return !(any(isnan(x)) || any(isinf(x))); }
 
 #ifdef RINGLET_TAPS
 #define RINGLET_TAP(field, particle, value) \
-  scratch[(field) * parameters.particleCount + strand.firstParticle + (particle)] = (value)
+  taps[(field) * parameters.particleCount + strand.firstParticle + (particle)] = (value)
 #else
 #define RINGLET_TAP(field, particle, value)
 #endif

@@ -109,6 +109,8 @@ void checkSameBits(const ComputeDevice& one, const ComputeDevice& other, const G
         .compileSeconds = clock.seconds()});
 }
 
+constexpr StrandShape kSerialShape{.lanes = 1, .particlesPerLane = 128, .inMemory = true};
+
 // Full strands, strands that end about the end of a lane, and short ones.
 Groom groomOf(const StrandShape& shape) {
   if (shape.serial()) return parity::randomGroom({2, 3, 31, 64, 100, 16, 17, 65, 128}, 7);
@@ -120,8 +122,10 @@ Groom groomOf(const StrandShape& shape) {
 }
 
 KernelChoice kernelOf(const StrandShape& shape) {
-  if (shape.serial()) return {.form = KernelChoice::Form::serial};
-  return {.form = KernelChoice::Form::lanes,
+  using Form = KernelChoice::Form;
+  return {.form = shape.serial()   ? Form::serial
+                  : shape.inMemory ? Form::memory
+                                   : Form::lanes,
           .particlesPerLane = static_cast<int>(shape.particlesPerLane),
           .lanes = static_cast<int>(shape.lanes)};
 }
@@ -161,7 +165,10 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
                  work == StrandWork::hairAlone && holdsSixtyFour, tell);
     }
   }
-  checkShape(cases, StrandShape{}, {}, "hair alone, serial", !cases.quick, tell);
+  checkShape(cases, kSerialShape, {}, "hair alone, serial", !cases.quick, tell);
+  if (cases.quick || !limits.hasSubgroupShuffle || limits.subgroupSize == 1) return;
+  const StrandShape widest{.lanes = limits.subgroupSize, .particlesPerLane = 48, .inMemory = true};
+  checkShape(cases, widest, {}, "hair alone, " + widest.describe(), false, tell);
 }
 
 // `count` points at random in a cube of `side` [m].

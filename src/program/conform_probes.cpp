@@ -148,7 +148,7 @@ void probeShuffles(const ComputeDevice& device, const Tell& tell) {
   if (!p.hasSubgroupShuffle) {
     return tell({.name = name,
                  .outcome = Outcome::skipped,
-                 .detail = "this device has no subgroup shuffles; hair runs in the serial form"});
+                 .detail = "this device has no subgroup shuffles; hair runs in one lane a strand"});
   }
   constexpr std::uint32_t n = kInvocations, kMostLanes = 128;
   const Words values = mixedWords(n);

@@ -63,7 +63,8 @@ class GpuBackend : public Backend {
 bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
   const ContactKinds kinds{.pairs = input.settings.contacts.on};
   return strandWork(input.settings, input.material, kinds, !input.bodies.empty()) == StrandWork::hairAlone &&
-         kernel.form != KernelChoice::Form::serial && (kernel.lanes == 0 || kernel.particlesPerLane == 0);
+         (kernel.form == KernelChoice::Form::automatic || kernel.form == KernelChoice::Form::lanes) &&
+         (kernel.lanes == 0 || kernel.particlesPerLane == 0);
 }
 
 }  // namespace

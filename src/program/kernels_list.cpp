@@ -36,6 +36,8 @@ std::vector<Work> strandWorks() {
           {"paper", StrandWork::plain, {.integrator = Integrator::paper, .oneSmoothing = true}}};
 }
 
+constexpr StrandShape kSerialShape{.lanes = 1, .particlesPerLane = 64, .inMemory = true};
+
 }  // namespace
 
 std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
@@ -44,7 +46,7 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
   for (Work& work : strandWorks()) {
     work.options.texels = texels && !work.options.contacts;
     std::vector<StrandShape> shapes = plannedShapes(device.limits(), work.shapes, kUsualLengths, true);
-    if (std::ranges::find(shapes, StrandShape{}) == shapes.end()) shapes.push_back(StrandShape{});
+    if (std::ranges::none_of(shapes, &StrandShape::serial)) shapes.push_back(kSerialShape);
     for (const StrandShape& shape : shapes)
       kernels.push_back({fmt::format("strand_step, {}, {}", work.name, shape.describe()),
                          describeStrandKernel(shape, work.options)});

@@ -191,11 +191,11 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
     throw CLI::ValidationError("--untuned", "only --backend gpu is ever tuned");
   if ((typed.lanes || typed.run) && (typed.backend == "reference" || typed.kernel == "serial")) {
     throw CLI::ValidationError(typed.lanes ? "--lanes" : "--run",
-                               "only --backend gpu with --kernel auto or lanes has lanes and runs");
+                               "only --backend gpu with --kernel auto, lanes or memory has lanes and runs");
   }
   if (typed.subgroup && (typed.backend == "reference" || typed.kernel == "serial")) {
     throw CLI::ValidationError("--subgroup",
-                               "only --backend gpu with --kernel auto or lanes asks for subgroups");
+                               "only --backend gpu with --kernel auto, lanes or memory asks for subgroups");
   }
 }
 
@@ -208,6 +208,7 @@ RunOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   using Form = KernelChoice::Form;
   options.kernel.residual = typed.json;
   options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
+                        : typed.kernel == "memory" ? Form::memory
                         : typed.kernel == "serial" ? Form::serial
                         : typed.lanes || typed.run ? Form::lanes
                                                    : Form::automatic;
@@ -433,8 +434,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   addDeviceOption(*command, typed->device)->group(machine);
   command
       ->add_option("--kernel", typed->kernel,
-                   "Form of the strand kernel: auto, lanes or serial (default auto)")
-      ->check(oneOf({"auto", "lanes", "serial"}))
+                   "Form of the strand kernel: lanes, whose runs are in registers; memory, whose runs are in "
+                   "memory, slower and for long strands; serial, in memory and one lane a strand; or "
+                   "auto (default auto)")
+      ->check(oneOf({"auto", "lanes", "memory", "serial"}))
       ->type_name("FORM")
       ->group(machine);
   command
@@ -447,9 +450,9 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--run", typed->run,
                    "Particles a lane holds, 4 to 16, on a CPU device to 24, and to 64 in one, two or the "
-                   "most lanes (default: "
+                   "most lanes; in memory to 1024 (default: "
                    "chosen by device and length)")
-      ->check(wholeBetween(kShortestRun, kLongestRun))
+      ->check(wholeBetween(kShortestRun, kLongestRunInMemory))
       ->type_name("K")
       ->group(machine);
 

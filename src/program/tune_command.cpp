@@ -32,7 +32,8 @@ constexpr const char* kHelp =
     "  ringlet tune groom.hair --seconds 60\n"
     "  ringlet tune --particles 24 100 --device 0\n"
     "\n"
-    "A strand is laid over a device as lanes x run, or one thread a strand (serial). Which shape is fastest\n"
+    "A strand is laid over a device as lanes x run, or in one lane in memory (serial). Which shape is "
+    "fastest\n"
     "is the device's matter: tune times them in turn, each held against another first, and remembers device\n"
     "times in strand_shapes.toml in $RINGLET_CACHE_DIR (else $XDG_CACHE_HOME/ringlet, ~/.cache/ringlet).\n"
     "`simulate` and `scene` then choose by these where hair is alone (jacobi; no contacts, bodies or air), "
@@ -72,7 +73,7 @@ nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& ou
   for (const TimedShape& one : outcome.timed) {
     json["shapes"].push_back({{"particles", one.particleCount},
                               {"shape", one.shape.describe()},
-                              {"lanes", one.shape.lanes},
+                              {"lanes", one.shape.serial() ? 0 : one.shape.lanes},
                               {"run", one.shape.particlesPerLane},
                               {"subgroup", one.subgroupSize},
                               {"ns_per_particle_step", one.nanoseconds},

@@ -25,7 +25,6 @@ constexpr double kLength = 0.25;     // of the strands [m]
 constexpr int kFewestRounds = 3, kMostRounds = 101;
 constexpr double kShareForMaking = 0.7;  // of the time; the rest is for rounds
 // Of each length, so that no lane of the device is idle: two cores have some 16 lanes, large GPUs 300,000.
-// Beyond a million the serial form's scratch (128 bytes each) may not fit one buffer.
 constexpr std::uint32_t kParticlesOnCpu = 1 << 16, kParticlesOnGpu = 1 << 20;
 
 // Where the head is at the end of the frame that verifies: aside and turned.
@@ -49,19 +48,19 @@ struct Entry {
   bool isOfPair = false;
 };
 
-// Of each number of lanes the shortest run that holds a strand, those first which the model likes; then the
-// serial form: with the longest strands, and where another would have none to be held against.
+// Of each number of lanes the shortest run that holds a strand, those first which the model likes; then one
+// lane in memory: with the longest strands, and where another would have none to be held against.
 std::vector<Entry> entriesOf(std::uint32_t particleCount, bool isLongest, const DeviceLimits& limits) {
   std::vector<ShapeCost> costs = shapeCosts(limits);
   std::erase_if(costs, [&](const ShapeCost& c) {
     const std::uint32_t lanes = c.shape.lanes;
-    if (lanes == 0) return true;
+    if (c.shape.inMemory) return true;
     const std::uint32_t run = std::max(kShortestRun, (particleCount + lanes - 1) / lanes);
     const bool hasIdleLanes = lanes > 1 && particleCount <= (lanes / 2) * kShortestRun;
     return c.shape.particlesPerLane != run || hasIdleLanes;
   });
   std::ranges::stable_sort(costs, {}, &ShapeCost::nanoseconds);
-  if (isLongest || costs.size() < 2) costs.push_back({});
+  if (isLongest || costs.size() < 2) costs.push_back({kAnySerialShape, 0});
   std::vector<Entry> entries;
   if (costs.size() < 2) return entries;  // no choice
   for (const ShapeCost& c : costs)
@@ -75,7 +74,7 @@ DeviceLimits atWidth(DeviceLimits limits, std::uint32_t subgroupSize) {
 }
 
 // The pairs of all lengths and widths first, in case time runs out; the device's default width before others.
-// The serial form asks for no width.
+// One lane in memory asks for no width.
 std::vector<Entry> allEntries(std::span<const std::uint32_t> lengths, const DeviceLimits& limits) {
   std::vector<Entry> all;
   for (const std::uint32_t width : subgroupSizes(limits)) {
@@ -114,7 +113,7 @@ struct Runner {
     if (!groom) return groom.error();
     KernelChoice choice;
     choice.form = entry.shape.serial() ? KernelChoice::Form::serial : KernelChoice::Form::lanes;
-    choice.lanes = static_cast<int>(entry.shape.lanes);
+    choice.lanes = entry.shape.serial() ? 0 : static_cast<int>(entry.shape.lanes);
     choice.particlesPerLane = static_cast<int>(entry.shape.particlesPerLane);
     choice.subgroupSize = static_cast<int>(entry.subgroupSize);
     auto simulation = Simulation::create(device, *groom, {}, Settings{}, {}, choice);
@@ -224,7 +223,7 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
   const std::vector<Entry> entries = allEntries(options.lengths, limits);
   if (entries.empty())
     return Error{
-        fmt::format("{} has only the serial form for strands of {} particles; there is nothing to choose",
+        fmt::format("{} has only one lane in memory for strands of {} particles; there is nothing to choose",
                     device.name(), options.lengths.back())};
   TuneOutcome outcome;
   ProgressBar progress(0, static_cast<int>(std::ceil(options.seconds)), options.showProgress, "second");

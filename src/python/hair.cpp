@@ -51,10 +51,12 @@ KernelChoice kernelOf(const AssetChoice& choice) {
   KernelChoice kernel;
   if (choice.kernel == "lanes") {
     kernel.form = KernelChoice::Form::lanes;
+  } else if (choice.kernel == "memory") {
+    kernel.form = KernelChoice::Form::memory;
   } else if (choice.kernel == "serial") {
     kernel.form = KernelChoice::Form::serial;
   } else if (choice.kernel != "auto") {
-    throw py::value_error(unknownName("kernel", choice.kernel, {"auto", "lanes", "serial"}));
+    throw py::value_error(unknownName("kernel", choice.kernel, {"auto", "lanes", "memory", "serial"}));
   }
   if (choice.heads < 1) throw py::value_error(fmt::format("heads must be 1 or more, got {}", choice.heads));
   kernel.movingRoots = choice.movesRoots;
@@ -454,7 +456,8 @@ void addAsset(py::module_& module) {
            "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
            "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
            "act on them from outside; heads: about how many will "
-           "have this hair; kernel: \"auto\", \"lanes\" or \"serial\". ringlet.Error, with what to do, for "
+           "have this hair; kernel: \"auto\", \"lanes\", \"memory\" or \"serial\". ringlet.Error, with what "
+           "to do, for "
            "settings that do not go together or a device without enough memory.")
       .def_property_readonly(
           "device", [](const AssetObject& a) { return a.device; }, "The Device.")

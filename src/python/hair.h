@@ -38,7 +38,7 @@ using AssetHandle = std::shared_ptr<AssetObject>;
 struct AssetChoice {
   bool hasBodies = false, movesRoots = false, hasForces = false;
   int heads = 1;
-  std::string kernel = "auto";  // or lanes, serial
+  std::string kernel = "auto";  // or lanes, memory, serial
 };
 AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
                        Settings settings, const AssetChoice& choice);

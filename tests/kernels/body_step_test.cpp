@@ -25,6 +25,8 @@ const std::vector<Variant> kVariants = {
     {"automatic, mixed", {}, {2, 3, 31, 64, 100, 16, 17, 64, 65, 5, 33, 128, 127}},
     {"lanes of 4", {KernelChoice::Form::automatic, 4}, {17, 31, 32, 18, 24, 29}},
     {"lanes of 8", {KernelChoice::Form::automatic, 8}, {33, 64, 63, 40, 49, 57}},
+    {"2 lanes of 70 in memory", {KernelChoice::Form::memory, 70, 2}, {2, 139, 71, 70, 69, 140, 62, 31}},
+    {"4 lanes of 33 in memory", {KernelChoice::Form::memory, 33, 4}, {132, 131, 34, 33, 64, 66, 99, 100}},
     {"serial", {KernelChoice::Form::serial}, {2, 3, 31, 64, 100, 16, 17, 64, 65, 5, 33, 128, 127}},
 };
 

@@ -39,9 +39,9 @@ std::uint32_t mostOfContacts() {
   return most;
 }
 
-const std::vector<StrandShape> kForms{{.lanes = 4, .particlesPerLane = 4}, {}};  // lanes; serial
+const std::vector<StrandShape> kForms{{4, 4}, {4, 4, true}, {1, 16, true}};  // lanes, memory, serial
 
-// What a device is asked for is what hair alone needs, in either form.
+// What a device is asked for is what hair alone needs, in any form.
 TEST(BoundBuffers, HairAloneNeedsWhatDevicesAreAskedFor) {
   std::uint32_t most = 0;
   for (const StrandShape& form : kForms) most = std::max(most, storageCount(describeStrandKernel(form, {})));
@@ -78,7 +78,7 @@ TEST(BoundBuffers, KernelsBindNothingOfWhatTheyLack) {
         EXPECT_FALSE(bindsAny(alone, contacts));
         EXPECT_FALSE(bindsAny(alone, world));
         EXPECT_FALSE(bindsAny(alone, {layout::kBindSolved}));
-        EXPECT_EQ(bindsAny(alone, {layout::kBindScratch}), taps || form.serial());
+        EXPECT_EQ(bindsAny(alone, {layout::kBindTaps}), taps);
       }
       EXPECT_TRUE(bindsAny(numbersOf({.contacts = true}), contacts));
       EXPECT_TRUE(bindsAny(numbersOf({.bodies = true}), world));
@@ -133,7 +133,9 @@ TEST_F(FewBuffers, WhatNeedsMoreIsRefusedWithNumbers) {
                                           fmt::format("the device has {}", kFew), remedy});
   };
   for (const StrandShape& form : kForms) {
-    const KernelChoice kernel{.form = form.serial() ? KernelChoice::Form::serial : KernelChoice::Form::lanes};
+    const KernelChoice kernel{.form = form.serial()   ? KernelChoice::Form::serial
+                                      : form.inMemory ? KernelChoice::Form::memory
+                                                      : KernelChoice::Form::lanes};
     const std::uint32_t needed = storageCount(describeStrandKernel(form, {.bodies = true}));
     ASSERT_GT(needed, kFew);
     expectRefusal(make(*few, {}, kernel, true), needed, "leave out contacts, bodies and air");

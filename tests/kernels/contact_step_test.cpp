@@ -63,8 +63,9 @@ class ContactStep : public GpuTest {
 };
 
 TEST_F(ContactStep, AStepFromAWildStateAgrees) {
-  for (const KernelChoice& kernel : {KernelChoice{}, KernelChoice{KernelChoice::Form::automatic, 4},
-                                     KernelChoice{KernelChoice::Form::serial}}) {
+  for (const KernelChoice& kernel :
+       {KernelChoice{}, KernelChoice{KernelChoice::Form::automatic, 4},
+        KernelChoice{KernelChoice::Form::memory, 70, 2}, KernelChoice{KernelChoice::Form::serial}}) {
     for (const auto& [friction, taper] :
          {std::pair{0.0, ContactTaper::distance}, {0.5, ContactTaper::distance}, {0.5, ContactTaper::time}}) {
       for (const int iterations : {1, 2, 5}) {
@@ -77,7 +78,9 @@ TEST_F(ContactStep, AStepFromAWildStateAgrees) {
             randomGroom({64, 31, 64, 100, 17, 2, 64, 33, 128, 64, 3, 31}, 3), {}, settings, kernel, 5};
         const auto errors = oneStepErrors(device(), c);
         const std::string label = fmt::format("{}, {}, friction {}, {} iterations",
-                                              kernel.form == KernelChoice::Form::serial ? "serial" : "lanes",
+                                              kernel.form == KernelChoice::Form::serial   ? "serial"
+                                              : kernel.form == KernelChoice::Form::memory ? "memory"
+                                                                                          : "lanes",
                                               nameOf(taper), friction, iterations);
         fmt::print("{:<36} {}\n", label, toText(errors));
         for (const FieldError& e : errors)
@@ -87,7 +90,7 @@ TEST_F(ContactStep, AStepFromAWildStateAgrees) {
   }
 }
 
-// In both forms. A shaken swatch: lists live for some steps, are made anew, and grow. Every pair the
+// In every form. A shaken swatch: lists live for some steps, are made anew, and grow. Every pair the
 // reference finds by its own grid in every step is found, and remembers the same.
 TEST_F(ContactStep, FramesAgreeWithDouble) {
   struct Case {
@@ -98,7 +101,8 @@ TEST_F(ContactStep, FramesAgreeWithDouble) {
   const KernelChoice serial{KernelChoice::Form::serial};
   for (const auto& [prune, kernel, taper] :
        {Case{false, {}}, Case{true, {}}, Case{true, {.particlesPerLane = 8}}, Case{true, serial},
-        Case{false, serial}, Case{false, {}, ContactTaper::time}, Case{true, serial, ContactTaper::time}}) {
+        Case{true, {KernelChoice::Form::memory, 9, 4}}, Case{false, serial},
+        Case{false, {}, ContactTaper::time}, Case{true, serial, ContactTaper::time}}) {
     Settings settings = meetingSettings();
     settings.contacts.taper = taper;
     settings.contacts.prunePairs = prune;

@@ -40,10 +40,11 @@ TEST_F(Memory, OfAParticleAndAStrand) {
   EXPECT_EQ(plain.world, 341u * 48);
   EXPECT_EQ(plain.frames, 2 * (16 * particleCount_ + 341 * 48));
   EXPECT_EQ(plain.total(), plain.particles + plain.strands + plain.world + plain.frames);
-  EXPECT_EQ(of({}, {}, true).particles, 64 * particleCount_) << "bodies cost lanes nothing";
-  EXPECT_EQ(of({}, serial).particles, (64 + 128) * particleCount_);
-  EXPECT_EQ(of({}, serial, true).particles, (64 + 128 + 128) * particleCount_);
-  EXPECT_EQ(of(airy, serial).particles, (64 + 128 + 32) * particleCount_);
+  for (const KernelChoice& kernel : {KernelChoice{}, serial}) {
+    EXPECT_EQ(of({}, kernel).particles, 64 * particleCount_);
+    EXPECT_EQ(of({}, kernel, true).particles, 64 * particleCount_) << "bodies cost particles nothing";
+    EXPECT_EQ(of(airy, kernel).particles, 64 * particleCount_);
+  }
   const DeviceMemory moving = of({}, {.movingRoots = true});
   EXPECT_EQ(moving.rootPoses, 64 * (8 + 1) * strandCount_);
   EXPECT_EQ(moving.frames, plain.frames + 2 * moving.rootPoses);

@@ -1,5 +1,6 @@
-// Every shape (lanes x run) that the device offers, against the double reference: what `--lanes`, `--run`,
-// KernelChoice and the plan can choose. Mirrors shaders/kernels/strand_step.comp and shaders/scan/.
+// Every shape (lanes x run, in registers and in memory) that the device offers, against the double reference:
+// what `--lanes`, `--run`, KernelChoice and the plan can choose. Mirrors shaders/kernels/strand_step.comp and
+// shaders/scan/.
 //
 // A driver compiles each run anew, and lavapipe takes a quarter of an hour for all of them. So only with
 // RINGLET_EVERY_SHAPE=1 all are tested; without, those at which the code changes its course: the binary
@@ -34,6 +35,12 @@ bool isEveryShapeWanted() {
   return value && std::string_view(value) == "1";
 }
 
+// In memory a run is a number to the code: of short and long ones, beside 64, some.
+std::vector<int> runsInMemory() {
+  if (isEveryShapeWanted()) return {4, 5, 7, 8, 16, 31, 32, 33, 63, 64, 65, 96, 128, 200};
+  return {5, 32, 70};
+}
+
 // The powers of two, the runs one shorter, and the longest run.
 bool isRunOfInterest(std::uint32_t run, std::uint32_t longest) {
   return std::has_single_bit(run) || std::has_single_bit(run + 1) || run == longest;
@@ -47,25 +54,34 @@ class EveryShape : public GpuTest, public ::testing::WithParamInterface<int> {
     if (!limits.hasSubgroupShuffle || static_cast<int>(limits.subgroupSize) < lanes)
       GTEST_SKIP() << "this device has subgroups of " << limits.subgroupSize << " invocations";
     const int longest = static_cast<int>(longestRun(limits, static_cast<std::uint32_t>(lanes), work));
+    std::vector<int> runs;
+    for (int run = static_cast<int>(kShortestRun); run <= longest; ++run) {
+      const auto one = static_cast<std::uint32_t>(run);
+      if (isEveryShapeWanted() || isRunOfInterest(one, static_cast<std::uint32_t>(longest)))
+        runs.push_back(run);
+    }
+    expectRunsAgree(KernelChoice::Form::lanes, runs, material);
+    expectRunsAgree(KernelChoice::Form::memory, runsInMemory(), material);
+  }
+
+ private:
+  void expectRunsAgree(KernelChoice::Form form, const std::vector<int>& runs, const Material& material) {
+    const int lanes = GetParam();
     FieldError worst;
     std::string worstShape;
-    int count = 0;
-    for (int run = static_cast<int>(kShortestRun); run <= longest; ++run) {
-      const auto runs = static_cast<std::uint32_t>(run);
-      if (!isEveryShapeWanted() && !isRunOfInterest(runs, static_cast<std::uint32_t>(longest))) continue;
-      ++count;
+    for (const int run : runs) {
       const std::string shape = fmt::format("{} x {}", lanes, run);
-      const ParityCase parityCase{
-          randomGroom(lengthsAround(lanes, run), 53),
-          material,
-          {},
-          {.form = KernelChoice::Form::lanes, .particlesPerLane = run, .lanes = lanes}};
+      const ParityCase parityCase{randomGroom(lengthsAround(lanes, run), 53),
+                                  material,
+                                  {},
+                                  {.form = form, .particlesPerLane = run, .lanes = lanes}};
       const FieldError error = oneFrameError(device(), parityCase);
       EXPECT_LE(error.error, kOneFrame) << shape << ": " << error.where;
       if (worstShape.empty() || !(error.error <= worst.error)) worst = error, worstShape = shape;
     }
-    fmt::print("{} lanes, {} runs of {} to {}: at most {:.1e} of the arc length after a frame, in {}\n",
-               lanes, count, kShortestRun, longest, worst.error, worstShape);
+    fmt::print("{} lanes, {} runs of {} to {} in {}: at most {:.1e} of the arc length after a frame, in {}\n",
+               lanes, runs.size(), runs.front(), runs.back(),
+               form == KernelChoice::Form::memory ? "memory" : "registers", worst.error, worstShape);
   }
 };
 

@@ -41,6 +41,7 @@ std::vector<KernelChoice> forms() {
           {.particlesPerLane = 17, .lanes = 1},
           {.particlesPerLane = 17, .lanes = 2},
           {.particlesPerLane = 16, .lanes = 4},
+          {KernelChoice::Form::memory, 33, 4},
           {.form = KernelChoice::Form::serial}};
 }
 

@@ -23,11 +23,9 @@ constexpr std::uint64_t kMebibyte = 1 << 20;
 TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
   std::vector<std::uint32_t> counts;
   for (std::uint32_t n : {2u, 3u, 16u, 17u, 300u}) counts.insert(counts.end(), 7, n);
-  for (const bool serial : {false, true}) {
+  for (const bool taps : {false, true}) {
     for (const bool movingRoots : {false, true}) {
-      KernelChoice choice;
-      choice.movingRoots = movingRoots;
-      const GroomRecords records = groomRecords({}, choice, {}, serial, true);
+      const GroomRecords records = groomRecords({}, {.movingRoots = movingRoots, .taps = taps}, {});
       for (std::uint64_t most : {300u * 240u, 100'000u, 1u << 20}) {
         const auto chunks = cutGroom(counts, records, most);
         ASSERT_TRUE(chunks) << chunks.error().message;
@@ -38,7 +36,7 @@ TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
           for (; strand < chunk.strandEnd; ++strand) particle += counts[strand];
           EXPECT_EQ(chunk.particleEnd, particle);
           EXPECT_GT(chunk.strandCount(), 0u);
-          EXPECT_LE(chunk.particleCount() * (serial ? 240 : 32), most);  // scratch or rest, the largest
+          EXPECT_LE(chunk.particleCount() * (taps ? 128 : 32), most);  // taps or rest, the largest
           EXPECT_LE(chunk.strandCount() * (movingRoots ? 9 * 64 : 112), most);
         }
         EXPECT_EQ(strand, counts.size());
@@ -53,14 +51,14 @@ TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
 // What a groom of a million strands of 16 comes to where a buffer is 128 MiB.
 TEST(GroomChunks, OfAMillionStrandsAreFour) {
   const std::vector<std::uint32_t> counts(1'000'000, 16);
-  const auto chunks = cutGroom(counts, groomRecords({}, {}, {}, false, false), 128 * kMebibyte);
+  const auto chunks = cutGroom(counts, groomRecords({}, {}, {}), 128 * kMebibyte);
   ASSERT_TRUE(chunks);
   EXPECT_EQ(chunks->size(), 4u);
   EXPECT_EQ(chunks->front().particleCount(), 128 * kMebibyte / 32);
 }
 
 TEST(GroomChunks, WhatDoesNotFitIsSaidWithItsNumbers) {
-  const GroomRecords records = groomRecords({}, {}, {}, true, false);
+  const GroomRecords records = groomRecords({}, {.taps = true}, {});
   const std::vector<std::uint32_t> counts{10, 10, 5000};
   const auto tooLong = cutGroom(counts, records, 128 * 1000);
   ASSERT_FALSE(tooLong);
@@ -151,9 +149,8 @@ class ChunkedGroom : public GpuTest {
     const auto uncut = make(groom, c);
     const HairState whole = moved(groom, c, start);
 
-    const bool serial = c.kernel.form == KernelChoice::Form::serial;
-    const GroomRecords records = groomRecords(c.settings, c.kernel, {}, serial, c.bodies);
-    const std::uint64_t ofParticles = groom.points.size() * std::max(records.particleRest, records.scratch);
+    const GroomRecords records = groomRecords(c.settings, c.kernel, {});
+    const std::uint64_t ofParticles = groom.points.size() * records.particleRest;
     c.kernel.mostBufferBytes = std::max(ofParticles, groom.strandCount() * records.rootPoses) * 2 / 5;
     std::vector<std::uint32_t> sorted(counts.begin(), counts.end());
     std::ranges::sort(sorted);
@@ -178,6 +175,7 @@ class ChunkedGroom : public GpuTest {
 
 TEST_F(ChunkedGroom, HasTheBitsOfTheWhole) {
   expectSameBits({"lanes", {}, {}});
+  expectSameBits({"memory", {.form = KernelChoice::Form::memory}, {}});
   expectSameBits({"serial", {.form = KernelChoice::Form::serial}, {}});
   Settings paper;
   paper.integrator = Integrator::paper;

@@ -112,8 +112,6 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(dampingLoops),
                         RINGLET_MEMBER(particleCount),
                         RINGLET_MEMBER(phases),
-                        RINGLET_MEMBER(loopBegin),
-                        RINGLET_MEMBER(loopEnd),
                         RINGLET_MEMBER(bodyCount),
                         RINGLET_MEMBER(dragStrength),
                         RINGLET_MEMBER(dragAlong),

@@ -80,7 +80,8 @@ class Residual : public GpuTest {
 };
 
 TEST_F(Residual, IsRoundingForTheStrandBlockAndThatOfTheReferenceForPointIterations) {
-  for (KernelChoice::Form form : {KernelChoice::Form::automatic, KernelChoice::Form::serial}) {
+  for (KernelChoice::Form form :
+       {KernelChoice::Form::automatic, KernelChoice::Form::memory, KernelChoice::Form::serial}) {
     const double block = residualOf(settingsOf(Integrator::jacobi, 1), form);
     EXPECT_GT(block, 0) << "nothing was measured";
     EXPECT_LE(block, kSolveResidual);

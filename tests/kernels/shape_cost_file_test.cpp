@@ -15,7 +15,7 @@ using test::scratchFolder;
 TEST(ShapeCostFile, ReadsBackEveryBit) {
   const auto path = scratchFolder("shape_costs") / "made" / "shapes.toml";
   const std::vector<DeviceCosts> written{
-      {"a \"quoted\" device", "driver\\1", "00ff", {{{4, 16}, 1.0 / 3}, {{}, 46}}, 32},
+      {"a \"quoted\" device", "driver\\1", "00ff", {{{4, 16}, 1.0 / 3}, {kAnySerialShape, 46}}, 32},
       {"another", "", "1", {}}};
   ASSERT_TRUE(writeShapeCosts(path, written));
   const auto read = readShapeCosts(path);

@@ -40,7 +40,7 @@ double costOf(const std::vector<StrandRange>& ranges, const DeviceLimits& limits
   const auto costs = shapeCosts(limits);
   double sum = 0;
   for (const StrandRange& range : ranges) {
-    EXPECT_FALSE(range.shape.serial());
+    EXPECT_FALSE(range.shape.inMemory);
     sum += (range.end - range.begin) * std::ranges::find(costs, range.shape, &ShapeCost::shape)->nanoseconds;
   }
   return sum;
@@ -53,11 +53,12 @@ std::string messageOf(std::uint32_t particleCount, const KernelChoice& choice) {
 
 TEST(ShapePlan, ShapesHoldTheirStrand) {
   for (const DeviceLimits& limits : {kLavapipe, kDiscrete, kWithoutShuffle}) {
-    for (std::uint32_t n = 2; n < 1200; ++n) {
+    const std::uint32_t most = limits.hasSubgroupShuffle ? 1200 : kLongestRunInMemory;
+    for (std::uint32_t n = 2; n <= most; ++n) {
       const StrandShape shape = shapeOf(n, limits);
-      EXPECT_EQ(shape.serial(),
+      EXPECT_EQ(shape.inMemory,
                 !limits.hasSubgroupShuffle || n > limits.subgroupSize * (limits.isCpu ? 32 : 16));
-      if (shape.serial()) continue;
+      EXPECT_EQ(shape.serial(), !limits.hasSubgroupShuffle);
       EXPECT_GE(shape.capacity(), n);
       EXPECT_LE(shape.lanes, limits.subgroupSize);
       EXPECT_EQ(shape.lanes & (shape.lanes - 1), 0u) << "lanes must be a power of two";
@@ -75,7 +76,10 @@ TEST(ShapePlan, RoundLengthsHaveRoundShapes) {
   EXPECT_EQ(shapeOf(16, kLavapipe, {}, StrandWork::bodies), (StrandShape{2, 8}));
   EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::bodies), (StrandShape{8, 8}));
   EXPECT_EQ(shapeOf(256, kLavapipe, {}, StrandWork::plain), (StrandShape{8, 32}));
-  EXPECT_TRUE(shapeOf(256, kLavapipe, {}, StrandWork::bodies).serial());
+  EXPECT_EQ(shapeOf(256, kLavapipe, {}, StrandWork::bodies), (StrandShape{8, 32, true}));
+  EXPECT_EQ(shapeOf(1000, kLavapipe), (StrandShape{8, 128, true}));
+  EXPECT_EQ(shapeOf(1000, kDiscrete), (StrandShape{32, 32, true}));
+  EXPECT_EQ(shapeOf(100, kWithoutShuffle), (StrandShape{1, 104, true}));
   EXPECT_EQ(shapeOf(128, kLavapipe), (StrandShape{8, 16}));
   EXPECT_EQ(shapeOf(32, kDiscrete), (StrandShape{8, 4}));
   EXPECT_EQ(shapeOf(64, kDiscrete), (StrandShape{16, 4}));
@@ -181,9 +185,10 @@ TEST(ShapePlan, FewStrandsOrNearlyEqualOnesGetOneKernel) {
 TEST(ShapePlan, NoOtherChoiceIsCheaper) {
   const DeviceLimits limits{2, true, true, 65535};
   const auto kernelCost = [](const StrandShape& shape) {  // as the model has it
-    return 5'000 + 3'000.0 * (shape.serial() ? 8 : shape.particlesPerLane);
+    return 5'000 + 3'000.0 * shape.particlesPerLane;
   };
-  const auto costs = shapeCosts(limits);
+  auto costs = shapeCosts(limits);
+  costs.pop_back();  // registers hold all
   for (const auto& [a, b, c, each] : {std::array{9u, 17u, 30u, 40u},
                                       {4u, 5u, 6u, 1000u},
                                       {16u, 17u, 32u, 600u},
@@ -201,9 +206,8 @@ TEST(ShapePlan, NoOtherChoiceIsCheaper) {
           for (const std::size_t shape : std::set(chosen, chosen + 3)) cost += kernelCost(costs[shape].shape);
           for (int k = 0; k < 3; ++k) {
             const ShapeCost& shape = costs[chosen[k]];
-            const bool fits = shape.shape.serial() || shape.shape.capacity() >= lengths[k];
-            cost += fits ? each * shape.nanoseconds * (shape.shape.serial() ? lengths[k] : 1)
-                         : std::numeric_limits<double>::infinity();
+            const bool fits = shape.shape.capacity() >= lengths[k];
+            cost += fits ? each * shape.nanoseconds : std::numeric_limits<double>::infinity();
           }
           cheapest = std::min(cheapest, cost);
         }
@@ -229,7 +233,7 @@ TEST(ShapePlan, MeasuredCostsDecide) {
            std::ranges::find(model, shape, &ShapeCost::shape)->nanoseconds;
   };
   EXPECT_NEAR(ratio({2, 16}), std::sqrt(ratio({2, 32}) * ratio({8, 8})), 1e-12);
-  const ShapeCost quickSerial[] = {{{}, 1}, {{2, 32}, 900}};
+  const ShapeCost quickSerial[] = {{kAnySerialShape, 1}, {{2, 32}, 900}};
   EXPECT_TRUE(shapeOf(64, kLavapipe, {.measured = quickSerial}).serial());
 }
 
@@ -251,7 +255,27 @@ TEST(ShapePlan, StatedLanesAndRunsAreKept) {
   const auto ranges = rangesOf({10, 16, 17, 64}, kLavapipe, {.particlesPerLane = 16, .lanes = 1});
   ASSERT_EQ(ranges.size(), 2u);
   EXPECT_EQ(ranges[0].end, 2u);
-  EXPECT_TRUE(ranges[1].shape.serial());
+  EXPECT_EQ(ranges[1].shape, (StrandShape{8, 8, true}));
+}
+
+TEST(ShapePlan, RunsAreInMemoryWhereThatIsAskedFor) {
+  using Form = KernelChoice::Form;
+  EXPECT_TRUE(shapeOf(64, kLavapipe, {Form::serial}).serial());
+  EXPECT_EQ(shapeOf(64, kLavapipe, {Form::serial}).describe(), "serial 1 x 64");
+  EXPECT_TRUE(shapeOf(64, kLavapipe, {Form::memory}).inMemory);
+  EXPECT_EQ(shapeOf(64, kLavapipe, {Form::memory, 70, 2}), (StrandShape{2, 70, true}));
+  EXPECT_EQ(shapeOf(300, kLavapipe, {.form = Form::memory, .lanes = 4}), (StrandShape{4, 80, true}));
+  EXPECT_EQ(shapeOf(300, kLavapipe, {.form = Form::memory, .lanes = 4}).describe(), "memory 4 x 80");
+}
+
+// What registers hold stays there, whatever stands beside it.
+TEST(ShapePlan, OnlyLongStrandsHaveTheirRunsInMemory) {
+  std::vector<std::uint32_t> counts(500, 64);
+  counts.insert(counts.end(), 500, 400);
+  const auto ranges = rangesOf(counts, kLavapipe);
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_EQ(ranges[0].shape, shapeOf(64, kLavapipe));
+  EXPECT_EQ(ranges[1].shape, (StrandShape{8, 56, true}));
 }
 
 TEST(ShapePlan, RefusesWhatCannotBe) {
@@ -263,6 +287,10 @@ TEST(ShapePlan, RefusesWhatCannotBe) {
   has(messageOf(130, {.form = Form::lanes, .lanes = 2}), "2 lanes of 64 hold 128");
   has(messageOf(64, {Form::automatic, 3}), "3 particles per lane was asked for; 4 to 64");
   has(messageOf(64, {Form::automatic, 65}), "65 particles per lane");
+  has(messageOf(64, {Form::serial, 1025}), "1025 particles per lane was asked for; 4 to 1024");
+  has(messageOf(1025, {Form::serial}),
+      "1025 particles does not fit this device: 1 lane of 1024 in memory hold 1024");
+  has(messageOf(8193, {}), "8193 particles does not fit this device: 8 lanes of 1024 in memory hold 8192");
   for (int lanes : {-1, 3, 16}) has(messageOf(64, {.lanes = lanes}), "this device can have 1, 2, 4 or 8");
 }
 

@@ -59,6 +59,7 @@ TEST_F(VolumeStep, FramesAgreeWithDouble) {
   for (const KernelChoice& kernel :
        {KernelChoice{}, KernelChoice{.particlesPerLane = 8}, KernelChoice{.particlesPerLane = 32, .lanes = 1},
         KernelChoice{.particlesPerLane = 16, .lanes = 2}, KernelChoice{.particlesPerLane = 24, .lanes = 2},
+        KernelChoice{KernelChoice::Form::memory, 20, 2}, KernelChoice{KernelChoice::Form::memory, 9, 4},
         KernelChoice{KernelChoice::Form::serial}}) {
     for (const int iterations : {1, 2, 3}) {
       Settings settings = volumeSettings();

@@ -370,11 +370,14 @@ TEST(Simulate, LanesAndRunsAreStatedOrRefused) {
   for (const Case& c : {
            Case{{"--lanes", "3"}, 1, "3 lanes a strand were asked for; this device can have 1, 2"},
            Case{{"--lanes", "0"}, 2, "--lanes: must be a whole number from 1 to 128"},
-           Case{{"--run", "3"}, 2, "--run: must be a whole number from 4 to 64"},
+           Case{{"--run", "3"}, 2, "--run: must be a whole number from 4 to 1024"},
            Case{{"--lanes", "1", "--run", "4"},
                 1,
                 "a strand of 5 particles does not fit: 1 lanes of 4 hold 4"},
-           Case{{"--lanes", "2", "--kernel", "serial"}, 2, "--lanes: only --backend gpu with --kernel auto"},
+           Case{{"--lanes", "2", "--kernel", "serial"},
+                2,
+                "--lanes: only --backend gpu with --kernel auto, lanes or memory"},
+           Case{{"--run", "65"}, 1, "65 particles per lane was asked for; 4 to "},
            Case{{"--run", "8", "--backend", "reference"}, 2, "--run: only --backend gpu"},
        }) {
     std::vector<std::string> arguments{"simulate", "groom.obj", "--frames", "1", "-o", "out"};
@@ -385,6 +388,9 @@ TEST(Simulate, LanesAndRunsAreStatedOrRefused) {
   }
   const json stated = simulate(folder, {"groom.obj", "--frames", "1", "--lanes", "2", "--run", "5"});
   EXPECT_EQ(stated["kernel"].get<std::string>().substr(0, 11), "lanes 2 x 5");
+  const json inMemory = simulate(folder, {"groom.obj", "--frames", "1", "--kernel", "memory", "--lanes", "2",
+                                          "--run", "70", "--overwrite"});
+  EXPECT_EQ(inMemory["kernel"].get<std::string>().substr(0, 13), "memory 2 x 70");
   EXPECT_GT(stated["compile_ms"].get<double>(), 0);
 }
 

@@ -48,8 +48,11 @@ std::vector<Case> allCases() {
   for (const Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
     cases.push_back({.name = "lanes"});
     cases.back().settings.integrator = integrator;
+    cases.push_back({.name = "memory", .kernel = {.form = KernelChoice::Form::memory}});
+    cases.back().settings.integrator = integrator;
     cases.push_back({.name = "serial", .kernel = {.form = KernelChoice::Form::serial}});
     cases.back().settings.integrator = integrator;
+    cases.back().settings.dampingLoops = 4;  // as many of 250 particles as lavapipe loops in one lane
   }
   cases.push_back({.name = "contacts", .groom = tuft()});
   cases.back().settings.contacts.on = true;

@@ -27,7 +27,7 @@ class KernelCache;
 // What the solver needs, checked when a device is opened. Vulkan promises 4 storage buffers a stage; nearly
 // every driver has 8 and more.
 inline constexpr std::uint32_t kNeededApiVersion = VK_API_VERSION_1_1;
-inline constexpr std::uint32_t kNeededStorageBuffers = 8;     // bound to one kernel, by hair alone
+inline constexpr std::uint32_t kNeededStorageBuffers = 7;     // bound to one kernel, by hair alone
 inline constexpr std::uint32_t kNeededGroupInvocations = 64;  // invocations of a workgroup
 inline constexpr std::uint32_t kNeededPushConstantBytes = 128;
 

@@ -46,8 +46,8 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& consta
   if (!velocities) return velocities.error();
   auto reports = createZero(device, strandCount * records.report, "reports");
   if (!reports) return reports.error();
-  auto scratch = createZero(device, particleCount * records.scratch, "scratch");
-  if (!scratch) return scratch.error();
+  auto taps = createZero(device, particleCount * records.taps, "taps");
+  if (!taps) return taps.error();
   auto solved = createZero(device, particleCount * records.solved, "solved velocities");
   if (!solved) return solved.error();
   auto systems = createZero(device, particleCount * records.contactSystem, "contact systems");
@@ -60,7 +60,7 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& consta
                      .positions = std::move(*positions),
                      .velocities = std::move(*velocities),
                      .reports = std::move(*reports),
-                     .scratch = std::move(*scratch),
+                     .taps = std::move(*taps),
                      .solved = std::move(*solved),
                      .contactSystems = std::move(*systems),
                      .addedByVolume = std::move(*added)};
@@ -165,7 +165,7 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindParticles, *c.particles},
           {kBindStrands, *c.strands},
           {kBindReports, c.reports},
-          {kBindScratch, c.scratch},
+          {kBindTaps, c.taps},
           {kBindPoses, poses.seen()},
           {kBindSolved, c.solved},
           {kBindContactSystems, c.contactSystems},
@@ -198,7 +198,7 @@ std::uint64_t DeviceGroom::largestTexels() const {
 std::uint64_t DeviceGroom::particleBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
-    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles->bytes() + c.scratch.bytes() +
+    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles->bytes() + c.taps.bytes() +
              c.solved.bytes() + c.contactSystems.bytes() + c.addedByVolume.bytes();
   return bytes;
 }

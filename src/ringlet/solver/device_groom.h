@@ -40,7 +40,7 @@ struct ConstantChunk {
 struct DeviceChunk {
   GroomChunk part;
   std::shared_ptr<const gpu::Buffer> particles, strands;
-  gpu::Buffer positions, velocities, reports, scratch;
+  gpu::Buffer positions, velocities, reports, taps;
   gpu::Buffer solved, contactSystems, addedByVolume;  // empty unless needed (GroomRecords)
 };
 

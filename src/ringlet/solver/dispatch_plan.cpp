@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "shared/layout.h"
 
@@ -22,32 +23,46 @@ struct LoopCost {
   std::uint64_t pressed = 0;  // more for a step, where a whole strand is pressed onto bodies
 };
 
+// Of a scan over lanes, and what it squares over the run's digits; one lane has none.
+std::uint64_t scanCost(const StrandShape& shape) {
+  return shape.lanes == 1 ? 0 : std::countr_zero(shape.lanes) + std::bit_width(shape.particlesPerLane) + 2;
+}
+
 LoopCost loopCost(const StrandRange& range, const Settings& settings, std::size_t bodyCount) {
-  // Lanes: loops over the run count in full, though drivers unroll them. Serial: sweeps over the strand.
-  const std::uint64_t run = range.shape.serial() ? range.longest : range.shape.particlesPerLane + 8;
+  // Loops over a run count in full, though in registers drivers unroll them; lavapipe counts a turn more.
+  const bool inMemory = range.shape.inMemory;
+  const std::uint64_t run = range.shape.particlesPerLane + (inMemory ? 1 : 8);
   LoopCost cost;
-  // Of a body in the way: in a lane, 17 looks at most for each particle and each edge, and as many in each of
-  // eight rounds after the move; of more than four bodies no run is in the way of all. A long strand's
-  // particles are seldom all at it at once. Where they are, the serial form makes 39 more sweeps in its three
-  // solves and eight rounds, and for each body 36 turns a particle for the solve and 23 in every round.
+  // In memory: the sweeps of a step, among them those over 12 waves of turbulent wind; with bodies those of
+  // two more solves and of one round after the move.
+  const std::uint64_t sweeps = inMemory ? 24 + (settings.air.on ? 14 : 0) + (bodyCount > 0 ? 20 : 0) : 20;
+  // Of a body in the way: in registers 17 looks at most for each particle and each edge, and as many in each
+  // of eight rounds after the move; of more than four bodies no run is in the way of all. A long run's
+  // particles are seldom all at it at once. Where they are, there are 45 more sweeps in the other seven
+  // rounds, and for each body 42 turns a particle for the solve and 24 in every round.
   const std::uint64_t inTheWay = std::min<std::uint64_t>(bodyCount, 4);
-  cost.step = 20 * run + inTheWay * run * (range.shape.serial() ? 24 : 178) + 30 * bodyCount;
-  if (range.shape.serial() && bodyCount > 0) cost.pressed = run * (39 + inTheWay * (36 + 8 * 23));
+  cost.step = sweeps * run + inTheWay * run * (inMemory ? 24 : 178) + 30 * bodyCount;
+  // Four scans that square, and up to a dozen others.
+  if (inMemory) cost.step += 10 * scanCost(range.shape) * (bodyCount > 0 ? 2 : 1);
+  if (inMemory && bodyCount > 0) cost.pressed = run * (45 + inTheWay * (42 + 8 * 24));
   if (settings.integrator == Integrator::pointJacobi) {
     cost.solveLoops = settings.pointIterations;
     cost.perSolveLoop = run + 1;
   }
   if (settings.integrator == Integrator::paper) {
     cost.solveLoops = settings.forceLoops;
-    cost.perSolveLoop = run + 1 + settings.dampingLoops * ((range.shape.serial() ? 2 : 8) * run + 1);
+    const std::uint64_t damping =
+        range.shape.lanes == 1 ? 3 * run + 1 : 4 * run + 1 + 2 * scanCost(range.shape);
+    cost.perSolveLoop = run + 1 + settings.dampingLoops * damping;
   }
   return cost;
 }
 
 Error tooLong(const StrandRange& range, const Settings& settings, std::uint64_t turns, std::uint64_t budget) {
-  const char* remedy = !range.shape.serial() ? "ask for the serial kernel form, or fewer iterations"
-                       : settings.integrator == Integrator::jacobi
+  const char* remedy = settings.integrator == Integrator::jacobi
                            ? "cut the strand into fewer particles, or use a GPU or the reference"
+                       : range.shape.serial()
+                           ? "use more lanes, the jacobi integrator or fewer iterations"
                            : "use the jacobi integrator, fewer iterations or the reference";
   return Error{fmt::format(
       "a strand of {} particles needs {} loop turns for one step of this integrator, and this device makes "
@@ -55,8 +70,7 @@ Error tooLong(const StrandRange& range, const Settings& settings, std::uint64_t 
       range.longest, turns, budget, remedy)};
 }
 
-// Cuts a frame's steps for one range into pieces within the budget: several steps a dispatch where they fit,
-// else one, else (serial form only) one step in several.
+// Cuts a frame's steps for one range into pieces within the budget, of several steps where they fit.
 Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits,
                                                const Settings& settings, std::size_t bodyCount,
                                                std::uint64_t mostParticleSteps) {
@@ -64,55 +78,16 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
   const LoopCost cost = loopCost(range, settings, bodyCount);
   const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
-  const std::uint32_t loops = static_cast<std::uint32_t>(cost.solveLoops);
+  if (whole > budget) return tooLong(range, settings, whole, budget);
+  // A strand that a step alone may be too long for goes step by step.
+  const std::uint64_t stepsThatFit = std::max<std::uint64_t>(1, budget / (whole + cost.pressed));
+  const std::uint64_t particles = std::uint64_t{range.end - range.begin} * range.longest;
+  const std::uint64_t bound =
+      std::min(stepsThatFit, std::max<std::uint64_t>(1, mostParticleSteps / particles));
+  const auto stepsAtOnce = static_cast<std::uint32_t>(std::min<std::uint64_t>(bound, steps));
   std::vector<PlannedDispatch> pieces;
-  if (whole <= budget) {
-    // A strand that a step alone may be too long for goes step by step.
-    const std::uint64_t stepsThatFit = std::max<std::uint64_t>(1, budget / (whole + cost.pressed));
-    const std::uint64_t particles = std::uint64_t{range.end - range.begin} * range.longest;
-    const std::uint64_t bound =
-        std::min(stepsThatFit, std::max<std::uint64_t>(1, mostParticleSteps / particles));
-    const auto stepsAtOnce = static_cast<std::uint32_t>(std::min<std::uint64_t>(bound, steps));
-    for (std::uint32_t s = 0; s < steps; s += stepsAtOnce) {
-      pieces.push_back({.stepBegin = s,
-                        .stepEnd = std::min(steps, s + stepsAtOnce),
-                        .phases = layout::kPhaseAll,
-                        .loopEnd = loops});
-    }
-    return pieces;
-  }
-  if (!range.shape.serial() || cost.step > budget || cost.perSolveLoop > budget) {
-    return tooLong(range, settings, whole, budget);
-  }
-  const std::uint32_t loopsAtOnce =
-      static_cast<std::uint32_t>(budget / std::max<std::uint64_t>(1, cost.perSolveLoop));
-  for (std::uint32_t s = 0; s < steps; ++s) {
-    pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseSprings});
-    for (std::uint32_t l = 0; l < loops; l += loopsAtOnce) {
-      pieces.push_back({.stepBegin = s,
-                        .stepEnd = s + 1,
-                        .phases = layout::kPhaseSolve,
-                        .loopBegin = l,
-                        .loopEnd = std::min(loops, l + loopsAtOnce)});
-    }
-    pieces.push_back({.stepBegin = s, .stepEnd = s + 1, .phases = layout::kPhaseMove});
-  }
-  return pieces;
-}
-
-// A lane keeps nothing from solve to solve, and computes forces anew; the serial form finds them in its
-// scratch.
-std::vector<PlannedDispatch> piecesOf(const StrandShape& shape, const SolvePass& pass) {
-  const std::uint32_t solve = layout::kPhaseSolve | (pass.withContacts ? layout::kPhaseContacts : 0u) |
-                              (pass.moves ? layout::kPhaseMove : 0u);
-  if (!shape.serial()) {
-    return {{.stepBegin = pass.step, .stepEnd = pass.step + (pass.goesOn ? 2 : 1), .phases = solve}};
-  }
-  std::vector<PlannedDispatch> pieces;
-  const std::uint32_t first = layout::kPhaseSprings | layout::kPhaseSolve;
-  pieces.push_back(
-      {.stepBegin = pass.step, .stepEnd = pass.step + 1, .phases = pass.withContacts ? solve : first});
-  if (pass.goesOn) pieces.push_back({.stepBegin = pass.step + 1, .stepEnd = pass.step + 2, .phases = first});
+  for (std::uint32_t s = 0; s < steps; s += stepsAtOnce)
+    pieces.push_back({.stepBegin = s, .stepEnd = std::min(steps, s + stepsAtOnce)});
   return pieces;
 }
 
@@ -120,7 +95,7 @@ std::vector<PlannedDispatch> piecesOf(const StrandShape& shape, const SolvePass&
 void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& range, std::uint32_t index,
                       const DeviceLimits& limits, std::uint32_t groupSize,
                       std::span<const PlannedDispatch> pieces, std::uint64_t mostParticleSteps) {
-  const std::uint32_t strandsPerGroup = groupSize / std::max(1u, range.shape.lanes);
+  const std::uint32_t strandsPerGroup = groupSize / range.shape.lanes;
   const std::uint64_t groups = mostParticleSteps / (std::uint64_t{strandsPerGroup} * range.longest);
   const std::uint64_t strandsAtOnce =
       strandsPerGroup * std::clamp<std::uint64_t>(groups, 1, limits.maxGroupCount);
@@ -152,12 +127,14 @@ Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> range
                                               std::uint64_t mostParticleSteps) {
   std::vector<PlannedDispatch> plan;
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
-    // In lanes a pass may go on to a second step; the serial form does that in a dispatch of its own.
-    const std::uint64_t turns =
-        (ranges[r].shape.serial() ? 1 : 2) * loopCost(ranges[r], settings, bodyCount).step;
+    const std::uint64_t turns = 2 * loopCost(ranges[r], settings, bodyCount).step;
     if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
-    spreadOverGroups(plan, ranges[r], r, limits, groupSize, piecesOf(ranges[r].shape, pass),
-                     mostParticleSteps);
+    // A lane keeps nothing from solve to solve, and computes forces anew.
+    const PlannedDispatch piece{
+        .stepBegin = pass.step,
+        .stepEnd = pass.step + (pass.goesOn ? 2 : 1),
+        .phases = (pass.withContacts ? layout::kPhaseContacts : 0u) | (pass.moves ? layout::kPhaseMove : 0u)};
+    spreadOverGroups(plan, ranges[r], r, limits, groupSize, {&piece, 1}, mostParticleSteps);
   }
   return plan;
 }

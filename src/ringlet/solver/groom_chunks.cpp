@@ -11,8 +11,8 @@ namespace ringlet {
 namespace {
 
 std::uint64_t largestOfParticle(const GroomRecords& r) {
-  return std::max({r.position, r.velocity, r.particleRest, r.scratch, r.solved, r.contactSystem,
-                   r.addedByVolume, r.force});
+  return std::max(
+      {r.position, r.velocity, r.particleRest, r.taps, r.solved, r.contactSystem, r.addedByVolume, r.force});
 }
 std::uint64_t largestOfStrand(const GroomRecords& r) {
   return std::max({r.strandRest, r.report, r.rootPoses});
@@ -24,17 +24,12 @@ std::string mebibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds,
-                          bool anySerial, bool anyBodies) {
-  const std::uint64_t serialScratch = layout::kScratchPerParticle + (anyBodies ? layout::kBodyScratch : 0) +
-                                      (settings.air.on ? layout::kAirScratch : 0);
+GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds) {
   GroomRecords records;
   records.position = records.velocity = sizeof(layout::vec4);
   records.particleRest = sizeof(layout::ParticleRest);
-  records.scratch =
-      ((anySerial ? serialScratch : 0) + (choice.taps ? layout::kTapCount : 0)) * sizeof(layout::vec4);
-  // A solve's result stands beside the velocities it began from.
-  if (kinds.any() || (anySerial && anyBodies)) records.solved = sizeof(layout::vec4);
+  if (choice.taps) records.taps = layout::kTapCount * sizeof(layout::vec4);
+  if (kinds.any()) records.solved = sizeof(layout::vec4);
   if (kinds.pairs) records.contactSystem = sizeof(layout::ContactSystem);
   if (kinds.volume) records.addedByVolume = sizeof(layout::vec4);
   if (choice.forces) records.force = sizeof(layout::vec4);

@@ -19,12 +19,12 @@ namespace ringlet {
 
 /// Bytes of one particle and of one strand in each of their buffers; 0: it is not needed.
 struct GroomRecords {
-  std::uint64_t position = 0, velocity = 0, particleRest = 0, scratch = 0, solved = 0;
+  std::uint64_t position = 0, velocity = 0, particleRest = 0, taps = 0, solved = 0;
   std::uint64_t contactSystem = 0, addedByVolume = 0, force = 0;
   std::uint64_t strandRest = 0, report = 0, rootPoses = 0;
 
   std::uint64_t perParticle() const {
-    return position + velocity + particleRest + scratch + solved + contactSystem + addedByVolume + force;
+    return position + velocity + particleRest + taps + solved + contactSystem + addedByVolume + force;
   }
   std::uint64_t perStrand() const { return strandRest + report + rootPoses; }
   // And for each frame in flight, in the host's memory: positions read back, forces and poses taken over.
@@ -32,9 +32,8 @@ struct GroomRecords {
   std::uint64_t perStrandOfFrame() const { return rootPoses; }
 };
 
-/// `kinds`: of contacts. `anySerial`: some strand takes the strand-per-thread form.
-GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds,
-                          bool anySerial, bool anyBodies);
+/// `kinds`: of contacts.
+GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds);
 
 /// Strands [strandBegin, strandEnd) in device order, and their particles.
 struct GroomChunk {

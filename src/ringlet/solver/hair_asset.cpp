@@ -22,8 +22,7 @@ std::vector<std::uint32_t> particleCounts(const RestState& rest) {
 
 std::uint64_t lanesOf(std::span<const StrandRange> ranges) {
   std::uint64_t lanes = 0;
-  for (const StrandRange& range : ranges)
-    lanes += std::uint64_t{range.end - range.begin} * std::max(1u, range.shape.lanes);
+  for (const StrandRange& range : ranges) lanes += std::uint64_t{range.end - range.begin} * range.shape.lanes;
   return lanes;
 }
 
@@ -59,9 +58,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   }
   auto ranges = rangesOf(counts, *limits, choice, strandWork(settings, material, self->kinds(), hasBodies));
   if (!ranges) return ranges.error();
-  const bool anySerial =
-      std::any_of(ranges->begin(), ranges->end(), [](const auto& r) { return r.shape.serial(); });
-  self->records = groomRecords(settings, choice, self->kinds(), anySerial, hasBodies);
+  self->records = groomRecords(settings, choice, self->kinds());
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   self->ranges = cutRanges(*ranges, *chunks);

@@ -20,11 +20,12 @@ class CompileObserver {
 
 /// The shape of the strand kernel and its variants. The defaults choose by device and strand length.
 struct KernelChoice {
-  enum class Form { automatic, lanes, serial };
-  Form form = Form::automatic;  // lanes x run, or one thread per strand
-  int particlesPerLane = 0;     // see longestRun in shape_plan.h; 0: choose
-  int lanes = 0;                // of a strand, a power of two; 0: choose
-  int subgroupSize = 0;         // see subgroupSizes in subgroup_choice.h; 0: choose
+  // lanes: runs in registers; memory: in memory, for long strands; serial: the same in one lane
+  enum class Form { automatic, lanes, memory, serial };
+  Form form = Form::automatic;
+  int particlesPerLane = 0;  // see longestRun in shape_plan.h; 0: choose
+  int lanes = 0;             // of a strand, a power of two; 0: choose
+  int subgroupSize = 0;      // see subgroupSizes in subgroup_choice.h; 0: choose
   std::span<const ShapeCost>
       measured{};            // on this device, read until build or create returns; none: a cost model is used
   bool manyKernels = false;  // the best shape for every strand, however long kernels take to compile

@@ -35,7 +35,10 @@ Result<ShapeCost> shapeCostOf(const toml::table& table, const std::string& name)
   cost.nanoseconds = table["nanoseconds"].value<double>().value_or(0);
   if (!std::isfinite(cost.nanoseconds) || cost.nanoseconds <= 0)
     return inFile(name, table, "expected nanoseconds, a number above 0");
-  if (table["serial"].value_or(false)) return cost;
+  if (table["serial"].value_or(false)) {
+    cost.shape = kAnySerialShape;
+    return cost;
+  }
   const auto lanes = wholeIn(table, "lanes", 1, kMostLanes, name);
   if (!lanes) return lanes.error();
   const auto run = wholeIn(table, "run", kShortestRun, kLongestRun, name);

@@ -22,7 +22,7 @@ struct WorkModel {
   double doubling;   // of the join
   double longRun;    // how much dearer a particle is for each one a run has above four
   double longerRun;  // and how much more for each doubling: its registers are taken from the run
-  double serial;     // a particle of the serial form
+  double inMemory;   // a particle in a strand's only lane, its run in memory
 };
 struct CostModel {
   WorkModel hairAlone, plain, bodies;
@@ -49,10 +49,10 @@ struct CostModel {
 // for each particle of a run the first time, and then reads its cache; a third of the first time is counted,
 // which gives the same numbers. Intel's driver takes up to ten times as long the first time.
 //
-// In the order of WorkModel: particle, ofTwo, alone, round, doubling, longRun, longerRun, serial.
-constexpr CostModel kCpu{.hairAlone = {10.5, 8.2, 7.3, 2.7, 4, 0, 0, 53},
-                         .plain = {10.5, 10.5, 8, 2.7, 4, 0, 0, 53},
-                         .bodies = {60, 60, 60, 13.3, 20, 0.02, 0, 260},
+// In the order of WorkModel: particle, ofTwo, alone, round, doubling, longRun, longerRun, inMemory.
+constexpr CostModel kCpu{.hairAlone = {10.5, 8.2, 7.3, 2.7, 4, 0, 0, 45},
+                         .plain = {10.5, 10.5, 8, 2.7, 4, 0, 0, 45},
+                         .bodies = {60, 60, 60, 13.3, 20, 0.02, 0, 100},
                          .perKernel = 5'000,
                          .perRun = 3'000};
 constexpr CostModel kGpu{.hairAlone = {0.5, 0.38, 0.36, 0.26, 0.62, 0.15, 0.12, 6.5},
@@ -65,7 +65,7 @@ constexpr CostModel kGpu{.hairAlone = {0.5, 0.38, 0.36, 0.26, 0.62, 0.15, 0.12, 
 // make for the first time: only where they are asked for, or were measured.
 constexpr std::uint32_t kLongestUnaskedRun = 32;
 
-constexpr double kLastResort = 1e9;  // [ns] of a particle, in place of a cost
+constexpr double kLastResort = 1e6;  // times dearer than anything else
 
 const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
 
@@ -75,39 +75,98 @@ double modelCost(const StrandShape& shape, const CostModel& model, StrandWork wo
   const WorkModel& of = isFromEnds(work)             ? model.hairAlone
                         : work == StrandWork::bodies ? model.bodies
                                                      : model.plain;
-  if (shape.serial()) return of.serial;
   const int doublings = std::max(0, std::countr_zero(shape.lanes) - 2);  // until four stretches are left
   const std::uint32_t rounds = std::min(shape.lanes, 4u) - 1;
   const double longRun = of.longRun + doublings * of.longerRun;
-  const double particle = (shape.lanes == 1   ? of.alone
-                           : shape.lanes == 2 ? of.ofTwo
-                                              : of.particle) *
-                          (1 + longRun * (shape.particlesPerLane - kShortestRun));
+  const double inRegisters = shape.lanes == 1 ? of.alone : shape.lanes == 2 ? of.ofTwo : of.particle;
+  // Where a particle is dearer in one of several lanes it is so in memory too.
+  const double particle = shape.inMemory
+                              ? of.inMemory * (inRegisters / of.alone)
+                              : inRegisters * (1 + longRun * (shape.particlesPerLane - kShortestRun));
   return shape.lanes * (shape.particlesPerLane * particle + rounds * of.round + doublings * of.doubling);
 }
 
-// Of a kernel, on every step. The serial form's is as long in the making as a run of 8.
+// Of a kernel, on every step. lavapipe clears a run in memory particle by particle, which it compiles as long
+// for as code.
 double preparingCost(const StrandShape& shape, const CostModel& model) {
-  return model.perKernel + model.perRun * (shape.serial() ? 8 : shape.particlesPerLane);
+  return model.perKernel + model.perRun * shape.particlesPerLane;
 }
 
-// What may be chosen from: as asked for, by rising capacity; the serial form, where allowed, last.
-std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
+bool isAskedFor(int asked, std::uint32_t value) {
+  return asked <= 0 || value == static_cast<std::uint32_t>(asked);
+}
+
+std::vector<ShapeCost> registerCandidates(const DeviceLimits& limits, const KernelChoice& choice,
+                                          StrandWork work) {
   const auto measured = work == StrandWork::hairAlone ? choice.measured : std::span<const ShapeCost>{};
   std::vector<ShapeCost> costs = shapeCosts(limits, work, measured);
-  const bool isStated = choice.lanes > 0 || choice.particlesPerLane > 0;
-  const bool isAskedFor = isStated || choice.form == KernelChoice::Form::lanes;
+  costs.pop_back();  // any serial one
+  const bool mayBeLong =
+      choice.lanes > 0 || choice.particlesPerLane > 0 || choice.form == KernelChoice::Form::lanes;
   std::erase_if(costs, [&](const ShapeCost& c) {
-    if (c.shape.serial()) return choice.form == KernelChoice::Form::lanes;
     const bool isMeasured = std::ranges::find(measured, c.shape, &ShapeCost::shape) != measured.end();
-    if (c.shape.particlesPerLane > kLongestUnaskedRun && !isAskedFor && !isMeasured) return true;
-    return choice.form == KernelChoice::Form::serial ||
-           (choice.lanes > 0 && c.shape.lanes != static_cast<std::uint32_t>(choice.lanes)) ||
-           (choice.particlesPerLane > 0 &&
-            c.shape.particlesPerLane != static_cast<std::uint32_t>(choice.particlesPerLane));
+    if (c.shape.particlesPerLane > kLongestUnaskedRun && !mayBeLong && !isMeasured) return true;
+    return !isAskedFor(choice.lanes, c.shape.lanes) ||
+           !isAskedFor(choice.particlesPerLane, c.shape.particlesPerLane);
   });
-  // Where lanes or runs are stated, serial is only what does not fit them.
-  if (isStated && !costs.empty() && costs.back().shape.serial()) costs.back().nanoseconds = kLastResort;
+  return costs;
+}
+
+// Runs in memory: so many that little of them is idle, and no more kernels than there must be.
+std::vector<std::uint32_t> runsInMemory(const KernelChoice& choice) {
+  if (choice.particlesPerLane > 0) return {static_cast<std::uint32_t>(choice.particlesPerLane)};
+  std::vector<std::uint32_t> runs;
+  for (std::uint32_t run = 8; run <= kLongestRunInMemory; run += run < 128 ? 8 : 32) runs.push_back(run);
+  return runs;
+}
+
+bool hasMeasuredSerial(const KernelChoice& choice, StrandWork work) {
+  return choice.form == KernelChoice::Form::automatic && work == StrandWork::hairAlone &&
+         std::ranges::find(choice.measured, kAnySerialShape, &ShapeCost::shape) != choice.measured.end();
+}
+
+// Unasked as many lanes as a subgroup has: their runs are short, and soon compiled; of one lane, which is a
+// little faster, a GPU's private memory would not hold the runs.
+bool isOffered(std::uint32_t lanes, const DeviceLimits& limits, const KernelChoice& choice) {
+  if (lanes > 1 && !limits.hasSubgroupShuffle) return false;
+  if (choice.form == KernelChoice::Form::serial) return lanes == 1;
+  if (choice.form == KernelChoice::Form::memory && choice.lanes > 0) return isAskedFor(choice.lanes, lanes);
+  return lanes == (limits.hasSubgroupShuffle ? limits.subgroupSize : 1);
+}
+
+std::vector<ShapeCost> memoryCandidates(const DeviceLimits& limits, const KernelChoice& choice,
+                                        StrandWork work) {
+  const auto measured = work == StrandWork::hairAlone ? choice.measured : std::span<const ShapeCost>{};
+  const double unit = shapeCosts(limits, work, measured).back().nanoseconds /
+                      modelCost({1, 1, true}, modelOf(limits), work);  // what was measured, over the model
+  std::vector<ShapeCost> costs;
+  for (std::uint32_t lanes = 1; lanes <= limits.subgroupSize; lanes *= 2) {
+    if (!isOffered(lanes, limits, choice) && !(lanes == 1 && hasMeasuredSerial(choice, work))) continue;
+    for (const std::uint32_t run : runsInMemory(choice)) {
+      const StrandShape shape{lanes, run, true};
+      costs.push_back({shape, unit * modelCost(shape, modelOf(limits), work)});
+    }
+  }
+  return costs;
+}
+
+// What may be chosen from, as asked for, by rising capacity.
+std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
+  using Form = KernelChoice::Form;
+  std::vector<ShapeCost> costs;
+  if (choice.form == Form::automatic || choice.form == Form::lanes)
+    costs = registerCandidates(limits, choice, work);
+  if (choice.form == Form::lanes) return costs;
+  KernelChoice others = choice;
+  if (choice.form == Form::automatic) others.lanes = others.particlesPerLane = 0;
+  const std::uint32_t held = costs.empty() ? 0 : costs.back().shape.capacity();
+  const bool isStated = choice.form == Form::automatic && (choice.lanes > 0 || choice.particlesPerLane > 0);
+  for (ShapeCost c : memoryCandidates(limits, others, work)) {
+    if (c.shape.capacity() <= held && !(c.shape.serial() && hasMeasuredSerial(choice, work))) continue;
+    if (isStated) c.nanoseconds *= kLastResort;  // only for what does not fit
+    costs.push_back(c);
+  }
+  std::ranges::stable_sort(costs, {}, [](const ShapeCost& c) { return c.shape.capacity(); });
   return costs;
 }
 
@@ -119,36 +178,26 @@ struct Cut {
   std::ptrdiff_t before = -1;  // the candidate in use for shorter strands
 };
 
-// Of so many strands of so many particles in one shape, on every step. A subgroup is as slow with idle lanes.
-double rangeCost(const ShapeCost& cost, std::size_t strands, std::uint64_t particles,
-                 const DeviceLimits& limits) {
-  const std::size_t each = limits.subgroupSize / std::max(1u, cost.shape.lanes);
-  const auto filled = static_cast<double>((strands + each - 1) / each * each);
-  if (!cost.shape.serial()) return filled * cost.nanoseconds;
-  const double share = cost.nanoseconds == kLastResort ? 1 : filled / static_cast<double>(strands);
-  return share * static_cast<double>(particles) * cost.nanoseconds;
+// Of so many strands in one shape, on every step. A subgroup is as slow with idle lanes.
+double rangeCost(const ShapeCost& cost, std::size_t strands, const DeviceLimits& limits) {
+  const std::size_t each = limits.subgroupSize / cost.shape.lanes;
+  return static_cast<double>((strands + each - 1) / each * each) * cost.nanoseconds;
 }
 
 std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
                                         std::span<const ShapeCost> costs, const DeviceLimits& limits,
                                         const KernelChoice& choice) {
-  std::vector<std::uint64_t> particlesBefore{0};
-  for (std::uint32_t count : counts) particlesBefore.push_back(particlesBefore.back() + count);
   std::vector<Cut> best(costs.size());
   for (std::size_t j = 0; j < costs.size(); ++j) {
     const StrandShape& shape = costs[j].shape;
     best[j].end =
-        shape.serial()
-            ? counts.size()
-            : static_cast<std::size_t>(std::ranges::upper_bound(counts, shape.capacity()) - counts.begin());
+        static_cast<std::size_t>(std::ranges::upper_bound(counts, shape.capacity()) - counts.begin());
     for (std::ptrdiff_t i = -1; i < static_cast<std::ptrdiff_t>(j); ++i) {
       const Cut from = i < 0 ? Cut{.cost = 0} : best[static_cast<std::size_t>(i)];
       if (from.end >= best[j].end) continue;
       const double kernel =
           choice.manyKernels ? 0 : preparingCost(shape, modelOf(limits)) / std::max(1, choice.heads);
-      const double cost = from.cost + kernel +
-                          rangeCost(costs[j], best[j].end - from.end,
-                                    particlesBefore[best[j].end] - particlesBefore[from.end], limits);
+      const double cost = from.cost + kernel + rangeCost(costs[j], best[j].end - from.end, limits);
       if (cost < best[j].cost) best[j].cost = cost, best[j].before = i;
     }
   }
@@ -173,7 +222,10 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
 // What the device does not have at all, by name.
 Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
   const int run = choice.particlesPerLane;
-  const int longest = static_cast<int>(longestRun(limits, choice.lanes, work));
+  const bool isInMemory =
+      choice.form == KernelChoice::Form::memory || choice.form == KernelChoice::Form::serial;
+  const int longest =
+      static_cast<int>(isInMemory ? kLongestRunInMemory : longestRun(limits, choice.lanes, work));
   if (run != 0 && (run < static_cast<int>(kShortestRun) || run > longest))
     return Error{fmt::format("{} particles per lane was asked for; {} to {} are possible, 0 chooses", run,
                              kShortestRun, longest)};
@@ -188,6 +240,15 @@ Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, Stran
   return {};
 }
 
+// In the widest shape there is.
+Error isTooLong(std::uint32_t particleCount, const StrandShape& widest) {
+  return Error{fmt::format(
+      "a strand of {} particles does not fit this device: {} {} of {} in memory hold {}; cut the strand into "
+      "fewer particles, or use the reference",
+      particleCount, widest.lanes, widest.lanes == 1 ? "lane" : "lanes", widest.particlesPerLane,
+      widest.capacity())};
+}
+
 Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const KernelChoice& choice,
                  StrandWork work) {
   const std::uint32_t lanes =
@@ -197,7 +258,7 @@ Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const 
   return Error{fmt::format(
       "the lanes form was asked for, but a strand of {} particles does not fit: {}. Leave the choice to "
       "ringlet "
-      "or ask for the serial form",
+      "or ask for runs in memory",
       particleCount,
       limits.hasSubgroupShuffle
           ? fmt::format("{} lanes of {} hold {}", lanes, run, lanes * static_cast<std::uint32_t>(run))
@@ -207,7 +268,9 @@ Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const 
 }  // namespace
 
 std::string StrandShape::describe() const {
-  return serial() ? "serial" : fmt::format("lanes {} x {}", lanes, particlesPerLane);
+  if (*this == kAnySerialShape) return "serial";
+  const char* form = serial() ? "serial" : inMemory ? "memory" : "lanes";
+  return fmt::format("{} {} x {}", form, lanes, particlesPerLane);
 }
 
 StrandWork strandWork(const Settings& settings, const Material& material, ContactKinds kinds,
@@ -220,7 +283,7 @@ StrandWork strandWork(const Settings& settings, const Material& material, Contac
 }
 
 // 24, so that 128 particles are 8 runs of 16 and not half as many of 32, which are dearer to make; but what
-// few lanes save is worth it, and beyond the most lanes there is only the serial form, 4 times slower.
+// few lanes save is worth it, and beyond the most lanes there are only runs in memory, 4 times slower.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work) {
   if (!limits.isCpu) return 16;
   const bool isFew = isFromEnds(work) && lanes <= 2;
@@ -237,11 +300,12 @@ std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, StrandWork work,
       costs.push_back({{lanes, run}, 0});
   }
   std::ranges::stable_sort(costs, {}, [](const ShapeCost& c) { return c.shape.capacity(); });
-  costs.push_back({});
+  costs.push_back({kAnySerialShape, 0});
   double ratios = 0;
   int known = 0;
   for (ShapeCost& c : costs) {
-    c.nanoseconds = modelCost(c.shape, model, work);
+    const bool isAnySerial = c.shape == kAnySerialShape;
+    c.nanoseconds = modelCost(isAnySerial ? StrandShape{1, 1, true} : c.shape, model, work);
     const auto found = std::ranges::find(measured, c.shape, &ShapeCost::shape);
     if (found != measured.end()) ratios += std::log(found->nanoseconds / c.nanoseconds), ++known;
   }
@@ -259,9 +323,11 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
                                             StrandWork work) {
   if (Status possible = checkChoice(limits, choice, work); !possible) return possible.error();
   const std::vector<ShapeCost> costs = candidates(limits, choice, work);
-  const bool isHeld = !costs.empty() &&
-                      (costs.back().shape.serial() || particleCounts.back() <= costs.back().shape.capacity());
-  if (!isHeld) return doesNotFit(particleCounts.back(), limits, choice, work);
+  if (costs.empty() || particleCounts.back() > costs.back().shape.capacity()) {
+    if (costs.empty() || choice.form == KernelChoice::Form::lanes)
+      return doesNotFit(particleCounts.back(), limits, choice, work);
+    return isTooLong(particleCounts.back(), costs.back().shape);
+  }
   return cheapestRanges(particleCounts, costs, limits, choice);
 }
 

@@ -24,9 +24,9 @@ enum class StrandWork {
 /// `kinds`: of contacts.
 StrandWork strandWork(const Settings& settings, const Material& material, ContactKinds kinds, bool hasBodies);
 
-/// Particles a lane can hold: a GPU's registers are full long before a CPU device minds. There the widest
-/// shape takes long runs, and one or two lanes that solve from the strand's ends. lanes 0: the most of any
-/// number of lanes.
+/// Particles a lane can hold in registers: a GPU's registers are full long before a CPU device minds. There
+/// the widest shape takes long runs, and one or two lanes that solve from the strand's ends. lanes 0: the
+/// most of any number of lanes.
 std::uint32_t longestRun(const DeviceLimits& limits, std::uint32_t lanes, StrandWork work);
 
 /// Strands [begin, end) in device order, all of one shape.
@@ -37,13 +37,14 @@ struct StrandRange {
   std::uint32_t chunk = 0;    // the strands are within (groom_chunks.h)
 };
 
-/// Every shape the device has, the serial one last, with the cost a model by kind of device gives it. Where
-/// `measured` has some, theirs in place of it, and the others' in proportion.
+/// Every shape the device has with runs in registers, and kAnySerialShape last, with the cost a model by kind
+/// of device gives it. Where `measured` has some, theirs in place of it, and the others' in proportion.
 std::vector<ShapeCost> shapeCosts(const DeviceLimits& limits, StrandWork work = StrandWork::hairAlone,
                                   std::span<const ShapeCost> measured = {});
 
 /// Ranges of equal shape, the cheapest of all ways to cut. `particleCounts`: of the strands in device order,
-/// rising. Fails where the choice asks for lanes that the device or the strands do not allow.
+/// rising. Where nobody asks for more, only strands that no run in registers holds have theirs in memory.
+/// Fails where the choice asks for lanes that the device or the strands do not allow.
 Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> particleCounts,
                                             const DeviceLimits& limits, const KernelChoice& choice,
                                             StrandWork work = StrandWork::hairAlone);

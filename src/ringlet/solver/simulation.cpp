@@ -471,7 +471,7 @@ Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) c
   std::vector<std::array<float, 4>> values(self_->rest.groomParticleCount);
   GroomPlaces place(self_->rest);
   const auto take = [&](std::size_t i, layout::vec4 v) { values[place(i)] = {v.x, v.y, v.z, v.w}; };
-  if (Status status = self_->buffers.downloadEach(&DeviceChunk::scratch, take, field); !status)
+  if (Status status = self_->buffers.downloadEach(&DeviceChunk::taps, take, field); !status)
     return status.error();
   return values;
 }

@@ -58,7 +58,7 @@ struct ContactReport {
 
 /// Sizes of a simulation's buffers in bytes (docs/memory.md).
 struct DeviceMemory {
-  std::uint64_t particles = 0;     // state, rest, scratch, contact terms of a solve
+  std::uint64_t particles = 0;     // state, rest, taps, contact terms of a solve
   std::uint64_t strands = 0;       // constants, reports
   std::uint64_t rootPoses = 0;     // of strands that have poses of their own
   std::uint64_t contacts = 0;      // contact particles, their grid, pairs of strands that may touch

@@ -30,8 +30,6 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   const GroomChunk& chunk = buffers.chunks[ranges[dispatch.range].chunk].part;
   p.particleCount = chunk.particleCount();
   p.phases = dispatch.phases;
-  p.loopBegin = dispatch.loopBegin;
-  p.loopEnd = dispatch.loopEnd;
   p.bodyCount = static_cast<std::uint32_t>(world.bodyCount());
   p.dragStrength = static_cast<float>(kStandardGravity / (settings.air.fallSpeed * settings.air.fallSpeed));
   p.dragAlong = static_cast<float>(settings.air.alongShare);

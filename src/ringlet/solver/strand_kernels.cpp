@@ -10,8 +10,16 @@
 #include "ringlet_shaders/strand_step_baselines_taps.h"
 #include "ringlet_shaders/strand_step_contacts.h"
 #include "ringlet_shaders/strand_step_contacts_taps.h"
+#include "ringlet_shaders/strand_step_memory_baselines.h"
+#include "ringlet_shaders/strand_step_memory_baselines_taps.h"
+#include "ringlet_shaders/strand_step_memory_plain.h"
+#include "ringlet_shaders/strand_step_memory_plain_taps.h"
+#include "ringlet_shaders/strand_step_memory_surroundings.h"
+#include "ringlet_shaders/strand_step_memory_surroundings_taps.h"
 #include "ringlet_shaders/strand_step_plain.h"
 #include "ringlet_shaders/strand_step_plain_taps.h"
+#include "ringlet_shaders/strand_step_serial_baselines.h"
+#include "ringlet_shaders/strand_step_serial_baselines_taps.h"
 #include "ringlet_shaders/strand_step_serial_plain.h"
 #include "ringlet_shaders/strand_step_serial_plain_taps.h"
 #include "ringlet_shaders/strand_step_serial_surroundings.h"
@@ -30,13 +38,20 @@ using Spirv = std::span<const std::uint32_t>;
 Spirv spirvOf(const StrandShape& shape, const StrandKernelOptions& options) {
   const auto either = [&](Spirv plain, Spirv taps) { return options.taps ? taps : plain; };
   const bool amongOthers = options.bodies || options.air;
+  const bool isBaseline = options.integrator != Integrator::jacobi;
   if (shape.serial()) {
+    if (isBaseline) return either(k_strand_step_serial_baselines, k_strand_step_serial_baselines_taps);
     if (amongOthers || options.contacts)
       return either(k_strand_step_serial_surroundings, k_strand_step_serial_surroundings_taps);
     return either(k_strand_step_serial_plain, k_strand_step_serial_plain_taps);
   }
-  if (options.integrator != Integrator::jacobi)
-    return either(k_strand_step_baselines, k_strand_step_baselines_taps);
+  if (shape.inMemory) {
+    if (isBaseline) return either(k_strand_step_memory_baselines, k_strand_step_memory_baselines_taps);
+    if (amongOthers || options.contacts)
+      return either(k_strand_step_memory_surroundings, k_strand_step_memory_surroundings_taps);
+    return either(k_strand_step_memory_plain, k_strand_step_memory_plain_taps);
+  }
+  if (isBaseline) return either(k_strand_step_baselines, k_strand_step_baselines_taps);
   if (amongOthers) return either(k_strand_step_surroundings, k_strand_step_surroundings_taps);
   if (options.contacts) return either(k_strand_step_contacts, k_strand_step_contacts_taps);
   return either(k_strand_step_plain, k_strand_step_plain_taps);
@@ -88,9 +103,9 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
     description.constants.push_back({layout::kSpecVolume, options.volume ? 1u : 0u});
   }
   description.groupSize = options.groupSize;
+  description.constants.push_back({layout::kSpecRun, shape.particlesPerLane});
   if (!shape.serial()) {
     description.constants.push_back({layout::kSpecLanes, shape.lanes});
-    description.constants.push_back({layout::kSpecRun, shape.particlesPerLane});
     description.wantsFullSubgroups = true;
     description.subgroupSize = options.subgroupSize;
   }

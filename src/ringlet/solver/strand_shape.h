@@ -7,8 +7,9 @@
 
 namespace ringlet {
 
-/// Particles a lane holds: not fewer than can be pinned; of any device. A device's longest run: shape_plan.h.
-inline constexpr std::uint32_t kShortestRun = 4, kLongestRun = 64;
+/// Particles a lane holds: not fewer than can be pinned; in registers, of any device (a device's longest run:
+/// shape_plan.h); in memory: a CPU device keeps 8 such runs, 3 MB, on the stack of a thread.
+inline constexpr std::uint32_t kShortestRun = 4, kLongestRun = 64, kLongestRunInMemory = 1024;
 
 /// What the plan must know of a device.
 struct DeviceLimits {
@@ -21,21 +22,25 @@ struct DeviceLimits {
                                                            // but subgroupSize
 };
 
-/// A strand laid over a device: lanes x run, or one thread per strand (lanes = 0).
+/// A strand laid over a device: lanes x run.
 struct StrandShape {
-  std::uint32_t lanes = 0;  // a power of two, a subgroup at most
-  std::uint32_t particlesPerLane = 0;
+  std::uint32_t lanes = 0;             // a power of two, a subgroup at most
+  std::uint32_t particlesPerLane = 0;  // the run
+  bool inMemory = false;               // the run is in memory: slower than in registers, but it may be long
 
-  bool serial() const { return lanes == 0; }
-  std::uint32_t capacity() const { return lanes * particlesPerLane; }  // particles; serial: any number
-  std::string describe() const;                                        // "lanes 4 x 16" or "serial"
+  bool serial() const { return inMemory && lanes == 1; }  // needs no subgroup operations
+  std::uint32_t capacity() const { return lanes * particlesPerLane; }
+  std::string describe() const;  // "lanes 4 x 16", "memory 8 x 96" or "serial 1 x 96"
   bool operator==(const StrandShape&) const = default;
 };
+
+/// In place of all serial shapes, where a cost is that of a particle.
+inline constexpr StrandShape kAnySerialShape{.lanes = 1, .particlesPerLane = 0, .inMemory = true};
 
 /// Device time, strands being many.
 struct ShapeCost {
   StrandShape shape;
-  double nanoseconds = 0;  // of one outer step of one strand, however long; serial: of one of its particles
+  double nanoseconds = 0;  // of one outer step of one strand, however long; kAnySerialShape: of a particle
 };
 
 /// Of the code of the strand kernels for hair alone, 16 hexadecimal digits: with other code measured costs
