@@ -166,7 +166,8 @@ Status writeTables(const fs::path& folder) {
   const std::string digits =
       "bend_stiffness = 8.123456789012345\n[profile]\nbend_stiffness = [[0, 0.1234567890123], [1, 1]]\n";
   write(seed(folder, "material_file", "digits"), digits);
-  const DeviceCosts device{"a GPU", "driver 1", "9c0f3a51e2d47b68", {{{4, 16}, 612.5}, {{}, 46}}, 8};
+  const DeviceCosts device{
+      "a GPU", "driver 1", "9c0f3a51e2d47b68", {{{4, 16}, 612.5}, {kAnySerialShape, 46}}, 8};
   if (Status status = writeShapeCosts(seed(folder, "shape_cost_file", "two"), {device, device}); !status)
     return status;
   // Vulkan's own header: its size, version 1, vendor, device, an id of 16 bytes; and what the driver likes.

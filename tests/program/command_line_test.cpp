@@ -56,7 +56,8 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
   };
   const std::vector<Case> cases{
       {{},
-       "say what to do: make, simulate, sweep, info, measure, convert, scene, devices, tune, conform, "
+       "say what to do: make, simulate, sweep, info, measure, render, convert, scene, devices, tune, "
+       "conform, "
        "kernels, "
        "material"},
       {{"simulat"}, "did you mean simulate?"},

@@ -51,16 +51,22 @@ int differing(const Image& a, const Image& b) {
   return count;
 }
 
-// A folder with head.obj, a head of 120 strands, and out/, a run of it in every format.
+// A folder with head.obj, a head of 120 strands, and out/, a run of it in every format; made once for all
+// tests.
 class Render : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = scratchFolder("render");
-    RINGLET_NEEDS_DEVICE(folder_);
-    ASSERT_EQ(run({"make", "head", "--strands", "120", "--particles", "24", "-o", "head.obj"}).exitCode, 0);
-    const auto result = run({"simulate", "head.obj", "--motion", "shake", "--frames", std::to_string(kFrames),
-                             "--cache", "float32", "--usdc", "--no-sheet", "-o", "out"});
+    if (!folder_.empty()) return;
+    const fs::path folder = scratchFolder("render");
+    RINGLET_NEEDS_DEVICE(folder);
+    ASSERT_EQ(runProgram(folder, {"make", "head", "--strands", "120", "--particles", "24", "-o", "head.obj"})
+                  .exitCode,
+              0);
+    const auto result =
+        runProgram(folder, {"simulate", "head.obj", "--motion", "shake", "--frames", std::to_string(kFrames),
+                            "--cache", "float32", "--usdc", "--no-sheet", "-o", "out"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
+    folder_ = folder;
   }
 
   ProgramResult run(const std::vector<std::string>& arguments) { return runProgram(folder_, arguments); }
@@ -85,7 +91,7 @@ class Render : public testing::Test {
 
   Image picture(const fs::path& path) { return readPng(folder_ / path); }
 
-  fs::path folder_;
+  static inline fs::path folder_;
 };
 
 TEST_F(Render, ARunIsAPictureAFrame) {

@@ -136,7 +136,7 @@ TEST_F(Tune, IsUsedForHairAloneWhereThereIsAChoice) {
 }
 
 TEST_F(Tune, OtherDevicesDriversAndKernelsAreLeftAside) {
-  const DeviceCosts device = here({{{2, 4}, 1}, {{}, 1e9}});
+  const DeviceCosts device = here({{{2, 4}, 1}, {kAnySerialShape, 1e9}});
   DeviceCosts otherDevice = device, otherDriver = device, otherKernels = device;
   otherDevice.device = "Voodoo 2", otherDriver.driver = "none 1.0", otherKernels.kernels = "0123456789abcdef";
   remember({otherDevice});
