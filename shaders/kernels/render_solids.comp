@@ -1,12 +1,9 @@
-// Triangles of bodies onto the samples of a picture. An invocation has one triangle and kRows rows of samples, and in
-// each
-// row the samples between the triangle's edges.
+// Triangles of bodies onto the samples of a picture. An invocation has one triangle and kSolidRows rows of samples, and
+// in each row the samples between the triangle's edges.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/solids.glsl"
 #include "shared/visible.glsl"
-
-const uint kRows = 64;
 
 // Where the row of that height cuts the way from a to b: widens the range (least, greatest).
 vec2 cutBy(vec2 range, vec2 a, vec2 b, float height) {
@@ -17,10 +14,10 @@ vec2 cutBy(vec2 range, vec2 a, vec2 b, float height) {
 
 void main() {
   uvec2 size = bandSize();
-  uint blocks = (size.y + kRows - 1) / kRows;
+  uint blocks = (size.y + kSolidRows - 1) / kSolidRows;
   uint t = gl_GlobalInvocationID.x / blocks;
   if (t >= picture.triangleCount) return;
-  uint firstRow = (gl_GlobalInvocationID.x - t * blocks) * kRows;
+  uint firstRow = (gl_GlobalInvocationID.x - t * blocks) * kSolidRows;
   uvec3 corners = solidTriangle(t);
   vec3 a = inView(solidPosition(corners.x).xyz);
   vec3 b = inView(solidPosition(corners.y).xyz);
@@ -41,7 +38,7 @@ void main() {
 
   float top = bandTop();
   float lowest = max(ceil(min(min(p.y, q.y), r.y) - 0.5), top + float(firstRow));
-  float highest = min(ceil(max(max(p.y, q.y), r.y) - 0.5), top + float(min(firstRow + kRows, size.y))) - 1.0;
+  float highest = min(ceil(max(max(p.y, q.y), r.y) - 0.5), top + float(min(firstRow + kSolidRows, size.y))) - 1.0;
   float y = lowest;
   if (y <= highest) do {
     vec2 range = vec2(1e30, -1e30);

@@ -564,6 +564,8 @@ RINGLET_CONSTANT uint kSpecPass = 2;     // of render_hairs and render_solids wi
 RINGLET_CONSTANT uint kSolid = 0x80000000u;  // what is seen is a triangle of a body
 RINGLET_CONSTANT uint kShadedHair = 0x80000000u;  // of a sample's second word: it holds a colour, no nearness
 
+RINGLET_CONSTANT uint kSolidRows = 64;  // of samples, that an invocation of render_solids has
+
 // Of a picture and its camera.
 struct Picture {
   vec4 view[3];            // rows: from the world to the camera's right, up and forward axes [m]

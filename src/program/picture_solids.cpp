@@ -89,7 +89,8 @@ PictureSolids PictureSolids::ofRoots(std::span<const Vec3d> roots, Vec3d up) {
   return solids;
 }
 
-std::vector<SolidPlace> PictureSolids::placesAt(int frame, std::span<const Vec3d> roots, Quatd head) const {
+std::vector<SolidPlace> PictureSolids::placesAt(double frame, std::span<const Vec3d> roots,
+                                                Quatd head) const {
   std::vector<SolidPlace> places;
   if (!scene_) {
     if (!meshes_.empty()) places.push_back({meanOf(roots) + rotate(head, fromRoots_), head * upright_});

@@ -22,9 +22,9 @@ class PictureSolids {
   static PictureSolids ofRoots(std::span<const Vec3d> roots, Vec3d up);
 
   const std::vector<SolidMesh>& meshes() const { return meshes_; }
-  /// In a frame, from 1; `roots` as they are then [m], in the order of those at rest, and how the head has
-  /// turned.
-  std::vector<SolidPlace> placesAt(int frame, std::span<const Vec3d> roots, Quatd head) const;
+  /// At the end of a frame, from 1, or a share of one before; `roots` as they are then [m], in the order of
+  /// those at rest, and how the head has turned.
+  std::vector<SolidPlace> placesAt(double frame, std::span<const Vec3d> roots, Quatd head) const;
 
  private:
   const LoadedScene* scene_ = nullptr;

@@ -68,10 +68,9 @@ class Rendering {
  private:
   Status makeHair(const Groom& rest);
   Status makeSolids(const Groom& rest);
-  Status drawMoment(gpu::Recorder& recorder, int frame, double share, const Points& before,
-                    const Points& points, bool isFirst);
-  Status write(int frame);
-  Camera cameraOf(int frame, const Bounds& here) const;
+  Status drawMoment(int frame, double share, const Points& before, const Points& points, bool isFirst);
+  Status write(int frame, std::span<const std::uint32_t> pixels);
+  Camera cameraOf(double frame, const Bounds& here) const;
   Bounds boundsOf(const Points& points) const;
   std::vector<Vec3d> rootsOf(const Points& points) const;
 
@@ -85,6 +84,7 @@ class Rendering {
   std::optional<StrandPoints> lines_;
   std::optional<PictureSolids> solids_;
   std::optional<HairRenderer> renderer_;
+  std::optional<gpu::Recorder> recorder_;  // the last to be made, the first to end
   std::vector<Vec3d> restRoots_;
   Bounds all_ = emptyBounds();  // of every frame
   Outline outline_;             // likewise
@@ -162,11 +162,14 @@ Status Rendering::prepare(const Groom& first) {
       device_.gpu(), drawn, solids_ ? solids_->meshes() : std::vector<SolidMesh>{}, plan_.size, plan_.look);
   if (!renderer) return renderer.error();
   renderer_.emplace(std::move(*renderer));
+  auto recorder = gpu::Recorder::create(device_.gpu(), "picture");
+  if (!recorder) return recorder.error();
+  recorder_.emplace(std::move(*recorder));
   outcome_.deviceBytes = renderer_->byteCount() + (hairs_ ? hairs_->byteCount() : lines_->points().bytes());
   return {};
 }
 
-Camera Rendering::cameraOf(int frame, const Bounds& here) const {
+Camera Rendering::cameraOf(double frame, const Bounds& here) const {
   std::vector<Vec3d> shown = outline_.points();
   if (radiusOf(all_) > kTravels * largest_) {  // the camera goes along
     const Vec3d middle = (here.low + here.high) / 2.0, half = Vec3d{1, 1, 1} * (largest_ / std::sqrt(3.0));
@@ -178,8 +181,9 @@ Camera Rendering::cameraOf(int frame, const Bounds& here) const {
   return cameraAround(shown, up_, static_cast<double>(plan_.size.width) / plan_.size.height, place);
 }
 
-Status Rendering::drawMoment(gpu::Recorder& recorder, int frame, double share, const Points& before,
-                             const Points& points, bool isFirst) {
+// `share`: of the way from the frame before.
+Status Rendering::drawMoment(int frame, double share, const Points& before, const Points& points,
+                             bool isFirst) {
   Points pose = points;
   if (share < 1)
     for (std::size_t i = 0; i < pose.size(); ++i)
@@ -193,30 +197,29 @@ Status Rendering::drawMoment(gpu::Recorder& recorder, int frame, double share, c
     return set;
   }
   const Bounds here = boundsOf(pose);
+  const double at = frame - 1 + share;
   std::vector<SolidPlace> places;
-  if (solids_) places = solids_->placesAt(frame, rootsOf(pose), head);
-  if (Status set = renderer_->setFrame(cameraOf(frame, here), here, places); !set) return set;
+  if (solids_) places = solids_->placesAt(at, rootsOf(pose), head);
+  if (Status set = renderer_->setFrame(cameraOf(at, here), here, places); !set) return set;
 
-  if (Status begun = recorder.begin(); !begun) return begun;
+  if (Status begun = recorder_->begin(); !begun) return begun;
   if (hairs_) {
-    recorder.beginStage("follow");
-    hairs_->record(recorder, head);
-    recorder.endStage();
+    recorder_->beginStage("follow");
+    hairs_->record(*recorder_, head);
+    recorder_->endStage();
   }
-  renderer_->record(recorder, isFirst);
-  return recorder.submitAndWait();
+  renderer_->record(*recorder_, isFirst);
+  return recorder_->submitAndWait();
 }
 
 Status Rendering::drawFrame(int frame, const Points& before, const Points& points) {
   const double start = now(), cpuStart = cpuNow();
-  auto recorder = gpu::Recorder::create(device_.gpu(), "picture");
-  if (!recorder) return recorder.error();
   std::map<std::string, double> stages;
   const int moments = before.empty() ? 1 : plan_.moments;
   for (int k = 0; k < moments; ++k) {
     const double share = moments == 1 ? 1 : 1 - kShutter * (k + 0.5) / moments;
-    if (Status drawn = drawMoment(*recorder, frame, share, before, points, k == 0); !drawn) return drawn;
-    for (const auto& [stage, milliseconds] : recorder->stageMilliseconds()) stages[stage] += milliseconds;
+    if (Status drawn = drawMoment(frame, share, before, points, k == 0); !drawn) return drawn;
+    for (const auto& [stage, milliseconds] : recorder_->stageMilliseconds()) stages[stage] += milliseconds;
   }
   auto picture = renderer_->picture();
   if (!picture) return picture.error();
@@ -227,11 +230,14 @@ Status Rendering::drawFrame(int frame, const Points& before, const Points& point
   ++measured_;
   for (const auto& [stage, milliseconds] : stages) outcome_.stages[stage] += milliseconds;
 
+  return write(frame, *picture);
+}
+
+Status Rendering::write(int frame, std::span<const std::uint32_t> pixels) {
   Picture image(plan_.size.width, plan_.size.height, {});
-  for (std::size_t i = 0; i < picture->size(); ++i) {
-    const std::uint32_t pixel = (*picture)[i];
-    image.pixels[i] = {static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 8),
-                       static_cast<std::uint8_t>(pixel >> 16)};
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    image.pixels[i] = {static_cast<std::uint8_t>(pixels[i]), static_cast<std::uint8_t>(pixels[i] >> 8),
+                       static_cast<std::uint8_t>(pixels[i] >> 16)};
   }
   const bool isOne = plan_.output.extension() == ".png";
   const auto path = isOne ? plan_.output : plan_.output / fmt::format("frame.{:04}.png", frame);

@@ -152,6 +152,21 @@ TEST_F(Render, ASceneIsSimulatedFirst) {
   EXPECT_GT(differing(picture("alone/frame.0003.png"), picture("shot/frame.0003.png")), 100);
 }
 
+// Hair too thin to be seen: what differs is the body, which the head carries along.
+TEST_F(Render, BodiesAreBlurredAsHairIs) {
+  std::ofstream(folder_ / "moving.toml")
+      << "[groom]\nfile = \"head.obj\"\n[motion]\nkind = \"shake\"\n"
+         "[simulation]\nframes = 4\n[[body]]\nshape = \"sphere\"\nradius = 0.085\n";
+  const std::vector<std::string> base = {"out", "--scene", "moving.toml", "--hairs",
+                                         "0",   "--width", "0.0000001"};
+  std::vector<std::string> sharp = base, blurred = base;
+  sharp.insert(sharp.end(), {"-o", "still_body"});
+  blurred.insert(blurred.end(), {"-o", "moving_body", "--blur", "4"});
+  render(sharp);
+  render(blurred);
+  EXPECT_GT(differing(picture("moving_body/frame.0003.png"), picture("still_body/frame.0003.png")), 30);
+}
+
 TEST_F(Render, OptionsChangeThePicture) {
   const std::vector<std::string> base = {"head.obj", "-o", "a.png"};
   render(base);

@@ -20,7 +20,6 @@ constexpr std::uint32_t kShadowCells = 160, kShadowSlices = 64, kDensityCells = 
 constexpr std::uint32_t kShadowHairs = 10000;  // that throw shadows, for all
 constexpr double kNear = 0.01;                 // [m]
 constexpr double kMostHairs = 16384;           // before a place on average: sums stay within 32 bits
-constexpr std::uint32_t kSolidRows = 64;       // as render_solids.comp has
 
 layout::vec4 vec4Of(Vec3d v, double w = 0) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
@@ -178,7 +177,7 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
       {.indirectHairs = {0, 1, 1}, .hairs = 0, .indirectSolids = {0, 1, 1}, .solids = 0}};
   auto counts = createFilled(device, none, "counts of nothing seen");
   if (!counts) return counts.error();
-  noneSeen_.push_back(std::move(*counts));
+  noneSeen_.emplace(std::move(*counts));
   return {};
 }
 
@@ -226,7 +225,7 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
   picture.shadowCells = kShadowCells;
   picture.shadowSlices = kShadowSlices;
   picture.densityCells = kDensityCells;
-  picture.shadowStride = std::max(1u, hairCount_ / kShadowHairs);
+  picture.shadowStride = shadowStride();
   picture.focus = static_cast<float>(size_.height / 2.0 / std::tan(camera.fieldOfView / 2));
   picture.near = static_cast<float>(kNear);
   picture.fixedPoint = static_cast<float>(std::pow(2.0, 32) / (kMostHairs * picture.shadowCellArea));
@@ -248,6 +247,8 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
   return buffers_[layout::kBindSolidPoints].upload(std::as_bytes(std::span(points)));
 }
 
+std::uint32_t HairRenderer::shadowStride() const { return std::max(1u, hairCount_ / kShadowHairs); }
+
 void HairRenderer::dispatch(gpu::CommandList& list, RenderKernel kernel, std::uint64_t invocations,
                             std::uint32_t firstRow, std::uint32_t rowCount) const {
   const auto at = static_cast<std::size_t>(kernel);
@@ -261,7 +262,7 @@ void HairRenderer::recordShadows(gpu::CommandList& list) const {
   list.fillZero(buffer(layout::kBindShadows));
   list.fillZero(buffer(layout::kBindDensity));
   list.barrier();
-  const std::uint32_t stride = std::max(1u, hairCount_ / kShadowHairs);
+  const std::uint32_t stride = shadowStride();
   dispatch(list, RenderKernel::shadowHairs,
            std::uint64_t{1} * ((hairCount_ + stride - 1) / stride) * pointsPerHair_);
   list.barrier();
@@ -276,7 +277,8 @@ void HairRenderer::recordShadows(gpu::CommandList& list) const {
 }
 
 void HairRenderer::recordSeen(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const {
-  const std::uint64_t blocks = (std::uint64_t{rowCount} * size_.side + kSolidRows - 1) / kSolidRows;
+  const std::uint64_t blocks =
+      (std::uint64_t{rowCount} * size_.side + layout::kSolidRows - 1) / layout::kSolidRows;
   const auto draw = [&](RenderKernel solids, RenderKernel hairs) {
     if (triangleCount_ > 0) {
       dispatch(list, solids, triangleCount_ * blocks, firstRow, rowCount);
@@ -292,7 +294,7 @@ void HairRenderer::recordSeen(gpu::CommandList& list, std::uint32_t firstRow, st
 void HairRenderer::recordBand(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const {
   list.beginStage("draw");
   list.fillZero(buffer(layout::kBindSamples));
-  list.copyBuffer(noneSeen_.front(), buffer(layout::kBindSeenCounts), sizeof(layout::SeenCounts));
+  list.copyBuffer(*noneSeen_, buffer(layout::kBindSeenCounts), sizeof(layout::SeenCounts));
   list.barrier();
   recordSeen(list, firstRow, rowCount);
   list.endStage();

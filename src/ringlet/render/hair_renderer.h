@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -77,6 +78,7 @@ class HairRenderer {
   Status makeKernels(gpu::Device& device, const gpu::Buffer& points);
   void dispatch(gpu::CommandList& list, RenderKernel kernel, std::uint64_t invocations,
                 std::uint32_t firstRow = 0, std::uint32_t rowCount = 0) const;
+  std::uint32_t shadowStride() const;
   void recordShadows(gpu::CommandList& list) const;
   void recordBand(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const;
   void recordSeen(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const;
@@ -91,8 +93,8 @@ class HairRenderer {
   std::uint32_t bandRows_ = 0;  // of pixels, drawn together
   double width_ = 0;
   bool hasAtomic64_ = false;
-  std::vector<gpu::Buffer> buffers_;   // by binding
-  std::vector<gpu::Buffer> noneSeen_;  // SeenCounts before there is anything: one
+  std::vector<gpu::Buffer> buffers_;     // by binding
+  std::optional<gpu::Buffer> noneSeen_;  // SeenCounts before there is anything
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;
   std::vector<gpu::Bindings> bindings_;
 };
