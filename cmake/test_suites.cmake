@@ -1,5 +1,6 @@
-# ringlet_add_suites(target folder): one ctest entry for each GoogleTest suite of the target, named folder/Suite. The tests of a
+# ringlet_add_suites(target folder [VARIABLE=VALUE ...]): one ctest entry for each GoogleTest suite of the target, named folder/Suite. The tests of a
 # suite share a process, and with it the device and its compiled kernels. The suites are read from the program when ctest starts.
+# They run with the variables in their environment.
 #   RINGLET_LONG_SUITES  a list of "folder/Suite=seconds". ctest starts the longest first, so that none is left over at the end.
 set(RINGLET_LIST_SUITES ${CMAKE_CURRENT_LIST_DIR}/list_suites.cmake)
 
@@ -7,6 +8,7 @@ function(ringlet_add_suites target folder)
   set(script ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
   file(GENERATE OUTPUT ${script} CONTENT "set(program [[$<TARGET_FILE:${target}>]])
 set(folder [[${folder}]])
+set(environment [[RINGLET_SKIP_CODE=77;${ARGN}]])
 set(long_suites [[${RINGLET_LONG_SUITES}]])
 include([[${RINGLET_LIST_SUITES}]])
 ")

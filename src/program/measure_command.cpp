@@ -20,8 +20,10 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/measure_plot.h"
 #include "program/measure_report.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/contact_quality.h"
 #include "ringlet/measure/shape_distance.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
@@ -36,6 +38,8 @@ constexpr const char* kExample =
     "  ringlet measure groom.obj out --json          and in what `ringlet simulate` wrote\n"
     "  ringlet measure groom.obj out --against settled.obj\n"
     "                                                and how far that is from one more pose\n"
+    "  ringlet measure groom.obj out --plot out.svg --over softer --over stiffer\n"
+    "                                                three motions of it over each other\n"
     "\n"
     "A USD file (.usda, .usdc, .usd, .usdz) states its unit and its up axis; --unit and --up go before "
     "them.\n"
@@ -49,6 +53,10 @@ constexpr const char* kExample =
     "--against compares that pose, or the last frame, with one more pose, in REST's unit. With their roots\n"
     "put together it says how far particles and cores (root mean square) and tips are apart, the angle\n"
     "between the cores' chords, and by how much turns and mean radius are more.\n"
+    "--plot draws over time, of OTHER and of each --over: mean droop, core elongation and turns, kinetic\n"
+    "energy of hair of 10 mg/m, and how far hairs are in each other beyond rest, the deepest and the mean,\n"
+    "as shares of their reach (1: two centres in one place); hairs are as thick as contacts have them\n"
+    "unasked. It needs gnuplot.\n"
     "\n"
     "--json keys: strands particles frames; over strands of the last frame, means: droop_mm\n"
     "core_elongation, and of the curled: turns mean_radius_mm; handedness_kept: by all;\n"
@@ -56,7 +64,9 @@ constexpr const char* kExample =
     "{droop_mm core_elongation tip_rotation_deg}; of the motion: bounce_hz sway_hz (means) settle_s (the\n"
     "last to settle) energy_ratio (last second over peak); spread {KEY: [mean, min, max]} of the last\n"
     "frame; against {KEY: [mean, min, max]} with --against: particles tip core (shares of the arc length)\n"
-    "direction_deg turns radius (shares of those at rest); per_strand with --strands. null: nothing to\n"
+    "direction_deg turns radius (shares of those at rest); per_strand with --strands; series with --plot:\n"
+    "seconds droop_mm core_elongation turns energy_uj deepest_contact mean_contact, a number a frame. null: "
+    "nothing to\n"
     "measure; so are limited_share and velocity_residual, which only a run knows (`ringlet simulate "
     "--json`,\n"
     "`ringlet scene --json`).\n"
@@ -65,7 +75,8 @@ constexpr const char* kExample =
 
 // The command line as typed.
 struct Typed {
-  std::filesystem::path rest, other, against;
+  std::filesystem::path rest, other, against, plot;
+  std::vector<std::filesystem::path> over;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
   bool json = false, strands = false;
@@ -141,7 +152,7 @@ bool isUpZ(const Typed& typed, UpAxis otherwise) {
 }
 Vec3d upOf(bool isZ) { return isZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0}; }
 
-Result<Measured> measureGroom(const Typed& typed) {
+Result<Measured> measureGroom(const Typed& typed, const std::filesystem::path& otherPath) {
   const bool upIsZ = isUpZ(typed, UpAxis::y);
   auto rest = read(typed.rest, typed, upIsZ);
   if (!rest) return rest.error();
@@ -152,12 +163,12 @@ Result<Measured> measureGroom(const Typed& typed) {
 
   // The same strands elsewhere.
   std::vector<Vec3f> points = rest->points;
-  if (!typed.other.empty()) {
-    auto other = readPose(*rest, typed, upIsZ, typed.other);
+  if (!otherPath.empty()) {
+    auto other = readPose(*rest, typed, upIsZ, otherPath);
     if (!other) return other.error();
     auto measured =
         ruler->measure(other->points, unit, upOf(upIsZ), ruler->headRotationOf(other->points, unit));
-    if (!measured) return Error{fmt::format("{}: {}", typed.other.string(), measured.error().message)};
+    if (!measured) return Error{fmt::format("{}: {}", otherPath.string(), measured.error().message)};
     strands = std::move(*measured);
     points = std::move(other->points);
   }
@@ -171,8 +182,14 @@ Result<Measured> measureGroom(const Typed& typed) {
                     .distances = std::move(*distances),
                     .against = typed.against.string(),
                     .numbers = numbers};
-  measured.isPose = !typed.other.empty();
+  measured.isPose = !otherPath.empty();
   return measured;
+}
+
+std::vector<Vec3f> inMetres(std::span<const Vec3f> points, double metresPerUnit) {
+  std::vector<Vec3f> metres;
+  for (const Vec3f& p : points) metres.push_back(Vec3f(Vec3d(p) * metresPerUnit));
+  return metres;
 }
 
 Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::path& path) {
@@ -187,13 +204,20 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   const bool upIsZ = isUpZ(typed, source->header().up);
   auto rest = read(typed.rest, typed, upIsZ, unit);
   if (!rest) return rest.error();
-  if (Status same = checkSameStrands(*rest, countsOf(source->groom()), typed, typed.other); !same)
+  if (Status same = checkSameStrands(*rest, countsOf(source->groom()), typed, path); !same)
     return same.error();
 
   // Frame by frame, from the groom itself on.
   auto motion =
       MotionMeasure::make(*rest, {.framesPerSecond = source->header().framesPerSecond, .up = upOf(upIsZ)});
   if (!motion) return Error{fmt::format("{}: {}", typed.rest.string(), motion.error().message)};
+  std::optional<ContactRuler> contactRuler;
+  if (!typed.plot.empty()) {
+    auto made = ContactRuler::make(*rest, {}, {});
+    if (!made) return Error{fmt::format("{}: {}", typed.rest.string(), made.error().message)};
+    contactRuler.emplace(std::move(*made));
+  }
+  std::vector<ContactQuality> contacts;
   if (source->frameCount() == 0) return Error{fmt::format("{} holds no frame", path.string())};
   for (int frame = 0; frame <= source->frameCount(); ++frame) {
     if (frame > 0) {
@@ -202,6 +226,7 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
     const auto& points = frame == 0 ? rest->points : source->groom().points;
     if (Status added = motion->addFrame(points, unit); !added)
       return Error{fmt::format("{}: frame {}: {}", path.string(), frame, added.error().message)};
+    if (contactRuler) contacts.push_back(contactRuler->measure(inMetres(points, unit)));
   }
 
   auto distances = measureAgainst(motion->ruler(), *rest, source->groom().points, typed, upIsZ);
@@ -218,6 +243,12 @@ Result<Measured> measureAnimation(const Typed& typed, const std::filesystem::pat
   --measured.numbers.frameCount;  // the groom itself is none of the file's
   for (const StrandMotion& strand : report.strands) measured.strands.push_back(strand.last);
   measured.motions = std::move(report.strands);
+  if (contactRuler) {
+    measured.series = MotionSeries{.name = path.string(),
+                                   .framesPerSecond = source->header().framesPerSecond,
+                                   .frames = std::move(report.frames),
+                                   .contacts = std::move(contacts)};
+  }
   measured.seconds = report.seconds;
   measured.freeSeconds = report.freeSeconds;
   measured.isPose = true;
@@ -237,10 +268,10 @@ std::filesystem::path animationIn(const std::filesystem::path& folder) {
   return {};
 }
 
-// What OTHER is: a folder stands for the animation in it.
-Result<Measured> measure(const Typed& typed) {
+// What became of REST: a folder stands for the animation in it.
+Result<Measured> measure(const Typed& typed, const std::filesystem::path& other) {
   namespace fs = std::filesystem;
-  fs::path path = typed.other;
+  fs::path path = other;
   std::error_code code;
   if (fs::is_directory(typed.rest, code) || (isAnimation(typed.rest) && !isGroomFile(typed.rest))) {
     return Error{
@@ -249,21 +280,47 @@ Result<Measured> measure(const Typed& typed) {
                     typed.rest.string(), typed.rest.string())};
   }
   if (fs::is_directory(path, code)) {
-    path = animationIn(typed.other);
+    path = animationIn(other);
     if (path.empty())
       return Error{
           fmt::format("{} holds no hair.usda, hair.usdc or hair.rgc; is it a folder that `ringlet simulate` "
                       "wrote?",
-                      typed.other.string())};
+                      other.string())};
   }
-  return holdsAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed);
+  return holdsAnimation(path) ? measureAnimation(typed, path) : measureGroom(typed, path);
+}
+
+Status plot(const Typed& typed, const Measured& measured) {
+  if (typed.plot.empty()) return {};
+  std::vector<MotionSeries> runs;
+  const auto add = [&](const Measured& run, const std::filesystem::path& path) -> Status {
+    if (!run.series)
+      return Error{fmt::format("--plot draws what changes over time, and {} is one pose; name a folder that "
+                               "`ringlet simulate` wrote, or its animation",
+                               path.empty() ? "a groom alone" : path.string()),
+                   Fault::input};
+    runs.push_back(*run.series);
+    runs.back().name = path.string();
+    return {};
+  };
+  if (Status added = add(measured, typed.other); !added) return added;
+  for (const std::filesystem::path& path : typed.over) {
+    auto more = measure(typed, path);
+    if (!more) return more.error();
+    if (Status added = add(*more, path); !added) return added;
+  }
+  return drawPlot(typed.plot, runs);
 }
 
 int run(const Typed& typed) {
-  auto measured = measure(typed);
+  auto measured = measure(typed, typed.other);
   if (!measured) {
     say("ringlet measure: {}\n", measured.error().message);
     return exitCodeOf(measured.error());
+  }
+  if (Status drawn = plot(typed, *measured); !drawn) {
+    say("ringlet measure: {}\n", drawn.error().message);
+    return exitCodeOf(drawn.error());
   }
   if (measured->isUnfinished) warn("the animation was not finished; its frames so far were measured");
   if (typed.json) {
@@ -303,6 +360,19 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
       ->add_option("--against", typed->against,
                    "Another pose of these strands (a groom's file), to compare with")
       ->type_name("FILE");
+  CLI::Option* plotted = command
+                             ->add_option("--plot", typed->plot,
+                                          "Draws what changes over time into a .svg or .png (needs gnuplot)")
+                             ->check(CLI::Validator(
+                                 [](const std::string& path) {
+                                   return canPlotInto(path) ? "" : "a plot is a .svg or .png file";
+                                 },
+                                 ""))
+                             ->type_name("FILE");
+  command->add_option("--over", typed->over, "One more run of REST in the plot; may be repeated")
+      ->needs(plotted)
+      ->type_name("PATH")
+      ->allow_extra_args(false);
   command->add_flag("--strands", typed->strands, "Every strand by itself too");
   command->add_flag("--json", typed->json, "Print one JSON object instead of tables");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });

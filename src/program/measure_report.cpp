@@ -117,6 +117,7 @@ nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands) 
       json["against"][row.key] = {spread.mean, spread.min, spread.max};
     }
   }
+  if (measured.series) json["series"] = seriesJson(*measured.series);
   if (!withStrands) return json;
 
   json["per_strand"] = nlohmann::json::array();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "program/measure_series.h"
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/measure/shape_distance.h"
 
@@ -20,6 +21,7 @@ struct Measured {
   std::vector<ShapeDistance> distances;  // from --against, one a strand, or none
   std::string against;                   // that pose's file
   CurlNumbers numbers;
+  std::optional<MotionSeries> series = {};  // of a motion that is to be plotted
   double seconds = 0, freeSeconds = 0;
   bool isPose = false;        // against another pose or a motion
   bool isUnfinished = false;  // an animation that was not finished

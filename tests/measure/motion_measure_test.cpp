@@ -47,6 +47,13 @@ TEST(MotionMeasure, ADampedBounceHasItsFrequencyAndSettles) {
   EXPECT_NEAR(strand.worst.droop, 0.25 * 0.08, 1e-6);
   EXPECT_NEAR(strand.last.coreElongation, 1, 1e-4);
   EXPECT_LT(report.energyRatio, 1e-8);
+  ASSERT_EQ(report.frames.size(), 241u);
+  for (int k = 0; k <= 240; ++k) {
+    const double t = k / kFps;
+    const double by = 0.08 * std::exp(-ratio * natural * t) * std::cos(natural * t);
+    EXPECT_NEAR(report.frames[k].coreElongation, 1 + by, 1e-3) << k;
+    EXPECT_NEAR(report.frames[k].droop, 0.25 * by, 1e-6) << k;
+  }
 
   const CurlNumbers numbers = curlNumbers(motion.ruler(), report);
   EXPECT_EQ(numbers.frameCount, 241u);
@@ -65,6 +72,20 @@ TEST(MotionMeasure, EnergyIsHalfMassTimesSpeedSquared) {
   const double whole = 0.5 * 1e-5 * 0.25 / 3;
   EXPECT_NEAR(motion.report().peakEnergy, whole, 1e-3 * whole);
   EXPECT_NEAR(motion.report().energyRatio, 1, 1e-3);
+  EXPECT_EQ(motion.report().frames.front().energy, 0) << "nothing is known of the way to the first";
+  for (int k = 1; k < 48; ++k) EXPECT_NEAR(motion.report().frames[k].energy, whole, 1e-3 * whole);
+
+  // Two strands have twice as much; turns are those of what is curled.
+  const Strand curl = cut({}, 101);
+  MotionMeasure both = motionOf(groomOf({rest, rest, curl}));
+  for (int k = 0; k < 2; ++k) {
+    const Strand moved = stretched(rest, 1 + k / kFps / 0.25);
+    ASSERT_TRUE(both.addFrame(groomOf({moved, moved, curl}).points, 1, Quatd{}));
+  }
+  const FrameMeasure frame = both.report().frames.back();
+  EXPECT_NEAR(frame.energy, 2 * whole, 2e-3 * whole);
+  EXPECT_NEAR(frame.droop, 2.0 / 3 / kFps, 1e-6);
+  EXPECT_NEAR(frame.turns, 8, 0.01);
 
   // Given velocities mean the same.
   MotionMeasure given = motionOf(groomOf({rest}));

@@ -189,5 +189,66 @@ TEST(Measure, SaysWhatIsWrong) {
   }
 }
 
+// What gnuplot makes of two motions of a groom, and the numbers it had.
+TEST(Measure, MotionsArePlottedOverEachOther) {
+  const auto folder = scratchFolder("measure_plot");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  writeAnimation(folder / "soft");
+  writeAnimation(folder / "it's \"stiff\"");
+  if (std::system("command -v gnuplot > /dev/null") != 0) {
+    const ProgramResult result = runProgram(folder, {"measure", "rest.obj", "soft", "--plot", "a.svg"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.err.find("Debian: gnuplot-nox"), std::string::npos) << result.err;
+    GTEST_SKIP() << "SKIPPED: gnuplot is not installed, no plot was drawn";
+  }
+  const json found = measureJson(
+      folder, {"rest.obj", "soft", "--plot", "plot.svg", "--over", "it's \"stiff\"", "--over", "soft"});
+  std::string svg = readText(folder / "plot.svg");
+  for (const char* text : {"droop [mm]", "core elongation", "turns", "kinetic energy", "deepest contact",
+                           "mean contact", "seconds", ">soft<", "stiff"})
+    EXPECT_NE(svg.find(text), std::string::npos) << text;
+  const json& series = found["series"];
+  ASSERT_EQ(series["seconds"].size(), 97);
+  EXPECT_DOUBLE_EQ(series["seconds"][24], 1);
+  EXPECT_NEAR(series["droop_mm"][96], found["droop_mm"], 1e-9);
+  EXPECT_NEAR(series["turns"][96], found["turns"], 1e-9);
+  const std::vector<double> elongations = series["core_elongation"];
+  EXPECT_NEAR(elongations.front(), 1, 1e-9);
+  EXPECT_GT(std::ranges::max(elongations), 1.02);
+  EXPECT_LE(std::ranges::max(elongations), found["worst"]["core_elongation"].get<double>() + 1e-9);
+  const std::vector<double> energies = series["energy_uj"];
+  EXPECT_EQ(energies.front(), 0);
+  EXPECT_GT(energies[2], 100 * energies.back()) << "the bounce dies away";
+  EXPECT_EQ(series["deepest_contact"].size(), 97);
+
+  measureJson(folder, {"rest.obj", "soft", "--plot", "plot.png"});
+  EXPECT_EQ(readText(folder / "plot.png").substr(1, 3), "PNG");
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    EXPECT_NE(entry.path().extension(), ".partial") << entry.path();
+}
+
+TEST(Measure, PlotsThatCannotBeAreRefused) {
+  const auto folder = scratchFolder("measure_no_plot");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  writeAnimation(folder / "out");
+  const std::pair<std::vector<std::string>, const char*> cases[] = {
+      {{"rest.obj", "--plot", "a.svg"}, "one pose"},
+      {{"rest.obj", "rest.obj", "--plot", "a.svg"}, "one pose"},
+      {{"rest.obj", "out", "--plot", "a.svg", "--over", "rest.obj"}, "one pose"},
+      {{"rest.obj", "out", "--plot", "a.svg", "--over", "nowhere"}, "nowhere"},
+      {{"rest.obj", "out", "--plot", "a.pdf"}, ".svg or .png"},
+      {{"rest.obj", "out", "--over", "out"}, "--plot"},
+      {{"rest.obj", "out", "--plot", "nowhere/a.svg"}, "nowhere/a.svg"},
+  };
+  for (const auto& [arguments, expected] : cases) {
+    std::vector<std::string> all{"measure"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const ProgramResult result = runProgram(folder, all);
+    EXPECT_NE(result.exitCode, 0) << expected;
+    EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
+  }
+}
+
 }  // namespace
 }  // namespace ringlet

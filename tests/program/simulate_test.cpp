@@ -394,6 +394,29 @@ TEST(Simulate, LanesAndRunsAreStatedOrRefused) {
   EXPECT_GT(stated["compile_ms"].get<double>(), 0);
 }
 
+// Tests of kernels run code that lavapipe has not optimised (tests/CMakeLists.txt); what users run has its
+// bits. Other drivers do not know the variable, and run the same code twice.
+TEST(Simulate, CodeThatIsNotOptimisedHasTheSameBits) {
+  const auto folder = scratchFolder("simulate_unoptimised");
+  ASSERT_EQ(
+      runProgram(folder, {"make", "head", "--strands", "60", "--particles", "32", "-o", "head.obj"}).exitCode,
+      0);
+  for (const char* method : {"explicit", "volume"}) {
+    std::ofstream(folder / "scene.toml")
+        << "[groom]\nfile = \"head.obj\"\n[motion]\nkind = \"shake\"\n[simulation]\nframes = 4\n"
+           "[air]\nfall_speed = 2\n[[body]]\nshape = \"sphere\"\nradius = 0.088\n[contacts]\nmethod = \""
+        << method << "\"\n";
+    std::vector<json> found;
+    for (const char* perf : {"none", "nopt"}) {
+      setenv("GALLIVM_PERF", perf, 1);
+      found.push_back(simulate(folder, {"scene.toml", "--overwrite"}));
+    }
+    unsetenv("GALLIVM_PERF");
+    EXPECT_EQ(found[0]["positions_hash"], found[1]["positions_hash"]) << method;
+    EXPECT_GT(found[0][method == std::string("volume") ? "volume_strands" : "contacts"], 0);
+  }
+}
+
 TEST(Simulate, UnknownDeviceIsNamed) {
   const auto folder = scratchFolder("simulate_device");
   writeSmallGroom(folder / "groom.obj");

@@ -47,4 +47,13 @@ ContactQuality measureContacts(const RestState& rest, const RestContacts& contac
   return quality;
 }
 
+Result<ContactRuler> ContactRuler::make(const Groom& groom, const Material& material,
+                                        const Settings& settings) {
+  auto rest = buildRestState(groom, material, settings);
+  if (!rest) return rest.error();
+  RestContacts contacts = buildRestContacts(*rest, settings.contacts);
+  if (settings.contacts.on) std::ranges::copy(contacts.warnings(), std::back_inserter(rest->warnings));
+  return ContactRuler(std::move(*rest), std::move(contacts));
+}
+
 }  // namespace ringlet

@@ -4,10 +4,16 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/rest/material.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scene/settings.h"
 
 namespace ringlet {
 
@@ -25,5 +31,25 @@ struct ContactQuality {
 /// nothing. Cost: linear in contact particles and overlaps.
 ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
                                std::span<const Vec3f> positions);
+
+/// measureContacts of one groom, pose after pose.
+class ContactRuler {
+ public:
+  /// Errors: those of buildRestState. Radii and pruning are those of settings.contacts, on or off.
+  static Result<ContactRuler> make(const Groom& groom, const Material& material, const Settings& settings);
+
+  ContactQuality measure(std::span<const Vec3f> positions) const {
+    return measureContacts(rest_, contacts_, positions);
+  }
+  /// What the solver warns of with these settings (Simulation::warnings).
+  const std::vector<std::string>& warnings() const { return rest_.warnings; }
+
+ private:
+  ContactRuler(RestState rest, RestContacts contacts)
+      : rest_(std::move(rest)), contacts_(std::move(contacts)) {}
+
+  RestState rest_;
+  RestContacts contacts_;
+};
 
 }  // namespace ringlet

@@ -45,13 +45,12 @@ class ContactWatch {
     archive.value(numbers_);
   }
   /// What the solver warns of with these settings (Simulation::warnings).
-  const std::vector<std::string>& warnings() const { return rest_.warnings; }
+  const std::vector<std::string>& warnings() const { return ruler_.warnings(); }
 
  private:
-  ContactWatch(RestState rest, RestContacts contacts, std::span<const std::uint32_t> firstPoint);
+  ContactWatch(ContactRuler ruler, std::span<const std::uint32_t> firstPoint);
 
-  RestState rest_;
-  RestContacts contacts_;
+  ContactRuler ruler_;
   std::vector<std::uint32_t> firstPoint_;
   std::vector<Vec3f> positions_;  // of the step before; none at first
   ContactNumbers numbers_;

@@ -17,6 +17,20 @@ constexpr double kDrivenShare = 1e-5;    // change of the roots' step from frame
 constexpr double kDrivenAngle = 1e-4;    // the same of the head's turning [rad]
 constexpr double kSmallestShare = 1e-5;  // excursion of a tip, of the arc length
 
+// Mean turns and radius of what is curled at rest: a straight strand among curls has none to be averaged.
+struct MeanCurl {
+  double turns = 0, radius = 0;
+};
+MeanCurl meanCurlOf(const GroomRuler& ruler, std::span<const StrandMeasure> measures) {
+  std::vector<double> turns, radii;
+  for (std::size_t s = 0; s < measures.size(); ++s) {
+    if (ruler.strand(s).shape().turns == 0) continue;
+    turns.push_back(measures[s].turns);
+    radii.push_back(measures[s].meanRadius);
+  }
+  return {spreadOf(turns).mean, spreadOf(radii).mean};
+}
+
 double larger(double a, double b) { return std::abs(b) > std::abs(a) ? b : a; }
 
 // The angle of a rotation [rad].
@@ -70,6 +84,7 @@ Status MotionMeasure::addFrame(std::span<const Vec3f> points, double metresPerUn
 
   const bool isFirst = frameCount_ == 0;
   Vec3d rootSum{};
+  double energySum = 0;
   for (std::size_t s = 0; s < strands_.size(); ++s) {
     StrandHistory& history = strands_[s];
 
@@ -101,12 +116,25 @@ Status MotionMeasure::addFrame(std::span<const Vec3f> points, double metresPerUn
       }
       energy += 0.5 * options_.lineDensity * arc * dot(velocity, velocity);
     }
+    energySum += energy;
     if (!isFirst || !speeds.empty()) history.energies.push_back(energy);
     history.particles = std::move(particles);
   }
+  frames_.push_back(summary(*measures, energySum));
   watchHead(rootSum / static_cast<double>(strands_.size()), head);
   ++frameCount_;
   return {};
+}
+
+FrameMeasure MotionMeasure::summary(std::span<const StrandMeasure> measures, double energy) const {
+  FrameMeasure frame{
+      .droop = 0, .coreElongation = 0, .turns = meanCurlOf(ruler_, measures).turns, .energy = energy};
+  const double share = 1 / static_cast<double>(measures.size());
+  for (const StrandMeasure& strand : measures) {
+    frame.droop += share * strand.droop;
+    frame.coreElongation += share * strand.coreElongation;
+  }
+  return frame;
 }
 
 // The head drives the hair where its step is not the step before: its roots', or its turn.
@@ -156,6 +184,7 @@ MotionReport MotionMeasure::report() const {
     total.resize(history.energies.size());
     for (std::size_t k = 0; k < total.size(); ++k) total[k] += history.energies[k];
   }
+  report.frames = frames_;
   report.last = ruler_.summarize(last);
   const Energy energy = energyOf(total, fps, anyMoved);
   report.peakEnergy = energy.peak;
@@ -177,16 +206,9 @@ CurlNumbers curlNumbers(const GroomRuler& ruler, std::span<const StrandMeasure> 
   numbers.worstDroop = worstOf(groom.droop);
   numbers.worstCoreElongation = groom.coreElongation.max;
   numbers.worstTipRotation = numbers.tipRotation;
-
-  // A straight strand among curls has no turns to be averaged.
-  std::vector<double> turns, radii;
-  for (std::size_t s = 0; s < measures.size(); ++s) {
-    if (ruler.strand(s).shape().turns == 0) continue;
-    turns.push_back(measures[s].turns);
-    radii.push_back(measures[s].meanRadius);
-  }
-  numbers.turns = spreadOf(turns).mean;
-  numbers.meanRadius = spreadOf(radii).mean;
+  const MeanCurl curl = meanCurlOf(ruler, measures);
+  numbers.turns = curl.turns;
+  numbers.meanRadius = curl.radius;
   return numbers;
 }
 

@@ -37,11 +37,20 @@ struct StrandMotion {
   double energyRatio = 0;  // mean over the closing frames / peak; 0 if its tip never moved, but for rounding
 };
 
+/// A frame, over all strands.
+struct FrameMeasure {
+  double droop = 0;           // mean [m]
+  double coreElongation = 1;  // mean
+  double turns = 0;           // mean over strands that are curled at rest
+  double energy = 0;          // kinetic, each strand seen from its root [J]
+};
+
 struct MotionReport {
   std::size_t frameCount = 0;
   double seconds = 0;      // from the first frame to the last
   double freeSeconds = 0;  // time at which the head last drove the hair; 0: never
   std::vector<StrandMotion> strands;
+  std::vector<FrameMeasure> frames;
   GroomMeasure last;       // of the last frame, over strands
   double peakEnergy = 0;   // of the whole groom [J]
   double energyRatio = 0;  // of the whole groom
@@ -52,7 +61,7 @@ struct MotionReport {
 /// drives the hair in frames in which its roots change velocity or it changes its rate of turning; bounce and
 /// settling are measured after the last of these.
 ///
-/// Memory: 40 bytes a strand and frame, 24 a particle. Cost of a frame: some 0.3 us a particle.
+/// Memory: 40 bytes a strand and frame, 32 a frame, 24 a particle. Cost of a frame: some 0.3 us a particle.
 class MotionMeasure {
  public:
   /// Errors: those of GroomRuler::make.
@@ -74,6 +83,7 @@ class MotionMeasure {
 
  private:
   MotionMeasure(GroomRuler ruler, const MotionOptions& options);
+  FrameMeasure summary(std::span<const StrandMeasure> measures, double energy) const;
   void watchHead(Vec3d meanRoot, Quatd headRotation);
 
   struct StrandHistory {
@@ -88,6 +98,7 @@ class MotionMeasure {
   GroomRuler ruler_;
   MotionOptions options_;
   std::vector<StrandHistory> strands_;
+  std::vector<FrameMeasure> frames_;
   std::size_t frameCount_ = 0;
   std::size_t freeFrame_ = 0;  // the last frame in which the head drove the hair
   Vec3d meanRoots_[2];         // of the last two frames, later first [m]

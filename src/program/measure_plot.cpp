@@ -1,0 +1,100 @@
+// Implements measure_plot.h.
+#include "program/measure_plot.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+namespace ringlet::program {
+namespace {
+
+constexpr int kWidth = 900, kPanelHeight = 190;  // [pixels]
+constexpr int kNotFound = 127;                   // a shell's exit status for a program it cannot find
+
+// As gnuplot reads it between single quotes: whatever is in it stands for itself.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
+  return result + "'";
+}
+
+// The block $runK: a line a frame, seconds first.
+std::string dataOf(const MotionSeries& run, std::size_t number) {
+  std::string text = fmt::format("$run{} << END\n", number);
+  for (std::size_t k = 0; k < run.frames.size(); ++k) {
+    text += fmt::format("{:.6g}", static_cast<double>(k) / run.framesPerSecond);
+    for (const SeriesKind& kind : seriesKinds()) text += fmt::format(" {:.6g}", kind.value(run, k));
+    text += "\n";
+  }
+  return text + "END\n";
+}
+
+// The values of all runs with room around them, also where they are all the same.
+std::string rangeOf(const SeriesKind& kind, std::span<const MotionSeries> runs) {
+  double low = kind.value(runs[0], 0), high = low;
+  for (const MotionSeries& run : runs) {
+    for (std::size_t k = 0; k < run.frames.size(); ++k) {
+      low = std::min(low, kind.value(run, k));
+      high = std::max(high, kind.value(run, k));
+    }
+  }
+  const double room = std::max({0.05 * (high - low), 1e-3 * std::max(-low, high), 1e-6});
+  return fmt::format("[{:.6g}:{:.6g}]", low - room, high + room);
+}
+
+std::string scriptOf(const std::filesystem::path& path, const std::string& extension,
+                     std::span<const MotionSeries> runs) {
+  const std::size_t panels = seriesKinds().size();
+  const char* terminal = extension == ".svg" ? "svg" : "pngcairo";
+  std::string script = fmt::format(
+      "set terminal {} noenhanced font ',10' size {},{} background rgb 'white'\nset output {}\n"
+      "set multiplot layout {},1\nset lmargin 12\nset rmargin 3\nset grid\nset key outside above "
+      "horizontal\n",
+      terminal, kWidth, kPanelHeight * panels, quoted(path.string()), panels);
+  for (std::size_t r = 0; r < runs.size(); ++r) script += dataOf(runs[r], r);
+  for (std::size_t panel = 0; panel < panels; ++panel) {
+    if (panel == 1) script += "unset key\n";  // one is enough
+    if (panel + 1 == panels) script += "set xlabel 'seconds'\n";
+    const SeriesKind& kind = seriesKinds()[panel];
+    script += fmt::format("set ylabel {}\nset yrange {}\nplot ", quoted(kind.label), rangeOf(kind, runs));
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      script += fmt::format("{}$run{} using 1:{} with lines linewidth 2 title {}", r > 0 ? ", " : "", r,
+                            panel + 2, quoted(runs[r].name));
+    }
+    script += "\n";
+  }
+  return script + "unset multiplot\nunset output\n";
+}
+
+}  // namespace
+
+bool canPlotInto(const std::filesystem::path& path) {
+  return path.extension() == ".svg" || path.extension() == ".png";
+}
+
+Status drawPlot(const std::filesystem::path& path, std::span<const MotionSeries> runs) {
+  const std::filesystem::path unfinished = path.string() + ".partial";
+  const std::string script = scriptOf(unfinished, path.extension().string(), runs);
+  std::signal(SIGPIPE, SIG_IGN);  // where gnuplot ends before it has read all
+  FILE* gnuplot = popen("gnuplot -", "w");
+  if (!gnuplot) return Error{"cannot start a process for gnuplot"};
+  std::fwrite(script.data(), 1, script.size(), gnuplot);
+  const int status = pclose(gnuplot);
+  std::error_code code;
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+    std::filesystem::rename(unfinished, path, code);
+    if (!code) return {};
+    return Error{fmt::format("cannot write {}: {}", path.string(), code.message()), Fault::output};
+  }
+  std::filesystem::remove(unfinished, code);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound)
+    return Error{"plots are drawn by gnuplot, which is not installed (Debian: gnuplot-nox)"};
+  return Error{fmt::format("gnuplot could not draw {}; it says why above", path.string()), Fault::output};
+}
+
+}  // namespace ringlet::program
