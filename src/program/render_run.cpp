@@ -24,9 +24,12 @@
 namespace ringlet::program {
 namespace {
 
-constexpr std::size_t kFewestGuides = 100, kMostGuides = 10000;  // that hairs follow unasked
-constexpr int kUsualHairs = 30000;
-constexpr double kShutter = 0.5;  // share of a frame that is seen in it
+constexpr std::size_t kFewestGuides = 100, kMostGuides = 10000;  // of a head of hair
+constexpr int kUsualHairs = 30000;                               // of a head
+constexpr int kLockHairs = 300;                                  // of a strand among few
+constexpr double kLockRadius = 0.0025;                           // likewise, at the root [m]
+constexpr std::size_t kLockPoints = 2000000;                     // at most, of all locks
+constexpr double kShutter = 0.5;                                 // share of a frame that is seen in it
 constexpr double kTravels = 2;  // hair that needs so much more room than a frame of it: the camera goes along
 constexpr double kFollowMargin = 0.02;  // of hairs beside the strands they follow [m]
 
@@ -44,6 +47,18 @@ void include(Bounds& bounds, Vec3d p) {
   bounds.high = {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
 }
 double radiusOf(const Bounds& bounds) { return length(bounds.high - bounds.low) / 2; }
+
+// What is shown unasked. No hairs: the strands themselves.
+struct UsualHairs {
+  FollowOptions options;
+  double width;  // at the root [m]
+};
+UsualHairs usualHairs(std::size_t strands, std::size_t particles) {
+  if (strands >= kMostGuides) return {{.hairCount = 0}, widthOfHairs(static_cast<double>(strands))};
+  if (strands >= kFewestGuides) return {{.hairCount = kUsualHairs}, widthOfHairs(kUsualHairs)};
+  const auto ofEach = static_cast<int>(std::clamp<std::size_t>(kLockPoints / particles, 1, kLockHairs));
+  return {{.hairCount = ofEach * static_cast<int>(strands), .reach = kLockRadius}, widthOfHairs(kUsualHairs)};
+}
 
 // A frame of the strands, in their file's unit.
 using Points = std::vector<Vec3f>;
@@ -117,18 +132,21 @@ void Rendering::see(const Groom& pose) {
 }
 
 Status Rendering::makeHair(const Groom& rest) {
-  const int hairs = plan_.hairs.value_or(usualHairCount(strands_.strandCount()));
+  const UsualHairs usual = usualHairs(strands_.strandCount(), strands_.firstPoint.back());
+  const FollowOptions options = plan_.hairs ? FollowOptions{.hairCount = *plan_.hairs} : usual.options;
   outcome_.strandCount = strands_.strandCount();
-  outcome_.hairCount = hairs > 0 ? static_cast<std::size_t>(hairs) : strands_.strandCount();
-  outcome_.width = plan_.width.value_or(widthOfHairs(static_cast<double>(outcome_.hairCount)));
-  if (hairs == 0) {
+  outcome_.hairCount =
+      options.hairCount > 0 ? static_cast<std::size_t>(options.hairCount) : strands_.strandCount();
+  outcome_.width =
+      plan_.width.value_or(plan_.hairs ? widthOfHairs(static_cast<double>(outcome_.hairCount)) : usual.width);
+  if (options.hairCount == 0) {
     auto lines = StrandPoints::create(device_.gpu(), strands_.firstPoint);
     if (!lines) return lines.error();
     lines_.emplace(std::move(*lines));
     outcome_.pointCount = strands_.firstPoint.back();
     return {};
   }
-  auto follow = FollowPlan::make(rest, metresPerUnit_, {.hairCount = hairs});
+  auto follow = FollowPlan::make(rest, metresPerUnit_, options);
   if (!follow) return follow.error();
   follow_.emplace(std::move(*follow));
   auto stage = FollowStage::create(device_.gpu(), follow_->guides(), follow_->hairs());
@@ -268,10 +286,6 @@ Status makeFolder(const std::filesystem::path& output) {
 }
 
 }  // namespace
-
-int usualHairCount(std::size_t strandCount) {
-  return strandCount >= kFewestGuides && strandCount < kMostGuides ? kUsualHairs : 0;
-}
 
 Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, const ComputeDevice& device,
                                       const RenderPlan& asked) {

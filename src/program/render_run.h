@@ -48,9 +48,6 @@ struct RenderOutcome {
   std::vector<std::string> warnings;
 };
 
-/// The hairs that are drawn where nobody says: of so many strands.
-int usualHairCount(std::size_t strandCount);
-
 /// Pictures that are finished stay, whatever comes. Fails with one sentence.
 Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, const ComputeDevice& device,
                                       const RenderPlan& plan);

@@ -240,12 +240,25 @@ TEST(PlanHairs, OptionsSayHowHairsDiffer) {
   EXPECT_FALSE(std::ranges::equal(hairs, other, isSame));
 }
 
+TEST(PlanHairs, RootsStayWithinReach) {
+  const auto rests = restsOf(headOf(20));
+  const auto farthest = [&](double reach) {
+    double distance = 0;
+    const auto hairs = *planHairs(rests, {.hairCount = 2000, .reach = reach});
+    for (const FollowHair& hair : hairs) distance = std::max(distance, length(Vec3d(hair.offset)));
+    return distance;
+  };
+  EXPECT_NEAR(farthest(0.0025), 0.0025, 0.0002) << "also where the scalp is steep";
+  EXPECT_GT(farthest(1), 0.01) << "else as far as the guide's part of the scalp";
+}
+
 TEST(PlanHairs, RefusesWhatMakesNoSense) {
   const auto rests = restsOf(headOf(3));
   const auto refusal = [&](const FollowOptions& options) {
     return planHairs(rests, options).error().message;
   };
   EXPECT_EQ(refusal({.hairCount = 0}), "the number of hairs is 0; it must be between 1 and 10000000");
+  EXPECT_EQ(refusal({.reach = 0}).find("the reach of hairs [m] is 0;"), 0u);
   EXPECT_EQ(refusal({.phase = -1}).find("the largest turn of a hair's curl is -1;"), 0u);
   EXPECT_EQ(refusal({.radius = 1}).find("the variation of the curl radius is 1;"), 0u);
   EXPECT_EQ(refusal({.length = std::nan("")}).find("the variation of the length is nan;"), 0u);

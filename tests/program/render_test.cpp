@@ -172,6 +172,25 @@ TEST_F(Render, BodiesAreBlurredAsHairIs) {
             20);
 }
 
+// Few strands are shown as locks, many as they are; long ones get fewer hairs.
+TEST_F(Render, HairsThatNobodyAskedFor) {
+  struct Case {
+    const char *strands, *particles;
+    int hairs;
+    double width;
+  };
+  for (const Case& c :
+       {Case{"2", "16", 600, 0.00018}, Case{"99", "100", 99 * 202, 0.00018}, Case{"100", "8", 30000, 0.00018},
+        Case{"10000", "2", 10000, 0.00018 * std::sqrt(3)}}) {
+    ASSERT_EQ(
+        run({"make", "head", "--strands", c.strands, "--particles", c.particles, "-o", "some.obj"}).exitCode,
+        0);
+    const json said = render({"some.obj", "-o", "some.png"});
+    EXPECT_EQ(said["hairs"], c.hairs) << c.strands;
+    EXPECT_NEAR(said["width_m"].get<double>(), c.width, 1e-9) << c.strands;
+  }
+}
+
 TEST_F(Render, OptionsChangeThePicture) {
   const std::vector<std::string> base = {"head.obj", "-o", "a.png"};
   render(base);

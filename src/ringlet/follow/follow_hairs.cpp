@@ -28,6 +28,7 @@ Status checkOptions(std::span<const GuideRest> guides, const FollowOptions& o) {
     const char* name;
     double value, low, high;
   } ranges[] = {{"the number of hairs", double(o.hairCount), 1, 1e7},
+                {"the reach of hairs [m]", o.reach, 1e-6, 1000},
                 {"the largest turn of a hair's curl", o.phase, 0, std::numbers::pi},
                 {"the variation of the curl radius", o.radius, 0, 0.9},
                 {"the variation of the length", o.length, 0, 0.9},
@@ -128,9 +129,9 @@ struct ScalpPatch {
 // `count` places spread evenly over the guide's part of the scalp: a sunflower (Vogel 1979) of just so many
 // seeds that enough of them are the guide's own. Where few are, as other roots are much nearer than most, the
 // sunflower shrinks.
-std::vector<Vec3d> placesOn(const ScalpPatch& patch, std::size_t count, double firstAngle) {
+std::vector<Vec3d> placesOn(const ScalpPatch& patch, double reach, std::size_t count, double firstAngle) {
   std::vector<Vec3d> places;
-  double radius = patch.radius;
+  double radius = std::min(patch.radius, reach);
   for (std::size_t seeds = count; places.size() < count; seeds += std::max<std::size_t>(1, seeds / 20)) {
     if (seeds > kMostSeeds * count) {
       radius /= 2;
@@ -141,7 +142,7 @@ std::vector<Vec3d> placesOn(const ScalpPatch& patch, std::size_t count, double f
       const double distance = radius * std::sqrt((double(k) + 0.5) / double(seeds));
       const double angle = firstAngle + kGoldenAngle * double(k);
       const Vec3d place = patch.at(distance * std::cos(angle), distance * std::sin(angle));
-      if (patch.isOwn(place)) places.push_back(place);
+      if (patch.isOwn(place) && length(place) <= reach) places.push_back(place);
     }
   }
   return places;
@@ -173,7 +174,7 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
     const std::size_t count = (g + 1) * hairCount / guides.size() - g * hairCount / guides.size();
     const ScalpPatch patch(guides[g], neighbours[g]);
     const double firstAngle = SeededRandom(options.seed, g).between(0, 2 * std::numbers::pi);
-    for (const Vec3d& place : placesOn(patch, count, firstAngle)) {
+    for (const Vec3d& place : placesOn(patch, options.reach, count, firstAngle)) {
       FollowHair hair = variedHair(options, SeededRandom(options.seed, guides.size() + hairs.size()));
       const MeasuringFrame& frame = guides[g].frame;
       hair.guide = static_cast<std::uint32_t>(g);

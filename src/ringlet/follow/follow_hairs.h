@@ -25,6 +25,7 @@ struct FollowHair {
 /// How hairs of one guide differ.
 struct FollowOptions {
   int hairCount = 30000;    // in [1, 10000000]
+  double reach = 1;         // largest distance of a root from the guide's [m], above 0, to 1000
   double phase = 0.45;      // largest turn of a curl [rad], in [0, pi]; small turns are more frequent
   double radius = 0.12;     // largest relative difference of a curl's radius, in [0, 0.9]
   double length = 0.15;     // share by which the shortest hair is shorter, in [0, 0.9]
@@ -34,9 +35,9 @@ struct FollowOptions {
 };
 
 /// Hairs of all guides, those of a guide one after the other, as many of each as of any other, or one more.
-/// Roots are spread evenly over the guide's part of the scalp: where no other guide's root is nearer. The
-/// scalp there is the paraboloid through the roots about it. Errors: an option outside its range; no guide.
-/// Cost: guides^1.5, and with hairs.
+/// Roots are spread evenly over the guide's part of the scalp: where no other guide's root is nearer, and not
+/// beyond `reach`. The scalp there is the paraboloid through the roots about it. Errors: an option outside
+/// its range; no guide. Cost: guides^1.5, and with hairs.
 Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const FollowOptions& options);
 
 }  // namespace ringlet
