@@ -87,7 +87,7 @@ fetch_mesa() {
 
 icd() { env "VK_ICD_FILENAMES=$1" "VK_DRIVER_FILES=$1" "${@:2}"; }
 
-# quick DRIVER PREFIX...: gpu tests, conform, lists, repeats, and a volume beside contacts.
+# quick DRIVER PREFIX...: gpu tests, conform, lists, repeats, a volume beside contacts, and pictures.
 quick() {
   local driver=$1
   shift
@@ -97,6 +97,7 @@ quick() {
   try "$driver" "a run with contacts repeats" "$@" $build/tests/kernels_tests --gtest_brief=1 \
     --gtest_filter='ContactStep.RepeatsBitwise*:VolumeStep.RepeatsBitwise*'
   try "$driver" "a volume beside contacts" "$@" $build/tests/kernels_tests --gtest_brief=1 --gtest_filter='VolumeStep.Beside*'
+  try "$driver" "pictures" "$@" $build/tests/program_tests --gtest_brief=1 --gtest_filter='Golden.*'
 }
 
 for bits in 128 512; do

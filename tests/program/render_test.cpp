@@ -1,12 +1,12 @@
 // `ringlet render`: pictures of everything that it takes, what it says of them, and what it refuses.
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "tests/program/picture_file.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -15,49 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::differing;
+using test::greatestDifference;
+using test::Image;
 using test::ProgramResult;
+using test::readPng;
 using test::runProgram;
 using test::scratchFolder;
 
 constexpr int kFrames = 4;
-
-struct Image {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> bytes;  // red, green, blue
-  bool operator==(const Image&) const = default;
-};
-
-Image readPng(const fs::path& path) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  Image image;
-  EXPECT_TRUE(png_image_begin_read_from_file(&header, path.c_str())) << path << ": " << header.message;
-  header.format = PNG_FORMAT_RGB;
-  image.width = static_cast<int>(header.width);
-  image.height = static_cast<int>(header.height);
-  image.bytes.resize(PNG_IMAGE_SIZE(header));
-  EXPECT_TRUE(png_image_finish_read(&header, nullptr, image.bytes.data(), 0, nullptr)) << header.message;
-  return image;
-}
-
-// Pixels that two pictures of one size do not share.
-int differing(const Image& a, const Image& b) {
-  EXPECT_EQ(a.bytes.size(), b.bytes.size());
-  int count = 0;
-  for (std::size_t i = 0; i + 2 < std::min(a.bytes.size(), b.bytes.size()); i += 3)
-    count += !std::equal(a.bytes.begin() + static_cast<std::ptrdiff_t>(i),
-                         a.bytes.begin() + static_cast<std::ptrdiff_t>(i) + 3,
-                         b.bytes.begin() + static_cast<std::ptrdiff_t>(i));
-  return count;
-}
-
-int greatestDifference(const Image& a, const Image& b) {
-  EXPECT_EQ(a.bytes.size(), b.bytes.size());
-  int greatest = 0;
-  for (std::size_t i = 0; i < std::min(a.bytes.size(), b.bytes.size()); ++i)
-    greatest = std::max(greatest, std::abs(a.bytes[i] - b.bytes[i]));
-  return greatest;
-}
 
 // A folder with head.obj, a head of 120 strands, and out/, a run of it in every format; made once for all
 // tests.
