@@ -202,7 +202,15 @@ Status HairRun::makeHair() {
 
 Status HairRun::makeSink() {
   const int done = outcome_.resumedFrom;
-  if (folder_) writers_.emplace(input_, options_, done);
+  if (folder_) {
+    std::optional<FullHair> hairs;
+    if (options_.hairs > 0) {
+      auto made = FullHair::make(input_.groom, input_.groom.metresPerUnit, {.hairCount = options_.hairs});
+      if (!made) return made.error();
+      hairs.emplace(std::move(*made));
+    }
+    writers_.emplace(input_, options_, std::move(hairs), done);
+  }
   if (!input_.bodies.empty()) bodyWatch_.emplace(input_.groom, input_.bodies, input_.settings.rootCount);
   FrameReaders readers{.bodies = bodyWatch_ ? &*bodyWatch_ : nullptr, .observe = {}, .write = {}};
   if (observer_) {

@@ -60,6 +60,10 @@ void addOutputOptions(CLI::App* command, OutputChoice& choice) {
       ->check(wholeBetween(1, 1'000'000))
       ->type_name("N")
       ->group(group);
+  command->add_option("--hairs", choice.hairs, fieldOf("hairs").effect)
+      ->check(wholeBetween(1, 10'000'000))
+      ->type_name("N")
+      ->group(group);
   command->add_option("--usd-prims", choice.prims, fieldOf("prims").effect)
       ->check(oneOf(namesIn(fieldOf("prims").choices)))
       ->type_name("WHOSE")
@@ -83,6 +87,7 @@ void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
   if (choice.tipWidth) output.tipWidth = choice.tipWidth;
   if (choice.head) output.head = *choice.head;
   if (choice.clips) output.clipFrames = choice.clips;
+  if (choice.hairs) output.hairs = choice.hairs;
   if (choice.prims) output.prims = *choice.prims;
   if (!choice.values.empty()) output.values = choice.values;
 }
@@ -93,6 +98,11 @@ void checkOutputs(const SceneOutput& output) {
                                "velocities are written into hair.usdc and clips only; add --usdc");
   if (output.clipFrames && !holds(output.files, "hair.usda"))
     throw CLI::ValidationError("--clips", "only hair.usda has clips; leave out --no-usd");
+  if (output.hairs && needsOrigin(output))
+    throw CLI::ValidationError(
+        "--hairs",
+        "hairs have no prims and no values in the groom's file; leave --usd-prims groom and "
+        "--usd-values groom out");
   if (output.prims != "groom") return;
   if (!holds(output.files, "hair.usdc") || holds(output.files, "hair.usda"))
     throw CLI::ValidationError("--usd-prims",
@@ -122,6 +132,7 @@ void chooseOutputs(const SceneOutput& output, RunOptions& options) {
                     : output.head == "none"    ? UsdHead::none
                                                : UsdHead::baked;
   options.usesGroomPrims = output.prims == "groom";
+  options.hairs = output.hairs.value_or(0);
   options.clipFrames = output.clipFrames.value_or(0);
 }
 

@@ -16,7 +16,7 @@ struct OutputChoice {
   std::string cache;  // a precision of hair.rgc
   std::optional<double> width, tipWidth;
   std::optional<std::string> head, prims;
-  std::optional<int> clips;
+  std::optional<int> clips, hairs;
   std::vector<std::string> values;
   bool usdc = false, noUsd = false, noLast = false, noSheet = false;
 };

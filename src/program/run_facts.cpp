@@ -94,6 +94,7 @@ void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
   add("head", static_cast<int>(options.usdHead));
   add("groom's prims", options.usesGroomPrims);
   add("clip_frames", options.clipFrames);
+  add("hairs", options.hairs);
 }
 
 }  // namespace ringlet::program

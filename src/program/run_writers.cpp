@@ -27,8 +27,9 @@ std::vector<SheetPlace> placesOf(std::span<const BodyPose> bodies) {
 
 }  // namespace
 
-Writers::Writers(const RunInput& input, const RunOptions& options, int frameCount)
-    : input_(input), options_(options), frameCount_(frameCount) {
+Writers::Writers(const RunInput& input, const RunOptions& options, std::optional<FullHair> hairs,
+                 int frameCount)
+    : input_(input), options_(options), hairs_(std::move(hairs)), frameCount_(frameCount) {
   if (options.writesSheet)
     sheet_.emplace(input.groom, options.frameCount, options.up, solidsOf(input.bodies));
 }
@@ -44,7 +45,8 @@ Status Writers::open() {
                                    .usd = usdExtras()};
   for (const std::string& name : animationsOf(options_)) {
     const std::filesystem::path path = options_.folder / name;
-    auto writer = animationFormatOf(path)->resume(path, input_.groom, animation, frameCount_);
+    auto writer = animationFormatOf(path)->resume(path, hairs_ ? hairs_->groom() : input_.groom, animation,
+                                                  frameCount_);
     if (!writer) return writer.error();
     animations_.push_back(std::move(*writer));
   }
@@ -75,8 +77,10 @@ Status Writers::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& h
   if (sheet_) sheet_->offer(frame, points, placesOf(bodies));
   lastPoints_ = std::move(points);
   const UsdTransform place = rigidTransform(head.rotation, head.position / input_.groom.metresPerUnit);
+  if (hairs_ && !animations_.empty()) hairs_->follow(lastPoints_);
+  const std::vector<Vec3f>& shown = hairs_ ? hairs_->groom().points : lastPoints_;
   for (const auto& animation : animations_) {
-    if (Status added = animation->addFrame(lastPoints_, place); !added) return added;
+    if (Status added = animation->addFrame(shown, place); !added) return added;
   }
   return {};
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "program/full_hair.h"
 #include "program/simulate_run.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
@@ -21,9 +22,10 @@ namespace ringlet::program {
 /// The files of a run, made when there is a frame to write: until then nothing in the folder is touched.
 class Writers {
  public:
-  /// The input must live as long. `frameCount`: frames that a run before left and this one goes on with; they
-  /// are in the files, and archive() brings back what is not.
-  Writers(const RunInput& input, const RunOptions& options, int frameCount);
+  /// The input must live as long. `hairs`: what animations have in place of the strands. `frameCount`: frames
+  /// that a run before left and this one goes on with; they are in the files, and archive() brings back what
+  /// is not.
+  Writers(const RunInput& input, const RunOptions& options, std::optional<FullHair> hairs, int frameCount);
 
   /// Frames in order, 1 is the first; points in the groom's unit and order, finite; where head and bodies
   /// are.
@@ -46,6 +48,7 @@ class Writers {
 
   const RunInput& input_;
   const RunOptions& options_;
+  std::optional<FullHair> hairs_;
   int frameCount_;
   bool isOpen_ = false;
   std::vector<std::unique_ptr<AnimationWriter>> animations_;

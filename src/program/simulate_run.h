@@ -40,6 +40,7 @@ struct RunOptions {
   double width = 0.0005;                // diameter of strands in what is written [m]
   std::optional<double> tipWidth;       // at the tip, in USD files [m]
   std::vector<std::string> values;      // that these have besides, as SceneOutput says them
+  int hairs = 0;                        // above 0: animations have so many, which follow the strands
   UsdHead usdHead = UsdHead::baked;     // and where these have the head's motion
   int clipFrames = 0;                   // above 0: hair.usda has value clips of so many frames
   bool usesGroomPrims = false;          // hair.usdc has changes of the prims of the groom's file

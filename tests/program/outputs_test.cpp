@@ -108,16 +108,58 @@ TEST_F(Outputs, AreThoseThatWereAskedFor) {
   }
 }
 
+// The hairs are those that `convert --hairs` makes of the same run; the strands stay in last.obj.
+TEST_F(Outputs, HairsThatFollowAreInEveryAnimation) {
+  const std::vector<std::string> formats{"--usdc", "--cache", "float32", "--motion", "nod"};
+  const auto simulateInto = [&](const std::string& folder, std::vector<std::string> more) {
+    more.insert(more.end(), formats.begin(), formats.end());
+    more.insert(more.end(), {"-o", folder});
+    const auto result = simulate("groom.obj", more);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  };
+  simulateInto("strands", {});
+  simulateInto("hairs", {"--hairs", "50"});
+  simulateInto("clips", {"--hairs", "50", "--clips", "2"});
+  EXPECT_EQ(readText(folder_ / "hairs/last.obj"), readText(folder_ / "strands/last.obj"));
+  EXPECT_TRUE(readText(folder_ / "hairs/sheet.png") == readText(folder_ / "strands/sheet.png"));
+  const auto frameOf = [&](const std::string& file, const std::vector<std::string>& more,
+                           const std::string& frame = "4") {
+    std::vector<std::string> arguments{"convert", file, "frame.obj", "--frame", frame};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto result = run(arguments);
+    EXPECT_EQ(result.exitCode, 0) << file << ": " << result.err;
+    return readText(folder_ / "frame.obj");
+  };
+  const std::string expected = frameOf("strands/hair.rgc", {"--hairs", "50", "--groom", "groom.obj"});
+  EXPECT_NE(expected, frameOf("strands/hair.rgc", {}));
+  for (const char* file : {"hairs/hair.usda", "hairs/hair.usdc", "hairs/hair.rgc", "clips/hair.rgc"})
+    EXPECT_EQ(frameOf(file, {}), expected) << file;
+  EXPECT_EQ(frameOf("clips/hair_clips/hair.0002.usdc", {}, "2"), expected);
+}
+
+TEST_F(Outputs, HairsHaveNothingOfTheGroomsFile) {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--usd-values", "groom"}, {"--usd-prims", "groom", "--usdc", "--no-usd"}}) {
+    std::vector<std::string> arguments = options;
+    arguments.insert(arguments.end(), {"--hairs", "50", "-o", "refused"});
+    const auto result = simulate("groom.usda", arguments);
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.err.find("hairs have no prims"), std::string::npos) << result.err;
+    EXPECT_FALSE(fs::exists(folder_ / "refused"));
+  }
+  EXPECT_EQ(simulate("groom.obj", {"--hairs", "0", "-o", "refused"}).exitCode, 2);
+}
+
 TEST_F(Outputs, TheSceneSaysWhatOptionsSay) {
   std::ofstream(folder_ / "scene.toml")
       << "[groom]\nfile = 'groom.obj'\n[motion]\nkind = 'shake'\n[output]\nfolder = 'scene'\n"
          "files = ['hair.usdc', 'hair.usda']\ntip_width = 0.0001\nvalues = ['id', 'rest', 'velocities']\n"
-         "head = 'transform'\n";
+         "head = 'transform'\nhairs = 20\n";
   auto result = simulate("scene.toml", {});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   result =
       simulate("groom.obj", {"--usdc", "--no-last", "--no-sheet", "--tip-width", "0.0001", "--usd-values",
-                             "id,rest,velocities", "--head", "transform", "-o", "typed"});
+                             "id,rest,velocities", "--head", "transform", "--hairs", "20", "-o", "typed"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(filesIn("scene"), filesIn("typed"));
   for (const std::string& file : filesIn("typed"))
@@ -214,7 +256,8 @@ TEST_F(Outputs, AWrongCommandLineIsSaid) {
 // a checkpoint to the bytes of a run without a break.
 TEST_F(Outputs, AKilledRunGoesOnInEveryFormat) {
   const std::vector<std::string> all{"--usdc", "--cache", "float32", "--usd-values", "id,velocities"};
-  for (const std::vector<std::string>& ways : {std::vector<std::string>{}, {"--clips", "3"}}) {
+  for (const std::vector<std::string>& ways :
+       {std::vector<std::string>{}, {"--clips", "3"}, {"--hairs", "40"}}) {
     std::vector<std::string> arguments{"simulate", "groom.obj", "--backend", "reference",    "--motion",
                                        "still",    "--frames",  "60",        "--checkpoint", "7"};
     arguments.insert(arguments.end(), all.begin(), all.end());

@@ -59,7 +59,8 @@ const std::string kEverythingElse =
     "position = [1, 0, 0]\n"
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
     "[output]\nfolder = 'out'\nwidth = 0.001\nfiles = ['sheet.png', 'last.obj']\ncache = '16bit'\n"
-    "tip_width = 0.0002\nvalues = ['rest', 'id']\nhead = 'none'\nprims = 'groom'\nclip_frames = 12\n";
+    "tip_width = 0.0002\nvalues = ['rest', 'id']\nhead = 'none'\nprims = 'groom'\nclip_frames = 12\nhairs = "
+    "500\n";
 
 const std::string kKind =
     "[groom]\nfile = 'hair.obj'\nunit = 1\nup = 'Z'\nscale = 0.9\nrotate_degrees = [90, 0, 0]\n"

@@ -459,6 +459,14 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        &O::head,
        {},
        "baked, transform, none"},
+      {"hairs",
+       "",
+       "none; the strands themselves",
+       "Hairs that animations have in place of the strands, which they follow; last.obj and sheet.png show "
+       "the "
+       "strands.",
+       &O::hairs,
+       {1, 1e7}},
       {"clip_frames",
        "",
        "none; hair.usda is one file",
