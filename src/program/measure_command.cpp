@@ -43,7 +43,7 @@ constexpr const char* kExample =
     "--plot draws over time, of OTHER and of each --over: mean droop, core elongation and turns, kinetic\n"
     "energy of hair of 10 mg/m, and how far hairs are in each other beyond rest, the deepest and the mean,\n"
     "as shares of their reach (1: two centres in one place); hairs are as thick as contacts have them\n"
-    "unasked. It needs gnuplot.\n"
+    "unasked. What is zero all the while is left out. It needs gnuplot.\n"
     "\n"
     "--json keys: strands particles frames; over strands of the last frame, means: droop_mm\n"
     "core_elongation, and of the curled: turns mean_radius_mm; handedness_kept: by all;\n"

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace ringlet::program {
 namespace {
@@ -43,30 +44,44 @@ std::string rangeOf(const SeriesKind& kind, std::span<const MotionSeries> runs) 
       high = std::max(high, kind.value(run, k));
     }
   }
-  const double room = std::max({0.05 * (high - low), 1e-3 * std::max(-low, high), 1e-6});
+  const double room = std::max(0.05 * (high - low), 1e-3 * std::max(-low, high));
   return fmt::format("[{:.6g}:{:.6g}]", low - room, high + room);
+}
+
+// By their column in the data. One that is zero all the while, such as contacts of a single strand, says
+// nothing.
+std::vector<std::size_t> panelsOf(std::span<const MotionSeries> runs) {
+  std::vector<std::size_t> panels;
+  for (std::size_t kind = 0; kind < seriesKinds().size(); ++kind) {
+    const bool isShown = std::ranges::any_of(runs, [&](const MotionSeries& run) {
+      for (std::size_t k = 0; k < run.frames.size(); ++k)
+        if (seriesKinds()[kind].value(run, k) != 0) return true;
+      return false;
+    });
+    if (isShown) panels.push_back(kind);
+  }
+  return panels;
 }
 
 std::string scriptOf(const std::filesystem::path& path, const std::string& extension,
                      std::span<const MotionSeries> runs) {
-  const std::size_t panels = seriesKinds().size();
+  const std::vector<std::size_t> panels = panelsOf(runs);
   const char* terminal = extension == ".svg" ? "svg" : "pngcairo";
   std::string script = fmt::format(
       "set terminal {} noenhanced font ',10' size {},{} background rgb 'white'\nset output {}\n"
-      "set multiplot layout {},1\nset lmargin 12\nset rmargin 3\nset grid\nset key outside above "
-      "horizontal\n",
-      terminal, kWidth, kPanelHeight * panels, quoted(path.string()), panels);
+      "set multiplot layout {},1\nset lmargin 12\nset rmargin 3\nset grid\n"
+      "set key outside above horizontal\n",
+      terminal, kWidth, kPanelHeight * panels.size(), quoted(path.string()), panels.size());
   for (std::size_t r = 0; r < runs.size(); ++r) script += dataOf(runs[r], r);
-  for (std::size_t panel = 0; panel < panels; ++panel) {
-    if (panel == 1) script += "unset key\n";  // one is enough
-    if (panel + 1 == panels) script += "set xlabel 'seconds'\n";
+  for (const std::size_t panel : panels) {
     const SeriesKind& kind = seriesKinds()[panel];
+    if (panel == panels.back()) script += "set xlabel 'seconds'\n";
     script += fmt::format("set ylabel {}\nset yrange {}\nplot ", quoted(kind.label), rangeOf(kind, runs));
     for (std::size_t r = 0; r < runs.size(); ++r) {
       script += fmt::format("{}$run{} using 1:{} with lines linewidth 2 title {}", r > 0 ? ", " : "", r,
                             panel + 2, quoted(runs[r].name));
     }
-    script += "\n";
+    script += "\nunset key\n";  // one is enough
   }
   return script + "unset multiplot\nunset output\n";
 }

@@ -27,14 +27,17 @@ Groom twoCurls(double stretch = 1) {
   return groom;
 }
 
-void writeAnimation(const std::filesystem::path& folder, double metresPerUnit = 0.01) {
+// Curls that bounce, and come nearer to each other by that share.
+void writeAnimation(const std::filesystem::path& folder, double metresPerUnit = 0.01, double nearer = 0) {
   std::filesystem::create_directories(folder);
   auto writer =
       UsdWriter::create(folder / "hair.usda", twoCurls(), {.metresPerUnit = metresPerUnit, .frameCount = 96});
   ASSERT_TRUE(writer);
   for (int k = 1; k <= 96; ++k) {
     const double t = k / 24.0;
-    ASSERT_TRUE(writer->addFrame(twoCurls(1 + 0.1 * std::exp(-4 * t) * std::sin(2 * kPi * 3 * t)).points));
+    Groom pose = twoCurls(1 + 0.1 * std::exp(-4 * t) * std::sin(2 * kPi * 3 * t));
+    for (Vec3f& p : pose.points) p.x *= static_cast<float>(1 - nearer * k / 96);
+    ASSERT_TRUE(writer->addFrame(pose.points));
   }
   ASSERT_TRUE(writer->finish());
 }
@@ -204,9 +207,10 @@ TEST(Measure, MotionsArePlottedOverEachOther) {
   const json found = measureJson(
       folder, {"rest.obj", "soft", "--plot", "plot.svg", "--over", "it's \"stiff\"", "--over", "soft"});
   std::string svg = readText(folder / "plot.svg");
-  for (const char* text : {"droop [mm]", "core elongation", "turns", "kinetic energy", "deepest contact",
-                           "mean contact", "seconds", ">soft<", "stiff"})
+  for (const char* text :
+       {"droop [mm]", "core elongation", "turns", "kinetic energy", "seconds", ">soft<", "stiff"})
     EXPECT_NE(svg.find(text), std::string::npos) << text;
+  EXPECT_EQ(svg.find("contact"), std::string::npos) << "nothing touches";
   const json& series = found["series"];
   ASSERT_EQ(series["seconds"].size(), 97);
   EXPECT_DOUBLE_EQ(series["seconds"][24], 1);
@@ -220,6 +224,15 @@ TEST(Measure, MotionsArePlottedOverEachOther) {
   EXPECT_EQ(energies.front(), 0);
   EXPECT_GT(energies[2], 100 * energies.back()) << "the bounce dies away";
   EXPECT_EQ(series["deepest_contact"].size(), 97);
+
+  writeAnimation(folder / "near", 0.01, 0.5);
+  const std::vector<double> deepest =
+      measureJson(folder, {"rest.obj", "near", "--plot", "near.svg"})["series"]["deepest_contact"];
+  EXPECT_EQ(deepest.front(), 0);
+  EXPECT_GT(deepest.back(), 0.2);
+  const std::string nearSvg = readText(folder / "near.svg");
+  for (const char* text : {"deepest contact", "mean contact"})
+    EXPECT_NE(nearSvg.find(text), std::string::npos) << text;
 
   measureJson(folder, {"rest.obj", "soft", "--plot", "plot.png"});
   EXPECT_EQ(readText(folder / "plot.png").substr(1, 3), "PNG");
