@@ -26,7 +26,7 @@ struct Look {
   double shadowOpacity = 0.8;  // share of light that a hair keeps from what is behind it
   double throughHair = 0.3;    // brightness of light that came through other hairs
   Vec3d key{4.4, 4.1, 3.7};    // light from the camera's upper left, in front [irradiance]
-  Vec3d rim{0.8, 0.88, 1.0};    // and from its upper right, behind
+  Vec3d rim{0.8, 0.88, 1.0};   // and from its upper right, behind
   Vec3d skyAbove{0.65, 0.72, 0.85}, skyBelow{0.30, 0.26, 0.24};         // [radiance]
   Vec3d solid{0.34, 0.27, 0.235};                                       // share that bodies reflect
   Vec3d backMiddle{0.115, 0.12, 0.132}, backEdge{0.018, 0.020, 0.024};  // behind all [radiance]
