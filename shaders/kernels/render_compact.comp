@@ -1,5 +1,5 @@
 // What is seen in each pixel: samples of hair go into a list, to be shaded; where bodies are seen, the pixel and one of
-// their triangles go into another.
+// their triangles go into another. In a preview one sample of a pixel's hair stands for all of them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
@@ -38,6 +38,10 @@ void main() {
     if (k % gl_WorkGroupSize.x == 0) atomicAdd(counts.indirectSolids[0], 1);
     seenSolids[k] = uvec2(pixel << 4 | solidAt, (solid & ~kSolid) - 1);
   }
+#ifdef RINGLET_PREVIEW
+  marks &= ~marks + 1;
+  hairs = min(hairs, 1);
+#endif
   uint place = 0;
   if (hairs != 0) {
     place = atomicAdd(counts.hairs, hairs);

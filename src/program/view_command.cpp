@@ -56,6 +56,8 @@ constexpr const char* kExample =
     "be\n"
     "read, 130 interrupted.";
 
+constexpr double kMostWidth = 0.0012;  // of strands, which stand for locks [m]
+
 struct Typed {
   std::filesystem::path input, save, pictures, widgets;
   std::vector<std::string> changes;
@@ -116,7 +118,7 @@ void addSolids(const LoadedScene& scene, Vec3d up, view::ViewPlan& plan) {
 
 Status addHairs(const LoadedScene& scene, int hairs, view::ViewPlan& plan) {
   const double count = hairs > 0 ? hairs : static_cast<double>(scene.groom.strandCount());
-  plan.look.width = widthOfHairs(count);
+  plan.look.width = std::min(widthOfHairs(count), kMostWidth);
   if (hairs == 0) return {};
   auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, {.hairCount = hairs});
   if (!follow) return follow.error();
@@ -137,9 +139,10 @@ Result<view::ViewOutcome> runScene(const Typed& typed, const SceneFile& file, Lo
   plan.look.size = {.width = width,
                     .height = height,
                     .side = typed.samples,
-                    .shadowCells = 80,
+                    .shadowCells = 64,
                     .shadowSlices = 32,
-                    .densityCells = 20};
+                    .densityCells = 16,
+                    .isPreview = true};
   plan.look.look = *lookByName(typed.colour);
   plan.device = typed.device;
   plan.cacheFolder = cacheFolder();

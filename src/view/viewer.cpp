@@ -315,6 +315,9 @@ Status Viewer::writePicture() {
 
 Status Viewer::tellWidgets() const {
   if (plan_.widgets.empty()) return {};
+  std::vector<Vec3d> solids;
+  for (const SolidPlace& place : places())
+    solids.push_back(camera_->project(place.position, paneWidth(), picture().height).value_or(Vec3d{}));
   return writeWidgets(plan_.widgets,
                       {.shownFrames = outcome_.frameCount,
                        .pictureWidth = picture().width,
@@ -324,7 +327,7 @@ Status Viewer::tellWidgets() const {
                        .head = session_->head().position,
                        .dragged = mouse_.dragged(),
                        .message = message_,
-                       .shown = shown_},
+                       .solids = std::move(solids)},
                       panel_.places());
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
@@ -17,7 +18,7 @@ struct WindowState {
   bool isPlaying = true;
   Vec3d eye, head;  // [m]
   std::string dragged, message;
-  Shown shown;
+  std::vector<Vec3d> solids;  // where the middle of each is in the picture; x, y [pixels], distance [m]
 };
 
 Status writeWidgets(const std::filesystem::path& path, const WindowState& state, const WidgetPlaces& widgets);

@@ -173,7 +173,7 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
       add(filled(triangles, "triangles of bodies")),
       add(room(8 * inBand, "pixels of bodies")),
       add(room(8 * inBand, "colours of bodies")),
-      add(room(16 * pixels, "light of pixels")),
+      add(room(size_.isPreview ? 0 : 16 * pixels, "light of pixels")),
       add(room(4 * pixels, "shown pixels"))};
   for (const Status& status : made)
     if (!status) return status;
@@ -197,9 +197,9 @@ Status HairRenderer::makeKernels(gpu::Device& device, const gpu::Buffer& points)
                                       layout::kBindSolidPoints, layout::kBindSolidTriangles})
     texels = texels && isSeenAsTexels(device, table.at(binding).get().bytes());
   for (std::size_t k = 0; k < kRenderKernelCount; ++k) {
-    auto kernel = gpu::Kernel::create(
-        device,
-        describeRenderKernel(static_cast<RenderKernel>(k), groupSizeOn(device), hasAtomic64_, texels));
+    auto kernel =
+        gpu::Kernel::create(device, describeRenderKernel(static_cast<RenderKernel>(k), groupSizeOn(device),
+                                                         hasAtomic64_, texels, size_.isPreview));
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(**kernel, table);
     if (!bindings) return bindings.error();
@@ -325,7 +325,7 @@ void HairRenderer::recordBand(gpu::CommandList& list, std::uint32_t firstRow, st
 }
 
 void HairRenderer::record(gpu::CommandList& list, bool isFirst) const {
-  if (isFirst) {
+  if (isFirst && !size_.isPreview) {
     list.fillZero(buffer(layout::kBindPixels));
     list.barrier();
   }
@@ -333,6 +333,7 @@ void HairRenderer::record(gpu::CommandList& list, bool isFirst) const {
   const auto height = static_cast<std::uint32_t>(size_.height);
   for (std::uint32_t row = 0; row < height; row += bandRows_)
     recordBand(list, row, std::min(bandRows_, height - row));
+  if (size_.isPreview) return;
   list.beginStage("tone");
   dispatch(list, RenderKernel::tone, std::uint64_t{1} * size_.width * size_.height);
   list.barrier();
@@ -348,6 +349,7 @@ Result<std::vector<std::uint32_t>> HairRenderer::picture() const {
 }
 
 Result<std::vector<float>> HairRenderer::light() const {
+  RINGLET_ASSERT(!size_.isPreview, "a preview keeps no light");
   const auto pixels = downloadAll<layout::vec4>(buffer(layout::kBindPixels),
                                                 static_cast<std::size_t>(size_.width) * size_.height);
   if (!pixels) return pixels.error();

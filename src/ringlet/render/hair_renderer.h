@@ -35,6 +35,9 @@ struct PictureSize {
   // Of the volumes that light is looked up in. Coarser ones are cheaper and softer.
   int shadowCells = 160, shadowSlices = 64;  // across and along each light's box, in [8, 256]
   int densityCells = 48;                     // along the box about all hair, in [8, 128]
+  // One moment, shown at once: of a pixel's hair one sample is shaded, and shadows on bodies are less soft.
+  // There is no light().
+  bool isPreview = false;
 };
 
 /// Hair to be drawn, on the device.

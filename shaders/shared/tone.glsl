@@ -1,0 +1,15 @@
+// From linear light to what a screen shows: a filmic curve (Narkowicz 2016, a fit of ACES), sRGB, and noise of one
+// step, so that smooth shades have no bands. After picture.glsl.
+#ifndef RINGLET_TONE
+#define RINGLET_TONE
+
+float encoded(float x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * exp2(log2(x) / 2.4) - 0.055; }
+
+/// Red in the lowest byte, green, blue, 255.
+uint toned(vec3 light, uint pixel) {
+  vec3 film = clamp(light * (2.51 * light + 0.03) / (light * (2.43 * light + 0.59) + 0.14), 0.0, 1.0);
+  vec3 screen = vec3(encoded(film.r), encoded(film.g), encoded(film.b)) + (unitOf(mixed(pixel)) - 0.5) / 255.0;
+  return packUnorm4x8(vec4(screen, 1));
+}
+
+#endif
