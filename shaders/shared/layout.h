@@ -657,6 +657,23 @@ struct SeenCounts {
   uint solids;
 };
 
+// Bindings of render_stretch: hairs take the colour of how far their strand is stretched.
+RINGLET_CONSTANT uint kBindStretchPoints = 0;   // uvec4[points of strands]: position's bits, anything
+RINGLET_CONSTANT uint kBindStretchLengths = 1;  // float[points of strands]: of the edge that begins there, at rest [m]
+RINGLET_CONSTANT uint kBindStretchStrands = 2;  // StretchStrand[hairs]
+RINGLET_CONSTANT uint kBindStretchHairs = 3;    // DrawnHair[hairs]
+
+// Constant per hair: the strand that it is, or follows.
+struct StretchStrand {
+  uint firstPoint;
+  uint pointCount;
+};
+
+struct StretchParameters {
+  uint count;  // of hairs
+  float most;  // share of its length by which an edge of the second pigment is longer
+};
+
 // A part of a picture: whole rows of pixels.
 struct PictureBand {
   uint firstRow;

@@ -9,6 +9,7 @@ namespace {
 
 // Hairs beside the strands they follow, and where hair is a frame later [m].
 constexpr double kMargin = 0.03;
+constexpr double kMostBox = 1000;  // about hair that still is hair [m]
 
 Bounds boxAbout(std::span<const Vec3d> points) {
   Bounds box{points[0], points[0]};
@@ -38,9 +39,18 @@ Result<HairPane> HairPane::create(gpu::Device& device, const Groom& groom, const
   }
   const DrawnHairs drawn{self.follow_ ? self.follow_->points() : self.strands_->points(),
                          self.follow_ ? self.follow_->firstPoint() : self.strands_->firstPoint(), look.width};
-  auto renderer = HairRenderer::create(device, drawn, look.solids, look.size, look.look);
+  auto renderer = HairRenderer::create(device, drawn, look.solids, look.size,
+                                       look.showsStretch ? StretchColours::look(look.look) : look.look);
   if (!renderer) return renderer.error();
   self.renderer_.emplace(std::move(*renderer));
+  if (!look.showsStretch) return self;
+  std::vector<std::uint32_t> strandOf;
+  for (const FollowHair& hair : look.hairs) strandOf.push_back(hair.guide);
+  for (std::uint32_t s = 0; look.hairs.empty() && s < groom.strandCount(); ++s) strandOf.push_back(s);
+  auto stretch = StretchColours::create(device, self.follow_ ? self.follow_->pose() : self.strands_->points(),
+                                        self.rest_, self.firstPoint_, strandOf, self.renderer_->drawnHairs());
+  if (!stretch) return stretch.error();
+  self.stretch_.emplace(std::move(*stretch));
   return self;
 }
 
@@ -71,13 +81,15 @@ void HairPane::record(gpu::CommandList& list, Quatd head) const {
   list.beginStage("follow");
   pose_->record(list, head);
   if (follow_) follow_->record(list, head);
+  if (stretch_) stretch_->record(list);
   list.endStage();
   renderer_->record(list, true);
 }
 
 void HairPane::finish() {
   const DevicePose::Box box = pose_->box();
-  box_ = {box.low, box.high};
+  const double size = length(box.high - box.low);
+  if (size < kMostBox) box_ = {box.low, box.high};  // numbers that are none are in no box
 }
 
 }  // namespace ringlet::view

@@ -14,6 +14,7 @@
 #include "ringlet/gpu/command_list.h"
 #include "ringlet/render/hair_renderer.h"
 #include "ringlet/render/strand_points.h"
+#include "ringlet/render/stretch_colours.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/solver/simulation.h"
@@ -26,6 +27,7 @@ struct PaneLook {
   std::vector<FollowHair> hairs;
   std::vector<SolidMesh> solids;
   PictureSize size;
+  bool showsStretch = false;  // in place of the look's colour
   Look look;
   double width = 0.001;  // of hairs at the root [m]
 };
@@ -42,7 +44,6 @@ class HairPane {
 
   /// The next picture. Places of solids and the camera are the world's.
   Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids);
-  void setLook(const Look& look) { renderer_->setLook(look); }
   void record(gpu::CommandList& list, Quatd head) const;
   /// Of what was recorded and is done: the box about the hair is known for the next picture.
   void finish();
@@ -60,6 +61,7 @@ class HairPane {
   std::unique_ptr<FollowStage> follow_;
   std::unique_ptr<StrandPoints> strands_;
   std::optional<HairRenderer> renderer_;
+  std::optional<StretchColours> stretch_;
   std::optional<DevicePose> pose_;
   Bounds box_;  // relative to the head
 };

@@ -87,7 +87,7 @@ class Viewer {
   std::string message_;
   std::vector<std::optional<std::size_t>> bodyOf_;
   PixelSize madeFor_;  // the panes
-  bool madeOfGuides_ = false, madeWithBodies_ = true;
+  Shown madeShowing_;  // likewise
   ViewOutcome outcome_;
   double firstEnd_ = 0, firstCpu_ = 0, lastEnd_ = 0, framesPerSecond_ = 0;
   int quietFrames_ = 0;
@@ -130,8 +130,7 @@ PixelSize Viewer::picture() const {
 Status Viewer::makePanes() {
   panes_.clear();
   madeFor_ = picture();
-  madeOfGuides_ = shown_.guides;
-  madeWithBodies_ = shown_.bodies;
+  madeShowing_ = shown_;
   PaneLook look = plan_.look;
   look.size.width = std::max(paneWidth(), 4);
   look.size.height = madeFor_.height;
@@ -139,6 +138,7 @@ Status Viewer::makePanes() {
     look.hairs.clear();
     look.width = widthOfHairs(static_cast<double>(plan_.scene->groom.strandCount()));
   }
+  look.showsStretch = shown_.stretch;
   if (!shown_.bodies) look.solids.clear();
   for (std::size_t k = 0; k < session_->hairs().size(); ++k) {
     auto pane = HairPane::create(device_->gpu(), plan_.scene->groom, look);
@@ -269,7 +269,9 @@ Status Viewer::applyEdits() {
 
 // Pictures of another size, or of something else.
 Status Viewer::remakePanes() {
-  if (picture() == madeFor_ && madeOfGuides_ == shown_.guides && madeWithBodies_ == shown_.bodies) return {};
+  if (picture() == madeFor_ && madeShowing_.guides == shown_.guides && madeShowing_.bodies == shown_.bodies &&
+      madeShowing_.stretch == shown_.stretch)
+    return {};
   return makePanes();
 }
 

@@ -328,6 +328,14 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(solids)}};
     }(),
     [] {
+      using S = layout::StretchStrand;
+      return CppStruct{"StretchStrand", sizeof(S), {RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(pointCount)}};
+    }(),
+    [] {
+      using S = layout::StretchParameters;
+      return CppStruct{"StretchParameters", sizeof(S), {RINGLET_MEMBER(count), RINGLET_MEMBER(most)}};
+    }(),
+    [] {
       using S = layout::PictureBand;
       return CppStruct{"PictureBand", sizeof(S), {RINGLET_MEMBER(firstRow), RINGLET_MEMBER(rowCount)}};
     }(),
