@@ -1,5 +1,5 @@
-// The mean of each pixel's samples, added to the pictures before: one a moment, where there is motion blur. In a preview
-// it is shown at once, and all hair of a pixel is of the colour of what is shaded of it.
+// The mean of each pixel's samples, added to the pictures before: one a moment, where there is motion blur. In a
+// preview it is shown at once, and all hair of a pixel is of the colour of what is shaded of it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"

@@ -56,8 +56,6 @@ constexpr const char* kExample =
     "be\n"
     "read, 130 interrupted.";
 
-constexpr double kMostWidth = 0.0012;  // of strands, which stand for locks [m]
-
 struct Typed {
   std::filesystem::path input, save, pictures, widgets;
   std::vector<std::string> changes;
@@ -118,7 +116,7 @@ void addSolids(const LoadedScene& scene, Vec3d up, view::ViewPlan& plan) {
 
 Status addHairs(const LoadedScene& scene, int hairs, view::ViewPlan& plan) {
   const double count = hairs > 0 ? hairs : static_cast<double>(scene.groom.strandCount());
-  plan.look.width = std::min(widthOfHairs(count), kMostWidth);
+  plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
   if (hairs == 0) return {};
   auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, {.hairCount = hairs});
   if (!follow) return follow.error();
@@ -276,7 +274,9 @@ void addViewCommand(CLI::App& app, int& exitCode) {
   command->add_option("--save", typed->save, "Where Ctrl+S writes the scene (default: IN's name, .view.toml)")
       ->check(endsIn({".toml"}))
       ->type_name("FILE");
-  command->add_option("--screenshots", typed->pictures, "Folder for the pictures of F12 (default: this one)")
+  command
+      ->add_option("--screenshots", typed->pictures,
+                   "Folder for the pictures of F12, and for one of the last of --frames (default: this one)")
       ->type_name("FOLDER");
   command
       ->add_option("--frames", typed->frames,

@@ -21,6 +21,9 @@
 
 namespace ringlet::view {
 
+/// Strands stand for locks where no hairs follow them; they are not drawn wider [m].
+inline constexpr double kMostStrandWidth = 0.0012;
+
 /// What is drawn beside the numbers of a session.
 struct PaneLook {
   std::vector<GuideRest> guides;  // with hairs that follow them; none: the strands are drawn

@@ -104,7 +104,7 @@ void Panel::drawMaterials(EditHistory<Edits>& history) {
   history.commit();
 }
 
-bool Panel::drawValue(const Slider& slider, double& value) const {
+bool Panel::drawValue(const Slider& slider, bool isSet, double& value) const {
   const std::string id = "##" + slider.name;
   if (slider.kind == Slider::Kind::toggle) {
     bool isOn = value > 0.5;
@@ -123,8 +123,12 @@ bool Panel::drawValue(const Slider& slider, double& value) const {
   const bool isWhole = slider.kind == Slider::Kind::whole;
   const ImGuiSliderFlags flags =
       slider.isLogarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
-  const bool isChanged = ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &slider.shown.low,
-                                             &slider.shown.high, isWhole ? "%.0f" : "%.4g", flags);
+  const bool isChanged =
+      ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &slider.shown.low, &slider.shown.high,
+                          !isSet    ? "as is best"
+                          : isWhole ? "%.0f"
+                                    : "%.4g",
+                          flags);
   if (isWhole) value = std::round(value);
   value = std::clamp(value, slider.allowed.low, slider.allowed.high);
   return isChanged;
@@ -136,7 +140,7 @@ void Panel::drawSlider(const Slider& slider, EditHistory<Edits>& history) {
   const std::optional<double> set = slider.get(edits, material);
   double value = set.value_or(slider.standard);
   ImGui::SetNextItemWidth(kValueWidth);
-  bool isChanged = drawValue(slider, value);
+  bool isChanged = drawValue(slider, set.has_value(), value);
   const bool isLetGo = ImGui::IsItemDeactivatedAfterEdit();
   const bool isActive = ImGui::IsItemActive();
   note(slider.name);
@@ -144,8 +148,8 @@ void Panel::drawSlider(const Slider& slider, EditHistory<Edits>& history) {
   const bool isAtOnce = isChanged && !isActive;  // a checkbox, a choice, a right click
   explain(tipOf(slider));
   ImGui::SameLine();
-  ImGui::TextUnformatted(fmt::format("{}{}{}{}{}", slider.label, slider.unit.empty() ? "" : " ", slider.unit,
-                                     slider.isLive ? "" : " *", set ? "" : " (auto)")
+  ImGui::TextUnformatted(fmt::format("{}{}{}{}", slider.label, slider.unit.empty() ? "" : " ", slider.unit,
+                                     slider.isLive ? "" : " *")
                              .c_str());
   explain(tipOf(slider));
   if (isActive && !slider.isLive) isHeld_ = true;

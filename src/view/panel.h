@@ -64,7 +64,7 @@ class Panel {
   void drawMaterials(EditHistory<Edits>& history);
   void drawGroup(const SliderGroup& group, EditHistory<Edits>& history);
   void drawSlider(const Slider& slider, EditHistory<Edits>& history);
-  bool drawValue(const Slider& slider, double& value) const;
+  bool drawValue(const Slider& slider, bool isSet, double& value) const;
   void drawShown(const Facts& facts, Shown& shown, EditHistory<Edits>& history);
   void drawTimes(const Facts& facts);
   bool button(const char* name, const char* tip, bool isPossible = true);

@@ -139,6 +139,7 @@ class FieldSliders {
     };
     const std::optional<double> known = slider.get(unedited(), 0);
     slider.standard = known.value_or(std::sqrt(std::max(slider.allowed.low, 1e-3) * slider.allowed.high));
+    if (slider.kind == Slider::Kind::whole) slider.standard = std::round(slider.standard);
     sliders_.push_back(finished(std::move(slider)));
   }
 

@@ -22,6 +22,7 @@
 #include "view/canvas.h"
 #include "view/mouse_control.h"
 #include "view/overlays.h"
+#include "view/pane_row.h"
 #include "view/panel.h"
 #include "view/stage_times.h"
 #include "view/widget_file.h"
@@ -47,17 +48,14 @@ class Viewer {
 
  private:
   Status open();
-  Status makePanes();
-  Status attachPanes();
+  Status preparePanes();
   Status showFrame();
   Status drawUi();
   void moveByMouse();
   Status answer();
   Status applyEdits();
-  Status remakePanes();
   Status step();
   Status drawPanes();
-  Status show();
   Status writePicture();
   Status tellWidgets() const;
   void waitForTime(double start) const;
@@ -73,7 +71,7 @@ class Viewer {
   std::optional<Session> session_;
   std::optional<OrbitCamera> camera_;
   std::unique_ptr<Canvas> canvas_;
-  std::vector<std::unique_ptr<HairPane>> panes_;
+  PaneRow panes_;
   std::optional<gpu::Recorder> recorder_;  // the last to be made, the first to end
 
   Panel panel_;
@@ -86,8 +84,6 @@ class Viewer {
   StageTimes times_;
   std::string message_;
   std::vector<std::optional<std::size_t>> bodyOf_;
-  PixelSize madeFor_;  // the panes
-  Shown madeShowing_;  // likewise
   ViewOutcome outcome_;
   double firstEnd_ = 0, firstCpu_ = 0, lastEnd_ = 0, framesPerSecond_ = 0;
   int quietFrames_ = 0;
@@ -119,7 +115,7 @@ Status Viewer::open() {
   auto recorder = gpu::Recorder::create(device_->gpu(), "picture of the view");
   if (!recorder) return recorder.error();
   recorder_.emplace(std::move(*recorder));
-  return makePanes();
+  return preparePanes();
 }
 
 PixelSize Viewer::picture() const {
@@ -127,33 +123,8 @@ PixelSize Viewer::picture() const {
   return {std::max(all.width - (panel_.isOpen ? kPanelWidth : 0), 8), std::max(all.height, 8)};
 }
 
-Status Viewer::makePanes() {
-  panes_.clear();
-  madeFor_ = picture();
-  madeShowing_ = shown_;
-  PaneLook look = plan_.look;
-  look.size.width = std::max(paneWidth(), 4);
-  look.size.height = madeFor_.height;
-  if (shown_.guides && !look.hairs.empty()) {
-    look.hairs.clear();
-    look.width = widthOfHairs(static_cast<double>(plan_.scene->groom.strandCount()));
-  }
-  look.showsStretch = shown_.stretch;
-  if (!shown_.bodies) look.solids.clear();
-  for (std::size_t k = 0; k < session_->hairs().size(); ++k) {
-    auto pane = HairPane::create(device_->gpu(), plan_.scene->groom, look);
-    if (!pane) return pane.error();
-    panes_.push_back(std::make_unique<HairPane>(std::move(*pane)));
-  }
-  return attachPanes();
-}
-
-Status Viewer::attachPanes() {
-  for (std::size_t k = 0; k < panes_.size(); ++k) {
-    Status attached = panes_[k]->attach(device_->gpu(), session_->hairs()[k].simulation());
-    if (!attached) return attached;
-  }
-  return {};
+Status Viewer::preparePanes() {
+  return panes_.prepare(device_->gpu(), *session_, plan_.look, picture(), shown_);
 }
 
 std::vector<SolidPlace> Viewer::places() const {
@@ -244,7 +215,7 @@ Status Viewer::answer() {
   }
   if (asked_.reset) {
     if (Status reset = session_->reset(); !reset) return reset;
-    return attachPanes();
+    return panes_.attach(device_->gpu(), *session_);
   }
   return {};
 }
@@ -253,7 +224,6 @@ Status Viewer::applyEdits() {
   if (panel_.isHeld()) return {};
   if (history_.version() == appliedVersion_) return {};
   appliedVersion_ = history_.version();
-  const bool wasTwo = session_->hairs().size() == 2;
   const auto changed = session_->setEdits(history_.now());
   if (!changed) {  // hair goes on as it was
     message_ = changed.error().message;
@@ -262,17 +232,7 @@ Status Viewer::applyEdits() {
   }
   if (isRefused_) message_.clear();
   isRefused_ = false;
-  const bool isTwo = session_->hairs().size() == 2;
-  if (*changed && wasTwo == isTwo) return attachPanes();
-  return *changed ? makePanes() : Status{};
-}
-
-// Pictures of another size, or of something else.
-Status Viewer::remakePanes() {
-  if (picture() == madeFor_ && madeShowing_.guides == shown_.guides && madeShowing_.bodies == shown_.bodies &&
-      madeShowing_.stretch == shown_.stretch)
-    return {};
-  return makePanes();
+  return *changed ? panes_.attach(device_->gpu(), *session_) : Status{};
 }
 
 Status Viewer::step() {
@@ -281,20 +241,10 @@ Status Viewer::step() {
 }
 
 Status Viewer::drawPanes() {
-  for (auto& pane : panes_) {
-    if (Status set = pane->setFrame(camera_->camera(), session_->head(), places()); !set) return set;
-  }
+  if (Status set = panes_.setFrame(camera_->camera(), session_->head(), places()); !set) return set;
   if (Status begun = recorder_->begin(); !begun) return begun;
-  for (auto& pane : panes_) pane->record(*recorder_, session_->head().rotation);
+  panes_.record(*recorder_, session_->head().rotation);
   return recorder_->submit();
-}
-
-Status Viewer::show() {
-  std::vector<PlacedPicture> pictures;
-  for (std::size_t k = 0; k < panes_.size(); ++k)
-    pictures.push_back({&panes_[k]->shown(), static_cast<int>(k) * panes_[k]->size().width,
-                        panes_[k]->size().width, panes_[k]->size().height});
-  return canvas_->show(pictures, asked_.picture);
 }
 
 Status Viewer::writePicture() {
@@ -336,12 +286,15 @@ Status Viewer::tellWidgets() const {
 Status Viewer::showFrame() {
   times_.begin();
   asked_ = {};
+  const bool isLast =
+      plan_.frameCount > 0 && outcome_.frameCount + 1 == static_cast<std::size_t>(plan_.frameCount);
+  asked_.picture = isLast && !plan_.pictures.empty();
   const double uiStart = now();
   if (Status drawn = drawUi(); !drawn) return drawn;
   times_.add("panel", 1000 * (now() - uiStart));
   if (Status answered = answer(); !answered) return answered;
   if (Status applied = applyEdits(); !applied) return applied;
-  if (Status remade = remakePanes(); !remade) return remade;
+  if (Status prepared = preparePanes(); !prepared) return prepared;
   if (Status stepped = step(); !stepped) return stepped;
   const bool isStepped = session_->isPlaying || asked_.step;
   if (Status drawn = drawPanes(); !drawn) return drawn;
@@ -351,9 +304,9 @@ Status Viewer::showFrame() {
   if (Status waited = recorder_->wait(); !waited) return waited;
   times_.addSolver(session_->hairs());
   for (const auto& [stage, milliseconds] : recorder_->stageMilliseconds()) times_.add(stage, milliseconds);
-  for (auto& pane : panes_) pane->finish();
+  panes_.finish();
   const double showStart = now();
-  if (Status shown = show(); !shown) return shown;
+  if (Status shown = canvas_->show(panes_.pictures(), asked_.picture); !shown) return shown;
   times_.add("window", 1000 * (now() - showStart));
   if (asked_.picture) {
     if (Status written = writePicture(); !written) return written;

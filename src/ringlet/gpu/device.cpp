@@ -405,13 +405,14 @@ Result<DeviceNeeds> Device::needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
                                   VkPhysicalDevice physical, std::uint32_t apiVersion) {
   auto adopted = Instance::adopt(getInstanceProcAddr, instance, apiVersion);
   if (!adopted) return adopted.error();
-  const Candidate candidate = inspect(**adopted, physical, 0, {.withoutAtomicInt64 = true});
+  const Candidate candidate = inspect(**adopted, physical, 0, {});
   const DeviceProperties& p = candidate.listing.properties;
   if (!candidate.listing.usable)
     return Error{fmt::format("the Vulkan device {} cannot run Ringlet: {}", p.name, candidate.listing.why)};
   return DeviceNeeds{{candidate.extensions.begin(), candidate.extensions.end()},
                      p.canChooseSubgroupSize,
                      p.hasFullSubgroups,
+                     p.hasAtomicInt64,
                      candidate.queueFamily};
 }
 
@@ -423,8 +424,7 @@ Result<std::shared_ptr<Device>> Device::adopt(const HostDevice& host,
     return Error{"a host hands over no physical device, no device or no queue"};
   if (bool(host.allocator.allocate) != bool(host.allocator.free))
     return Error{"a host's allocator either allocates and frees, or does neither"};
-  Candidate candidate =
-      inspect(**instance, host.physical, 0, {.withoutAtomicInt64 = true});  // a host does not say
+  Candidate candidate = inspect(**instance, host.physical, 0, {.withoutAtomicInt64 = !host.atomicInt64});
   DeviceProperties& p = candidate.listing.properties;
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(host.physical);
   if (host.queueFamily >= families.size() || !(families[host.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT))

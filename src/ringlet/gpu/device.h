@@ -120,6 +120,7 @@ struct HostDevice {
   std::uint32_t apiVersion = 0;       // of the host's VkApplicationInfo
   bool subgroupSizeControl = false;   // features that the device was opened with
   bool computeFullSubgroups = false;  // likewise
+  bool atomicInt64 = false;           // shaderInt64 and shaderBufferInt64Atomics
   std::mutex* queueMutex = nullptr;   // held while something is handed to the queue; none: nobody else does
   HostAllocator allocator{};
 };
@@ -129,6 +130,7 @@ struct DeviceNeeds {
   std::vector<std::string> extensions;
   bool subgroupSizeControl = false;
   bool computeFullSubgroups = false;
+  bool atomicInt64 = false;       // shaderInt64 and shaderBufferInt64Atomics
   std::uint32_t queueFamily = 0;  // the best; another that computes will do
 };
 
