@@ -3,8 +3,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
+#include "shared/sample_texels.glsl"
 
-layout(set = 0, binding = kBindSamples) readonly buffer Samples { uvec2 samples[]; };
 layout(set = 0, binding = kBindSeen) writeonly buffer Seen { uint seen[]; };
 layout(set = 0, binding = kBindSeenCounts) buffer Counts { SeenCounts counts; };
 layout(set = 0, binding = kBindSeenSolids) writeonly buffer SeenSolids { uvec2 seenSolids[]; };
@@ -24,7 +24,7 @@ void main() {
   uint index = 0;      // the sample
   for (uint at = first; at < end; at += stride) {
     for (uint k = 0; k < side; ++k) {
-      uint what = samples[at + k].x;
+      uint what = sampleAt(at + k).x;
       bool isHair = what != 0 && (what & kSolid) == 0;
       marks = marks << 1 | uint(isHair);
       hairs += uint(isHair);

@@ -3,9 +3,9 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
+#include "shared/sample_texels.glsl"
 #include "shared/tone.glsl"
 
-layout(set = 0, binding = kBindSamples) readonly buffer Samples { uvec2 samples[]; };
 layout(set = 0, binding = kBindSolidColours) readonly buffer SolidColours { uvec2 solidColours[]; };
 #ifdef RINGLET_PREVIEW
 layout(set = 0, binding = kBindShown) writeonly buffer Shown { uint shown[]; };
@@ -30,7 +30,7 @@ void main() {
 #endif
   for (uint at = first; at < end; at += stride) {
     for (uint k = 0; k < side; ++k) {
-      uvec2 what = samples[at + k];
+      uvec2 what = sampleAt(at + k);
       bool isHair = (what.y & kShadedHair) != 0;
       vec3 colour = vec3(unpackHalf2x16(what.x), unpackHalf2x16(what.y & 0xffffu).x);
       hair += isHair ? colour : vec3(0);

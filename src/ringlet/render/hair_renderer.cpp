@@ -193,7 +193,7 @@ Status HairRenderer::makeKernels(gpu::Device& device, const gpu::Buffer& points)
     table.emplace(layout::kRenderTexels + binding, bound);
   }
   bool texels = true;
-  for (const std::uint32_t binding : {layout::kBindDrawnPoints, layout::kBindDrawnHairs,
+  for (const std::uint32_t binding : {layout::kBindDrawnPoints, layout::kBindDrawnHairs, layout::kBindSamples,
                                       layout::kBindSolidPoints, layout::kBindSolidTriangles})
     texels = texels && isSeenAsTexels(device, table.at(binding).get().bytes());
   for (std::size_t k = 0; k < kRenderKernelCount; ++k) {
