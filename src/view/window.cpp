@@ -28,7 +28,7 @@ Error withoutWindow(const char* attempt) {
 
 template <class Function>
 Function instanceFunction(const gpu::Device& device, const char* name) {
-  return reinterpret_cast<Function>(vkGetInstanceProcAddr(device.instance(), name));
+  return reinterpret_cast<Function>(glfwGetInstanceProcAddress(device.instance(), name));
 }
 #define INSTANCE_CALL(name) instanceFunction<PFN_##name>(*device_, #name)
 

@@ -100,7 +100,9 @@ class Session:
         os.close(writing)
         number = os.read(reading, 16).decode().strip()
         assert number, "Xvfb does not start"
-        self.environment = {**os.environ, "DISPLAY": f":{number}", "RINGLET_VALIDATION": "1"}
+        # Not the user's cache, who may have tuned.
+        cache = os.environ.get("RINGLET_CACHE_DIR", str(Path(ringlet).parent / "tests" / "cache"))
+        self.environment = {**os.environ, "RINGLET_CACHE_DIR": cache, "DISPLAY": f":{number}", "RINGLET_VALIDATION": "1"}
         (folder / "scene.toml").write_text(SCENE)
         self.program = subprocess.Popen(
             [ringlet, "view", "scene.toml", "--paused", "--size", "480x360", "--widgets", "widgets.json", "--save",
