@@ -11,6 +11,7 @@ packages=(
   libzstd-dev                                                        # caches of animations
   libtomlplusplus-dev                                                # material files
   libtinygltf-dev                                                    # glTF motion
+  libglfw3-dev libimgui-dev xvfb xdotool                             # the window of `ringlet view`, and its test without a screen
   gnuplot-nox                                                        # plots
   python3-dev pybind11-dev python3-numpy python3-pytest              # the Python module and its tests
 )

@@ -1,10 +1,10 @@
 // What is seen in each pixel: samples of hair go into a list, to be shaded; where bodies are seen, the pixel and one of
-// their triangles go into another.
+// their triangles go into another. In a preview one sample of a pixel's hair stands for all of them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
+#include "shared/sample_texels.glsl"
 
-layout(set = 0, binding = kBindSamples) readonly buffer Samples { uvec2 samples[]; };
 layout(set = 0, binding = kBindSeen) writeonly buffer Seen { uint seen[]; };
 layout(set = 0, binding = kBindSeenCounts) buffer Counts { SeenCounts counts; };
 layout(set = 0, binding = kBindSeenSolids) writeonly buffer SeenSolids { uvec2 seenSolids[]; };
@@ -24,7 +24,7 @@ void main() {
   uint index = 0;      // the sample
   for (uint at = first; at < end; at += stride) {
     for (uint k = 0; k < side; ++k) {
-      uint what = samples[at + k].x;
+      uint what = sampleAt(at + k).x;
       bool isHair = what != 0 && (what & kSolid) == 0;
       marks = marks << 1 | uint(isHair);
       hairs += uint(isHair);
@@ -38,6 +38,10 @@ void main() {
     if (k % gl_WorkGroupSize.x == 0) atomicAdd(counts.indirectSolids[0], 1);
     seenSolids[k] = uvec2(pixel << 4 | solidAt, (solid & ~kSolid) - 1);
   }
+#ifdef RINGLET_PREVIEW
+  marks &= ~marks + 1;
+  hairs = min(hairs, 1);
+#endif
   uint place = 0;
   if (hairs != 0) {
     place = atomicAdd(counts.hairs, hairs);

@@ -1,11 +1,17 @@
-// The mean of each pixel's samples, added to the pictures before: one a moment, where there is motion blur.
+// The mean of each pixel's samples, added to the pictures before: one a moment, where there is motion blur. In a
+// preview it is shown at once, and all hair of a pixel is of the colour of what is shaded of it.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/picture.glsl"
+#include "shared/sample_texels.glsl"
+#include "shared/tone.glsl"
 
-layout(set = 0, binding = kBindSamples) readonly buffer Samples { uvec2 samples[]; };
 layout(set = 0, binding = kBindSolidColours) readonly buffer SolidColours { uvec2 solidColours[]; };
+#ifdef RINGLET_PREVIEW
+layout(set = 0, binding = kBindShown) writeonly buffer Shown { uint shown[]; };
+#else
 layout(set = 0, binding = kBindPixels) buffer Pixels { vec4 pixels[]; };
+#endif
 
 void main() {
   uint pixel = gl_GlobalInvocationID.x;
@@ -19,21 +25,36 @@ void main() {
   vec3 hair = vec3(0);
   float hairs = 0.0;
   float solids = 0.0;
+#ifdef RINGLET_PREVIEW
+  float unshaded = 0.0;
+#endif
   for (uint at = first; at < end; at += stride) {
     for (uint k = 0; k < side; ++k) {
-      uvec2 what = samples[at + k];
+      uvec2 what = sampleAt(at + k);
       bool isHair = (what.y & kShadedHair) != 0;
       vec3 colour = vec3(unpackHalf2x16(what.x), unpackHalf2x16(what.y & 0xffffu).x);
       hair += isHair ? colour : vec3(0);
       hairs += isHair ? 1.0 : 0.0;
       solids += !isHair && (what.x & kSolid) != 0 ? 1.0 : 0.0;
+#ifdef RINGLET_PREVIEW
+      unshaded += !isHair && what.x != 0 && (what.x & kSolid) == 0 ? 1.0 : 0.0;
+#endif
     }
   }
+#ifdef RINGLET_PREVIEW
+  hair *= (hairs + unshaded) / max(hairs, 1.0);
+  hairs += unshaded;
+#endif
   uvec2 packed = solidColours[pixel];
   vec3 solid = solids > 0.0 ? vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x) : vec3(0);
   y += band.firstRow;
   vec2 place = (vec2(x, y) + 0.5) / vec2(picture.width, picture.height) - vec2(0.45, 0.42);
   vec3 back = mix(picture.backColours[1].rgb, picture.backColours[0].rgb, exp(-2.2 * dot(place, place) * 1.5));
   float all = float(side * side);
-  pixels[y * picture.width + x] += vec4((hair + solids * solid + (all - hairs - solids) * back) / all, 1);
+  vec3 light = (hair + solids * solid + (all - hairs - solids) * back) / all;
+#ifdef RINGLET_PREVIEW
+  shown[y * picture.width + x] = toned(light * picture.exposure, y * picture.width + x);
+#else
+  pixels[y * picture.width + x] += vec4(light, 1);
+#endif
 }

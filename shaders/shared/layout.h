@@ -539,6 +539,34 @@ struct FollowParameters {
 // A point of a hair says which hair it is of, and whether it is the last of it.
 RINGLET_CONSTANT uint kHairEnd = 0x80000000u;
 
+// Bindings of the pose_* kernels: where simulated hair is, for what follows or draws it on the same device.
+RINGLET_CONSTANT uint kBindPosePositions = 0;  // vec4[particles]: position [m], 0; as the solver has them
+RINGLET_CONSTANT uint kBindPosePlaces = 1;     // PosePlace[particles]
+RINGLET_CONSTANT uint kBindPosePoints = 2;     // uvec4[points]: position's bits, PosePlace::tag
+RINGLET_CONSTANT uint kBindPoseBounds = 3;     // PoseBounds
+RINGLET_CONSTANT uint kPoseBindingCount = 4;
+// The positions as texels, this much further:
+RINGLET_CONSTANT uint kPoseTexels = 10;
+
+// Constant per particle.
+struct PosePlace {
+  uint point;  // where it goes
+  uint tag;    // what stands behind its position there
+};
+
+struct PoseParameters {
+  vec4 turn;  // quaternion: of particles that the head carries
+  uint count;
+  uint isTurned;
+};
+
+// The highest of all points along x, y, z, then how low the lowest are; as ordered bits (pose_bounds.comp), so that
+// 0 is below all.
+struct PoseBounds {
+  uint high[3];
+  uint low[3];
+};
+
 // Bindings of the render_* kernels: pictures of hair and bodies, without a graphics pipeline.
 RINGLET_CONSTANT uint kBindPicture = 0;       // uniform: Picture
 RINGLET_CONSTANT uint kBindDrawnPoints = 1;   // uvec4[points], as kBindHairPoints
@@ -627,6 +655,23 @@ struct SeenCounts {
   uint hairs;
   uint indirectSolids[3];
   uint solids;
+};
+
+// Bindings of render_stretch: hairs take the colour of how far their strand is stretched.
+RINGLET_CONSTANT uint kBindStretchPoints = 0;   // uvec4[points of strands]: position's bits, anything
+RINGLET_CONSTANT uint kBindStretchLengths = 1;  // float[points of strands]: of the edge that begins there, at rest [m]
+RINGLET_CONSTANT uint kBindStretchStrands = 2;  // StretchStrand[hairs]
+RINGLET_CONSTANT uint kBindStretchHairs = 3;    // DrawnHair[hairs]
+
+// Constant per hair: the strand that it is, or follows.
+struct StretchStrand {
+  uint firstPoint;
+  uint pointCount;
+};
+
+struct StretchParameters {
+  uint count;  // of hairs
+  float most;  // share of its length by which an edge of the second pigment is longer
 };
 
 // A part of a picture: whole rows of pixels.

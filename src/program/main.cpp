@@ -25,6 +25,7 @@
 #include "program/standard_error.h"
 #include "program/sweep_command.h"
 #include "program/tune_command.h"
+#include "program/view_command.h"
 #include "ringlet/version.h"
 
 int main(int argumentCount, char** arguments) {
@@ -45,6 +46,7 @@ int main(int argumentCount, char** arguments) {
   addInfoCommand(app, exitCode);
   addMeasureCommand(app, exitCode);
   addRenderCommand(app, exitCode);
+  addViewCommand(app, exitCode);
   addConvertCommand(app, exitCode);
   addSceneCommand(app, exitCode);
   addDevicesCommand(app, exitCode);

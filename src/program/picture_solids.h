@@ -22,6 +22,8 @@ class PictureSolids {
   static PictureSolids ofRoots(std::span<const Vec3d> roots, Vec3d up);
 
   const std::vector<SolidMesh>& meshes() const { return meshes_; }
+  /// The body of the scene that each mesh is; empty without a scene.
+  const std::vector<std::size_t>& bodies() const { return bodies_; }
   /// At the end of a frame, from 1, or a share of one before; `roots` as they are then [m], in the order of
   /// those at rest, and how the head has turned.
   std::vector<SolidPlace> placesAt(double frame, std::span<const Vec3d> roots, Quatd head) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ringlet/c/ringlet.h"
+#include "ringlet/gpu/device.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/solver/hair_frames.h"
 #include "ringlet/solver/simulation.h"
@@ -285,6 +286,24 @@ TEST(AdoptedDevice, AHostInCGivesTheMemory) {
   EXPECT_GT(pool.given(), 0u);
   EXPECT_EQ(pool.kept(), 0u);
   EXPECT_EQ(*host.messages(), std::vector<std::string>{});
+}
+
+// Pictures are drawn by them, where they are there.
+TEST(AdoptedDevice, Uses64BitAtomicsThatTheHostSwitchedOn) {
+  const auto own = ComputeDevice::open();
+  ASSERT_TRUE(own) << own.error().message;
+  for (const bool asksForNeeds : {true, false}) {
+    auto host = std::make_unique<Host>(asksForNeeds);
+    const auto messages = host->messages();
+    {
+      const auto device = ComputeDevice::adopt(host->handles());
+      ASSERT_TRUE(device) << device.error().message;
+      EXPECT_EQ(device->gpu().properties().hasAtomicInt64,
+                asksForNeeds && own->gpu().properties().hasAtomicInt64);
+    }
+    host.reset();
+    EXPECT_TRUE(messages->empty()) << messages->front();
+  }
 }
 
 TEST(AdoptedDevice, RefusesAnAllocatorThatIsHalfOne) {

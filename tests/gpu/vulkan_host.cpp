@@ -99,6 +99,16 @@ void Host::makeDevice(const HostVulkanNeeds& needs) {
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = needs.subgroupSizeControl || needs.computeFullSubgroups ? &sizes : nullptr;
+  VkPhysicalDeviceShaderAtomicInt64Features atomics{};
+  atomics.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES;
+  atomics.shaderBufferInt64Atomics = VK_TRUE;
+  VkPhysicalDeviceFeatures enabled{};
+  enabled.shaderInt64 = needs.atomicInt64;
+  if (needs.atomicInt64) {
+    atomics.pNext = const_cast<void*>(info.pNext);
+    info.pNext = &atomics;
+  }
+  info.pEnabledFeatures = &enabled;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
@@ -109,6 +119,7 @@ void Host::makeDevice(const HostVulkanNeeds& needs) {
   handles_.queue = queue_;
   handles_.subgroupSizeControl = needs.subgroupSizeControl;
   handles_.computeFullSubgroups = needs.computeFullSubgroups;
+  handles_.atomicInt64 = needs.atomicInt64;
   handles_.queueMutex = &queueMutex_;
 }
 

@@ -275,6 +275,20 @@ const std::vector<CppStruct> kCppStructs = {
           {RINGLET_MEMBER(head), RINGLET_MEMBER(count), RINGLET_MEMBER(stride), RINGLET_MEMBER(particles)}};
     }(),
     [] {
+      using S = layout::PosePlace;
+      return CppStruct{"PosePlace", sizeof(S), {RINGLET_MEMBER(point), RINGLET_MEMBER(tag)}};
+    }(),
+    [] {
+      using S = layout::PoseParameters;
+      return CppStruct{"PoseParameters",
+                       sizeof(S),
+                       {RINGLET_MEMBER(turn), RINGLET_MEMBER(count), RINGLET_MEMBER(isTurned)}};
+    }(),
+    [] {
+      using S = layout::PoseBounds;
+      return CppStruct{"PoseBounds", sizeof(S), {RINGLET_MEMBER(high), RINGLET_MEMBER(low)}};
+    }(),
+    [] {
       using S = layout::Picture;
       return CppStruct{
           "Picture",
@@ -312,6 +326,14 @@ const std::vector<CppStruct> kCppStructs = {
                        sizeof(S),
                        {RINGLET_MEMBER(indirectHairs), RINGLET_MEMBER(hairs), RINGLET_MEMBER(indirectSolids),
                         RINGLET_MEMBER(solids)}};
+    }(),
+    [] {
+      using S = layout::StretchStrand;
+      return CppStruct{"StretchStrand", sizeof(S), {RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(pointCount)}};
+    }(),
+    [] {
+      using S = layout::StretchParameters;
+      return CppStruct{"StretchParameters", sizeof(S), {RINGLET_MEMBER(count), RINGLET_MEMBER(most)}};
     }(),
     [] {
       using S = layout::PictureBand;

@@ -99,6 +99,18 @@ TEST(IncludeRules, ThePythonModuleKnowsTheLibraryOnly) {
         EXPECT_NE(include.rfind("python/", 0), 0u) << file << " includes " << include;
 }
 
+// The window knows the library; what the program knows of it comes as a plan (view/viewer.h).
+TEST(IncludeRules, TheViewKnowsNoProgram) {
+  for (const fs::path& file : sourcesBelow("src/view")) {
+    for (const std::string& include : includesOf(file))
+      for (const char* other : {"program/", "reference/", "parity/", "Eigen"})
+        EXPECT_NE(include.rfind(other, 0), 0u) << file << " includes " << include;
+  }
+  for (const fs::path& file : sourcesBelow("src/ringlet"))
+    for (const std::string& include : includesOf(file))
+      EXPECT_NE(include.rfind("view/", 0), 0u) << file << " includes " << include;
+}
+
 // Paths below src, from a list that CMake wrote: "a.h|b.h".
 std::set<std::string> listed(const std::string& list) {
   std::set<std::string> paths;

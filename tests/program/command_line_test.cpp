@@ -56,7 +56,7 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
   };
   const std::vector<Case> cases{
       {{},
-       "say what to do: make, simulate, sweep, info, measure, render, convert, scene, devices, tune, "
+       "say what to do: make, simulate, sweep, info, measure, render, view, convert, scene, devices, tune, "
        "conform, "
        "kernels, "
        "material"},

@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "ringlet/bodies/icosphere.h"
+#include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/render/strand_points.h"
+#include "ringlet/render/stretch_colours.h"
+#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {
@@ -278,6 +281,68 @@ TEST_F(HairRendererTest, SizesOutOfTheirRangeAreRefused) {
     ASSERT_FALSE(renderer);
     expectParts(renderer.error().message, {"pixels", "at most 16384"});
   }
+}
+
+// A preview is the same picture, but for noise: as bright, with hair where hair is.
+TEST_F(HairRendererTest, APreviewLooksLikeThePicture) {
+  const Scene scene = headScene();
+  PictureSize size{kWidth, kHeight, 2};
+  const auto shown = [&] {
+    auto strands = StrandPoints::create(gpu(), scene.firstPoint);
+    EXPECT_TRUE(strands->setPose(scene.points, 1));
+    auto renderer = HairRenderer::create(gpu(), {strands->points(), strands->firstPoint(), scene.width},
+                                         scene.solids, size, {});
+    EXPECT_TRUE(renderer) << renderer.error().message;
+    EXPECT_TRUE(renderer->setFrame(scene.camera, scene.bounds, scene.places));
+    auto recorder = gpu::Recorder::create(gpu(), "picture");
+    EXPECT_TRUE(recorder->begin());
+    renderer->record(*recorder, true);
+    EXPECT_TRUE(recorder->submitAndWait());
+    return *renderer->picture();
+  };
+  const auto full = shown();
+  size.isPreview = true;
+  const auto preview = shown();
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < full.size(); ++i)
+    for (const int shift : {0, 8, 16}) {
+      const double difference = static_cast<double>(preview[i] >> shift & 255) - (full[i] >> shift & 255);
+      sum += difference / (3.0 * static_cast<double>(full.size()));
+      squares += difference * difference / (3.0 * static_cast<double>(full.size()));
+    }
+  EXPECT_LT(std::abs(sum), 1.0);
+  EXPECT_LT(std::sqrt(squares), 10.0);
+  EXPECT_EQ(shown(), preview) << "the same bits";
+}
+
+// Of two strands the one that is longer than at rest has the last colour, and hairs that follow take theirs.
+TEST_F(HairRendererTest, StretchIsTheColourOfTheLongestEdge) {
+  Scene scene;
+  scene.addStrand({{0, 0, 0}, {0, -0.01f, 0}, {0, -0.02f, 0}});
+  scene.addStrand({{0.1f, 0, 0}, {0.1f, -0.01f, 0}, {0.1f, -0.02f, 0}});
+  const std::vector<Vec3d> rest(scene.points.begin(), scene.points.end());
+  scene.points[4].y = -0.01025f;  // 2.5 % longer, then 2.5 % shorter
+  auto strands = StrandPoints::create(gpu(), scene.firstPoint);
+  ASSERT_TRUE(strands->setPose(scene.points, 1));
+  const std::vector<std::uint32_t> strandOf{1, 0, 1};
+  auto hairs = createFilled(gpu(), std::vector<layout::DrawnHair>(3), "hairs");
+  auto stretch = StretchColours::create(gpu(), strands->points(), rest, scene.firstPoint, strandOf, *hairs);
+  ASSERT_TRUE(stretch) << stretch.error().message;
+  const auto pigments = [&](double most) {
+    auto recorder = gpu::Recorder::create(gpu(), "stretch");
+    EXPECT_TRUE(recorder->begin());
+    stretch->record(*recorder, most);
+    EXPECT_TRUE(recorder->submitAndWait());
+    std::vector<float> found;
+    const auto drawn = downloadAll<layout::DrawnHair>(*hairs, 3);
+    for (const layout::DrawnHair& hair : *drawn) found.push_back(hair.pigment);
+    return found;
+  };
+  const auto half = pigments(0.05);
+  EXPECT_NEAR(half[0], 0.5, 1e-3);
+  EXPECT_NEAR(half[1], 0, 1e-3);
+  EXPECT_NEAR(half[2], 0.5, 1e-3);
+  EXPECT_EQ(pigments(0.01)[0], 1) << "no more than all";
 }
 
 }  // namespace

@@ -28,6 +28,9 @@ class FollowStage {
   /// submission may be using them meanwhile.
   Status setPose(std::span<const Vec3d> positions);
 
+  /// vec4[particles]: the same on the device, for what writes it there (DevicePose).
+  const gpu::Buffer& pose() const { return positions_; }
+
   /// Moves the hairs to the pose. `head`: how the head has turned since the rest pose. Ends with a barrier.
   void record(gpu::CommandList& list, Quatd head) const;
 

@@ -144,6 +144,11 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
       return std::strcmp(e.extensionName, name) == 0;
     });
   };
+  std::string missing;
+  for (const std::string& name : options.deviceExtensions) {
+    if (!has(name.c_str())) missing = name;
+    candidate.extensions.push_back(name.c_str());
+  }
   const bool isPortability = has("VK_KHR_portability_subset");
   if (isPortability)
     candidate.extensions.push_back("VK_KHR_portability_subset");  // must be switched on where it is
@@ -219,11 +224,14 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   }
 
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(handle);
-  const auto family = chooseComputeFamily(families);
+  const auto family = chooseComputeFamily(families, options.wantsGraphics);
   if (family) p.timestampBits = families[*family].timestampValidBits;
   p.hasTimestamps = !options.withoutTimestamps && p.timestampBits > 0 && p.timestampPeriod > 0;
   candidate.queueFamily = family.value_or(0);
-  candidate.listing.why = family ? findLack(p, options) : "it has no compute queue";
+  candidate.listing.why = !family ? options.wantsGraphics ? "it has no queue that both computes and draws"
+                                                          : "it has no compute queue"
+                          : !missing.empty() ? fmt::format("it has no {}, which a window needs", missing)
+                                             : findLack(p, options);
   candidate.listing.usable = candidate.listing.why.empty();
   return candidate;
 }
@@ -334,7 +342,7 @@ std::vector<DeviceListing> Device::list() {
 
 Result<std::shared_ptr<Device>> Device::open(const std::string& choice, const DeviceOptions& options,
                                              const std::filesystem::path& cacheFolder) {
-  auto instance = Instance::create(isValidationWanted());
+  auto instance = Instance::create(isValidationWanted(), options.instanceExtensions);
   if (!instance) return instance.error();
   auto candidates = inspectAll(**instance, options);
   if (!candidates) return candidates.error();
@@ -397,13 +405,14 @@ Result<DeviceNeeds> Device::needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
                                   VkPhysicalDevice physical, std::uint32_t apiVersion) {
   auto adopted = Instance::adopt(getInstanceProcAddr, instance, apiVersion);
   if (!adopted) return adopted.error();
-  const Candidate candidate = inspect(**adopted, physical, 0, {.withoutAtomicInt64 = true});
+  const Candidate candidate = inspect(**adopted, physical, 0, {});
   const DeviceProperties& p = candidate.listing.properties;
   if (!candidate.listing.usable)
     return Error{fmt::format("the Vulkan device {} cannot run Ringlet: {}", p.name, candidate.listing.why)};
   return DeviceNeeds{{candidate.extensions.begin(), candidate.extensions.end()},
                      p.canChooseSubgroupSize,
                      p.hasFullSubgroups,
+                     p.hasAtomicInt64,
                      candidate.queueFamily};
 }
 
@@ -415,8 +424,7 @@ Result<std::shared_ptr<Device>> Device::adopt(const HostDevice& host,
     return Error{"a host hands over no physical device, no device or no queue"};
   if (bool(host.allocator.allocate) != bool(host.allocator.free))
     return Error{"a host's allocator either allocates and frees, or does neither"};
-  Candidate candidate =
-      inspect(**instance, host.physical, 0, {.withoutAtomicInt64 = true});  // a host does not say
+  Candidate candidate = inspect(**instance, host.physical, 0, {.withoutAtomicInt64 = !host.atomicInt64});
   DeviceProperties& p = candidate.listing.properties;
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(host.physical);
   if (host.queueFamily >= families.size() || !(families[host.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT))

@@ -90,6 +90,9 @@ struct DeviceOptions {
   /// Changes a kernel's SPIR-V before it is compiled: shows that a wrong kernel is noticed.
   std::function<void(const std::string& kernel, std::vector<std::uint32_t>& spirv)> changeCode{};
   std::uint32_t mostStorageBuffers = 0;  // bound to one kernel; 0: as many as the device has
+  // Of a window that shows what the device computes.
+  std::vector<std::string> instanceExtensions{}, deviceExtensions{};
+  bool wantsGraphics = false;  // the queue draws too
 };
 
 /// Memory that a host gives for one buffer.
@@ -117,6 +120,7 @@ struct HostDevice {
   std::uint32_t apiVersion = 0;       // of the host's VkApplicationInfo
   bool subgroupSizeControl = false;   // features that the device was opened with
   bool computeFullSubgroups = false;  // likewise
+  bool atomicInt64 = false;           // shaderInt64 and shaderBufferInt64Atomics
   std::mutex* queueMutex = nullptr;   // held while something is handed to the queue; none: nobody else does
   HostAllocator allocator{};
 };
@@ -126,6 +130,7 @@ struct DeviceNeeds {
   std::vector<std::string> extensions;
   bool subgroupSizeControl = false;
   bool computeFullSubgroups = false;
+  bool atomicInt64 = false;       // shaderInt64 and shaderBufferInt64Atomics
   std::uint32_t queueFamily = 0;  // the best; another that computes will do
 };
 
@@ -163,6 +168,10 @@ class Device : public std::enable_shared_from_this<Device> {
   // For the other files of gpu/.
   const VolkDeviceTable& vk() const { return table_; }
   VkDevice handle() const { return device_; }
+  VkInstance instance() const { return instance_->handle(); }
+  VkPhysicalDevice physical() const { return physical_; }
+  /// Whoever submits to it himself does so while nobody else submits.
+  VkQueue queue() const { return queue_; }
   const HostAllocator& hostAllocator() const { return hostAllocator_; }
   std::uint32_t queueFamily() const { return queueFamily_; }
   /// The kernels compiled so far.

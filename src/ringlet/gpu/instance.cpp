@@ -119,7 +119,7 @@ std::vector<std::string> ValidationLog::messages() const {
   return messages_;
 }
 
-Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
+Result<std::unique_ptr<Instance>> Instance::create(bool validation, std::span<const std::string> wanted) {
   if (Status status = openLoader(); !status) return status.error();
 
   // A loader of Vulkan 1.0 refuses applications that ask for more.
@@ -143,6 +143,15 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation) {
   if (contains(*extensions, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
     extensionNames.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     flags = VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+  }
+
+  for (const std::string& name : wanted) {
+    if (!contains(*extensions, name.c_str()))
+      return Error{fmt::format(
+          "the Vulkan loader of this machine has no {}, which a window needs: install the driver of its "
+          "display, on Debian mesa-vulkan-drivers",
+          name)};
+    extensionNames.push_back(name.c_str());
   }
 
   if (validation) {

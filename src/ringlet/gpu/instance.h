@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,9 @@ class ValidationLog {
 class Instance {
  public:
   /// With validation: VK_LAYER_KHRONOS_validation and its synchronisation validation; an Error where it is
-  /// missing.
-  static Result<std::unique_ptr<Instance>> create(bool validation);
+  /// missing. `extensions`: to be switched on besides; an Error where one is missing.
+  static Result<std::unique_ptr<Instance>> create(bool validation,
+                                                  std::span<const std::string> extensions = {});
   /// One that a host made, and destroys when this is gone. apiVersion: the host's VkApplicationInfo's.
   static Result<std::unique_ptr<Instance>> adopt(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
                                                  VkInstance instance, std::uint32_t apiVersion);

@@ -15,10 +15,12 @@ int worthOf(const VkQueueFamilyProperties& family) {
 
 }  // namespace
 
-std::optional<std::uint32_t> chooseComputeFamily(std::span<const VkQueueFamilyProperties> families) {
+std::optional<std::uint32_t> chooseComputeFamily(std::span<const VkQueueFamilyProperties> families,
+                                                 bool wantsGraphics) {
   std::optional<std::uint32_t> best;
   int bestWorth = 0;
   for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if (wantsGraphics && !(families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT)) continue;
     const int worth = worthOf(families[i]);
     if (worth > bestWorth) best = i, bestWorth = worth;
   }

@@ -14,7 +14,8 @@ namespace ringlet::gpu {
 ///      drivers wait longer before they take it for a hang
 ///   2. one that has timestamps
 ///   3. any
-/// Of several equals the first.
-std::optional<std::uint32_t> chooseComputeFamily(std::span<const VkQueueFamilyProperties> families);
+/// Of several equals the first. `wantsGraphics`: only those that have graphics too.
+std::optional<std::uint32_t> chooseComputeFamily(std::span<const VkQueueFamilyProperties> families,
+                                                 bool wantsGraphics = false);
 
 }  // namespace ringlet::gpu

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "ringlet/base/assert.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "shared/layout.h"
 
@@ -16,7 +17,6 @@ namespace ringlet {
 namespace {
 
 constexpr std::uint32_t kMostInGroup = 256;
-constexpr std::uint32_t kShadowCells = 160, kShadowSlices = 64, kDensityCells = 48;
 constexpr std::uint32_t kShadowHairs = 10000;  // that throw shadows, for all
 constexpr double kNear = 0.01;                 // [m]
 constexpr double kMostHairs = 16384;           // before a place on average: sums stay within 32 bits
@@ -30,6 +30,9 @@ std::uint32_t groupSizeOn(const gpu::Device& device) {
 }
 
 Status checkSize(const PictureSize& size) {
+  RINGLET_ASSERT(size.shadowCells >= 8 && size.shadowCells <= 256 && size.shadowSlices >= 8 &&
+                     size.shadowSlices <= 256 && size.densityCells >= 8 && size.densityCells <= 128,
+                 "the volumes of a picture's light have cells within their ranges");
   if (size.width >= 1 && size.width <= 16384 && size.height >= 1 && size.height <= 16384 && size.side >= 1 &&
       size.side <= 4)
     return {};
@@ -60,11 +63,11 @@ void setLights(layout::Picture& picture, const Look& look, const Camera& camera,
     picture.lightDirection[light] = vec4Of(ways[light]);
     picture.lightColour[light] = vec4Of(colours[light]);
   }
-  picture.densityBox = vec4Of(middle - Vec3d{1, 1, 1} * radius, 2 * radius / kDensityCells);
-  picture.shadowCellArea = static_cast<float>(std::pow(2 * radius / kShadowCells, 2));
+  picture.densityBox = vec4Of(middle - Vec3d{1, 1, 1} * radius, 2 * radius / picture.densityCells);
+  picture.shadowCellArea = static_cast<float>(std::pow(2 * radius / picture.shadowCells, 2));
 }
 
-void setLook(layout::Picture& picture, const Look& look) {
+void writeLook(layout::Picture& picture, const Look& look) {
   picture.skyAbove = vec4Of(look.skyAbove);
   picture.skyBelow = vec4Of(look.skyBelow);
   for (int i = 0; i < 2; ++i) picture.pigments[i] = vec4Of(look.pigments[i]);
@@ -139,8 +142,9 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
   const std::uint64_t pixels = std::uint64_t{1} * size_.width * size_.height,
                       inBand = std::uint64_t{1} * size_.width * bandRows_;
   const std::uint64_t samples = row / 8 * bandRows_;
-  const std::uint64_t shadows = std::uint64_t{2} * kShadowCells * kShadowCells * kShadowSlices;
-  const std::uint64_t cells = std::uint64_t{kDensityCells} * kDensityCells * kDensityCells;
+  const auto across = static_cast<std::uint64_t>(size_.shadowCells);
+  const std::uint64_t shadows = 2 * across * across * static_cast<std::uint64_t>(size_.shadowSlices);
+  const std::uint64_t cells = densityCellCount();
 
   const auto add = [&](Result<gpu::Buffer> buffer) -> Status {
     if (!buffer) return buffer.error();
@@ -169,7 +173,7 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
       add(filled(triangles, "triangles of bodies")),
       add(room(8 * inBand, "pixels of bodies")),
       add(room(8 * inBand, "colours of bodies")),
-      add(room(16 * pixels, "light of pixels")),
+      add(room(size_.isPreview ? 0 : 16 * pixels, "light of pixels")),
       add(room(4 * pixels, "shown pixels"))};
   for (const Status& status : made)
     if (!status) return status;
@@ -189,13 +193,13 @@ Status HairRenderer::makeKernels(gpu::Device& device, const gpu::Buffer& points)
     table.emplace(layout::kRenderTexels + binding, bound);
   }
   bool texels = true;
-  for (const std::uint32_t binding : {layout::kBindDrawnPoints, layout::kBindDrawnHairs,
+  for (const std::uint32_t binding : {layout::kBindDrawnPoints, layout::kBindDrawnHairs, layout::kBindSamples,
                                       layout::kBindSolidPoints, layout::kBindSolidTriangles})
     texels = texels && isSeenAsTexels(device, table.at(binding).get().bytes());
   for (std::size_t k = 0; k < kRenderKernelCount; ++k) {
-    auto kernel = gpu::Kernel::create(
-        device,
-        describeRenderKernel(static_cast<RenderKernel>(k), groupSizeOn(device), hasAtomic64_, texels));
+    auto kernel =
+        gpu::Kernel::create(device, describeRenderKernel(static_cast<RenderKernel>(k), groupSizeOn(device),
+                                                         hasAtomic64_, texels, size_.isPreview));
     if (!kernel) return kernel.error();
     auto bindings = gpu::Bindings::create(**kernel, table);
     if (!bindings) return bindings.error();
@@ -212,7 +216,10 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
   picture.view[1] = rowOf(axes.up, camera.eye, 1);
   picture.view[2] = rowOf(axes.forward, camera.eye, 1);
   picture.eye = vec4Of(camera.eye);
-  setLook(picture, look_);
+  picture.shadowCells = static_cast<std::uint32_t>(size_.shadowCells);
+  picture.shadowSlices = static_cast<std::uint32_t>(size_.shadowSlices);
+  picture.densityCells = static_cast<std::uint32_t>(size_.densityCells);
+  writeLook(picture, look_);
   setLights(picture, look_, camera, (hair.low + hair.high) / 2.0,
             std::max(length(hair.high - hair.low) / 2, 1e-4));
   picture.width = static_cast<std::uint32_t>(size_.width);
@@ -222,9 +229,6 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
   picture.pointsPerHair = pointsPerHair_;
   picture.pointCount = pointCount_;
   picture.triangleCount = triangleCount_;
-  picture.shadowCells = kShadowCells;
-  picture.shadowSlices = kShadowSlices;
-  picture.densityCells = kDensityCells;
   picture.shadowStride = shadowStride();
   picture.focus = static_cast<float>(size_.height / 2.0 / std::tan(camera.fieldOfView / 2));
   picture.near = static_cast<float>(kNear);
@@ -245,6 +249,11 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
     for (const SolidMesh::Patch& patch : solids_[s].patches)
       add(places[s], patch.place, patch.normal, patch.area);
   return buffers_[layout::kBindSolidPoints].upload(std::as_bytes(std::span(points)));
+}
+
+std::uint64_t HairRenderer::densityCellCount() const {
+  const auto along = static_cast<std::uint64_t>(size_.densityCells);
+  return along * along * along;
 }
 
 std::uint32_t HairRenderer::shadowStride() const { return std::max(1u, hairCount_ / kShadowHairs); }
@@ -270,8 +279,8 @@ void HairRenderer::recordShadows(gpu::CommandList& list) const {
     dispatch(list, RenderKernel::shadowSolids, patchCount_, solidPointCount_, patchCount_);
     list.barrier();
   }
-  dispatch(list, RenderKernel::shadowSum, 2 * kShadowCells * kShadowCells);
-  dispatch(list, RenderKernel::openness, kDensityCells * kDensityCells * kDensityCells);
+  dispatch(list, RenderKernel::shadowSum, std::uint64_t{2} * size_.shadowCells * size_.shadowCells);
+  dispatch(list, RenderKernel::openness, densityCellCount());
   list.barrier();
   list.endStage();
 }
@@ -316,7 +325,7 @@ void HairRenderer::recordBand(gpu::CommandList& list, std::uint32_t firstRow, st
 }
 
 void HairRenderer::record(gpu::CommandList& list, bool isFirst) const {
-  if (isFirst) {
+  if (isFirst && !size_.isPreview) {
     list.fillZero(buffer(layout::kBindPixels));
     list.barrier();
   }
@@ -324,11 +333,15 @@ void HairRenderer::record(gpu::CommandList& list, bool isFirst) const {
   const auto height = static_cast<std::uint32_t>(size_.height);
   for (std::uint32_t row = 0; row < height; row += bandRows_)
     recordBand(list, row, std::min(bandRows_, height - row));
+  if (size_.isPreview) return;
   list.beginStage("tone");
   dispatch(list, RenderKernel::tone, std::uint64_t{1} * size_.width * size_.height);
   list.barrier();
   list.endStage();
 }
+
+const gpu::Buffer& HairRenderer::shown() const { return buffer(layout::kBindShown); }
+const gpu::Buffer& HairRenderer::drawnHairs() const { return buffer(layout::kBindDrawnHairs); }
 
 Result<std::vector<std::uint32_t>> HairRenderer::picture() const {
   return downloadAll<std::uint32_t>(buffer(layout::kBindShown),
@@ -336,6 +349,7 @@ Result<std::vector<std::uint32_t>> HairRenderer::picture() const {
 }
 
 Result<std::vector<float>> HairRenderer::light() const {
+  RINGLET_ASSERT(!size_.isPreview, "a preview keeps no light");
   const auto pixels = downloadAll<layout::vec4>(buffer(layout::kBindPixels),
                                                 static_cast<std::size_t>(size_.width) * size_.height);
   if (!pixels) return pixels.error();

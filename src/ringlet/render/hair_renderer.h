@@ -32,6 +32,12 @@ struct PictureSize {
   int width = 960, height = 540;           // [pixels], each in [1, 16384]
   int side = 4;                            // samples along a pixel's side, in [1, 4]
   std::uint64_t mostBytes = 128ull << 20;  // of samples drawn together; a larger picture is drawn in bands
+  // Of the volumes that light is looked up in. Coarser ones are cheaper and softer.
+  int shadowCells = 160, shadowSlices = 64;  // across and along each light's box, in [8, 256]
+  int densityCells = 48;                     // along the box about all hair, in [8, 128]
+  // One moment, shown at once: of a pixel's hair one sample is shaded, and shadows on bodies are less soft.
+  // There is no light().
+  bool isPreview = false;
 };
 
 /// Hair to be drawn, on the device.
@@ -59,6 +65,9 @@ class HairRenderer {
   /// under way.
   Status setFrame(const Camera& camera, const Bounds& hair, std::span<const SolidPlace> places);
 
+  /// From the next moment on.
+  void setLook(const Look& look) { look_ = look; }
+
   /// Draws the moment, with a stage for each part. `isFirst`: of a picture; later moments are added to it
   /// (motion blur).
   void record(gpu::CommandList& list, bool isFirst) const;
@@ -66,6 +75,11 @@ class HairRenderer {
   /// The mean of the moments since the first: width * height pixels, row by row from the top: red in the
   /// lowest byte, green, blue, 255.
   Result<std::vector<std::uint32_t>> picture() const;
+
+  /// The same pixels on the device, after what was recorded.
+  const gpu::Buffer& shown() const;
+  /// DrawnHair[hairs] (layout.h), for what changes their pigments on the device.
+  const gpu::Buffer& drawnHairs() const;
 
   /// The same in linear light, before the exposure: red, green, blue, one after the other.
   Result<std::vector<float>> light() const;
@@ -79,6 +93,7 @@ class HairRenderer {
   void dispatch(gpu::CommandList& list, RenderKernel kernel, std::uint64_t invocations,
                 std::uint32_t firstRow = 0, std::uint32_t rowCount = 0) const;
   std::uint32_t shadowStride() const;
+  std::uint64_t densityCellCount() const;
   void recordShadows(gpu::CommandList& list) const;
   void recordBand(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const;
   void recordSeen(gpu::CommandList& list, std::uint32_t firstRow, std::uint32_t rowCount) const;

@@ -4,12 +4,15 @@
 #include <span>
 
 #include "ringlet_shaders/render_compact_plain.h"
+#include "ringlet_shaders/render_compact_preview.h"
 #include "ringlet_shaders/render_hairs_atomic64.h"
 #include "ringlet_shaders/render_hairs_plain.h"
 #include "ringlet_shaders/render_openness_plain.h"
 #include "ringlet_shaders/render_resolve_plain.h"
+#include "ringlet_shaders/render_resolve_preview.h"
 #include "ringlet_shaders/render_shade_hairs_plain.h"
 #include "ringlet_shaders/render_shade_solids_plain.h"
+#include "ringlet_shaders/render_shade_solids_preview.h"
 #include "ringlet_shaders/render_shadow_hairs_plain.h"
 #include "ringlet_shaders/render_shadow_solids_plain.h"
 #include "ringlet_shaders/render_shadow_sum_plain.h"
@@ -46,7 +49,7 @@ const Compiled kCompiled[kRenderKernelCount] = {
 }  // namespace
 
 gpu::KernelDescription describeRenderKernel(RenderKernel which, std::uint32_t groupSize, bool hasAtomic64,
-                                            bool texels) {
+                                            bool texels, bool isPreview) {
   const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
   gpu::KernelDescription description;
   description.name = compiled.name;
@@ -63,6 +66,9 @@ gpu::KernelDescription describeRenderKernel(RenderKernel which, std::uint32_t gr
   } else if (which == RenderKernel::hairs) {
     description.spirv = k_render_hairs_atomic64;
   }
+  if (isPreview && which == RenderKernel::compact) description.spirv = k_render_compact_preview;
+  if (isPreview && which == RenderKernel::shadeSolids) description.spirv = k_render_shade_solids_preview;
+  if (isPreview && which == RenderKernel::resolve) description.spirv = k_render_resolve_preview;
   return description;
 }
 

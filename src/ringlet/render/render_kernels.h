@@ -25,8 +25,9 @@ enum class RenderKernel {
 };
 inline constexpr std::size_t kRenderKernelCount = 13;
 
-/// hasAtomic64: of the device. texels: points and triangles are read as texels.
+/// hasAtomic64: of the device. texels: points and triangles are read as texels. isPreview: as
+/// PictureSize::isPreview; there is no `tone` then.
 gpu::KernelDescription describeRenderKernel(RenderKernel which, std::uint32_t groupSize, bool hasAtomic64,
-                                            bool texels);
+                                            bool texels, bool isPreview);
 
 }  // namespace ringlet

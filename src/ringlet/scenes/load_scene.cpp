@@ -91,26 +91,6 @@ Status loadMotion(const SceneBody& scene, const SceneFile& file, Body& body,
   return {};
 }
 
-// The file's material with its dials, and how far hair may lengthen.
-Result<Material> loadedMaterial(const SceneFile& scene, Settings& settings,
-                                std::vector<std::string>& warnings) {
-  Material material = scene.material.material;
-  const MaterialDials& dials = scene.material.dials;
-  if (scene.hasMaterial && settings.integrator == Integrator::paper) {
-    warnings.push_back(
-        "the paper's integrator has spring constants of its own; of the material only its smoothing lengths "
-        "and core elongations count");
-  }
-  for (const std::string& warning : scene.material.warnings) warnings.push_back(warning);
-  if (const auto warning = applyDials(dials, material, settings)) warnings.push_back(*warning);
-  settings.maxStretch = scene.simulation.maxStretch.value_or(settings.maxStretch);
-  if (Status checked = checkMaterial(material); !checked) {
-    return Error{fmt::format("{}, with the dials hold {}, spring_back {}, curl_keep {} worked in",
-                             checked.error().message, dials.hold, dials.springBack, dials.curlKeep)};
-  }
-  return material;
-}
-
 // Where keys are further apart than a head goes in a frame, it jumps: on a smooth way it would only be fast.
 void cutJumps(const Settings& settings, Motion& motion) {
   if (!motion.keyframes || settings.teleportDistance <= 0) return;
@@ -231,6 +211,25 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUni
   return bodies;
 }
 
+Result<Material> loadMaterialOf(const SceneFile& scene, Settings& settings,
+                                std::vector<std::string>& warnings) {
+  Material material = scene.material.material;
+  const MaterialDials& dials = scene.material.dials;
+  if (scene.hasMaterial && settings.integrator == Integrator::paper) {
+    warnings.push_back(
+        "the paper's integrator has spring constants of its own; of the material only its smoothing lengths "
+        "and core elongations count");
+  }
+  for (const std::string& warning : scene.material.warnings) warnings.push_back(warning);
+  if (const auto warning = applyDials(dials, material, settings)) warnings.push_back(*warning);
+  settings.maxStretch = scene.simulation.maxStretch.value_or(settings.maxStretch);
+  if (Status checked = checkMaterial(material); !checked) {
+    return Error{fmt::format("{}, with the dials hold {}, spring_back {}, curl_keep {} worked in",
+                             checked.error().message, dials.hold, dials.springBack, dials.curlKeep)};
+  }
+  return material;
+}
+
 Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) {
   LoadedScene loaded;
   loaded.warnings = scene.warnings;
@@ -239,7 +238,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   loaded.groom = std::move(groom->groom);
   loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());
   loaded.settings = settingsOf(scene);
-  auto material = loadedMaterial(scene, loaded.settings, loaded.warnings);
+  auto material = loadMaterialOf(scene, loaded.settings, loaded.warnings);
   if (!material) return material.error();
   loaded.material = std::move(*material);
   auto motion = loadedMotion(scene, loaded.settings, loaded.warnings);

@@ -72,6 +72,7 @@ Result<ComputeDevice> ComputeDevice::adopt(const HostVulkan& host, const std::fi
                                      .apiVersion = host.apiVersion,
                                      .subgroupSizeControl = host.subgroupSizeControl,
                                      .computeFullSubgroups = host.computeFullSubgroups,
+                                     .atomicInt64 = host.atomicInt64,
                                      .queueMutex = host.queueMutex,
                                      .allocator = allocatorOf(host)},
                                     cacheFolder);
@@ -84,7 +85,7 @@ Result<HostVulkanNeeds> ComputeDevice::needs(const HostVulkan& host) {
                                   static_cast<VkPhysicalDevice>(host.physicalDevice), host.apiVersion);
   if (!needs) return needs.error();
   return HostVulkanNeeds{std::move(needs->extensions), needs->subgroupSizeControl,
-                         needs->computeFullSubgroups, needs->queueFamily};
+                         needs->computeFullSubgroups, needs->atomicInt64, needs->queueFamily};
 }
 
 ComputeDevice ComputeDevice::over(std::shared_ptr<gpu::Device> device) {

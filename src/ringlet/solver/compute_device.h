@@ -50,6 +50,7 @@ struct HostVulkan {
   std::uint32_t apiVersion = 0;         // of the host's VkApplicationInfo, 1.1 at least
   bool subgroupSizeControl = false;     // features that the device was opened with
   bool computeFullSubgroups = false;
+  bool atomicInt64 = false;  // shaderInt64 and shaderBufferInt64Atomics; pictures are faster with them
   // Ringlet locks it while it submits to the queue. Without it the host must not submit during calls of
   // Ringlet.
   std::mutex* queueMutex = nullptr;
@@ -67,6 +68,8 @@ struct HostVulkanNeeds {
   std::vector<std::string> extensions;
   bool subgroupSizeControl = false;  // features, of VkPhysicalDeviceSubgroupSizeControlFeatures
   bool computeFullSubgroups = false;
+  bool atomicInt64 = false;       // shaderInt64, and shaderBufferInt64Atomics of
+                                  // VkPhysicalDeviceShaderAtomicInt64Features
   std::uint32_t queueFamily = 0;  // the best one; any that supports compute works
 };
 

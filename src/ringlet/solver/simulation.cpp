@@ -334,8 +334,10 @@ std::vector<DevicePositions> Simulation::devicePositions() const {
   std::vector<DevicePositions> chunks;
   for (const DeviceChunk& chunk : self_->buffers.chunks) {
     const auto begin = all.begin() + chunk.part.particleBegin, end = all.begin() + chunk.part.particleEnd;
-    chunks.push_back(
-        {reinterpret_cast<void*>(chunk.positions.handle()), chunk.positions.bytes(), {begin, end}});
+    chunks.push_back({reinterpret_cast<void*>(chunk.positions.handle()),
+                      chunk.positions.bytes(),
+                      {begin, end},
+                      &chunk.positions});
   }
   return chunks;
 }

@@ -28,6 +28,9 @@
 #include "ringlet/solver/kernel_choice.h"
 
 namespace ringlet {
+namespace gpu {
+class Buffer;
+}
 
 /// Numerical state of a simulation since it began.
 struct SimulationReport {
@@ -106,6 +109,7 @@ struct DevicePositions {
   void* buffer = nullptr;  // VkBuffer; where handles are 64 bits
   std::uint64_t bytes = 0;
   std::vector<std::uint32_t> particles;  // the groom's index of each particle in the buffer
+  const gpu::Buffer* own = nullptr;      // the same buffer, for kernels of Ringlet's
 };
 
 /// Message of Simulation::restore for bytes of another simulation.

@@ -1,0 +1,72 @@
+// HairPane: one hair in one part of the window: its points go from the solver to what draws them without
+// leaving the device.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/follow/device_pose.h"
+#include "ringlet/follow/follow_stage.h"
+#include "ringlet/gpu/command_list.h"
+#include "ringlet/render/hair_renderer.h"
+#include "ringlet/render/strand_points.h"
+#include "ringlet/render/stretch_colours.h"
+#include "ringlet/scene/head_pose.h"
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/solver/simulation.h"
+
+namespace ringlet::view {
+
+/// Strands stand for locks where no hairs follow them; they are not drawn wider [m].
+inline constexpr double kMostStrandWidth = 0.0012;
+
+/// What is drawn beside the numbers of a session.
+struct PaneLook {
+  std::vector<GuideRest> guides;  // with hairs that follow them; none: the strands are drawn
+  std::vector<FollowHair> hairs;
+  std::vector<SolidMesh> solids;
+  PictureSize size;
+  bool showsStretch = false;  // in place of the look's colour
+  Look look;
+  double width = 0.001;  // of hairs at the root [m]
+};
+
+class HairPane {
+ public:
+  /// Of the groom's hair. Errors: the device lacks memory.
+  static Result<HairPane> create(gpu::Device& device, const Groom& groom, const PaneLook& look);
+  HairPane(HairPane&&) = default;
+  HairPane& operator=(HairPane&&) = default;
+
+  /// Draws this hair from now on. Again after its buffers are others.
+  Status attach(gpu::Device& device, const Simulation& hair);
+
+  /// The next picture. Places of solids and the camera are the world's.
+  Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids);
+  void record(gpu::CommandList& list, Quatd head) const;
+  /// Of what was recorded and is done: the box about the hair is known for the next picture.
+  void finish();
+
+  const gpu::Buffer& shown() const { return renderer_->shown(); }
+  const PictureSize& size() const { return size_; }
+
+ private:
+  HairPane() = default;
+
+  std::vector<Vec3d> rest_;
+  std::vector<std::uint32_t> firstPoint_;
+  PictureSize size_;
+  // Where they are does not change, as others refer to them.
+  std::unique_ptr<FollowStage> follow_;
+  std::unique_ptr<StrandPoints> strands_;
+  std::optional<HairRenderer> renderer_;
+  std::optional<StretchColours> stretch_;
+  std::optional<DevicePose> pose_;
+  Bounds box_;  // relative to the head
+};
+
+}  // namespace ringlet::view

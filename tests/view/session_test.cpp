@@ -1,0 +1,217 @@
+// A session: hair that is stepped as a run would step it, while its numbers change and its head is dragged.
+#include "view/session.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/scenes/load_scene.h"
+#include "tests/support/gpu_test.h"
+#include "view/hair_pane.h"
+#include "view/mouse_control.h"
+
+namespace ringlet::view {
+namespace {
+
+struct Scene {
+  SceneFile file;
+  std::optional<LoadedScene> loaded;
+};
+
+Scene sceneOf(const char* motion = "shake") {
+  Scene scene;
+  const auto file =
+      parseScene(std::string("[groom]\ngenerate = \"head\"\nstrands = 12\nparticles = 16\nturns = 2\n"
+                             "[motion]\nkind = \"") +
+                     motion +
+                     "\"\n[[body]]\nshape = \"sphere\"\nradius = 0.03\nposition = [0.3, 0, 0]\n"
+                     "moves = \"still\"\n",
+                 "scene");
+  EXPECT_TRUE(file) << file.error().message;
+  scene.file = *file;
+  auto loaded = loadScene(scene.file);
+  EXPECT_TRUE(loaded) << loaded.error().message;
+  scene.loaded = std::move(*loaded);
+  return scene;
+}
+
+class SessionTest : public test::GpuTest {
+ protected:
+  Session make(const Scene& scene) {
+    auto session = Session::create(device(), scene.file, *scene.loaded);
+    EXPECT_TRUE(session) << session.error().message;
+    return std::move(*session);
+  }
+  static std::vector<Vec3f> run(Session& session, int frames, std::size_t hair = 0) {
+    for (int k = 0; k < frames; ++k) {
+      EXPECT_TRUE(session.submitFrame());
+      EXPECT_TRUE(session.waitFrame());
+    }
+    return *session.hairs()[hair].simulation().positions();
+  }
+};
+
+TEST_F(SessionTest, StepsAsARunOfTheSceneDoes) {
+  const Scene scene = sceneOf();
+  Session session = make(scene);
+  const auto found = run(session, 6);
+  const LoadedScene& loaded = *scene.loaded;
+  const double step = loaded.settings.stepSeconds();
+  auto expected = Simulation::create(device(), loaded.groom, loaded.material, loaded.settings,
+                                     {.head = loaded.motion.poseAt(0),
+                                      .oneStepEarlier = loaded.motion.poseAt(-step),
+                                      .bodies = loaded.bodies});
+  ASSERT_TRUE(expected) << expected.error().message;
+  for (int frame = 0; frame < 6; ++frame) {
+    std::vector<HeadPose> poses;
+    std::vector<double> times;
+    for (int k = 1; k <= loaded.settings.stepsPerFrame; ++k) {
+      times.push_back((frame * loaded.settings.stepsPerFrame + k) * step);
+      poses.push_back(loaded.motion.poseAt(times.back()));
+    }
+    ASSERT_TRUE(expected->stepFrame(poses, bodyPosesOf(loaded.bodies, poses, times)));
+  }
+  const auto positions = *expected->positions();
+  ASSERT_EQ(found.size(), positions.size());
+  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_LT(length(found[i] - positions[i]), 1e-5) << i;
+  EXPECT_EQ(session.frame(), 6u);
+  EXPECT_NEAR(session.seconds(), 6 / 24.0, 1e-12);
+}
+
+TEST_F(SessionTest, ResetBringsTheBeginningBack) {
+  const Scene scene = sceneOf();
+  Session session = make(scene);
+  const auto first = run(session, 4);
+  session.headDrag.move({0.1, 0, 0});
+  session.bodyDrags[0].move({0, 0.1, 0});
+  EXPECT_NE(run(session, 4), first);
+  ASSERT_TRUE(session.reset());
+  EXPECT_EQ(session.frame(), 0u);
+  EXPECT_EQ(run(session, 4), first) << "the same bits";
+  EXPECT_EQ(session.bodies()[0].position.y, 0);
+}
+
+TEST_F(SessionTest, WhatIsLiveActsAtOnceAndAllElseWhereTheHairIs) {
+  const Scene scene = sceneOf("still");
+  Session session = make(scene);
+  const auto before = run(session, 3);
+  Edits edits = editsOf(scene.file);
+  edits.simulation.stepsPerFrame = scene.loaded->settings.stepsPerFrame;
+  edits.simulation.gravity = 3;
+  edits.materials[0].dials.hold = 2;
+  auto changed = session.setEdits(edits);
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_FALSE(*changed) << "the same buffers";
+  EXPECT_EQ(session.hairs()[0].simulation().settings().gravity.y, -3);
+  EXPECT_EQ(session.hairs()[0].simulation().material().bendStiffness,
+            2 * scene.loaded->material.bendStiffness);
+
+  edits.air.on = true;
+  edits.air.wind = {8, 0, 0};
+  changed = session.setEdits(edits);
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_TRUE(*changed) << "built anew";
+  EXPECT_EQ(*session.hairs()[0].simulation().positions(), before) << "where it was";
+  double moved = 0;
+  const auto after = run(session, 10);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    moved += (after[i] - before[i]).x / static_cast<double>(after.size());
+  EXPECT_GT(moved, 0.002) << "with the wind [m]";
+
+  edits.materials[0].material.coreElongationLow = 2;
+  edits.materials[0].material.coreElongationHigh = 1.5;
+  EXPECT_FALSE(session.setEdits(edits));
+  EXPECT_EQ(run(session, 1).size(), before.size()) << "goes on as it was";
+}
+
+TEST_F(SessionTest, BBeginsWhereAIs) {
+  const Scene scene = sceneOf();
+  Session session = make(scene);
+  const auto before = run(session, 3);
+  Edits edits = editsOf(scene.file);
+  edits.compares = true;
+  edits.materials[1].dials.hold = 5;
+  const auto changed = session.setEdits(edits);
+  ASSERT_TRUE(changed) << changed.error().message;
+  ASSERT_EQ(session.hairs().size(), 2u);
+  EXPECT_EQ(*session.hairs()[1].simulation().positions(), before);
+  const auto a = run(session, 4);
+  EXPECT_NE(*session.hairs()[1].simulation().positions(), a);
+  edits.compares = false;
+  ASSERT_TRUE(session.setEdits(edits));
+  EXPECT_EQ(session.hairs().size(), 1u);
+}
+
+TEST_F(SessionTest, TheMouseTakesTheHeadAndBodiesAlong) {
+  const Scene scene = sceneOf("still");
+  Session session = make(scene);
+  const std::vector<Vec3d> points{{-0.3, -0.3, 0}, {0.4, 0.3, 0}};
+  OrbitCamera camera(points, {0, 1, 0}, 1.5);
+  SolidMesh ball;  // one triangle across the view, where the body is
+  const CameraAxes axes = axesOf(camera.camera());
+  ball.points = {axes.right * -0.05 - axes.up * 0.05, axes.right * 0.05 - axes.up * 0.05, axes.up * 0.05};
+  ball.triangles = {{0, 1, 2}};
+  const std::vector<SolidMesh> solids{ball};
+  const std::vector<std::optional<std::size_t>> bodyOf{0};
+  const MousePicture picture{.width = 600, .height = 400};
+  MouseControl mouse;
+  const auto drag = [&](double x, double y, double right) {
+    const std::vector<SolidPlace> places{{session.bodies()[0].position, {}}};
+    Mouse now{.x = x, .y = y, .left = true, .isOverPicture = true, .control = true};
+    mouse.update(now, picture, solids, places, bodyOf, camera, session);
+    const std::string what = mouse.dragged();
+    now.movedRight = right;
+    mouse.update(now, picture, solids, places, bodyOf, camera, session);
+    mouse.update(Mouse{}, picture, solids, places, bodyOf, camera, session);
+    return what;
+  };
+  const Vec3d before = session.bodies()[0].position;
+  const auto at = *camera.project(before, 600, 400);
+  EXPECT_EQ(drag(at.x, at.y, 50), "body 1");
+  EXPECT_EQ(drag(3, 3, 20), "head") << "where nothing is hit";
+  (void)run(session, 30);
+  const auto moved = *camera.project(session.bodies()[0].position, 600, 400);
+  EXPECT_NEAR(moved.x, at.x + 50, 0.5);
+  EXPECT_NEAR(moved.y, at.y, 0.5);
+  EXPECT_NEAR(camera.project(session.head().position, 600, 400)->x - camera.project({}, 600, 400)->x, 20,
+              0.5);
+}
+
+// What is drawn is where the solver has it: a pane of hair on a head that is elsewhere.
+TEST_F(SessionTest, PanesDrawTheHairThatIsSimulated) {
+  const Scene scene = sceneOf("still");
+  Session session = make(scene);
+  PaneLook look;
+  look.size = {
+      .width = 120, .height = 80, .side = 2, .shadowCells = 32, .shadowSlices = 16, .densityCells = 8};
+  look.width = 0.004;
+  auto pane = HairPane::create(gpu(), scene.loaded->groom, look);
+  ASSERT_TRUE(pane) << pane.error().message;
+  const auto draw = [&](const Camera& camera) {
+    EXPECT_TRUE(pane->attach(gpu(), session.hairs()[0].simulation()));
+    EXPECT_TRUE(pane->setFrame(camera, session.head(), {}));
+    auto recorder = gpu::Recorder::create(gpu(), "pane");
+    EXPECT_TRUE(recorder->begin());
+    pane->record(*recorder, session.head().rotation);
+    EXPECT_TRUE(recorder->submitAndWait());
+    pane->finish();
+    std::vector<std::uint32_t> pixels(120 * 80);
+    EXPECT_TRUE(pane->shown().download(std::as_writable_bytes(std::span(pixels))));
+    return pixels;
+  };
+  Camera camera{.eye = {0, -0.1, 1}, .target = {0, -0.1, 0}};
+  const auto still = draw(camera);
+  session.headDrag.move({0.5, 0.25, 0});
+  (void)run(session, 150);
+  camera.eye += Vec3d{0.5, 0.25, 0};
+  camera.target += Vec3d{0.5, 0.25, 0};
+  const auto moved = draw(camera);
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < still.size(); ++i) same += (still[i] & 0xf8f8f8) == (moved[i] & 0xf8f8f8);
+  EXPECT_GT(same, still.size() * 8 / 10) << "a camera that went along sees much the same";
+  EXPECT_NE(draw({.eye = {0, -0.1, 1}, .target = {0, -0.1, 0}}), still) << "one that stayed does not";
+}
+
+}  // namespace
+}  // namespace ringlet::view
