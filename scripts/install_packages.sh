@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages ringlet is built from and tested with; skips what is there. Run as root or with sudo.
+# Without those of `extras` everything else is built and tested.
 set -euo pipefail
 
 packages=(
@@ -11,22 +12,35 @@ packages=(
   libzstd-dev                                                        # caches of animations
   libtomlplusplus-dev                                                # material files
   libtinygltf-dev                                                    # glTF motion
-  libglfw3-dev libimgui-dev xvfb xdotool                             # the window of `ringlet view`, and its test without a screen
-  gnuplot-nox                                                        # plots
   python3-dev pybind11-dev python3-numpy python3-pytest              # the Python module and its tests
 )
 
-missing=()
-for package in "${packages[@]}"; do
-  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || missing+=("$package")
-done
-if [ ${#missing[@]} -eq 0 ]; then
+extras=(
+  libglfw3-dev libimgui-dev xvfb xdotool                             # the window of `ringlet view`, and its test without a screen
+  gnuplot-nox                                                        # plots
+)
+
+# missing PACKAGE...: those that are not installed.
+missing() {
+  local package
+  for package in "$@"; do
+    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed$' || echo "$package"
+  done
+}
+mapfile -t needed < <(missing "${packages[@]}")
+mapfile -t wanted < <(missing "${extras[@]}")
+if [ ${#needed[@]} -eq 0 ] && [ ${#wanted[@]} -eq 0 ]; then
   echo "ringlet: all packages are installed"
   exit 0
 fi
 
 sudo=()
 [ "$(id -u)" -eq 0 ] || sudo=(sudo)
-echo "ringlet: installing ${missing[*]}"
-"${sudo[@]}" apt-get update -qq
-"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+install() {
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "$@"
+}
+echo "ringlet: installing ${needed[*]} ${wanted[*]}"
+"${sudo[@]}" apt-get update -qq || [ ${#needed[@]} -eq 0 ]
+[ ${#needed[@]} -eq 0 ] || install "${needed[@]}"
+[ ${#wanted[@]} -eq 0 ] || install "${wanted[@]}" ||
+  echo "ringlet: could not install ${wanted[*]}; \`ringlet view\` and plots do without" >&2
