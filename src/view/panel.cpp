@@ -166,7 +166,12 @@ void Panel::drawGroup(const SliderGroup& group, EditHistory<Edits>& history) {
   if (!isOpenTab) return;
   ImGui::BeginChild("sliders");
   if (group.title == "hair") drawMaterials(history);
-  for (const Slider& slider : group.sliders) drawSlider(slider, history);
+  std::string table = group.sliders.front().table;
+  for (const Slider& slider : group.sliders) {
+    if (slider.table != table) ImGui::TextDisabled("[%s]", slider.table.c_str());
+    table = slider.table;
+    drawSlider(slider, history);
+  }
   ImGui::EndChild();
   ImGui::EndTabItem();
 }

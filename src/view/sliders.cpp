@@ -90,6 +90,7 @@ class FieldSliders {
   Slider named(const SettingField<Owner>& field) const {
     Slider slider;
     slider.name = fmt::format("{}.{}", table_, field.key);
+    slider.table = table_;
     slider.label = field.key;
     slider.unit = std::string(field.unit) == "1" ? "" : field.unit;
     slider.effect = field.effect;
@@ -208,6 +209,7 @@ void addMaterial(const char* table, std::span<const Parameter<Owner>> parameters
   for (const Parameter<Owner>& parameter : parameters) {
     Slider slider;
     slider.name = fmt::format("{}.{}", table, parameter.key);
+    slider.table = table;
     slider.label = parameter.key;
     slider.unit = std::string(parameter.unit) == "1" ? "" : parameter.unit;
     slider.effect = parameter.effect;

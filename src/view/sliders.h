@@ -16,6 +16,7 @@ struct Slider {
   enum class Kind { number, whole, toggle, choice };
 
   std::string name;      // of the key in a scene file: "air.wind.x", "material.dials.hold"
+  std::string table;     // of the scene file that has it: "air", "material.dials"
   std::string label;     // without its table
   std::string unit;      // "" for none
   std::string effect;    // a sentence
