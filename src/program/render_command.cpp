@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -15,6 +14,7 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/interruption.h"
+#include "program/picture_options.h"
 #include "program/render_run.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
@@ -63,30 +63,6 @@ struct Typed {
   int samples = 4, blur = 1;
   bool noBodies = false, json = false, quiet = false;
 };
-
-// "960x540" or "1:24".
-std::optional<std::pair<int, int>> parsePair(const std::string& text, char between) {
-  const char *at = text.data(), *end = at + text.size();
-  std::pair<int, int> pair;
-  auto [middle, first] = std::from_chars(at, end, pair.first);
-  if (first != std::errc() || middle == end || *middle != between) return std::nullopt;
-  auto [stop, second] = std::from_chars(middle + 1, end, pair.second);
-  if (second != std::errc() || stop != end) return std::nullopt;
-  return pair;
-}
-
-CLI::Validator isPair(char between, int least, int most, const char* example) {
-  return CLI::Validator(
-      [=](std::string& text) {
-        const auto pair = parsePair(text, between);
-        const bool isFine = pair && std::min(pair->first, pair->second) >= least &&
-                            std::max(pair->first, pair->second) <= most;
-        return isFine ? std::string()
-                      : fmt::format("must be two numbers from {} to {}, as {}, not '{}'", least, most,
-                                    example, text);
-      },
-      "");
-}
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
@@ -304,25 +280,14 @@ void addRenderCommand(CLI::App& app, int& exitCode) {
       ->check(isPair('x', 1, 16384, "960x540"))
       ->capture_default_str()
       ->type_name("WxH");
-  command->add_option("--samples", typed->samples, "Samples along a pixel's side: 1 is fast, 4 is smooth")
-      ->check(wholeBetween(1, 4))
-      ->capture_default_str()
-      ->type_name("N");
+  addSamplesOption(*command, typed->samples);
   command
       ->add_option("--blur", typed->blur,
                    "Moments of each frame that are shown together: motion blur; 1 is none")
       ->check(wholeBetween(1, 64))
       ->capture_default_str()
       ->type_name("N");
-  command->add_option("--colour", typed->colour, "Of hair: " + hairColourNames())
-      ->check(CLI::Validator(
-          [](std::string& name) {
-            return lookByName(name) ? std::string()
-                                    : fmt::format("is one of {}, not '{}'", hairColourNames(), name);
-          },
-          ""))
-      ->capture_default_str()
-      ->type_name("NAME");
+  addColourOption(*command, typed->colour);
   command->add_option("--melanin", typed->melanin, "In place of --colour: from 0, white, to 1, black")
       ->check(between(0, 1))
       ->type_name("SHARE");

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,6 +14,7 @@
 #include "program/exit_codes.h"
 #include "program/follow_plan.h"
 #include "program/interruption.h"
+#include "program/picture_options.h"
 #include "program/picture_solids.h"
 #include "program/run_report.h"
 #include "program/standard_error.h"
@@ -63,14 +63,6 @@ struct Typed {
   int frames = 0, samples = 2, hairs = 0;
   bool paused = false, json = false;
 };
-
-std::pair<int, int> sizeOf(const std::string& text) {
-  std::pair<int, int> size{0, 0};
-  const char* end = text.data() + text.size();
-  const auto [middle, first] = std::from_chars(text.data(), end, size.first);
-  if (first == std::errc() && middle != end && *middle == 'x') std::from_chars(middle + 1, end, size.second);
-  return size;
-}
 
 // A scene, or a groom as one. Its paths are absolute, so that it can be saved anywhere.
 Result<SceneFile> sceneOf(const Typed& typed) {
@@ -132,7 +124,7 @@ Result<view::ViewOutcome> runScene(const Typed& typed, const SceneFile& file, Lo
   plan.up = upOf(file.groom);
   addSolids(scene, plan.up, plan);
   if (Status added = addHairs(scene, typed.hairs, plan); !added) return added.error();
-  const auto [width, height] = sizeOf(typed.size);
+  const auto [width, height] = *parsePair(typed.size, 'x');
   // Volumes of light as a preview needs them.
   plan.look.size = {.width = width,
                     .height = height,
@@ -215,17 +207,6 @@ int run(const Typed& typed) {
 
 #endif
 
-CLI::Validator isSize() {
-  return CLI::Validator(
-      [](std::string& text) {
-        const auto [width, height] = sizeOf(text);
-        const bool isFine = std::min(width, height) >= 64 && std::max(width, height) <= 8192;
-        return isFine ? std::string()
-                      : fmt::format("must be two numbers from 64 to 8192, as 640x480, not '{}'", text);
-      },
-      "");
-}
-
 CLI::Validator isChange() {
   return CLI::Validator(
       [](std::string& text) {
@@ -255,22 +236,11 @@ void addViewCommand(CLI::App& app, int& exitCode) {
       ->type_name("N");
   command
       ->add_option("--size", typed->size, "Width and height of the picture, pixels; the panel is beside it")
-      ->check(isSize())
+      ->check(isPair('x', 64, 8192, "640x480"))
       ->capture_default_str()
       ->type_name("WxH");
-  command->add_option("--samples", typed->samples, "Samples along a pixel's side: 1 is fast, 4 is smooth")
-      ->check(wholeBetween(1, 4))
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--colour", typed->colour, "Of hair: " + hairColourNames())
-      ->check(CLI::Validator(
-          [](std::string& name) {
-            return lookByName(name) ? std::string()
-                                    : fmt::format("is one of {}, not '{}'", hairColourNames(), name);
-          },
-          ""))
-      ->capture_default_str()
-      ->type_name("NAME");
+  addSamplesOption(*command, typed->samples);
+  addColourOption(*command, typed->colour);
   command->add_option("--save", typed->save, "Where Ctrl+S writes the scene (default: IN's name, .view.toml)")
       ->check(endsIn({".toml"}))
       ->type_name("FILE");
