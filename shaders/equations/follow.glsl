@@ -3,9 +3,8 @@
 //     r = smoothstep(0, 1/5, s),   k = 1 + (spread - 1) smoothstep(0, 2/5, s)
 //     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) F_root d + r F d)
 //
-// c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, F_root: the frame
-// at
-// rest carried by the head. Choe and Ko 2005 (wisps). Mirrored by reference/equations/follow.h.
+// c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, F_root: the
+// frame at rest carried by the head. Choe and Ko 2005 (wisps). Mirrored by reference/equations/follow.h.
 #ifndef RINGLET_FOLLOW
 #define RINGLET_FOLLOW
 

@@ -1,17 +1,13 @@
 // Light that a hair scatters, far away from it: d'Eon et al. 2011 along the hair, Marschner et al. 2003 about it. Of
-// light
-// that arrives in a direction at elevation theta_i, the hair scatters into elevation theta_o and azimuth phi
+// light that arrives in a direction at elevation theta_i, the hair scatters into elevation theta_o and azimuth phi
 //
 //     S = sum over p of A_p(theta_d) N_p(phi) M_p(theta_i, theta_o) / (greater^(3/4) less^(1/4))
 //
 // p: reflected (R), through (TT), once reflected inside (TRT), and all the rest. theta_d: half the difference of
-// elevations.
-// M_p is normalized over theta_o, N_p over phi; A_p are shares of the light, their sum just below 1 in hair that
-// absorbs
-// nothing. The last factor, of the greater and the less of cos theta_i and cos theta_o, makes S the same when light
-// goes the
-// other way; these powers keep nearly all light. A_p, N_TT and N_TRT are fits to the integrals over a fibre of
-// refractive index 1.55, which tests/equations/hair_scattering_test.cpp takes. Mirrored by
+// elevations. M_p is normalized over theta_o, N_p over phi; A_p are shares of the light, their sum just below 1 in
+// hair that absorbs nothing. The last factor, of the greater and the less of cos theta_i and cos theta_o, makes S
+// the same when light goes the other way; these powers keep nearly all light. A_p, N_TT and N_TRT are fits to the
+// integrals over a fibre of refractive index 1.55, which tests/equations/hair_scattering_test.cpp takes. Mirrored by
 // reference/equations/hair_scattering.h.
 #ifndef RINGLET_HAIR_SCATTERING
 #define RINGLET_HAIR_SCATTERING

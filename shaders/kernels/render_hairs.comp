@@ -1,8 +1,6 @@
 // Hairs, segment by segment, onto the samples of a picture. A segment is walked along its longer axis; a sample it
-// passes is
-// hit with the hair's coverage as chance, drawn from hair and segment, so that the noise goes with the hair. Hits are
-// spread
-// evenly along the segment: work goes with the area that is covered, not with length.
+// passes is hit with the hair's coverage as chance, drawn from hair and segment, so that the noise goes with the
+// hair. Hits are spread evenly along the segment: work goes with the area that is covered, not with length.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/drawn_hairs.glsl"
@@ -18,8 +16,7 @@ void main() {
   if (min(a.z, b.z) < picture.near) return;
 
   // Along the longer axis and across it; the band's samples are from low to high. All depends on the whole picture, so
-  // that
-  // bands meet without a seam.
+  // that bands meet without a seam.
   vec2 from = inSamples(a);
   vec2 to = inSamples(b);
   vec2 low = vec2(0, bandTop());

@@ -1,6 +1,5 @@
 // Hair's area into the boxes of the lights and of the sky: every so many hairs, for as many. Sums of integers, the
-// same in any
-// order.
+// same in any order.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/drawn_hairs.glsl"

@@ -1,10 +1,8 @@
 // Light on hair and on bodies: two lights and a sky, through the hair that is before them.
 //
 // Light that reaches a hair is of two kinds: what came straight, less by every hair before it; and what came through
-// hairs
-// and took on their colour, which is scattered to all sides (dual scattering, Zinke et al. 2008, with the two factors
-// below
-// in place of its sums).
+// hairs and took on their colour, which is scattered to all sides (dual scattering, Zinke et al. 2008, with the two
+// factors below in place of its sums).
 #ifndef RINGLET_LIGHTING
 #define RINGLET_LIGHTING
 

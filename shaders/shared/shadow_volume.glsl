@@ -1,6 +1,6 @@
-// How much hair is before a place: two boxes of cells, each along a light, that hold the hair's area in front of each
-// cell
-// (deep opacity maps, Yuksel and Keyser 2008, with cells of even depth); and how much of the sky is seen from there.
+// How much hair is before a place: two boxes of cells, each along a light, that hold the hair's area in front of
+// each cell (deep opacity maps, Yuksel and Keyser 2008, with cells of even depth); and how much of the sky is seen
+// from there.
 #ifndef RINGLET_SHADOW_VOLUME
 #define RINGLET_SHADOW_VOLUME
 

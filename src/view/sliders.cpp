@@ -67,6 +67,18 @@ Slider finished(Slider slider) {
   return slider;
 }
 
+// `entry`: of a table of settings or of materials' numbers.
+template <class Entry>
+Slider namedSlider(const char* table, const Entry& entry) {
+  Slider slider;
+  slider.name = fmt::format("{}.{}", table, entry.key);
+  slider.table = table;
+  slider.label = entry.key;
+  slider.unit = std::string(entry.unit) == "1" ? "" : entry.unit;
+  slider.effect = entry.effect;
+  return slider;
+}
+
 // Not a temporary in a template, on which GCC 12 fails.
 const Edits& unedited() {
   static const Edits edits;
@@ -88,12 +100,7 @@ class FieldSliders {
 
  private:
   Slider named(const SettingField<Owner>& field) const {
-    Slider slider;
-    slider.name = fmt::format("{}.{}", table_, field.key);
-    slider.table = table_;
-    slider.label = field.key;
-    slider.unit = std::string(field.unit) == "1" ? "" : field.unit;
-    slider.effect = field.effect;
+    Slider slider = namedSlider(table_, field);
     slider.onlyWith = field.onlyWith;
     slider.allowed = field.allowed;
     return slider;
@@ -207,12 +214,7 @@ template <class Owner, class OwnerOf>
 void addMaterial(const char* table, std::span<const Parameter<Owner>> parameters, OwnerOf ownerOf,
                  std::vector<Slider>& sliders) {
   for (const Parameter<Owner>& parameter : parameters) {
-    Slider slider;
-    slider.name = fmt::format("{}.{}", table, parameter.key);
-    slider.table = table;
-    slider.label = parameter.key;
-    slider.unit = std::string(parameter.unit) == "1" ? "" : parameter.unit;
-    slider.effect = parameter.effect;
+    Slider slider = namedSlider(table, parameter);
     slider.kind = parameter.isWhole() ? Slider::Kind::whole : Slider::Kind::number;
     slider.allowed = parameter.allowed;
     slider.shown = {std::max(parameter.usual.low, parameter.allowed.low),
