@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "shared/layout.h"
+#include "layout/strands.h"
 
 namespace ringlet::bench {
 
@@ -18,7 +18,8 @@ struct alignas(32) Eight {
   float lane[kLanes] = {};
 };
 
-/// Constant per edge: of layout.h's ParticleRest, ready to use. Beyond a tip: scale 0, mass 1, any length.
+/// Constant per edge: of layout/strands.h's ParticleRest, ready to use. Beyond a tip: scale 0, mass 1, any
+/// length.
 struct EdgeRest {
   Eight target[3];   // [m]
   Eight restLength;  // of the stretch spring [m]
@@ -28,7 +29,7 @@ struct EdgeRest {
   Eight mass;        // of particle i [mass unit]
 };
 
-/// Constant per strand: of layout.h's StrandRest, with the step worked in.
+/// Constant per strand: of layout/strands.h's StrandRest, with the step worked in.
 struct StrandsRest {
   Eight bendBeta, coreBeta;
   Eight stretchStiffness, bendStiffness, coreStiffness, coreDamping;  // times an edge's scale

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bench/operation_count.h"
+#include "layout/strands.h"
 
 namespace ringlet::bench {
 namespace {

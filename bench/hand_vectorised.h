@@ -13,6 +13,7 @@
 
 #include "bench/hand_sweeps.h"
 #include "bench/thread_team.h"
+#include "layout/strands.h"
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/rest_state.h"

@@ -1,6 +1,7 @@
 // Implements reference/follow_guide.h.
 #include "reference/follow_guide.h"
 
+#include "reference/equations/body_distance.h"
 #include "ringlet/measure/core.h"
 
 namespace ringlet::reference {
@@ -10,6 +11,34 @@ Rotation<double> rotationOf(const MeasuringFrame& frame) {
   Matrix3<double> axes;
   axes << toEigen<double>(frame.normal), toEigen<double>(frame.binormal), toEigen<double>(frame.tangent);
   return Rotation<double>(axes);
+}
+
+Vector3<double> pointOf(const GuidePlace<double>& place) { return place.core + place.frame * place.curl; }
+
+// A point of a hair, a share of the way along it.
+struct HairPoint {
+  Vector3<double> x, root;        // [m]
+  Vector3<double> before, after;  // its guide's particles beside it [m],
+  double between = 0, share = 0;  // and where between those it is
+};
+
+Vector3<double> outOfBodies(const HairPoint& point, std::span<const Body> bodies,
+                            std::span<const BodyPose> poses) {
+  Vector3<double> x = point.x;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Vector3<double> origin = toEigen<double>(poses[b].position);
+    const Rotation<double> turn = toEigen<double>(poses[b].rotation);
+    const auto surfaceAt = [&](const Vector3<double>& p) {
+      return bodyDistance<double>(bodies[b], turn.conjugate() * (p - origin));
+    };
+    const Surface<double> there = surfaceAt(x);
+    const double ofGuide = (1 - point.between) * surfaceAt(point.before).distance +
+                           point.between * surfaceAt(point.after).distance;
+    const double way =
+        wayOutBesideGuide(there.distance, ofGuide, surfaceAt(point.root).distance, point.share);
+    x += way * (turn * there.normal);
+  }
+  return x;
 }
 
 }  // namespace
@@ -29,8 +58,10 @@ GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Qua
   return pose;
 }
 
-std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide) {
+std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, std::span<const Body> bodies,
+                               std::span<const BodyPose> poses) {
   const std::size_t last = guide.places.size() - 1;
+  const Vector3<double> root = pointOf(guide.places.front()) + guide.rootFrame * toEigen<double>(hair.offset);
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i <= last; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(last);
@@ -38,9 +69,12 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide) {
     const double along =
         static_cast<double>(i) * (1 + (static_cast<double>(hair.length) - 1) * risesOver(0.2, share));
     const std::size_t k = std::min(static_cast<std::size_t>(along), last - 1);
-    const GuidePlace<double> place =
-        placeBetween(guide.places[k], guide.places[k + 1], along - static_cast<double>(k));
-    const Vector3<double> x = followedPoint(hair, place, guide.rootFrame, share);
+    const GuidePlace<double>&before = guide.places[k], &after = guide.places[k + 1];
+    const double between = along - static_cast<double>(k);
+    const Vector3<double> alone =
+        followedPoint(hair, placeBetween(before, after, between), guide.rootFrame, share);
+    const Vector3<double> x =
+        outOfBodies({alone, root, pointOf(before), pointOf(after), between, share}, bodies, poses);
     points.push_back({x.x(), x.y(), x.z()});
   }
   return points;

@@ -7,6 +7,7 @@
 #include "reference/equations/follow.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/follow/follow_hairs.h"
+#include "ringlet/scene/body.h"
 
 namespace ringlet::reference {
 
@@ -20,7 +21,8 @@ struct GuidePose {
 /// has turned since the rest pose.
 GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Quatd head);
 
-/// The points of a hair, as many as its guide's [m].
-std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide);
+/// The points of a hair, as many as its guide's [m], out of bodies at `poses`, one a body.
+std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide,
+                               std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {});
 
 }  // namespace ringlet::reference

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/rest/goal.h"
 
 namespace ringlet::reference {
 
@@ -27,6 +28,7 @@ Simulation<Real>::Simulation(const Groom& groom, const Material& material, const
   rootShifts_.assign(groom.strandCount(), Vector3<double>::Zero());
   rootPoses_.assign(groom.strandCount(), BodyPose{});
   previousRootPoses_ = rootPoses_;
+  if (settings.goal.on) aimAtGroom(groom);
   systems_.resize(groom.strandCount());
   taps_.resize(groom.strandCount());
   isRigid_.assign(groom.strandCount(), false);
@@ -77,8 +79,10 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
             ? rootPoses_
             : std::vector<BodyPose>(rootPoses.begin() + static_cast<std::ptrdiff_t>(k * rest_.size()),
                                     rootPoses.begin() + static_cast<std::ptrdiff_t>((k + 1) * rest_.size()));
-    stepOnce(stepPoses[k], std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
+    stepOnce(k, stepPoses.size(), stepPoses[k],
+             std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
   }
+  goalsBefore_ = goals_;
 }
 
 template <class Real>
@@ -113,6 +117,56 @@ void Simulation<Real>::setForces(std::span<const Vec3f> forces) {
   RINGLET_ASSERT(forces.size() == positions_.size(), "every particle has a force");
   forces_.clear();
   for (const Vec3f& force : forces) forces_.push_back(toEigen<double>(force));
+}
+
+template <class Real>
+void Simulation<Real>::setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
+                                double dampingRatio) {
+  const bool isFirst = goals_.empty();
+  goals_.clear();
+  goalStiffness_.clear();
+  goalDamping_.clear();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    goals_.push_back(toEigen<double>(places[i]));
+    goalStiffness_.push_back(goalStiffness(strengths[i]));
+    goalDamping_.push_back(goalDamping(goalStiffness_.back(), dampingRatio));
+  }
+  if (isFirst) goalsBefore_ = goals_;
+}
+
+// Settings::goal: its strength goes evenly from the root's to the tip's along the arc.
+template <class Real>
+void Simulation<Real>::aimAtGroom(const Groom& groom) {
+  std::vector<Vec3f> places;
+  std::vector<float> strengths;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    double arc = 0;
+    for (const Real edge : rest_[s].edgeLengths) arc += static_cast<double>(edge);
+    double along = 0;
+    for (std::size_t i = 0; i < groom.strand(s).size(); ++i) {
+      if (i > 0) along += static_cast<double>(rest_[s].edgeLengths[i - 1]);
+      const double share = arc > 0 ? along / arc : 0;
+      const double atTip = settings_.goal.strength * settings_.goal.tipShare;
+      strengths.push_back(static_cast<float>((1 - share) * settings_.goal.strength + share * atTip));
+      places.push_back(static_cast<Vec3f>(Vec3d(groom.strand(s)[i]) * groom.metresPerUnit));
+    }
+  }
+  setGoals(places, strengths, settings_.goal.damping);
+}
+
+template <class Real>
+GoalStep Simulation<Real>::goalStep(std::size_t s, std::size_t k, std::size_t steps) const {
+  GoalStep step;
+  if (goals_.empty()) return step;
+  const double n = static_cast<double>(steps), begin = static_cast<double>(k) / n,
+               end = static_cast<double>(k + 1) / n;
+  for (std::size_t i = firstPoint_[s]; i < firstPoint_[s + 1]; ++i) {
+    step.before.push_back((1 - begin) * goalsBefore_[i] + begin * goals_[i]);
+    step.after.push_back((1 - end) * goalsBefore_[i] + end * goals_[i]);
+    step.stiffness.push_back(goalStiffness_[i]);
+    step.damping.push_back(goalDamping_[i]);
+  }
+  return step;
 }
 
 template <class Real>
@@ -184,8 +238,8 @@ void Simulation<Real>::carryTo(const HeadPose& next) {
 }
 
 template <class Real>
-void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses,
-                                const std::vector<BodyPose>& roots) {
+void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose& next,
+                                std::span<const BodyPose> bodyPoses, const std::vector<BodyPose>& roots) {
   const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
   const AirStep<Real> air = airStep(next);
   for (std::size_t s = 0; s < rest_.size(); ++s) {
@@ -195,8 +249,8 @@ void Simulation<Real>::stepOnce(const HeadPose& next, std::span<const BodyPose> 
     const OutsideForces forces =
         forces_.empty() ? OutsideForces{}
                         : OutsideForces(forces_).subspan(firstPoint_[s], rest_[s].particleCount());
-    prepareStrand(rest_[s], settings_, head, air, forces, positions, velocities, scratch_, taps_[s],
-                  systems_[s]);
+    prepareStrand(rest_[s], settings_, head, air, forces, goalStep(s, k, steps), positions, velocities,
+                  scratch_, taps_[s], systems_[s]);
     solveVelocities(rest_[s], settings_, head, forces, bodies, systems_[s], scratch_, taps_[s], positions,
                     velocities);
   }

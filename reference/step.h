@@ -67,6 +67,10 @@ class Simulation {
   /// Forces from outside on each kilogram of every particle, groom order [m/s^2], until others are set.
   void setForces(std::span<const Vec3f> forces);
 
+  /// Places that particles are pulled to, as Simulation::setGoals of the solver has them: reached at the end
+  /// of the next frame.
+  void setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio);
+
   /// These strands are carried by their roots in their rest shape, and take no part in anything. The list is
   /// the caller's (RestState::rigid). Before all else; puts the hair at rest.
   void carryRigidly(std::span<const std::uint32_t> strands);
@@ -100,10 +104,15 @@ class Simulation {
   // Rigidly: seen from the head, hair and head go on as they were.
   void carryTo(const HeadPose& next);
 
-  void stepOnce(const HeadPose& next, std::span<const BodyPose> bodyPoses,
+  // Step k of a frame of so many.
+  void stepOnce(std::size_t k, std::size_t steps, const HeadPose& next, std::span<const BodyPose> bodyPoses,
                 const std::vector<BodyPose>& roots);
 
+  void aimAtGroom(const Groom& groom);
+
   AirStep<Real> airStep(const HeadPose& next) const;
+  // Of strand s, in step k of the frame's.
+  GoalStep goalStep(std::size_t s, std::size_t k, std::size_t steps) const;
 
   // In double, as headStep.
   std::vector<BodyStep<Real>> bodySteps(const HeadPose& next, std::span<const BodyPose> poses) const;
@@ -125,7 +134,9 @@ class Simulation {
   std::vector<bool> isRigid_;                            // of each strand
   std::vector<Body> bodies_;
   std::vector<WindMode> windModes_;
-  Field<double> forces_;             // from outside; empty: none
+  Field<double> forces_;               // from outside; empty: none
+  Field<double> goalsBefore_, goals_;  // at the frame's start and end, in the groom's axes [m]; empty: none
+  std::vector<double> goalStiffness_, goalDamping_;
   std::vector<BodyPose> bodyPoses_;  // at pose n, in the world
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;

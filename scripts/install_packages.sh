@@ -18,6 +18,7 @@ packages=(
 extras=(
   libglfw3-dev libimgui-dev xvfb xdotool                             # the window of `ringlet view`, and its test without a screen
   gnuplot-nox                                                        # plots
+  ffmpeg                                                             # films of `ringlet render`
 )
 
 # missing PACKAGE...: those that are not installed.
@@ -43,4 +44,4 @@ echo "ringlet: installing ${needed[*]} ${wanted[*]}"
 "${sudo[@]}" apt-get update -qq || [ ${#needed[@]} -eq 0 ]
 [ ${#needed[@]} -eq 0 ] || install "${needed[@]}"
 [ ${#wanted[@]} -eq 0 ] || install "${wanted[@]}" ||
-  echo "ringlet: could not install ${wanted[*]}; \`ringlet view\` and plots do without" >&2
+  echo "ringlet: could not install ${wanted[*]}; \`ringlet view\`, plots and films do without" >&2

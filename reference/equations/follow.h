@@ -8,6 +8,15 @@
 // At the root x is the guide's root + F_root d, with F_root the frame at rest carried by the head: a hair's
 // root stays where it is on the scalp, however its guide bends there. The idea is Choe and Ko's (2005, wisps:
 // a master strand and variation about it).
+//
+// Bodies hold guides out, and hairs are beside them. With d_x, D, D_root the distances of the body's surface
+// from the point, from the guide beside it (between two particles, what is between theirs, since particles
+// are what bodies hold out) and from the hair's root, negative inside, the point goes out of the body by
+//
+//     max(min(0, D, (1 - r) D_root) - d_x, 0)
+//
+// and so no further than its guide is out: a guide that passes through a body takes its hairs along, where a
+// hair of its own mind would jump. Roots stay on the scalp, which may be some way inside.
 #pragma once
 
 #include <algorithm>
@@ -60,6 +69,13 @@ Vector3<Real> followedPoint(const FollowHair& hair, const GuidePlace<Real>& plac
   const Vector3<Real> offset = toEigen<Real>(hair.offset);
   return place.core + place.frame * (scale * curl) +
          spread * ((1 - r) * (rootFrame * offset) + r * (place.frame * offset));
+}
+
+/// Distances [m] from the surface of a body, negative inside: of the point, its guide beside it and its root.
+template <class Real>
+Real wayOutBesideGuide(Real ofPoint, Real ofGuide, Real ofRoot, Real share) {
+  const Real kept = std::min({Real(0), ofGuide, (1 - risesOver(Real(1) / 5, share)) * ofRoot});
+  return std::max(kept - ofPoint, Real(0));
 }
 
 }  // namespace ringlet::reference

@@ -101,6 +101,13 @@ void differences(FieldView<Real> values, Field<Real>& result) {
 /// Forces from outside on a strand's particles, on each kilogram [m/s^2]; or none.
 using OutsideForces = std::span<const Vector3<double>>;
 
+/// Places that a strand's particles are pulled to, in the groom's axes at the step's start and end [m], and
+/// how hard: k [1/s^2], c [1/s]; or none.
+struct GoalStep {
+  Field<double> before, after;
+  std::vector<double> stiffness, damping;
+};
+
 /// Sum of the forces on particle i [N]: +f_i of the edge below it, -f_{i-1} of the edge above.
 template <class Real>
 Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);
@@ -109,9 +116,9 @@ Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);
 /// forces, the velocities of pinned particles and, but for the paper's loops, the system.
 template <class Real>
 void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
-                   const AirStep<Real>& air, OutsideForces forces, FieldView<Real> positions,
-                   FieldView<Real> velocities, StepScratch<Real>& scratch, StrandTaps<Real>& taps,
-                   StrandSystem& system);
+                   const AirStep<Real>& air, OutsideForces forces, const GoalStep& goals,
+                   FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
+                   StrandTaps<Real>& taps, StrandSystem& system);
 
 /// Integrator::jacobi: the strand as block; where that would go into a body once more, and again with
 /// friction.

@@ -42,7 +42,7 @@ float dampingAt(float d, float restLength, float end) {
   return clamp((end * restLength - d) / ((end - 1.0) * restLength), 0.0, 1.0);
 }
 
-/// The time taper: (kappa, delta) of a life and back (layout.h).
+/// The time taper: (kappa, delta) of a life and back (layout/contacts.h).
 vec2 sharesOf(float life) { return life < 0.0 ? vec2(-life, 1.0) : vec2(0.0, life); }
 float lifeOfShares(vec2 shares) { return shares.x > 0.0 ? -shares.x : shares.y; }
 

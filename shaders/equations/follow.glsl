@@ -4,7 +4,12 @@
 //     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) F_root d + r F d)
 //
 // c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, F_root: the
-// frame at rest carried by the head. Choe and Ko 2005 (wisps). Mirrored by reference/equations/follow.h.
+// frame at rest carried by the head. Choe and Ko 2005 (wisps). Out of a body it is pushed by
+//
+//     max(min(0, D, (1 - r) D_root) - d_x, 0)
+//
+// d_x, D, D_root: how far the point, its guide beside it (between particles, what is between theirs) and the hair's
+// root are from the body's surface, negative inside. Mirrored by reference/equations/follow.h.
 #ifndef RINGLET_FOLLOW
 #define RINGLET_FOLLOW
 
@@ -45,6 +50,13 @@ vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePl
   float k = 1.0 + (spread - 1.0) * risesOver(0.4, share);
   return place.core + rotate(place.frame, curl) +
          k * ((1.0 - r) * rotate(rootFrame, offset) + r * rotate(place.frame, offset));
+}
+
+/// How far a point is pushed out of a body [m]: no further than its guide and its own root let it. Distances from the
+/// body's surface, negative inside: of the point, its guide beside it and its root [m].
+float wayOutBesideGuide(float ofPoint, float ofGuide, float ofRoot, float share) {
+  float kept = min(0.0, min(ofGuide, (1.0 - risesOver(0.2, share)) * ofRoot));
+  return max(kept - ofPoint, 0.0);
 }
 
 #endif

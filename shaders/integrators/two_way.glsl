@@ -14,7 +14,7 @@
 //   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
 // All sums of positive matrices: stiff edges cost no digits.
 
-// What a volume adds to a mass is a number, as the mass is.
+// What a volume adds to a mass is a number, as the mass is, and so is what a goal adds.
 const bool kAddsMatrix = kContacts && kPairs || kAir || kBodies;
 const bool kFromEnds = kLanes <= 2 && !kAddsMatrix && !kBendVaries;
 
@@ -22,6 +22,14 @@ const bool kFromEnds = kLanes <= 2 && !kAddsMatrix && !kBendVaries;
 vec4 volumeAddedToRun(int k) {
 #ifdef RINGLET_CONTACTS
   if (kVolume && meetsContacts(k)) return volumeAddedTo(strand.firstParticle + first + k);
+#endif
+  return vec4(0);
+}
+
+// What a goal adds, likewise, to particle j where lanes go from the root, or k; each in registers.
+vec4 goalAddedToRun(int j, int k) {
+#ifdef RINGLET_SURROUNDINGS
+  if (kGoals) return lane == 0 ? goal[j] : goal[k];
 #endif
   return vec4(0);
 }
@@ -61,6 +69,7 @@ void solveFromEnds(vec3 pinned[3]) {
     vec3 rootSide = rightHandSide(j, j > 0 ? force[max(j - 1, 0)] : forceBefore);
     vec3 tipSide = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
     vec4 added = volumeAddedToRun(fromRoot ? j : k);
+    if (kGoals) added += goalAddedToRun(j, k);
     r[j] = (fromRoot ? rootSide : tipSide) + added.xyz;
     mass[j] = (fromRoot ? restEdge[j].x : restEdge[k].x) + added.w;
     if (j > 0) {

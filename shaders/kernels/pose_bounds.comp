@@ -3,7 +3,7 @@
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
-#include "shared/layout.h"
+#include "layout/pose.h"
 
 layout(local_size_x_id = kSpecGroupSize) in;
 

@@ -3,7 +3,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "maths/quaternion.glsl"
-#include "shared/layout.h"
+#include "layout/pose.h"
 #include "shared/texels.glsl"
 
 layout(local_size_x_id = kSpecGroupSize) in;

@@ -46,10 +46,11 @@ void main() {
   hairs += unshaded;
 #endif
   uvec2 packed = solidColours[pixel];
-  vec3 solid = solids > 0.0 ? vec3(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y).x) : vec3(0);
+  vec2 blue = unpackHalf2x16(packed.y);  // and the share that is covered
   y += band.firstRow;
   vec2 place = (vec2(x, y) + 0.5) / vec2(picture.width, picture.height) - vec2(0.45, 0.42);
   vec3 back = mix(picture.backColours[1].rgb, picture.backColours[0].rgb, exp(-2.2 * dot(place, place) * 1.5));
+  vec3 solid = solids > 0.0 ? mix(back, vec3(unpackHalf2x16(packed.x), blue.x), blue.y) : vec3(0);
   float all = float(side * side);
   vec3 light = (hair + solids * solid + (all - hairs - solids) * back) / all;
 #ifdef RINGLET_PREVIEW

@@ -29,7 +29,10 @@ void main() {
   vec3 tangent = normalize(mix(normalize(b - before), normalize(after - a), t));
 
   float vary = unitOf(mixed(record.w + 7u));
-  vec3 absorption = mix(picture.pigments[0].rgb, picture.pigments[1].rgb, hair.pigment) * mix(0.85, 1.2, vary);
+  float among = hair.pigment * float(picture.pigmentCount - 1);
+  uint first = min(uint(among), picture.pigmentCount - 2);
+  vec3 pigment = mix(picture.pigments[first].rgb, picture.pigments[first + 1].rgb, among - float(first));
+  vec3 absorption = pigment * mix(0.85, 1.2, vary);
   HairFibre fibre = HairFibre(absorption, picture.along, picture.about, picture.tilt);
   vec3 colour = min(shadedHair(mix(a, b, t), tangent, fibre), vec3(60000));
   samples[at] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, 0)) | kShadedHair);

@@ -12,7 +12,8 @@ void main() {
   if (gl_GlobalInvocationID.x >= counts.solids) return;
   uvec2 here = seenSolids[gl_GlobalInvocationID.x];
   uvec3 corners = solidTriangle(here.y);
-  vec3 a = solidPosition(corners.x).xyz;
+  vec4 first = solidPosition(corners.x);
+  vec3 a = first.xyz;
   vec3 b = solidPosition(corners.y).xyz;
   vec3 c = solidPosition(corners.z).xyz;
 
@@ -32,7 +33,8 @@ void main() {
   float v = clamp(dot(cross(x - a, c - a), face) / size, 0.0, 1.0);
   float w = clamp(dot(cross(b - a, x - a), face) / size, 0.0, 1.0 - v);
   x = a + v * (b - a) + w * (c - a);
-  vec3 normal = (1.0 - v - w) * solidNormal(corners.x) + v * solidNormal(corners.y) + w * solidNormal(corners.z);
-  vec3 colour = min(shadedSolid(x, normalize(normal)), vec3(60000));
-  solidColours[pixel] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, 1)));
+  vec4 normal = (1.0 - v - w) * solidNormal(corners.x) + v * solidNormal(corners.y) + w * solidNormal(corners.z);
+  vec3 reflected = first.w > 0.5 ? picture.groundColour.rgb : picture.solidColour.rgb;
+  vec3 colour = min(shadedSolid(x, normalize(normal.xyz), reflected), vec3(60000));
+  solidColours[pixel] = uvec2(packHalf2x16(colour.xy), packHalf2x16(vec2(colour.z, 1.0 - normal.w)));
 }

@@ -12,7 +12,7 @@ void main() {
   if (gl_GlobalInvocationID.x >= band.rowCount) return;
   uint i = band.firstRow + gl_GlobalInvocationID.x;
   vec4 at = solidPosition(i);
-  vec3 normal = solidNormal(i);
+  vec3 normal = solidNormal(i).xyz;
   vec2 facing = abs(vec2(dot(normal, picture.lightDirection[0].xyz), dot(normal, picture.lightDirection[1].xyz)));
   addAt(at.xyz, kHairs * at.w * facing, kHairs * at.w);
 }

@@ -2,7 +2,7 @@
 // apart.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "shared/layout.h"
+#include "layout/picture.h"
 
 layout(local_size_x_id = kSpecGroupSize) in;
 layout(set = 0, binding = kBindStretchPoints) readonly buffer Points { uvec4 points[]; };

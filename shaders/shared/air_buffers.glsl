@@ -2,7 +2,7 @@
 #ifndef RINGLET_AIR_BUFFERS
 #define RINGLET_AIR_BUFFERS
 
-#include "shared/layout.h"
+#include "layout/bodies.h"
 #include "shared/texels.glsl"
 
 layout(set = 0, binding = kBindAir) readonly buffer Air { StepAir stepAirs[]; };

@@ -4,7 +4,7 @@
 
 #include "equations/body_distance.glsl"
 #include "maths/quaternion.glsl"
-#include "shared/layout.h"
+#include "layout/bodies.h"
 #include "shared/texels.glsl"
 
 layout(set = 0, binding = kBindBodies) readonly buffer Bodies { BodyRest bodies[]; };

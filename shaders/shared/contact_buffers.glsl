@@ -1,8 +1,8 @@
-// The buffers and parameters of the contact kernels (layout.h).
+// The buffers and parameters of the contact kernels (layout/contacts.h).
 #ifndef RINGLET_CONTACT_BUFFERS
 #define RINGLET_CONTACT_BUFFERS
 
-#include "shared/layout.h"
+#include "layout/contacts.h"
 #include "shared/texels.glsl"
 
 layout(local_size_x_id = kSpecGroupSize) in;

@@ -1,9 +1,9 @@
-// The buffers and parameters of the follow_* kernels (layout.h).
+// The buffers and parameters of the follow_* kernels (layout/follow.h).
 #ifndef RINGLET_FOLLOW_BUFFERS
 #define RINGLET_FOLLOW_BUFFERS
 
 #include "maths/quaternion.glsl"
-#include "shared/layout.h"
+#include "layout/follow.h"
 #include "shared/texels.glsl"
 
 layout(local_size_x_id = kSpecGroupSize) in;

@@ -50,9 +50,8 @@ float softLight(uint light, vec3 x) {
 #endif
 }
 
-/// Of a body's surface.
-vec3 shadedSolid(vec3 x, vec3 normal) {
-  vec3 colour = picture.solidColour.rgb;
+/// Of a surface. colour: the share that it reflects.
+vec3 shadedSolid(vec3 x, vec3 normal, vec3 colour) {
   vec3 eye = normalize(picture.eye.xyz - x);
   vec3 above = x + normal * (3.0 * sqrt(picture.shadowCellArea));  // clear of the cells that hold the surface
   vec3 radiance = vec3(0);

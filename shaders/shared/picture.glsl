@@ -1,8 +1,8 @@
-// The picture that render_* kernels draw, the band of it that a dispatch draws, and the hairs in it (layout.h).
+// The picture that render_* kernels draw, the band of it that a dispatch draws, and the hairs in it (layout/picture.h).
 #ifndef RINGLET_PICTURE
 #define RINGLET_PICTURE
 
-#include "shared/layout.h"
+#include "layout/picture.h"
 #include "shared/texels.glsl"
 
 layout(local_size_x_id = kSpecGroupSize) in;

@@ -4,7 +4,7 @@
 #define RINGLET_ROOT_BUFFERS
 
 #include "maths/quaternion.glsl"
-#include "shared/layout.h"
+#include "layout/strands.h"
 #include "shared/texels.glsl"
 
 layout(set = 0, binding = kBindRootPoses) readonly buffer RootPoses { RootPose rootPoses[]; };

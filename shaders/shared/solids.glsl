@@ -10,7 +10,7 @@ layout(set = 0, binding = kRenderTexels + kBindSolidPoints) uniform usamplerBuff
 layout(set = 0, binding = kRenderTexels + kBindSolidTriangles) uniform usamplerBuffer solidTriangleTexels;
 
 vec4 solidPosition(uint i) { return kTexels ? vectorAt(solidPointTexels, 2 * i) : solidPoints[i].position; }
-vec3 solidNormal(uint i) { return (kTexels ? vectorAt(solidPointTexels, 2 * i + 1) : solidPoints[i].normal).xyz; }
+vec4 solidNormal(uint i) { return kTexels ? vectorAt(solidPointTexels, 2 * i + 1) : solidPoints[i].normal; }
 uvec3 solidTriangle(uint t) {
   if (kTexels) return recordAt(solidTriangleTexels, t).xyz;
   return uvec3(solidTriangles[t].points[0], solidTriangles[t].points[1], solidTriangles[t].points[2]);

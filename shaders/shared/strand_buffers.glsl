@@ -1,6 +1,7 @@
-// The buffers and parameters of the strand_step kernels (layout.h), and the taps, which only a kernel compiled with
-// RINGLET_TAPS writes. Kernels know of contacts where compiled with RINGLET_CONTACTS, of bodies and air where compiled
-// with RINGLET_SURROUNDINGS: a constant that is false still leaves their buffers bound, and a small device has few.
+// The buffers and parameters of the strand_step kernels (layout/strands.h), and the taps, which only a kernel compiled
+// with RINGLET_TAPS writes. Kernels know of contacts where compiled with RINGLET_CONTACTS, of bodies, air and goals
+// where compiled with RINGLET_SURROUNDINGS: a constant that is false still leaves their buffers bound, and a small
+// device has few.
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 
@@ -9,7 +10,8 @@
 #endif
 #include "maths/quaternion.glsl"
 #include "maths/symmetric.glsl"
-#include "shared/layout.h"
+#include "layout/contacts.h"
+#include "layout/strands.h"
 #include "shared/texels.glsl"
 
 layout(local_size_x_id = kSpecGroupSize) in;
@@ -30,9 +32,11 @@ const bool kVolume = false;
 layout(constant_id = kSpecBodies) const bool kBodies = false;      // there are some
 layout(constant_id = kSpecAir) const bool kAir = false;         // hair feels it
 layout(constant_id = kSpecTurbulent) const bool kTurbulent = false;  // and it has waves
+layout(constant_id = kSpecGoals) const bool kGoals = false;       // particles are pulled to places
 #else
 const bool kBodies = false;
 const bool kAir = false;
+const bool kGoals = false;
 #endif
 layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own
 layout(constant_id = kSpecForces) const bool kForces = false;            // forces from outside act on particles
@@ -103,6 +107,12 @@ vec3 contactMomentum(uint i) {
 }
 #endif
 #ifdef RINGLET_SURROUNDINGS
+layout(set = 0, binding = kBindGoalsBefore) readonly buffer GoalsBefore { vec4 goalsBefore[]; };
+layout(set = 0, binding = kBindGoals) readonly buffer Goals { vec4 goals[]; };
+layout(set = 0, binding = kBindGoalBeforeTexels) uniform usamplerBuffer goalBeforeTexels;
+layout(set = 0, binding = kBindGoalTexels) uniform usamplerBuffer goalTexels;
+vec4 goalAtFrameStart(uint i) { return kTexels ? vectorAt(goalBeforeTexels, i) : goalsBefore[i]; }
+vec4 goalAtFrameEnd(uint i) { return kTexels ? vectorAt(goalTexels, i) : goals[i]; }
 #include "shared/air_buffers.glsl"
 #include "shared/body_buffers.glsl"
 #endif

@@ -4,7 +4,7 @@
 #ifndef RINGLET_TEXELS
 #define RINGLET_TEXELS
 
-#include "shared/layout.h"
+#include "layout/types.h"
 
 layout(constant_id = kSpecTexels) const bool kTexels = false;
 

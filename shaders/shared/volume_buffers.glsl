@@ -1,10 +1,12 @@
-// The buffers and parameters of the volume's kernels (layout.h).
+// The buffers and parameters of the volume's kernels (layout/volume.h).
 #ifndef RINGLET_VOLUME_BUFFERS
 #define RINGLET_VOLUME_BUFFERS
 
 #include "equations/volume.glsl"
 #include "maths/quaternion.glsl"
-#include "shared/layout.h"
+#include "layout/contacts.h"
+#include "layout/strands.h"
+#include "layout/volume.h"
 #include "shared/texels.glsl"
 
 layout(local_size_x_id = kSpecGroupSize) in;

@@ -132,6 +132,13 @@ Result<double> shakenError(
   auto simulation = Simulation::create(device, groom, {}, settings, {}, kernel);
   if (!simulation) return simulation.error();
   reference::Simulation<double> reference(groom, {}, settings);
+  if (kernel.goals) {  // the groom itself, a few weights a centimetre
+    std::vector<Vec3f> places;
+    for (const Vec3f& p : groom.points) places.push_back(p * static_cast<float>(groom.metresPerUnit));
+    const std::vector<float> strengths(places.size(), 3.f);
+    if (Status set = simulation->setGoals(places, strengths); !set) return set.error();
+    reference.setGoals(places, strengths, 1);
+  }
   HeadPose before;
   // Ones at which no pair is within rounding of touching or not in any step: from there on float and double
   // would go different ways.

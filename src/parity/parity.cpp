@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
+#include "layout/strands.h"
 #include "reference/step.h"
-#include "shared/layout.h"
 
 namespace ringlet::parity {
 namespace {
@@ -219,6 +219,28 @@ std::vector<Vec3f> randomForces(const ParityCase& c) {
   return forces;
 }
 
+// Where particles are pulled, some centimetres off the groom, and how hard: up to some hundred weights a
+// centimetre, a third of them not at all. None where they are not asked for.
+struct RandomGoals {
+  explicit RandomGoals(const ParityCase& c) {
+    Random random(c.seed + 4000);
+    for (std::size_t i = 0; c.kernel.goals && i < c.groom.points.size(); ++i) {
+      const Vec3d way = random.vector();
+      const Vec3f place = c.groom.points[i] * static_cast<float>(c.groom.metresPerUnit);
+      first.push_back(place);
+      second.push_back(place + static_cast<Vec3f>(way * 0.03));
+      const auto high = static_cast<float>(std::abs(way.x));
+      strengths.push_back(i % 3 == 0 ? 0.f : 0.1f + 300.f * high * high * high);
+    }
+  }
+  template <class Hair>
+  void set(Hair& hair, std::span<const Vec3f> places) const {
+    if (!places.empty()) (void)hair.setGoals(places, strengths, 0.7);
+  }
+  std::vector<Vec3f> first, second;
+  std::vector<float> strengths;
+};
+
 }  // namespace
 
 std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c, SimulationReport* report) {
@@ -244,6 +266,8 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   if (!forces.empty()) {
     if (Status set = simulation->setForces(forces); !set) return {failed("setForces", set.error())};
   }
+  const RandomGoals goals(c);
+  for (const auto& places : {goals.first, goals.second}) goals.set(*simulation, places);
   const std::vector<double> end{T};
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
   if (Status stepped = simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext); !stepped)
@@ -256,6 +280,7 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
   expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
   if (!forces.empty()) expected.setForces(forces);
+  for (const auto& places : {goals.first, goals.second}) goals.set(expected, places);
   expected.stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext);
 
   double largestSpeed = 0;
@@ -326,7 +351,12 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
     if (Status set = simulation->setForces(forces); !set) return failed("setForces", set.error());
     expected.setForces(forces);
   }
+  const RandomGoals goals(c);
   for (int frame = 0; frame < frameCount; ++frame) {
+    for (const auto& places : {goals.first, goals.second}) {
+      goals.set(*simulation, places);
+      goals.set(expected, places);
+    }
     std::vector<BodyPose> rootPoses;
     std::vector<HeadPose> poses;
     std::vector<double> times;

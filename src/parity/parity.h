@@ -51,7 +51,7 @@ struct ParityCase {
   KernelChoice kernel;
   std::uint32_t seed = 1;
   // With kernel.movingRoots every strand has small poses of its own, with kernel.forces every particle a
-  // force of a few times its weight, at random.
+  // force of a few times its weight, with kernel.goals a place that it is pulled to, at random.
   std::vector<Body> bodies{};
 };
 

@@ -22,6 +22,8 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::program {
 namespace {
@@ -67,7 +69,7 @@ struct Typed {
   std::optional<int> clips;
   std::optional<double> tipWidth;
   std::optional<int> hairs;
-  std::filesystem::path groom;
+  std::filesystem::path groom, scene;
   bool info = false, json = false, quiet = false, overwrite = false;
 };
 
@@ -110,17 +112,30 @@ std::optional<ConvertTo> kindOf(const Typed& typed) {
   return std::nullopt;
 }
 
+// The scene that IN was simulated from, where it is named.
+Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
+  if (typed.scene.empty()) return std::optional<LoadedScene>();
+  const auto file = readScene(typed.scene);
+  if (!file) return file.error();
+  auto scene = loadScene(*file);
+  if (!scene) return scene.error();
+  return std::optional(std::move(*scene));
+}
+
 // Hair that follows the strands of IN, where it is asked for.
-Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit) {
+Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit,
+                                           std::span<const Body> bodies = {}) {
   if (!typed.hairs) return std::optional<FullHair>();
-  auto hair = FullHair::make(rest, metresPerUnit, {.hairCount = *typed.hairs});
+  auto hair = FullHair::make(rest, metresPerUnit, {.hairCount = *typed.hairs}, bodies);
   if (!hair) return hair.error();
   return std::optional(std::move(*hair));
 }
 
 // The same, of an animation.
-Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit) {
+Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit,
+                                           const std::optional<LoadedScene>& scene) {
   if (!typed.hairs) return std::optional<FullHair>();
+  if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, scene->bodies);
   const auto rest = readGroom(typed.groom);
   if (!rest) return rest.error();
   return fullHairOf(typed, rest->groom, metresPerUnit);
@@ -133,9 +148,13 @@ void checkOptions(const Typed& typed) {
   if (typed.info && (!typed.output.empty() || typed.frame || !typed.frames.empty() ||
                      !typed.precision.empty() || typed.hairs))
     throw CLI::ValidationError("--info", "only says what is in IN; leave out OUT and what OUT is to be");
-  if (typed.hairs && typed.groom.empty())
-    throw CLI::ValidationError("--hairs", "name with --groom the groom that IN was simulated from");
+  if (typed.hairs && typed.groom.empty() && typed.scene.empty())
+    throw CLI::ValidationError(
+        "--hairs", "name with --groom the groom that IN was simulated from, or with --scene the scene");
+  if (!typed.groom.empty() && !typed.scene.empty())
+    throw CLI::ValidationError("--groom", "the scene names its groom; say one of --scene and --groom");
   if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
+  if (!typed.hairs && !typed.scene.empty()) throw CLI::ValidationError("--scene", "only --hairs needs it");
   if (typed.frame && !typed.frames.empty())
     throw CLI::ValidationError("--frame", "is one frame, --frames several; say one of them");
   if (typed.info) return;
@@ -312,7 +331,9 @@ Status runConvert(const Typed& typed) {
   auto range = chooseFrames(typed, *source);
   if (!range) return range.error();
   if (Status free = checkOutput(typed); !free) return free;
-  auto hair = fullHairOf(typed, source->header().metresPerUnit);
+  const auto scene = sceneOf(typed);
+  if (!scene) return scene.error();
+  auto hair = fullHairOf(typed, source->header().metresPerUnit, *scene);
   if (!hair) return hair.error();
   const auto outcome = convert(
       *source,
@@ -323,6 +344,7 @@ Status runConvert(const Typed& typed) {
        .precision = typed.precision.empty() ? source->header().precision : precisionByName(typed.precision),
        .usd = usdExtras(typed, source->header().metresPerUnit),
        .hair = *hair ? &**hair : nullptr,
+       .scene = *scene ? &**scene : nullptr,
        .showProgress = !typed.quiet});
   if (!outcome) return outcome.error();
   const Groom& written = *hair ? (*hair)->groom() : source->groom();
@@ -336,8 +358,9 @@ int run(const Typed& typed) {
     throw CLI::ValidationError("IN", "a groom has no frames and no precision");
   if (isGroom && !typed.info && typed.output.empty())
     throw CLI::ValidationError("OUT", "name the file to write, .hair, .obj or .ply");
-  if (isGroom && !typed.groom.empty())
-    throw CLI::ValidationError("--groom", "IN is a groom itself; only the hairs of an animation need one");
+  if (isGroom && (!typed.groom.empty() || !typed.scene.empty()))
+    throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
+                               "IN is a groom itself; only the hairs of an animation need one");
   if (!isGroom) checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
@@ -398,10 +421,14 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->add_option(
           "--hairs", typed->hairs,
           "Hairs to write in place of the strands of IN, which they follow: about as many strands are "
-          "what one sees as locks. Hairs know no bodies")
+          "what one sees as locks")
       ->check(wholeBetween(1, 10'000'000))
       ->type_name("N");
   command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
+      ->type_name("FILE");
+  command
+      ->add_option("--scene", typed->scene,
+                   "The scene that IN was simulated from: its groom, and its bodies, which hairs stay out of")
       ->type_name("FILE");
   command->add_flag("--overwrite", typed->overwrite,
                     "Begin anew where OUT.partial holds frames of something that did not end");

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "program/progress_bar.h"
+#include "program/scene_bodies.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/sheet.h"
@@ -34,7 +35,8 @@ Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
     if (plan.hair) {
       const Status checked = frame == plan.firstFrame ? plan.hair->checkPose(source.groom()) : Status();
       if (!checked) return checked;
-      plan.hair->follow(source.groom().points);
+      plan.hair->follow(source.groom().points,
+                        plan.scene ? bodiesAtFrame(*plan.scene, frame) : std::vector<BodyPose>());
     }
     if (Status visited = visit(frame); !visited) return visited;
   }

@@ -8,6 +8,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/scenes/load_scene.h"
 
 namespace ringlet::program {
 
@@ -19,7 +20,8 @@ struct ConvertPlan {
   int firstFrame = 1, lastFrame = 1;  // of the animation
   CachePrecision precision = CachePrecision::float32;
   UsdExtras usd{};
-  FullHair* hair = nullptr;  // that follows the animation, and is written in its place
+  FullHair* hair = nullptr;            // that follows the animation, and is written in its place
+  const LoadedScene* scene = nullptr;  // whose bodies that hair stays out of
   bool showProgress = true;
 };
 

@@ -11,10 +11,11 @@
 
 namespace ringlet::program {
 
-Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const FollowOptions& options) {
+Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
+                                std::span<const Body> bodies) {
   auto plan = FollowPlan::make(rest, metresPerUnit, options);
   if (!plan) return plan.error();
-  FullHair hair(std::move(*plan));
+  FullHair hair(std::move(*plan), bodies);
   hair.groom_.metresPerUnit = rest.metresPerUnit;
   hair.groom_.firstPoint = hair.plan_.firstPoint();
   hair.groom_.points.resize(hair.groom_.firstPoint.back());
@@ -25,8 +26,9 @@ Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const F
   return hair;
 }
 
-void FullHair::follow(std::span<const Vec3f> points) {
+void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> bodies) {
   const Quatd head = plan_.headOf(points);
+  const std::span<const Body> met = bodies.empty() ? std::span<const Body>() : bodies_;
   std::atomic<std::size_t> next = 0;
   inParallel(std::max(1u, std::thread::hardware_concurrency()), [&] {
     for (std::size_t s; (s = next++) < plan_.guides().size();) {
@@ -34,7 +36,7 @@ void FullHair::follow(std::span<const Vec3f> points) {
           reference::poseGuide(plan_.guides()[s], plan_.strandOf(points, s), head);
       for (std::size_t h = firstHair_[s]; h < firstHair_[s + 1]; ++h) {
         std::uint32_t at = groom_.firstPoint[h];
-        for (const Vec3d& p : reference::followGuide(plan_.hairs()[h], pose))
+        for (const Vec3d& p : reference::followGuide(plan_.hairs()[h], pose, met, bodies))
           groom_.points[at++] = Vec3f(p / plan_.metresPerUnit());
       }
     }

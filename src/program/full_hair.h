@@ -7,26 +7,31 @@
 #include "program/follow_plan.h"
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/scene/body.h"
 
 namespace ringlet::program {
 
 class FullHair {
  public:
-  /// As FollowPlan::make.
-  static Result<FullHair> make(const Groom& rest, double metresPerUnit, const FollowOptions& options);
+  /// As FollowPlan::make. `bodies`: that hairs stay out of where their strands do.
+  static Result<FullHair> make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
+                               std::span<const Body> bodies = {});
 
   Status checkPose(const Groom& groom) const { return plan_.checkPose(groom); }
 
-  /// Moves the hairs to a pose of the strands, in their unit and order. Cost: with hairs; all cores are used.
-  void follow(std::span<const Vec3f> points);
+  /// Moves the hairs to a pose of the strands, in their unit and order; `bodies`: one pose a body, or none,
+  /// as if there were no bodies. Cost: with hairs; all cores are used.
+  void follow(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {});
 
   /// The hairs, in the pose that was followed last, in the strands' unit.
   const Groom& groom() const { return groom_; }
 
  private:
-  explicit FullHair(FollowPlan plan) : plan_(std::move(plan)) {}
+  FullHair(FollowPlan plan, std::span<const Body> bodies)
+      : plan_(std::move(plan)), bodies_(bodies.begin(), bodies.end()) {}
 
   FollowPlan plan_;
+  std::vector<Body> bodies_;
   std::vector<std::size_t> firstHair_;  // of each strand, and one more
   Groom groom_;
 };

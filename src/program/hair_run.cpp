@@ -38,7 +38,8 @@ double secondsBetween(Clock::time_point from, Clock::time_point to) {
 // measure.
 bool measuresResidual(const RunInput& input, const RunOptions& options) {
   return options.kernel.residual && !options.onReference && !input.settings.contacts.on &&
-         !input.settings.air.on && input.bodies.empty() && input.settings.integrator != Integrator::paper;
+         !input.settings.air.on && !input.settings.goal.on && input.bodies.empty() &&
+         input.settings.integrator != Integrator::paper;
 }
 
 // The same steps, each a frame of its own: so that each can be looked at.
@@ -205,7 +206,8 @@ Status HairRun::makeSink() {
   if (folder_) {
     std::optional<FullHair> hairs;
     if (options_.hairs > 0) {
-      auto made = FullHair::make(input_.groom, input_.groom.metresPerUnit, {.hairCount = options_.hairs});
+      auto made = FullHair::make(input_.groom, input_.groom.metresPerUnit, {.hairCount = options_.hairs},
+                                 input_.bodies);
       if (!made) return made.error();
       hairs.emplace(std::move(*made));
     }

@@ -2,20 +2,18 @@
 #include "program/measure_plot.h"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "program/program_input.h"
 
 namespace ringlet::program {
 namespace {
 
 constexpr int kWidth = 900, kPanelHeight = 190;  // [pixels]
-constexpr int kNotFound = 127;                   // a shell's exit status for a program it cannot find
 
 // As gnuplot reads it between single quotes: whatever is in it stands for itself.
 std::string quoted(const std::string& text) {
@@ -95,21 +93,18 @@ bool canPlotInto(const std::filesystem::path& path) {
 Status drawPlot(const std::filesystem::path& path, std::span<const MotionSeries> runs) {
   const std::filesystem::path unfinished = path.string() + ".partial";
   const std::string script = scriptOf(unfinished, path.extension().string(), runs);
-  std::signal(SIGPIPE, SIG_IGN);  // where gnuplot ends before it has read all
-  FILE* gnuplot = popen("gnuplot -", "w");
-  if (!gnuplot) return Error{"cannot start a process for gnuplot"};
-  std::fwrite(script.data(), 1, script.size(), gnuplot);
-  const int status = pclose(gnuplot);
+  auto gnuplot = ProgramInput::start({"gnuplot", "plots are drawn", "gnuplot-nox"}, {"-"});
+  if (!gnuplot) return gnuplot.error();
+  Status drawn = gnuplot->write(std::as_bytes(std::span(script)));
+  if (drawn) drawn = gnuplot->finish();
   std::error_code code;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
-    std::filesystem::rename(unfinished, path, code);
-    if (!code) return {};
-    return Error{fmt::format("cannot write {}: {}", path.string(), code.message()), Fault::output};
+  if (!drawn) {
+    std::filesystem::remove(unfinished, code);
+    return Error{fmt::format("{}: {}", path.string(), drawn.error().message), Fault::output};
   }
-  std::filesystem::remove(unfinished, code);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound)
-    return Error{"plots are drawn by gnuplot, which is not installed (Debian: gnuplot-nox)"};
-  return Error{fmt::format("gnuplot could not draw {}; it says why above", path.string()), Fault::output};
+  std::filesystem::rename(unfinished, path, code);
+  if (!code) return {};
+  return Error{fmt::format("cannot write {}: {}", path.string(), code.message()), Fault::output};
 }
 
 }  // namespace ringlet::program

@@ -34,7 +34,15 @@ void addOutputOptions(CLI::App* command, OutputChoice& choice) {
       ->group(group);
   command->add_flag("--no-usd", choice.noUsd, "Leave out hair.usda")->group(group);
   command->add_flag("--no-last", choice.noLast, "Leave out last.obj")->group(group);
-  command->add_flag("--no-sheet", choice.noSheet, "Leave out sheet.png")->group(group);
+  auto* noSheet = command->add_flag("--no-sheet", choice.noSheet, "Leave out sheet.png")->group(group);
+  command
+      ->add_option("--sheet", choice.sheet,
+                   "How sheet.png is drawn: drawn, in half a second; rendered as full hair, in five")
+      ->check(oneOf({"drawn", "rendered"}))
+      ->capture_default_str()
+      ->excludes(noSheet)
+      ->type_name("HOW")
+      ->group(group);
   command
       ->add_option("--width", choice.width, "Diameter of strands in what is written, metres (default 0.0005)")
       ->check(between(1e-9, 1))

@@ -18,6 +18,7 @@ struct OutputChoice {
   std::optional<std::string> head, prims;
   std::optional<int> clips, hairs;
   std::vector<std::string> values;
+  std::string sheet = "drawn";  // or rendered
   bool usdc = false, noUsd = false, noLast = false, noSheet = false;
 };
 

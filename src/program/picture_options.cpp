@@ -42,12 +42,16 @@ void addSamplesOption(CLI::App& command, int& samples) {
       ->type_name("N");
 }
 
-void addColourOption(CLI::App& command, std::string& colour) {
-  command.add_option("--colour", colour, "Of hair: " + hairColourNames())
+void addColourOption(CLI::App& command, std::string& colour, const std::string& others) {
+  const std::string all = hairColourNames() + (others.empty() ? "" : ", " + others);
+  const std::string also =
+      others.empty() ? "" : fmt::format("; or a number of each strand: {} (see below)", others);
+  command.add_option("--colour", colour, fmt::format("Of hair: {}{}", hairColourNames(), also))
       ->check(CLI::Validator(
-          [](std::string& name) {
-            return lookByName(name) ? std::string()
-                                    : fmt::format("is one of {}, not '{}'", hairColourNames(), name);
+          [all](std::string& name) {
+            const bool isKnown =
+                fmt::format(", {},", all).find(fmt::format(", {},", name)) != std::string::npos;
+            return isKnown ? std::string() : fmt::format("is one of {}, not '{}'", all, name);
           },
           ""))
       ->capture_default_str()

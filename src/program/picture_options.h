@@ -15,8 +15,8 @@ std::optional<std::pair<int, int>> parsePair(const std::string& text, char betwe
 /// Accepts such a text, of numbers from `least` to `most`.
 CLI::Validator isPair(char between, int least, int most, const char* example);
 
-/// `--samples` and `--colour`.
+/// `--samples` and `--colour`; `others`: names beside those of hair colours, separated by commas.
 void addSamplesOption(CLI::App& command, int& samples);
-void addColourOption(CLI::App& command, std::string& colour);
+void addColourOption(CLI::App& command, std::string& colour, const std::string& others = "");
 
 }  // namespace ringlet::program

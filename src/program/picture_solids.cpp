@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "program/scene_bodies.h"
 #include "ringlet/bodies/body_surface.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/scene/body.h"
@@ -89,19 +91,38 @@ PictureSolids PictureSolids::ofRoots(std::span<const Vec3d> roots, Vec3d up) {
   return solids;
 }
 
+void PictureSolids::addGround(double height, double radius, Vec3d middle, Vec3d up) {
+  meshes_.push_back(groundOf(radius));
+  const Quatd upright = up.z > 0.5 ? fromRotationVector(Vec3d{std::numbers::pi / 2, 0, 0}) : Quatd{};
+  ground_ = {middle + up * (height - dot(middle, up)), upright};
+}
+
+double PictureSolids::lowest(std::span<const SolidPlace> places, Vec3d up) const {
+  double low = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < std::min(places.size(), meshes_.size()); ++s) {
+    if (scene_ && scene_->bodies[bodies_[s]].shape == BodyShape::plane) continue;
+    for (const Vec3d& point : meshes_[s].points)
+      low = std::min(low, dot(places[s].position + rotate(places[s].rotation, point), up));
+  }
+  return low;
+}
+
 std::vector<SolidPlace> PictureSolids::placesAt(double frame, std::span<const Vec3d> roots,
+                                                Quatd head) const {
+  std::vector<SolidPlace> places = bodiesAt(frame, roots, head);
+  if (ground_) places.push_back(*ground_);
+  return places;
+}
+
+std::vector<SolidPlace> PictureSolids::bodiesAt(double frame, std::span<const Vec3d> roots,
                                                 Quatd head) const {
   std::vector<SolidPlace> places;
   if (!scene_) {
     if (!meshes_.empty()) places.push_back({meanOf(roots) + rotate(head, fromRoots_), head * upright_});
     return places;
   }
-  const double seconds = frame / scene_->settings.framesPerSecond;
-  const HeadPose pose = scene_->motion.poseAt(seconds);
-  for (const std::size_t body : bodies_) {
-    const BodyPose at = scene_->bodies[body].poseAt(seconds, pose);
-    places.push_back({at.position, at.rotation});
-  }
+  const std::vector<BodyPose> poses = bodiesAtFrame(*scene_, frame);
+  for (const std::size_t body : bodies_) places.push_back({poses[body].position, poses[body].rotation});
   return places;
 }
 

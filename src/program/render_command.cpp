@@ -1,4 +1,5 @@
-// Implements render_command.h: options to a RenderPlan. Pictures are made in render_run.cpp.
+// Implements render_command.h: what a RenderPlan needs is read, and what came of it is said. Pictures are
+// made in render_run.cpp.
 #include "program/render_command.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/interruption.h"
-#include "program/picture_options.h"
+#include "program/render_options.h"
 #include "program/render_run.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
@@ -22,6 +23,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_camera.h"
 #include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::program {
@@ -37,11 +39,20 @@ constexpr const char* kExample =
     "  ringlet render out -o pictures --hairs 100000 --colour blond --size 1920x1080\n"
     "  ringlet render out -o pictures --orbit 360 --samples 3 --blur 4\n"
     "  ringlet render out -o pictures --scene scene.toml   with the scene's bodies, and its groom at rest\n"
+    "  ringlet render out -o film.mp4                    a film (needs ffmpeg)\n"
+    "  ringlet render out -o pictures --format exr --scene scene.toml --camera close\n"
+    "  ringlet render out -o pictures --colour stretch --ground\n"
     "\n"
     "Of 100 to 10,000 strands 30,000 hairs are shown that follow them; of fewer, a lock of 300 hairs about "
     "each;\n"
     "of more, the strands themselves.\n"
     "Where roots are on a ball a head is shown; with a scene, its bodies. The camera shows all frames.\n"
+    "\n"
+    "Colours that show a number of each strand, from blue by green and yellow to red:\n"
+    "  stretch    by how much its longest edge is longer than at rest: 0 to 5 %\n"
+    "  contacts   how deep it is in others beyond rest, over the sum of the radii: 0 to 100 %\n"
+    "  error      how far its farthest particle is from where it is in the run --against: 0 to 10 mm\n"
+    "--most says another end. With strand each strand has a colour of its own.\n"
     "\n"
     "--json keys: frames strands hairs points width_m size samples seconds_per_frame cpu_seconds_per_frame "
     "(of\n"
@@ -49,68 +60,10 @@ constexpr const char* kExample =
     "device\n"
     "driver device_bytes head (one is shown that is no body of a scene) interrupted warnings outputs (the "
     "first\n"
-    "and the last).\n"
+    "and the last); colours (of, from, to, unit: what blue and red stand for), ground_m (its height).\n"
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage, 130 interrupted; pictures that are finished "
     "stay.";
-
-struct Typed {
-  std::filesystem::path input, output, groom, scene;
-  std::string frames, size = "960x540", colour = "auburn", up = "Y", device;
-  std::optional<int> hairs;
-  std::optional<double> width, melanin;
-  double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
-  int samples = 4, blur = 1;
-  bool noBodies = false, json = false, quiet = false;
-};
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-RenderPlan planOf(const Typed& typed) {
-  RenderPlan plan;
-  plan.output = typed.output;
-  if (const auto range = parsePair(typed.frames, ':'))
-    plan.firstFrame = range->first, plan.lastFrame = range->second;
-  plan.hairs = typed.hairs;
-  plan.width = typed.width;
-  const auto size = *parsePair(typed.size, 'x');
-  plan.size = {size.first, size.second, typed.samples};
-  plan.look = *lookByName(typed.colour);
-  if (typed.melanin) {
-    // Hairs differ by a fifth of their melanin to either side.
-    plan.look.pigments[0] = absorptionOfMelanin(0.8 * *typed.melanin, typed.redness);
-    plan.look.pigments[1] = absorptionOfMelanin(std::min(1.2 * *typed.melanin, 1.0), typed.redness);
-  }
-  plan.camera = {radians(typed.azimuth), radians(typed.elevation), typed.distance};
-  plan.orbit = radians(typed.orbit);
-  plan.moments = typed.blur;
-  plan.showsSolids = !typed.noBodies;
-  plan.showProgress = !typed.quiet && !typed.json;
-  return plan;
-}
-
-void checkOptions(const Typed& typed) {
-  const auto range = parsePair(typed.frames, ':');
-  if (range && range->first > range->second)
-    throw CLI::ValidationError("--frames", "the first frame comes after the last");
-  const bool isOne = typed.output.extension() == ".png";
-  const bool isGroom = isGroomFile(typed.input) && !holdsAnimation(typed.input);
-  if (isOne && !isGroom && !(range && range->first == range->second))
-    throw CLI::ValidationError("--output",
-                               "is one picture; say which frame, as --frames 12:12, or name a folder");
-  if (isSceneFile(typed.input) && (isOne || !typed.scene.empty() || !typed.groom.empty()))
-    throw CLI::ValidationError(
-        "IN",
-        "is a scene, which is simulated into the folder of its pictures: name a folder "
-        "with -o, and neither --scene nor --groom");
-  if (!isGroom && typed.up != "Y")
-    throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
-  if (isGroom && (!typed.frames.empty() || !typed.groom.empty() || !typed.scene.empty()))
-    throw CLI::ValidationError("IN",
-                               "is a groom, which has no frames; leave out --frames, --groom and --scene");
-  if (!typed.scene.empty() && !typed.groom.empty())
-    throw CLI::ValidationError("--groom", "the scene names its groom; say one of --scene and --groom");
-}
 
 // The animation in a run's folder, the one that is read fastest first.
 Result<std::filesystem::path> animationIn(const std::filesystem::path& input) {
@@ -129,8 +82,17 @@ Result<std::filesystem::path> animationIn(const std::filesystem::path& input) {
       Fault::input};
 }
 
+// The scene's of that name, if one is asked for.
+Status setCamera(RenderPlan& plan, const SceneFile& scene, const std::string& name) {
+  if (name.empty()) return {};
+  auto camera = loadCamera(scene, name);
+  if (!camera) return camera.error();
+  plan.camera.ofScene = std::move(*camera);
+  return {};
+}
+
 // Into the folder of the pictures, as a cache.
-Status simulate(const LoadedScene& scene, const SceneFile& file, const Typed& typed,
+Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOptions& typed,
                 const ComputeDevice& device) {
   RunOptions options;
   options.folder = typed.output;
@@ -146,29 +108,34 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const Typed& ty
   return {};
 }
 
-Result<RenderOutcome> runScene(const Typed& typed, const ComputeDevice& device, RenderPlan plan) {
+Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& device, RenderPlan plan) {
   const auto file = readScene(typed.input);
   if (!file) return file.error();
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
+  if (Status set = setCamera(plan, *file, typed.camera); !set) return set.error();
   if (Status done = simulate(*scene, *file, typed, device); !done) return done.error();
   plan.rest = &scene->groom;
   plan.scene = &*scene;
   return renderAnimation(typed.output / "hair.rgc", device, plan);
 }
 
-Result<RenderOutcome> runGroom(const Typed& typed, const ComputeDevice& device, const RenderPlan& plan) {
+Result<RenderOutcome> runGroom(const RenderOptions& typed, const ComputeDevice& device,
+                               const RenderPlan& plan) {
   const auto groom = readGroom(typed.input);
   if (!groom) return groom.error();
   for (const std::string& warning : groom->warnings) say("ringlet render: warning: {}\n", warning);
-  RenderPlan one = plan;
-  if (one.output.extension() != ".png") one.output /= "frame.0001.png";
-  return renderGroom(groom->groom, typed.up == "Z" ? UpAxis::z : UpAxis::y, device, one);
+  return renderGroom(groom->groom, typed.up == "Z" ? UpAxis::z : UpAxis::y, device, plan);
 }
 
-Result<RenderOutcome> runAnimation(const Typed& typed, const ComputeDevice& device, RenderPlan plan) {
+Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevice& device, RenderPlan plan) {
   const auto animation = animationIn(typed.input);
   if (!animation) return animation.error();
+  if (plan.colours && !typed.against.empty()) {
+    const auto against = animationIn(typed.against);
+    if (!against) return against.error();
+    plan.colours->against = *against;
+  }
   std::optional<LoadedScene> scene;
   std::optional<LoadedGroom> groom;
   if (!typed.scene.empty()) {
@@ -176,6 +143,7 @@ Result<RenderOutcome> runAnimation(const Typed& typed, const ComputeDevice& devi
     if (!file) return file.error();
     auto loaded = loadScene(*file);
     if (!loaded) return loaded.error();
+    if (Status set = setCamera(plan, *file, typed.camera); !set) return set.error();
     scene = std::move(*loaded);
     plan.scene = &*scene;
     plan.rest = &scene->groom;
@@ -188,7 +156,16 @@ Result<RenderOutcome> runAnimation(const Typed& typed, const ComputeDevice& devi
   return renderAnimation(*animation, device, plan);
 }
 
-void printOutcome(const Typed& typed, const RenderOutcome& outcome, const ComputeDevice& device) {
+// What the ends of the colours stand for.
+nlohmann::ordered_json jsonOf(const StrandColourChoice& colours) {
+  nlohmann::ordered_json json{{"of", colours.scale->name}};
+  if (colours.scale->most > 0)
+    json.update({{"from", 0}, {"to", colours.most}, {"unit", colours.scale->unit}});
+  return json;
+}
+
+void printOutcome(const RenderOptions& typed, const RenderPlan& plan, const RenderOutcome& outcome,
+                  const ComputeDevice& device) {
   if (typed.json) {
     nlohmann::ordered_json json{{"frames", outcome.frameCount},
                                 {"strands", outcome.strandCount},
@@ -208,6 +185,8 @@ void printOutcome(const Typed& typed, const RenderOutcome& outcome, const Comput
                                 {"interrupted", outcome.interrupted},
                                 {"warnings", outcome.warnings},
                                 {"outputs", nlohmann::json::array()}};
+    if (plan.colours) json["colours"] = jsonOf(*plan.colours);
+    if (outcome.groundHeight) json["ground_m"] = *outcome.groundHeight;
     for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
     printJson(json);
     return;
@@ -217,113 +196,42 @@ void printOutcome(const Typed& typed, const RenderOutcome& outcome, const Comput
              outcome.frameCount == 1 ? "" : "s", outcome.hairCount, outcome.secondsPerFrame,
              outcome.outputs.front().string(),
              outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "");
+  if (plan.colours) fmt::print("colours: {}\n", plan.colours->scale->sentence(plan.colours->most));
 }
 
-int run(const Typed& typed) {
-  checkOptions(typed);
+int run(const RenderOptions& typed) {
+  checkRenderOptions(typed);
   catchInterruption();
   const auto fail = [](const Error& error) {
     say("ringlet render: {}\n", error.message);
     return exitCodeOf(error);
   };
+  if (isFilm(typed.output)) {
+    if (Status can = checkFilms(); !can) return fail(can.error());
+  }
   const auto device = ComputeDevice::open(typed.device, cacheFolder());
   if (!device) return fail(device.error());
-  const RenderPlan plan = planOf(typed);
-  const bool isGroom = isGroomFile(typed.input) && !holdsAnimation(typed.input);
-  const auto outcome = isSceneFile(typed.input) ? runScene(typed, *device, plan)
-                       : isGroom                ? runGroom(typed, *device, plan)
-                                                : runAnimation(typed, *device, plan);
+  const RenderPlan plan = renderPlanOf(typed);
+  const auto outcome = isSceneFile(typed.input)       ? runScene(typed, *device, plan)
+                       : isGroomToRender(typed.input) ? runGroom(typed, *device, plan)
+                                                      : runAnimation(typed, *device, plan);
   if (!outcome) return fail(outcome.error());
   for (const std::string& warning : outcome->warnings) say("ringlet render: warning: {}\n", warning);
   for (const std::string& message : device->validationMessages())
     say("ringlet render: warning: {}\n", message);
-  printOutcome(typed, *outcome, *device);
+  printOutcome(typed, plan, *outcome, *device);
   return outcome->interrupted ? kExitInterrupted : kExitFine;
 }
 
 }  // namespace
 
 void addRenderCommand(CLI::App& app, int& exitCode) {
-  auto typed = std::make_shared<Typed>();
+  auto options = std::make_shared<RenderOptions>();
   CLI::App* command =
       app.add_subcommand("render", "Draws pictures of a run, an animation, a scene or a groom");
   command->footer(kExample);
-  command
-      ->add_option(
-          "IN", typed->input,
-          "A folder that simulate wrote, an animation (.rgc, .usdc, .usda), a scene (.toml) or a groom")
-      ->required()
-      ->type_name("PATH");
-  command->add_option("-o,--output", typed->output, "Folder for frame.0001.png and so on, or one .png")
-      ->required()
-      ->type_name("PATH");
-  command->add_option("--frames", typed->frames, "First and last frame, from 1 (default: all)")
-      ->check(isPair(':', 1, 1'000'000'000, "1:24"))
-      ->type_name("A:B");
-  command
-      ->add_option("--hairs", typed->hairs,
-                   "Hairs that follow the strands; 0: the strands themselves (default: see below)")
-      ->check(wholeBetween(0, 10'000'000))
-      ->type_name("N");
-  command->add_option("--groom", typed->groom, "The strands at rest, where IN does not begin so; for --hairs")
-      ->type_name("FILE");
-  command
-      ->add_option("--scene", typed->scene,
-                   "The scene that IN was simulated from: its bodies, and its groom at rest")
-      ->type_name("FILE");
-  command
-      ->add_option("--width", typed->width,
-                   "Diameter of hairs at the root, metres (default: by their number)")
-      ->check(between(1e-7, 0.1))
-      ->type_name("METRES");
-  command->add_option("--size", typed->size, "Width and height of pictures, pixels")
-      ->check(isPair('x', 1, 16384, "960x540"))
-      ->capture_default_str()
-      ->type_name("WxH");
-  addSamplesOption(*command, typed->samples);
-  command
-      ->add_option("--blur", typed->blur,
-                   "Moments of each frame that are shown together: motion blur; 1 is none")
-      ->check(wholeBetween(1, 64))
-      ->capture_default_str()
-      ->type_name("N");
-  addColourOption(*command, typed->colour);
-  command->add_option("--melanin", typed->melanin, "In place of --colour: from 0, white, to 1, black")
-      ->check(between(0, 1))
-      ->type_name("SHARE");
-  command->add_option("--redness", typed->redness, "Share of the melanin that is red")
-      ->check(between(0, 1))
-      ->capture_default_str()
-      ->type_name("SHARE");
-  command
-      ->add_option("--azimuth", typed->azimuth,
-                   "Camera about the up axis, from the front to the right, degrees")
-      ->check(between(-3600, 3600))
-      ->capture_default_str()
-      ->type_name("DEG");
-  command->add_option("--elevation", typed->elevation, "Camera above the hair, degrees")
-      ->check(between(-89, 89))
-      ->capture_default_str()
-      ->type_name("DEG");
-  command->add_option("--distance", typed->distance, "Of the camera, over the one that shows all hair")
-      ->check(between(0.05, 100))
-      ->capture_default_str()
-      ->type_name("FACTOR");
-  command
-      ->add_option("--orbit", typed->orbit,
-                   "The camera goes round by so much from the first frame to the last, degrees")
-      ->check(between(-36000, 36000))
-      ->capture_default_str()
-      ->type_name("DEG");
-  command->add_option("--up", typed->up, "Of a groom: the axis that points up, Y or Z")
-      ->check(oneOf({"Y", "Z"}))
-      ->capture_default_str()
-      ->type_name("AXIS");
-  command->add_flag("--no-bodies", typed->noBodies, "Hair alone: no bodies and no head");
-  addDeviceOption(*command, typed->device);
-  command->add_flag("--json", typed->json, "Print one JSON object instead of the summary");
-  command->add_flag("--quiet", typed->quiet, "No progress bar and no summary");
-  command->callback([typed, &exitCode] { exitCode = run(*typed); });
+  addRenderOptions(*command, *options);
+  command->callback([options, &exitCode] { exitCode = run(*options); });
 }
 
 }  // namespace ringlet::program

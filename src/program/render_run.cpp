@@ -10,193 +10,152 @@
 #include <limits>
 #include <utility>
 
-#include "program/follow_plan.h"
 #include "program/interruption.h"
 #include "program/picture_solids.h"
 #include "program/progress_bar.h"
-#include "ringlet/follow/follow_stage.h"
+#include "program/scene_bodies.h"
 #include "ringlet/gpu/recorder.h"
-#include "ringlet/measure/head_fit.h"
 #include "ringlet/output/animation_reader.h"
-#include "ringlet/output/picture.h"
-#include "ringlet/render/strand_points.h"
+#include "ringlet/output/sheet.h"
 
 namespace ringlet::program {
 namespace {
 
-constexpr std::size_t kFewestGuides = 100, kMostGuides = 10000;  // of a head of hair
-constexpr int kUsualHairs = 30000;                               // of a head
-constexpr int kLockHairs = 300;                                  // of a strand among few
-constexpr double kLockRadius = 0.0025;                           // likewise, at the root [m]
-constexpr std::size_t kLockPoints = 2000000;                     // at most, of all locks
-constexpr double kShutter = 0.5;                                 // share of a frame that is seen in it
-constexpr double kTravels = 2;  // hair that needs so much more room than a frame of it: the camera goes along
-constexpr double kFollowMargin = 0.02;  // of hairs beside the strands they follow [m]
+constexpr double kShutter = 0.5;         // share of a frame that is seen in it
+constexpr double kFollowMargin = 0.02;   // of hairs beside the strands they follow [m]
+constexpr double kStrandMargin = 0.001;  // of strands [m]
+constexpr double kGroundShare = 25;      // radius of the ground over the hair's
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 double cpuNow() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }  // of all threads
 
-Bounds emptyBounds() {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-}
-void include(Bounds& bounds, Vec3d p) {
-  bounds.low = {std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y), std::min(bounds.low.z, p.z)};
-  bounds.high = {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
-}
-double radiusOf(const Bounds& bounds) { return length(bounds.high - bounds.low) / 2; }
-
-// What is shown unasked. No hairs: the strands themselves.
-struct UsualHairs {
-  FollowOptions options;
-  double width;  // at the root [m]
-};
-UsualHairs usualHairs(std::size_t strands, std::size_t particles) {
-  if (strands >= kMostGuides) return {{.hairCount = 0}, widthOfHairs(static_cast<double>(strands))};
-  if (strands >= kFewestGuides) return {{.hairCount = kUsualHairs}, widthOfHairs(kUsualHairs)};
-  const auto ofEach = static_cast<int>(std::clamp<std::size_t>(kLockPoints / particles, 1, kLockHairs));
-  return {{.hairCount = ofEach * static_cast<int>(strands), .reach = kLockRadius}, widthOfHairs(kUsualHairs)};
-}
-
 // A frame of the strands, in their file's unit.
 using Points = std::vector<Vec3f>;
 
+// What is drawn, and in which world.
+struct Subject {
+  const Groom& strands;
+  double metresPerUnit;
+  Vec3d up;
+  double framesPerSecond;
+};
+
+Vec3d directionOf(UpAxis up) { return up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0}; }
+
 class Rendering {
  public:
-  Rendering(const Groom& strands, double metresPerUnit, UpAxis up, const ComputeDevice& device,
-            const RenderPlan& plan)
-      : strands_(strands),
-        metresPerUnit_(metresPerUnit),
-        up_(up == UpAxis::z ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0}),
+  Rendering(const Subject& subject, const ComputeDevice& device, const RenderPlan& plan)
+      : subject_(subject),
         device_(device),
-        plan_(plan) {}
+        plan_(plan),
+        camera_(plan.camera, subject.up, static_cast<double>(plan.size.width) / plan.size.height,
+                plan.scene ? &plan.scene->motion : nullptr, subject.framesPerSecond) {}
 
   /// `first`: frame 1, which hairs follow as if it were at rest, unless the plan has the strands at rest.
-  Status prepare(const Groom& first);
+  /// Then every frame is seen, and then it is made ready.
+  Status start(const Groom& first);
+  void see(const Points& points);
+  Status prepare(PictureFiles& files);
   Status drawFrame(int frame, const Points& before, const Points& points);
-  /// Of each frame that the camera must show, before prepare.
-  void see(const Groom& pose);
   RenderOutcome finish();
 
  private:
-  Status makeHair(const Groom& rest);
-  Status makeSolids(const Groom& rest);
+  void makeSolids();
+  double groundHeight() const;
   Status drawMoment(int frame, double share, const Points& before, const Points& points, bool isFirst);
-  Status write(int frame, std::span<const std::uint32_t> pixels);
-  Camera cameraOf(double frame, const Bounds& here) const;
-  Bounds boundsOf(const Points& points) const;
-  std::vector<Vec3d> rootsOf(const Points& points) const;
+  Bounds boxOf(const Points& points) const;
 
-  const Groom& strands_;
-  double metresPerUnit_;
-  Vec3d up_;
+  const Subject subject_;
   const ComputeDevice& device_;
   const RenderPlan& plan_;
-  std::optional<FollowPlan> follow_;
-  std::optional<FollowStage> hairs_;
-  std::optional<StrandPoints> lines_;
-  std::optional<PictureSolids> solids_;
+  PictureCamera camera_;
+  Groom rest_;
+  std::optional<PictureHair> hair_;
+  PictureSolids solids_;
   std::optional<HairRenderer> renderer_;
+  std::optional<StrandColours> colours_;
   std::optional<gpu::Recorder> recorder_;  // the last to be made, the first to end
-  std::vector<Vec3d> restRoots_;
-  Bounds all_ = emptyBounds();  // of every frame
-  Outline outline_;             // likewise
-  double largest_ = 0;          // radius of a frame's
+  PictureFiles* files_ = nullptr;
+  std::vector<Vec3d> lowestRoots_;                               // of the frame in which they are
+  double lowest_ = std::numeric_limits<double>::infinity();      // of hair, along the up axis [m]
+  double lowestRoot_ = std::numeric_limits<double>::infinity();  // of roots, on average
   RenderOutcome outcome_;
   double seconds_ = 0, cpuSeconds_ = 0;
   int measured_ = 0;
 };
 
-Bounds Rendering::boundsOf(const Points& points) const {
-  Bounds bounds = emptyBounds();
-  for (const Vec3f& p : points) include(bounds, Vec3d(p) * metresPerUnit_);
-  const Vec3d margin = Vec3d{1, 1, 1} * (follow_ ? kFollowMargin : 0.001);
-  return {bounds.low - margin, bounds.high + margin};
+Bounds Rendering::boxOf(const Points& points) const {
+  return boundsOf(points, subject_.metresPerUnit, hair_->follows() ? kFollowMargin : kStrandMargin);
 }
 
-std::vector<Vec3d> Rendering::rootsOf(const Points& points) const {
-  std::vector<Vec3d> roots;
-  for (std::size_t s = 0; s < strands_.strandCount(); ++s)
-    roots.push_back(Vec3d(points[strands_.firstPoint[s]]) * metresPerUnit_);
-  return roots;
-}
-
-void Rendering::see(const Groom& pose) {
-  const Bounds here = boundsOf(pose.points);
-  include(all_, here.low);
-  include(all_, here.high);
-  for (const Vec3f& p : pose.points) outline_.add(Vec3d(p) * metresPerUnit_);
-  largest_ = std::max(largest_, radiusOf(here));
-}
-
-Status Rendering::makeHair(const Groom& rest) {
-  const UsualHairs usual = usualHairs(strands_.strandCount(), strands_.firstPoint.back());
-  const FollowOptions options = plan_.hairs ? FollowOptions{.hairCount = *plan_.hairs} : usual.options;
-  outcome_.strandCount = strands_.strandCount();
-  outcome_.hairCount =
-      options.hairCount > 0 ? static_cast<std::size_t>(options.hairCount) : strands_.strandCount();
-  outcome_.width =
-      plan_.width.value_or(plan_.hairs ? widthOfHairs(static_cast<double>(outcome_.hairCount)) : usual.width);
-  if (options.hairCount == 0) {
-    auto lines = StrandPoints::create(device_.gpu(), strands_.firstPoint);
-    if (!lines) return lines.error();
-    lines_.emplace(std::move(*lines));
-    outcome_.pointCount = strands_.firstPoint.back();
-    return {};
-  }
-  auto follow = FollowPlan::make(rest, metresPerUnit_, options);
-  if (!follow) return follow.error();
-  follow_.emplace(std::move(*follow));
-  auto stage = FollowStage::create(device_.gpu(), follow_->guides(), follow_->hairs());
-  if (!stage) return stage.error();
-  hairs_.emplace(std::move(*stage));
-  outcome_.pointCount = hairs_->pointCount();
+Status Rendering::start(const Groom& first) {
+  rest_ = plan_.rest ? *plan_.rest : first;
+  auto hair = PictureHair::create(device_, rest_, first, subject_.metresPerUnit, plan_.hair,
+                                  plan_.scene ? plan_.scene->bodies : std::vector<Body>());
+  if (!hair) return hair.error();
+  hair_.emplace(std::move(*hair));
   return {};
 }
 
-Status Rendering::makeSolids(const Groom& rest) {
-  restRoots_ = rootsOf(rest.points);
-  if (!plan_.showsSolids) return {};
-  if (plan_.scene && !plan_.scene->bodies.empty()) {
-    solids_ = PictureSolids::ofScene(*plan_.scene, 2 * largest_);
-    return {};
-  }
-  solids_ = PictureSolids::ofRoots(restRoots_, up_);
-  outcome_.showsHead = !solids_->meshes().empty();
-  return {};
+void Rendering::see(const Points& points) {
+  camera_.see(points, subject_.metresPerUnit, boxOf(points));
+  if (!plan_.ground) return;
+  for (const Vec3f& p : points)
+    lowest_ = std::min(lowest_, dot(Vec3d(p), subject_.up) * subject_.metresPerUnit);
+  std::vector<Vec3d> roots = hair_->rootsOf(points);
+  double height = 0;
+  for (const Vec3d& root : roots) height += dot(root, subject_.up) / static_cast<double>(roots.size());
+  if (height < lowestRoot_) lowestRoot_ = height, lowestRoots_ = std::move(roots);
 }
 
-Status Rendering::prepare(const Groom& first) {
-  if (Status made = makeHair(plan_.rest ? *plan_.rest : first); !made) return made;
-  if (follow_) {
-    if (Status belongs = follow_->checkPose(first); !belongs) return belongs;
+void Rendering::makeSolids() {
+  if (plan_.showsSolids && plan_.scene && !plan_.scene->bodies.empty()) {
+    solids_ = PictureSolids::ofScene(*plan_.scene, 2 * camera_.largestRadius());
+  } else if (plan_.showsSolids) {
+    solids_ = PictureSolids::ofRoots(hair_->restRoots(), subject_.up);
+    outcome_.showsHead = !solids_.meshes().empty();
   }
-  if (Status made = makeSolids(follow_ && plan_.rest ? *plan_.rest : first); !made) return made;
-  const DrawnHairs drawn{hairs_ ? hairs_->points() : lines_->points(),
-                         hairs_ ? hairs_->firstPoint() : lines_->firstPoint(), outcome_.width};
-  auto renderer = HairRenderer::create(
-      device_.gpu(), drawn, solids_ ? solids_->meshes() : std::vector<SolidMesh>{}, plan_.size, plan_.look);
+  if (!plan_.ground) return;
+  const Bounds& all = camera_.all();
+  outcome_.groundHeight = plan_.ground->height ? *plan_.ground->height : groundHeight();
+  solids_.addGround(*outcome_.groundHeight,
+                    kGroundShare * camera_.largestRadius() + length(all.high - all.low),
+                    (all.low + all.high) / 2.0, subject_.up);
+}
+
+double Rendering::groundHeight() const {
+  double low = lowest_;
+  for (int frame = plan_.firstFrame; frame <= std::max(plan_.firstFrame, plan_.lastFrame); ++frame)
+    low = std::min(low, solids_.lowest(solids_.placesAt(frame, lowestRoots_, Quatd{}), subject_.up));
+  return low;
+}
+
+Status Rendering::prepare(PictureFiles& files) {
+  files_ = &files;
+  makeSolids();
+  outcome_.strandCount = hair_->strandCount();
+  outcome_.hairCount = hair_->hairCount();
+  outcome_.pointCount = hair_->firstPoint().back();
+  outcome_.width = hair_->width();
+  Look look = plan_.look;
+  if (plan_.colours) look.pigments = StrandColours::pigmentsOf(*plan_.colours->scale);
+  auto renderer = HairRenderer::create(device_.gpu(), {hair_->points(), hair_->firstPoint(), hair_->width()},
+                                       solids_.meshes(), plan_.size, look);
   if (!renderer) return renderer.error();
   renderer_.emplace(std::move(*renderer));
+  if (plan_.colours) {
+    auto colours = StrandColours::create(*plan_.colours, device_, rest_, subject_.metresPerUnit, plan_.scene,
+                                         *hair_, *renderer_);
+    if (!colours) return colours.error();
+    colours_.emplace(std::move(*colours));
+  }
   auto recorder = gpu::Recorder::create(device_.gpu(), "picture");
   if (!recorder) return recorder.error();
   recorder_.emplace(std::move(*recorder));
-  outcome_.deviceBytes = renderer_->byteCount() + (hairs_ ? hairs_->byteCount() : lines_->points().bytes());
+  outcome_.deviceBytes = renderer_->byteCount() + hair_->byteCount();
   return {};
-}
-
-Camera Rendering::cameraOf(double frame, const Bounds& here) const {
-  std::vector<Vec3d> shown = outline_.points();
-  if (radiusOf(all_) > kTravels * largest_) {  // the camera goes along
-    const Vec3d middle = (here.low + here.high) / 2.0, half = Vec3d{1, 1, 1} * (largest_ / std::sqrt(3.0));
-    shown = {middle - half, middle + half};
-  }
-  CameraPlace place = plan_.camera;
-  const int span = plan_.lastFrame - plan_.firstFrame;
-  if (span > 0) place.azimuth += plan_.orbit * (frame - plan_.firstFrame) / span;
-  return cameraAround(shown, up_, static_cast<double>(plan_.size.width) / plan_.size.height, place);
 }
 
 // `share`: of the way from the frame before.
@@ -206,26 +165,19 @@ Status Rendering::drawMoment(int frame, double share, const Points& before, cons
   if (share < 1)
     for (std::size_t i = 0; i < pose.size(); ++i)
       pose[i] = before[i] + (points[i] - before[i]) * static_cast<float>(share);
-  const Quatd head = follow_ ? follow_->headOf(pose) : fitHeadRotation(restRoots_, rootsOf(pose));
-  if (hairs_) {
-    std::vector<Vec3d> metres;
-    for (const Vec3f& p : pose) metres.push_back(Vec3d(p) * metresPerUnit_);
-    if (Status set = hairs_->setPose(metres); !set) return set;
-  } else if (Status set = lines_->setPose(pose, metresPerUnit_); !set) {
-    return set;
-  }
-  const Bounds here = boundsOf(pose);
   const double at = frame - 1 + share;
-  std::vector<SolidPlace> places;
-  if (solids_) places = solids_->placesAt(at, rootsOf(pose), head);
-  if (Status set = renderer_->setFrame(cameraOf(at, here), here, places); !set) return set;
+  const auto bodies = plan_.scene ? bodiesAtFrame(*plan_.scene, at) : std::vector<BodyPose>();
+  if (Status set = hair_->setPose(pose, bodies); !set) return set;
+  const Quatd head = hair_->headOf(pose);
+  const Bounds here = boxOf(pose);
+  const int span = plan_.lastFrame - plan_.firstFrame;
+  const Camera camera = camera_.at(at, span > 0 ? (at - plan_.firstFrame) / span : 0, here);
+  if (Status set = renderer_->setFrame(camera, here, solids_.placesAt(at, hair_->rootsOf(pose), head)); !set)
+    return set;
 
   if (Status begun = recorder_->begin(); !begun) return begun;
-  if (hairs_) {
-    recorder_->beginStage("follow");
-    hairs_->record(*recorder_, head);
-    recorder_->endStage();
-  }
+  hair_->record(*recorder_, head);
+  if (colours_) colours_->record(*recorder_);
   renderer_->record(*recorder_, isFirst);
   return recorder_->submitAndWait();
 }
@@ -233,37 +185,22 @@ Status Rendering::drawMoment(int frame, double share, const Points& before, cons
 Status Rendering::drawFrame(int frame, const Points& before, const Points& points) {
   const double start = now(), cpuStart = cpuNow();
   std::map<std::string, double> stages;
+  if (colours_) {
+    if (Status set = colours_->setFrame(*renderer_, frame, points); !set) return set;
+  }
   const int moments = before.empty() ? 1 : plan_.moments;
   for (int k = 0; k < moments; ++k) {
     const double share = moments == 1 ? 1 : 1 - kShutter * (k + 0.5) / moments;
     if (Status drawn = drawMoment(frame, share, before, points, k == 0); !drawn) return drawn;
     for (const auto& [stage, milliseconds] : recorder_->stageMilliseconds()) stages[stage] += milliseconds;
   }
-  auto picture = renderer_->picture();
-  if (!picture) return picture.error();
   // The first frame compiles kernels.
-  if (outcome_.frameCount <= 1) seconds_ = cpuSeconds_ = measured_ = 0, outcome_.stages.clear();
+  if (files_->count() <= 1) seconds_ = cpuSeconds_ = measured_ = 0, outcome_.stages.clear();
   seconds_ += now() - start;
   cpuSeconds_ += cpuNow() - cpuStart;
   ++measured_;
   for (const auto& [stage, milliseconds] : stages) outcome_.stages[stage] += milliseconds;
-
-  return write(frame, *picture);
-}
-
-Status Rendering::write(int frame, std::span<const std::uint32_t> pixels) {
-  Picture image(plan_.size.width, plan_.size.height, {});
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    image.pixels[i] = {static_cast<std::uint8_t>(pixels[i]), static_cast<std::uint8_t>(pixels[i] >> 8),
-                       static_cast<std::uint8_t>(pixels[i] >> 16)};
-  }
-  const bool isOne = plan_.output.extension() == ".png";
-  const auto path = isOne ? plan_.output : plan_.output / fmt::format("frame.{:04}.png", frame);
-  if (Status written = image.writePng(path); !written) return written;
-  if (outcome_.outputs.size() > 1) outcome_.outputs.pop_back();
-  outcome_.outputs.push_back(path);
-  ++outcome_.frameCount;
-  return {};
+  return files_->write(frame, *renderer_);
 }
 
 RenderOutcome Rendering::finish() {
@@ -271,18 +208,20 @@ RenderOutcome Rendering::finish() {
   outcome_.secondsPerFrame = seconds_ / count;
   outcome_.cpuSecondsPerFrame = cpuSeconds_ / count;
   for (auto& [stage, milliseconds] : outcome_.stages) milliseconds /= count;
+  outcome_.frameCount = files_->count();
+  outcome_.outputs = files_->outputs();
   return std::move(outcome_);
 }
 
-Status makeFolder(const std::filesystem::path& output) {
-  const std::filesystem::path folder = output.extension() == ".png" ? output.parent_path() : output;
-  if (folder.empty()) return {};
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code)
-    return Error{fmt::format("cannot make the folder {}: {}", folder.string(), code.message()),
-                 Fault::output};
-  return {};
+std::vector<int> framesOf(const RenderPlan& plan) {
+  const int count = plan.lastFrame - plan.firstFrame + 1;
+  std::vector<int> frames;
+  if (plan.isSheet) {
+    for (const int frame : sheetFrames(count)) frames.push_back(plan.firstFrame + frame - 1);
+  } else {
+    for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) frames.push_back(frame);
+  }
+  return frames;
 }
 
 }  // namespace
@@ -299,18 +238,24 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
   if (plan.firstFrame > plan.lastFrame || plan.lastFrame > seen->frameCount())
     return Error{fmt::format("{} has {} frames; there is none of {} to {}", animation.string(),
                              seen->frameCount(), plan.firstFrame, plan.lastFrame)};
-  if (Status made = makeFolder(plan.output); !made) return made.error();
+  const CacheHeader& header = seen->header();
+  plan.target.framesPerSecond = header.framesPerSecond;
 
   if (Status read = seen->readFrame(1); !read) return read.error();
-  const Groom first = seen->groom();
-  Rendering rendering(drawn->groom(), seen->header().metresPerUnit, seen->header().up, device, plan);
-  for (int frame = plan.firstFrame; frame <= plan.lastFrame; ++frame) {
+  Rendering rendering({drawn->groom(), header.metresPerUnit, directionOf(header.up), header.framesPerSecond},
+                      device, plan);
+  if (Status started = rendering.start(seen->groom()); !started) return started.error();
+  const std::vector<int> frames = framesOf(plan);
+  if (plan.isSheet) plan.target.panels = static_cast<int>(frames.size());
+  for (const int frame : frames) {
     if (frame > 1) {
       if (Status read = seen->readFrame(frame); !read) return read.error();
     }
-    rendering.see(seen->groom());
+    rendering.see(seen->groom().points);
   }
-  if (Status ready = rendering.prepare(first); !ready) return ready.error();
+  auto files = PictureFiles::open(plan.target, plan.size);
+  if (!files) return files.error();
+  if (Status ready = rendering.prepare(*files); !ready) return ready.error();
   const double ready = now();
 
   Points before;
@@ -319,17 +264,18 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
     if (Status done = read(plan.firstFrame - 1); !done) return done.error();
     before = drawn->groom().points;
   }
-  const int count = plan.lastFrame - plan.firstFrame + 1;
+  const int count = static_cast<int>(frames.size());
   ProgressBar progress(0, count, plan.showProgress);
   int finished = 0;
   for (; finished < count && !wasInterrupted(); ++finished) {
-    const int frame = plan.firstFrame + finished;
+    const int frame = frames[static_cast<std::size_t>(finished)];
     if (Status done = read(frame); !done) return done.error();
     if (Status done = rendering.drawFrame(frame, before, drawn->groom().points); !done) return done.error();
     if (plan.moments > 1) before = drawn->groom().points;
     progress.show(finished + 1);
   }
   progress.clear();
+  if (Status done = files->finish(); !done) return done.error();
   RenderOutcome outcome = rendering.finish();
   outcome.startSeconds = ready - start;
   outcome.interrupted = finished < count;
@@ -340,10 +286,13 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
 Result<RenderOutcome> renderGroom(const Groom& groom, UpAxis up, const ComputeDevice& device,
                                   const RenderPlan& plan) {
   const double start = now();
-  if (Status made = makeFolder(plan.output); !made) return made.error();
-  Rendering rendering(groom, groom.metresPerUnit, up, device, plan);
-  rendering.see(groom);
-  if (Status ready = rendering.prepare(groom); !ready) return ready.error();
+  Rendering rendering({groom, groom.metresPerUnit, directionOf(up), plan.target.framesPerSecond}, device,
+                      plan);
+  if (Status started = rendering.start(groom); !started) return started.error();
+  rendering.see(groom.points);
+  auto files = PictureFiles::open(plan.target, plan.size);
+  if (!files) return files.error();
+  if (Status ready = rendering.prepare(*files); !ready) return ready.error();
   const double ready = now();
   if (Status drawn = rendering.drawFrame(1, {}, groom.points); !drawn) return drawn.error();
   RenderOutcome outcome = rendering.finish();

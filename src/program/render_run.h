@@ -1,4 +1,4 @@
-// Pictures of an animation: frames are read, hair follows them on the device, is drawn, and written as PNG.
+// Pictures of an animation: frames are read, hair follows them on the device, is drawn, and written.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "program/picture_camera.h"
+#include "program/picture_files.h"
+#include "program/picture_hair.h"
+#include "program/strand_colours.h"
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/output/up_axis.h"
@@ -16,19 +20,25 @@
 
 namespace ringlet::program {
 
+/// A ground under everything.
+struct Ground {
+  std::optional<double> height;  // along the up axis [m]; none: of the lowest point of all frames
+};
+
 struct RenderPlan {
-  std::filesystem::path output;        // a folder for frame.0001.png and so on; or a .png, for one frame
+  PictureTarget target;                // framesPerSecond: that of the animation
   int firstFrame = 1, lastFrame = 0;   // of the animation; the last 0: all there are
+  bool isSheet = false;                // at most six of these, evenly chosen, as panels of one picture
   const Groom* rest = nullptr;         // the strands as they were groomed; none: frame 1
   const LoadedScene* scene = nullptr;  // whose bodies are shown; none: a head where roots are on a ball
   bool showsSolids = true;
-  std::optional<int> hairs;     // that follow the strands; 0: the strands themselves; none: as usual
-  std::optional<double> width;  // diameter at the root [m]; none: by the number of hairs
+  std::optional<Ground> ground;
+  PictureHairChoice hair;
   PictureSize size;
   Look look;
-  CameraPlace camera;
-  double orbit = 0;  // that the camera goes round from the first frame to the last [rad]
-  int moments = 1;   // of a frame, over the half of it before its end: motion blur
+  std::optional<StrandColourChoice> colours;  // in place of the look's
+  PictureCameraChoice camera;
+  int moments = 1;  // of a frame, over the half of it before its end: motion blur
   bool showProgress = true;
 };
 
@@ -38,11 +48,12 @@ struct RenderOutcome {
   int frameCount = 0;
   std::size_t strandCount = 0, hairCount = 0, pointCount = 0;
   double width = 0;                                    // [m]
-  double secondsPerFrame = 0, cpuSecondsPerFrame = 0;  // of setting, drawing and reading back; not of files
+  double secondsPerFrame = 0, cpuSecondsPerFrame = 0;  // of setting and drawing; not of files
   double startSeconds = 0;                             // reading for the camera, planning hair, compiling
   std::map<std::string, double> stages;                // on the device [ms a frame]
   std::uint64_t deviceBytes = 0;
-  bool showsHead = false;  // that is none of the scene's bodies
+  bool showsHead = false;              // that is none of the scene's bodies
+  std::optional<double> groundHeight;  // [m]
   bool interrupted = false;
   std::vector<std::filesystem::path> outputs;  // the first and the last
   std::vector<std::string> warnings;

@@ -64,6 +64,7 @@ Result<std::vector<RunFact>> factsOf(const SceneFile& scene, const std::vector<f
   SceneFile asked = scene;
   asked.hasMaterial = false;  // see addMaterialFacts
   asked.output = {};          // and simulate_run.cpp
+  asked.cameras.clear();      // which move nothing
   std::vector<RunFact> facts;
   addLines(sceneText(asked), "", facts);
   for (const fs::path& input : inputs) {

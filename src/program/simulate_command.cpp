@@ -20,6 +20,7 @@
 #include "program/exit_codes.h"
 #include "program/material_command.h"
 #include "program/output_options.h"
+#include "program/rendered_sheet.h"
 #include "program/run_facts.h"
 #include "program/run_report.h"
 #include "program/run_writers.h"
@@ -238,6 +239,10 @@ int run(const Typed& typed) {
   checkOptions(typed, *scene);
   if (Status applied = applyMaterialOptions(typed.material, *scene); !applied) return fail(applied.error());
   RunOptions options = optionsOf(typed, *scene);
+  const bool rendersSheet = typed.outputs.sheet == "rendered" && options.writesSheet;
+  if (rendersSheet) {
+    if (Status can = checkRenderedSheet(options); !can) return fail(can.error());
+  }
   const std::vector<std::filesystem::path> inputs = inputFilesOf(typed.input, *scene);
   if (Status stays = checkInputsStay(inputs, outputsOf(options)); !stays) return fail(stays.error());
   std::optional<LoadedGroom> origin;
@@ -257,6 +262,9 @@ int run(const Typed& typed) {
 
   const auto outcome = runLoadedScene(*loaded, options);
   if (!outcome) return fail(outcome.error());
+  if (rendersSheet && outcome->frameCount > 0 && !outcome->canResume) {
+    if (Status drawn = writeRenderedSheet(*loaded, options); !drawn) return fail(drawn.error());
+  }
   const int exitCode = tellTroubles("simulate", *outcome, loaded->frameCount);
   RunNames names{scene->simulation.integrator, typed.backend};
   if (scene->hasMaterial) names.material = "scene";

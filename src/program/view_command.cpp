@@ -113,6 +113,7 @@ Status addHairs(const LoadedScene& scene, int hairs, view::ViewPlan& plan) {
   auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, {.hairCount = hairs});
   if (!follow) return follow.error();
   plan.look.guides = follow->guides();
+  plan.look.bodies = scene.bodies;
   plan.look.hairs = follow->hairs();
   return {};
 }

@@ -62,7 +62,28 @@ KernelChoice kernelOf(const AssetChoice& choice) {
   kernel.movingRoots = choice.movesRoots;
   kernel.heads = choice.heads;
   kernel.forces = choice.hasForces;
+  kernel.goals = choice.hasGoals;
   return kernel;
+}
+
+constexpr double kMostGoalDamping = 1000, kMostGoalStrength = 1e7;
+
+// A number for all particles, or one for each.
+std::vector<float> strengthsIn(const py::object& value, std::size_t count) {
+  std::vector<float> strengths;
+  if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) {
+    strengths.assign(count, value.cast<float>());
+  } else {
+    const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(value);
+    if (!array) throw py::type_error("strengths is a number or an array of numbers");
+    if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != count)
+      throw py::value_error(fmt::format("strengths has one number for each of {} particles", count));
+    strengths.assign(array.data(), array.data() + count);
+  }
+  for (const float strength : strengths)
+    if (!(strength >= 0 && strength <= kMostGoalStrength))
+      throw py::value_error(fmt::format("strengths are from 0 to {}, got {}", kMostGoalStrength, strength));
+  return strengths;
 }
 
 Error refused(std::string message) { return Error{std::move(message)}; }
@@ -445,17 +466,21 @@ void addAsset(py::module_& module) {
       "All of some hair that does not change, for one device; any number of Hair share it. Constant.")
       .def(py::init([](const DeviceHandle& device, const GroomHandle& groom,
                        const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
-                       bool bodies, bool movingRoots, bool forces, int heads, const std::string& kernel) {
+                       bool bodies, bool movingRoots, bool forces, bool goals, int heads,
+                       const std::string& kernel) {
              return buildAsset(device, groom, material.value_or(MaterialObject{}),
-                               settings.value_or(Settings{}), {bodies, movingRoots, forces, heads, kernel});
+                               settings.value_or(Settings{}),
+                               {bodies, movingRoots, forces, goals, heads, kernel});
            }),
            py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
            py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
-           py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("heads") = 1,
-           py::arg("kernel") = "auto",
+           py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("goals") = false,
+           py::arg("heads") = 1, py::arg("kernel") = "auto",
            "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
            "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
-           "act on them from outside; heads: about how many will "
+           "act on them from outside; goals: whether it will be pulled to places (set_goals); heads: about "
+           "how "
+           "many will "
            "have this hair; kernel: \"auto\", \"lanes\", \"memory\" or \"serial\". ringlet.Error, with what "
            "to do, for "
            "settings that do not go together or a device without enough memory.")
@@ -599,6 +624,27 @@ void addHairClass(py::module_& module) {
           "(particles, "
           "3) float32. They add to gravity and hold until others are set. ringlet.Error for hair whose asset "
           "was built without forces=True.")
+      .def(
+          "set_goals",
+          [](HairObject& self, const py::object& places, const py::object& strengths, double damping) {
+            const std::size_t count = self.asset()->groom->particleCount();
+            const PointsIn taken(places, "places", count);
+            demandFinite(taken.points(), "places");
+            const std::vector<float> pulls = strengthsIn(strengths, count);
+            if (!(damping >= 0 && damping <= kMostGoalDamping))
+              throw py::value_error(
+                  fmt::format("damping is from 0 to {}, got {}", kMostGoalDamping, damping));
+            self.ask(
+                [&](Simulation& simulation) { demand(simulation.setGoals(taken.points(), pulls, damping)); });
+          },
+          py::arg("places"), py::arg("strengths"), py::arg("damping") = 1.0,
+          "Places that particles are pulled to: (particles, 3) float32, in metres in the groom's axes, "
+          "carried "
+          "by the head; groom.points times metres_per_unit is the rest pose. They are reached at the end of "
+          "the next frame and hold until others are set. strengths: of all particles, or one of each, "
+          "(particles,): weights of the hair a centimetre from its place, 0 or more. damping: ratio about "
+          "the "
+          "place, 1 is critical. ringlet.Error for hair whose asset was built without goals=True.")
       .def(
           "checkpoint",
           [](HairObject& self) {

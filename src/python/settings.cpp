@@ -17,7 +17,8 @@
 namespace ringlet::python {
 namespace {
 
-constexpr std::string_view kContacts = "contacts.", kAir = "air.", kIntegrator = "integrator";
+constexpr std::string_view kContacts = "contacts.", kAir = "air.", kGoal = "goal.",
+                           kIntegrator = "integrator";
 constexpr const char* kIntegrators[] = {"jacobi", "point_jacobi", "paper"};
 
 template <class Owner>
@@ -26,11 +27,14 @@ template <>
 constexpr std::string_view kTable<ContactSettings> = kContacts;
 template <>
 constexpr std::string_view kTable<AirSettings> = kAir;
+template <>
+constexpr std::string_view kTable<GoalSettings> = kGoal;
 
 template <class Owner>
 std::span<const SettingField<Owner>> fieldsOf() {
   if constexpr (std::is_same_v<Owner, ContactSettings>) return contactFields();
   if constexpr (std::is_same_v<Owner, AirSettings>) return airFields();
+  if constexpr (std::is_same_v<Owner, GoalSettings>) return goalFields();
   if constexpr (std::is_same_v<Owner, Settings>) return settingsFields();
 }
 
@@ -43,7 +47,8 @@ std::vector<std::string> keysOf(std::string_view table) {
 }
 std::vector<std::string> allKeys() {
   std::vector<std::string> keys = keysOf<Settings>("");
-  for (const auto& more : {keysOf<ContactSettings>(kContacts), keysOf<AirSettings>(kAir)})
+  for (const auto& more :
+       {keysOf<ContactSettings>(kContacts), keysOf<AirSettings>(kAir), keysOf<GoalSettings>(kGoal)})
     keys.insert(keys.end(), more.begin(), more.end());
   return keys;
 }
@@ -131,6 +136,7 @@ std::optional<py::object> getKey(const Settings& self, std::string_view key) {
   if (key == kIntegrator) return py::str(kIntegrators[static_cast<int>(self.integrator)]);
   if (key.starts_with(kContacts)) return getField(self.contacts, key.substr(kContacts.size()));
   if (key.starts_with(kAir)) return getField(self.air, key.substr(kAir.size()));
+  if (key.starts_with(kGoal)) return getField(self.goal, key.substr(kGoal.size()));
   return getField(self, key);
 }
 bool setKey(Settings& self, const std::string& key, const py::object& value) {
@@ -142,6 +148,7 @@ bool setKey(Settings& self, const std::string& key, const py::object& value) {
   }
   if (name.starts_with(kContacts)) return setField(self.contacts, name.substr(kContacts.size()), key, value);
   if (name.starts_with(kAir)) return setField(self.air, name.substr(kAir.size()), key, value);
+  if (name.starts_with(kGoal)) return setField(self.goal, name.substr(kGoal.size()), key, value);
   return setField(self, name, key, value);
 }
 
@@ -191,6 +198,7 @@ py::list listFields() {
   for (const auto& field : settingsFields()) list.append(describeField(field));
   for (const auto& field : contactFields()) list.append(describeField(field));
   for (const auto& field : airFields()) list.append(describeField(field));
+  for (const auto& field : goalFields()) list.append(describeField(field));
   return list;
 }
 
@@ -225,7 +233,7 @@ bool areEqual(const Owner& a, const Owner& b) {
 }
 bool areAllEqual(const Settings& a, const Settings& b) {
   return a.integrator == b.integrator && areEqual(a, b) && areEqual(a.contacts, b.contacts) &&
-         areEqual(a.air, b.air);
+         areEqual(a.air, b.air) && areEqual(a.goal, b.goal);
 }
 
 // An attribute a setting; names that there are not are told with the nearest.
@@ -299,7 +307,8 @@ void addSettingsClass(py::module_& module) {
              setAll(made, named);
              return made;
            }),
-           "The default, but for these by name; contacts and air take a dict: Settings(steps_per_frame=4, "
+           "The default, but for these by name; contacts, air and goal take a dict: "
+           "Settings(steps_per_frame=4, "
            "air={\"on\": True}). TypeError for a name that there is not, ValueError for a number out of its "
            "range.")
       .def_property(
@@ -316,6 +325,12 @@ void addSettingsClass(py::module_& module) {
           [](Settings& self, const py::object& value) { setTable(self.air, value, kAir); },
           py::return_value_policy::reference_internal,
           "The air hair moves in: AirSettings, part of these settings. Takes others, or a dict.")
+      .def_property(
+          "goal", [](Settings& self) -> GoalSettings& { return self.goal; },
+          [](Settings& self, const py::object& value) { setTable(self.goal, value, kGoal); },
+          py::return_value_policy::reference_internal,
+          "Whether and how hair is pulled to the groom: GoalSettings, part of these settings. Takes others, "
+          "or a dict.")
       .def_property_readonly("step_seconds", &Settings::stepSeconds, "How long a step is [s].")
       .def_static(
           "fields", &listFields,
@@ -358,6 +373,8 @@ void setAll(Settings& settings, const py::kwargs& named) {
       setTable(changed.contacts, value, kContacts);
     } else if (name == "air") {
       setTable(changed.air, value, kAir);
+    } else if (name == "goal") {
+      setTable(changed.goal, value, kGoal);
     } else if (!setKey(changed, name, value)) {
       throw py::type_error(unknownKey(name));
     }
@@ -377,6 +394,9 @@ void addSettings(py::module_& module) {
                             "Whether and how hairs meet, as settings.contacts. Integrator jacobi only.");
   addTable<AirSettings>(module, "AirSettings",
                         "The air hair moves in, as settings.air. Integrator jacobi only.");
+  addTable<GoalSettings>(
+      module, "GoalSettings",
+      "Whether and how hair is pulled to the groom, as settings.goal. Integrator jacobi only.");
   addSettingsClass(module);
 }
 

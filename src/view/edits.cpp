@@ -14,7 +14,7 @@ namespace ringlet::view {
 
 Edits editsOf(const SceneFile& scene) {
   const EditedMaterial material{scene.material.material, scene.material.dials};
-  return {scene.simulation, scene.contacts, scene.air, {material, material}, false};
+  return {scene.simulation, scene.contacts, scene.air, scene.goal, {material, material}, false};
 }
 
 SceneFile sceneWith(const SceneFile& scene, const Edits& edits, std::size_t material) {
@@ -22,6 +22,7 @@ SceneFile sceneWith(const SceneFile& scene, const Edits& edits, std::size_t mate
   edited.simulation = edits.simulation;
   edited.contacts = edits.contacts;
   edited.air = edits.air;
+  edited.goal = edits.goal;
   edited.material.material = edits.materials[material].material;
   edited.material.dials = edits.materials[material].dials;
   edited.hasMaterial = true;

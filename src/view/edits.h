@@ -27,6 +27,7 @@ struct Edits {
   SceneSimulation simulation;
   ContactSettings contacts;
   AirSettings air;
+  GoalSettings goal;
   std::array<EditedMaterial, 2> materials;  // A and B
   bool compares = false;                    // B is shown beside A
 };

@@ -33,14 +33,15 @@ Result<HairPane> HairPane::create(gpu::Device& device, const Groom& groom, const
     if (!strands) return strands.error();
     self.strands_ = std::make_unique<StrandPoints>(std::move(*strands));
   } else {
-    auto follow = FollowStage::create(device, look.guides, look.hairs);
+    auto follow = FollowStage::create(device, look.guides, look.hairs, look.bodies);
     if (!follow) return follow.error();
     self.follow_ = std::make_unique<FollowStage>(std::move(*follow));
   }
   const DrawnHairs drawn{self.follow_ ? self.follow_->points() : self.strands_->points(),
                          self.follow_ ? self.follow_->firstPoint() : self.strands_->firstPoint(), look.width};
-  auto renderer = HairRenderer::create(device, drawn, look.solids, look.size,
-                                       look.showsStretch ? StretchColours::look(look.look) : look.look);
+  Look shown = look.look;
+  if (look.showsStretch) shown.pigments = scalePigments();
+  auto renderer = HairRenderer::create(device, drawn, look.solids, look.size, shown);
   if (!renderer) return renderer.error();
   self.renderer_.emplace(std::move(*renderer));
   if (!look.showsStretch) return self;
@@ -66,13 +67,15 @@ Status HairPane::attach(gpu::Device& device, const Simulation& hair) {
   return {};
 }
 
-Status HairPane::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids) {
+Status HairPane::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
+                          std::span<const BodyPose> bodies) {
   // Hair is relative to the head's origin, so that everything else is too.
   Camera near = camera;
   near.eye -= head.position;
   near.target -= head.position;
   std::vector<SolidPlace> places(solids.begin(), solids.end());
   for (SolidPlace& place : places) place.position -= head.position;
+  if (follow_) follow_->setBodies(bodies, head.position);
   const Vec3d margin = Vec3d{1, 1, 1} * kMargin;
   return renderer_->setFrame(near, {box_.low - margin, box_.high + margin}, places);
 }

@@ -28,6 +28,7 @@ inline constexpr double kMostStrandWidth = 0.0012;
 struct PaneLook {
   std::vector<GuideRest> guides;  // with hairs that follow them; none: the strands are drawn
   std::vector<FollowHair> hairs;
+  std::vector<Body> bodies;  // that hairs stay out of
   std::vector<SolidMesh> solids;
   PictureSize size;
   bool showsStretch = false;  // in place of the look's colour
@@ -45,8 +46,9 @@ class HairPane {
   /// Draws this hair from now on. Again after its buffers are others.
   Status attach(gpu::Device& device, const Simulation& hair);
 
-  /// The next picture. Places of solids and the camera are the world's.
-  Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids);
+  /// The next picture. Places of solids, one pose a body, and the camera are the world's.
+  Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
+                  std::span<const BodyPose> bodies);
   void record(gpu::CommandList& list, Quatd head) const;
   /// Of what was recorded and is done: the box about the hair is known for the next picture.
   void finish();

@@ -21,6 +21,8 @@ bool isSame(const Settings& a, const Settings& b) {
     if (!equal(field, a.contacts, b.contacts)) return false;
   for (const auto& field : airFields())
     if (!equal(field, a.air, b.air)) return false;
+  for (const auto& field : goalFields())
+    if (!equal(field, a.goal, b.goal)) return false;
   return a.integrator == b.integrator;
 }
 

@@ -48,9 +48,10 @@ Status PaneRow::attach(gpu::Device& device, const Session& session) {
   return {};
 }
 
-Status PaneRow::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids) {
+Status PaneRow::setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
+                         std::span<const BodyPose> bodies) {
   for (auto& pane : panes_) {
-    if (Status set = pane->setFrame(camera, head, solids); !set) return set;
+    if (Status set = pane->setFrame(camera, head, solids, bodies); !set) return set;
   }
   return {};
 }

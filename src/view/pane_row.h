@@ -24,7 +24,8 @@ class PaneRow {
   /// Takes the session's hair again, whose buffers are others.
   Status attach(gpu::Device& device, const Session& session);
 
-  Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids);
+  Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
+                  std::span<const BodyPose> bodies);
   void record(gpu::CommandList& list, Quatd head) const;
   void finish();  // when what was recorded is done
   std::vector<PlacedPicture> pictures() const;

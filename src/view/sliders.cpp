@@ -246,6 +246,7 @@ std::vector<SliderGroup> sliderGroups() {
   return {{"hair", std::move(hair)},
           {"air", slidersOf("air", airFields(), &Edits::air)},
           {"contacts", slidersOf("contacts", contactFields(), &Edits::contacts)},
+          {"goal", slidersOf("goal", goalFields(), &Edits::goal)},
           {"run", slidersOf("simulation", simulationFields(), &Edits::simulation)}};
 }
 

@@ -241,7 +241,8 @@ Status Viewer::step() {
 }
 
 Status Viewer::drawPanes() {
-  if (Status set = panes_.setFrame(camera_->camera(), session_->head(), places()); !set) return set;
+  if (Status set = panes_.setFrame(camera_->camera(), session_->head(), places(), session_->bodies()); !set)
+    return set;
   if (Status begun = recorder_->begin(); !begun) return begun;
   panes_.record(*recorder_, session_->head().rotation);
   return recorder_->submit();

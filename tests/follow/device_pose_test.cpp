@@ -8,13 +8,13 @@
 #include <optional>
 #include <vector>
 
+#include "layout/types.h"
 #include "ringlet/follow/follow_stage.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/render/strand_points.h"
 #include "ringlet/solver/simulation.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {

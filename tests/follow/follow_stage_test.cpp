@@ -11,12 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "layout/hair_points.h"
+#include "parity/sample_bodies.h"
 #include "parity/tolerances.h"
 #include "reference/follow_guide.h"
 #include "ringlet/follow/core_weights.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {
@@ -87,11 +88,17 @@ Plan planOf(const Guides& guides, int hairCount) {
   return plan;
 }
 
+struct Met {
+  std::vector<Body> bodies;
+  std::vector<BodyPose> poses;
+};
+
 // The points that the device finds, in the order of hairs.
 std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
-                            Quatd head) {
-  auto stage = FollowStage::create(device, plan.guides, plan.hairs);
+                            Quatd head, const Met& met = {}) {
+  auto stage = FollowStage::create(device, plan.guides, plan.hairs, met.bodies);
   EXPECT_TRUE(stage) << stage.error().message;
+  stage->setBodies(met.poses);
   std::vector<Vec3d> positions;
   for (const Strand& strand : pose) positions.insert(positions.end(), strand.begin(), strand.end());
   EXPECT_TRUE(stage->setPose(positions));
@@ -115,12 +122,12 @@ std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::ve
 }
 
 double largestDifference(const Plan& plan, const std::vector<Strand>& pose, Quatd head,
-                         const std::vector<Vec3d>& found) {
+                         const std::vector<Vec3d>& found, const Met& met = {}) {
   double largest = 0;
   std::size_t at = 0;
   for (const FollowHair& hair : plan.hairs) {
     const auto guide = reference::poseGuide(plan.guides[hair.guide], pose[hair.guide], head);
-    for (const Vec3d& expected : reference::followGuide(hair, guide)) {
+    for (const Vec3d& expected : reference::followGuide(hair, guide, met.bodies, met.poses)) {
       const double difference = length(expected - found.at(at++));
       if (!(difference <= largest)) largest = difference;  // NaN too
     }
@@ -180,6 +187,74 @@ TEST_F(FollowStageTest, StorageAndTexelsGiveTheSameBits) {
   ASSERT_TRUE(few) << few.error().message;
   EXPECT_EQ(followOn(**few, plan, pose, kTurned), texels);
   EXPECT_EQ(followOn(gpu(), plan, pose, kTurned), texels) << "a second time";
+}
+
+// Somewhere about the middle of the strands, or their roots, each turned its own way, so that all press on
+// hair.
+Met metBy(const std::vector<Body>& bodies, const std::vector<Strand>& strands, bool atRoots = false) {
+  Met met{bodies, {}};
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const Strand& strand = strands[b % strands.size()];
+    const double turn = 0.7 * static_cast<double>(b + 1);
+    // A plane goes through them; what is round has them at its side.
+    const Vec3d aside = bodies[b].shape == BodyShape::plane ? Vec3d{}
+                        : atRoots                           ? Vec3d{0.03, 0.06, 0.02}
+                                                            : Vec3d{0.03, -0.11, 0.02};
+    met.poses.push_back(
+        {strand[atRoots ? 0 : strand.size() / 2] + aside, fromRotationVector(Vec3d{0.3, 0.2, 0.1} * turn)});
+  }
+  return met;
+}
+
+std::size_t countOther(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+  return count;
+}
+
+TEST_F(FollowStageTest, AmongBodiesItIsTheReference) {
+  const Guides guides = allGuides().front();
+  const Plan plan = planOf(guides, 300);
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  std::vector<Met> all;
+  for (const Body& body : parity::sampleBodies()) all.push_back(metBy({body}, pose));
+  all.push_back(metBy(parity::sampleBodies(), pose));
+  all.push_back(metBy({parity::sampleBodies().front()}, pose, true));
+  const auto alone = followOn(gpu(), plan, pose, kTurned);
+  const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
+  ASSERT_TRUE(few) << few.error().message;
+  for (const Met& met : all) {
+    SCOPED_TRACE(met.bodies.size() == 1 ? met.bodies.front().name : "all of them");
+    const auto found = followOn(gpu(), plan, pose, kTurned, met);
+    EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
+    EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
+    EXPECT_EQ(followOn(**few, plan, pose, kTurned, met), found) << "storage buffers in place of texels";
+  }
+}
+
+// Bodies may be anywhere in a world: what counts is where they are from where particles are seen.
+TEST_F(FollowStageTest, BodiesAreSeenFromTheOrigin) {
+  const Guides guides = allGuides().front();
+  const Plan plan = planOf(guides, 100);
+  const Met met = metBy({parity::sampleBodies().front()}, guides.strands);
+  auto stage = FollowStage::create(gpu(), plan.guides, plan.hairs, met.bodies);
+  ASSERT_TRUE(stage) << stage.error().message;
+  const Vec3d origin{3, -2, 5};
+  BodyPose there = met.poses.front();
+  there.position += origin;
+  std::vector<Vec3d> positions;
+  for (const Strand& strand : guides.strands) positions.insert(positions.end(), strand.begin(), strand.end());
+  ASSERT_TRUE(stage->setPose(positions));
+  stage->setBodies(std::span(&there, 1), origin);
+  auto recorder = gpu::Recorder::create(gpu(), "follow");
+  ASSERT_TRUE(recorder->begin());
+  stage->record(*recorder, Quatd{});
+  ASSERT_TRUE(recorder->submitAndWait());
+  const auto records = downloadAll<layout::uvec4>(stage->points(), stage->pointCount());
+  const auto expected = followOn(gpu(), plan, guides.strands, Quatd{}, met);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    ASSERT_LT(std::abs(std::bit_cast<float>((*records)[i].x) - expected[i].x), 1e-6) << i;
 }
 
 TEST_F(FollowStageTest, TooManyHairsAreRefusedWithTheNumberThereIsRoomFor) {

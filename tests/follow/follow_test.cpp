@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "reference/equations/body_distance.h"
 #include "reference/follow_guide.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/generate.h"
@@ -136,6 +137,71 @@ TEST(FollowGuide, DifferencesAreWhatIsAsked) {
   EXPECT_NEAR(length(followGuide({.offset = offset}, pose)[50] - guide[50]), 0.005, 1e-6);
   EXPECT_NEAR(length(followGuide({.offset = offset, .spread = 0.5f}, pose)[50] - guide[50]), 0.0025, 1e-6);
   EXPECT_NEAR(length(followGuide({.offset = offset, .spread = 0.5f}, pose)[0] - guide[0]), 0.005, 1e-6);
+}
+
+double distanceFrom(const Body& body, const BodyPose& pose, Vec3d p) {
+  const auto y = reference::toEigen<double>(rotate(pose.rotation.conjugate(), p - pose.position));
+  return reference::bodyDistance<double>(body, y).distance;
+}
+
+// At a ball, where every distance is exact. Guides hang past it, and through it.
+TEST(FollowGuide, HairsStayOutOfBodiesWhereTheirGuidesDo) {
+  const std::vector<Strand> strands = headOf(40);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = 800});
+  ASSERT_TRUE(hairs) << hairs.error().message;
+  const Body ball{.name = "ball", .shape = BodyShape::sphere, .radius = 0.11};
+  const BodyPose pose{{0, -0.02, 0.02}, Quatd{}};
+  std::size_t pressed = 0, through = 0;
+  for (const FollowHair& hair : *hairs) {
+    const GuidePose guide = poseGuide(rests[hair.guide], strands[hair.guide], Quatd{});
+    const auto alone = followGuide(hair, guide);
+    const auto found = followGuide(hair, guide, std::span(&ball, 1), std::span(&pose, 1));
+    const double root = distanceFrom(ball, pose, alone.front());
+    EXPECT_LT(length(found.front() - alone.front()), 1e-12) << "roots stay";
+    const auto last = static_cast<double>(alone.size() - 1);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      const double share = static_cast<double>(i) / last;
+      const double along = static_cast<double>(i) *
+                           (1 + (static_cast<double>(hair.length) - 1) * reference::risesOver(0.2, share));
+      const auto k = std::min(static_cast<std::size_t>(along), alone.size() - 2);
+      const double between = along - static_cast<double>(k);
+      const double ofGuide = (1 - between) * distanceFrom(ball, pose, strands[hair.guide][k]) +
+                             between * distanceFrom(ball, pose, strands[hair.guide][k + 1]);
+      const double before = distanceFrom(ball, pose, alone[i]), after = distanceFrom(ball, pose, found[i]);
+      const double kept = std::min({0.0, ofGuide, (1 - reference::risesOver(0.2, share)) * root});
+      ASSERT_NEAR(after, std::max(before, kept), 1e-9);
+      ASSERT_NEAR(length(found[i] - alone[i]), after - before, 1e-9) << "the short way out";
+      pressed += after > before && ofGuide >= 0;
+      through += ofGuide < 0 && after < 0;
+    }
+  }
+  EXPECT_GT(pressed, 100u) << "the ball must press on hairs";
+  EXPECT_GT(through, 100u) << "and some guides must go through it";
+}
+
+// A guide that moves through a body carries its hairs along: none jumps.
+TEST(FollowGuide, HairsDoNotJumpWhereAGuideGoesThroughABody) {
+  const std::vector<Strand> strands = headOf(12);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = 240, .reach = 0.02});
+  ASSERT_TRUE(hairs) << hairs.error().message;
+  const Body ball{.name = "ball", .shape = BodyShape::sphere, .radius = 0.05};
+  constexpr double kStep = 0.0005;  // [m]
+  double farthest = 0;
+  for (const FollowHair& hair : *hairs) {
+    const GuidePose guide = poseGuide(rests[hair.guide], strands[hair.guide], Quatd{});
+    std::vector<Vec3d> before;
+    for (double x = -0.25; x < 0.25; x += kStep) {
+      const BodyPose pose{{x, -0.1, 0.03}, Quatd{}};
+      const auto found = followGuide(hair, guide, std::span(&ball, 1), std::span(&pose, 1));
+      for (std::size_t i = 0; i < before.size(); ++i)
+        farthest = std::max(farthest, length(found[i] - before[i]));
+      before = found;
+    }
+  }
+  // A point moves with the ball's surface, and beside it where its guide's distance counts too.
+  EXPECT_LT(farthest, 12 * kStep);
 }
 
 TEST(PlanHairs, RootsAreEvenAndNearestToTheirGuide) {

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "layout/bodies.h"
+#include "layout/strands.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/strand_kernels.h"
 #include "ringlet/solver/volume_kernels.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 #include "tests/support/sample_bodies.h"

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "layout/contacts.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/solver/contact_kernels.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {

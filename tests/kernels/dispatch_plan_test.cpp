@@ -6,8 +6,6 @@
 
 #include <numeric>
 
-#include "shared/layout.h"
-
 namespace ringlet::test {
 namespace {
 

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 
+#include "layout/strands.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/simulation.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 #include "tests/support/sample_bodies.h"

@@ -1,11 +1,18 @@
-// Every struct of shaders/shared/layout.h lies the same in C++ and in every embedded shader. Offsets, sizes
-// and array strides are read from the SPIR-V itself, and which structs there are is read from layout.h.
-#include "shared/layout.h"
+// Every struct of shaders/layout lies the same in C++ and in every embedded shader. Offsets, sizes
+// and array strides are read from the SPIR-V itself, and which structs there are is read from its files.
+#include "layout/bodies.h"
+#include "layout/contacts.h"
+#include "layout/follow.h"
+#include "layout/picture.h"
+#include "layout/pose.h"
+#include "layout/strands.h"
+#include "layout/volume.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 
@@ -268,11 +275,15 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(unused)}};
     }(),
     [] {
+      using S = layout::NearCount;
+      return CppStruct{"NearCount", sizeof(S), {RINGLET_MEMBER(indirect), RINGLET_MEMBER(points)}};
+    }(),
+    [] {
       using S = layout::FollowParameters;
-      return CppStruct{
-          "FollowParameters",
-          sizeof(S),
-          {RINGLET_MEMBER(head), RINGLET_MEMBER(count), RINGLET_MEMBER(stride), RINGLET_MEMBER(particles)}};
+      return CppStruct{"FollowParameters",
+                       sizeof(S),
+                       {RINGLET_MEMBER(head), RINGLET_MEMBER(count), RINGLET_MEMBER(stride),
+                        RINGLET_MEMBER(particles), RINGLET_MEMBER(bodyCount)}};
     }(),
     [] {
       using S = layout::PosePlace;
@@ -290,20 +301,24 @@ const std::vector<CppStruct> kCppStructs = {
     }(),
     [] {
       using S = layout::Picture;
-      return CppStruct{
-          "Picture",
-          sizeof(S),
-          {RINGLET_MEMBER(view),           RINGLET_MEMBER(eye),          RINGLET_MEMBER(lightAxes),
-           RINGLET_MEMBER(lightDirection), RINGLET_MEMBER(lightColour),  RINGLET_MEMBER(skyAbove),
-           RINGLET_MEMBER(skyBelow),       RINGLET_MEMBER(densityBox),   RINGLET_MEMBER(pigments),
-           RINGLET_MEMBER(solidColour),    RINGLET_MEMBER(backColours),  RINGLET_MEMBER(width),
-           RINGLET_MEMBER(height),         RINGLET_MEMBER(side),         RINGLET_MEMBER(hairCount),
-           RINGLET_MEMBER(pointsPerHair),  RINGLET_MEMBER(pointCount),   RINGLET_MEMBER(triangleCount),
-           RINGLET_MEMBER(shadowCells),    RINGLET_MEMBER(shadowSlices), RINGLET_MEMBER(densityCells),
-           RINGLET_MEMBER(shadowStride),   RINGLET_MEMBER(focus),        RINGLET_MEMBER(near),
-           RINGLET_MEMBER(shadowCellArea), RINGLET_MEMBER(fixedPoint),   RINGLET_MEMBER(shadowOpacity),
-           RINGLET_MEMBER(along),          RINGLET_MEMBER(about),        RINGLET_MEMBER(tilt),
-           RINGLET_MEMBER(exposure),       RINGLET_MEMBER(tipRadius),    RINGLET_MEMBER(throughHair)}};
+      return CppStruct{"Picture", sizeof(S), {RINGLET_MEMBER(view),          RINGLET_MEMBER(eye),
+                                              RINGLET_MEMBER(lightAxes),     RINGLET_MEMBER(lightDirection),
+                                              RINGLET_MEMBER(lightColour),   RINGLET_MEMBER(skyAbove),
+                                              RINGLET_MEMBER(skyBelow),      RINGLET_MEMBER(densityBox),
+                                              RINGLET_MEMBER(pigments),      RINGLET_MEMBER(solidColour),
+                                              RINGLET_MEMBER(groundColour),  RINGLET_MEMBER(backColours),
+                                              RINGLET_MEMBER(width),         RINGLET_MEMBER(height),
+                                              RINGLET_MEMBER(side),          RINGLET_MEMBER(hairCount),
+                                              RINGLET_MEMBER(pointsPerHair), RINGLET_MEMBER(pointCount),
+                                              RINGLET_MEMBER(triangleCount), RINGLET_MEMBER(shadowCells),
+                                              RINGLET_MEMBER(shadowSlices),  RINGLET_MEMBER(densityCells),
+                                              RINGLET_MEMBER(shadowStride),  RINGLET_MEMBER(focus),
+                                              RINGLET_MEMBER(near),          RINGLET_MEMBER(shadowCellArea),
+                                              RINGLET_MEMBER(fixedPoint),    RINGLET_MEMBER(shadowOpacity),
+                                              RINGLET_MEMBER(along),         RINGLET_MEMBER(about),
+                                              RINGLET_MEMBER(tilt),          RINGLET_MEMBER(exposure),
+                                              RINGLET_MEMBER(tipRadius),     RINGLET_MEMBER(throughHair),
+                                              RINGLET_MEMBER(pigmentCount)}};
     }(),
     [] {
       using S = layout::DrawnHair;
@@ -346,13 +361,15 @@ const CppStruct* cppStruct(const std::string& name) {
   return found == kCppStructs.end() ? nullptr : &*found;
 }
 
-std::set<std::string> structsOfLayoutFile() {
-  std::ifstream file(RINGLET_SOURCE_DIR "/shaders/shared/layout.h");
+std::set<std::string> structsOfLayoutFiles() {
   static const std::regex pattern(R"(^struct (\w+) \{)");
   std::set<std::string> names;
   std::smatch match;
-  for (std::string line; std::getline(file, line);)
-    if (std::regex_search(line, match, pattern)) names.insert(match[1]);
+  for (const auto& entry : std::filesystem::directory_iterator(RINGLET_SOURCE_DIR "/shaders/layout")) {
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);)
+      if (std::regex_search(line, match, pattern)) names.insert(match[1]);
+  }
   return names;
 }
 
@@ -378,7 +395,8 @@ TEST(Layout, EmbeddedShadersAgreeWithCpp) {
       seen.insert(shader.name);
     }
   }
-  EXPECT_EQ(seen, structsOfLayoutFile()) << "structs that shaders hold in buffers, and structs of layout.h";
+  EXPECT_EQ(seen, structsOfLayoutFiles())
+      << "structs that shaders hold in buffers, and structs of shaders/layout";
 }
 
 TEST(Layout, PushConstantsFitEveryDevice) {

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "shared/layout.h"
+#include "layout/contacts.h"
 
 namespace ringlet::test {
 namespace {

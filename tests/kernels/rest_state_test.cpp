@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "layout/strands.h"
 #include "reference/step.h"
 #include "ringlet/groom/groom_file.h"
 #include "tests/support/parity.h"

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "layout/strands.h"
 #include "reference/step.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/solver/simulation.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
 #include "tests/support/sample_bodies.h"

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "layout/contacts.h"
+#include "layout/volume.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/solver/volume_kernels.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {

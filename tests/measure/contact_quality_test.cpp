@@ -56,6 +56,21 @@ TEST(ContactQuality, OfTwoLinesPressedTogether) {
   EXPECT_EQ(Prepared(twoLines(0.02), all).at(twoLines(0.0035).points).rawRecall, 1);
 }
 
+// A longer strand comes before in the device's order; the numbers are in the groom's.
+TEST(ContactQuality, OverlapsAreThoseOfEachStrand) {
+  Groom groom = metres(), later = metres();
+  for (Groom* each : {&groom, &later}) each->addStrand(line({1, 0, 0}, {1, -0.116, 0}, 30));
+  const Groom apart = twoLines(0.02), pressed = twoLines(0.0035);
+  for (std::size_t s = 0; s < 2; ++s) groom.addStrand(apart.strand(s)), later.addStrand(pressed.strand(s));
+  const Prepared p(groom, radius(0.0025));
+  EXPECT_EQ(overlapOfStrands(p.rest, p.contacts, groom.points), (std::vector<float>{0, 0, 0}));
+  const std::vector<float> overlaps = overlapOfStrands(p.rest, p.contacts, later.points);
+  ASSERT_EQ(overlaps.size(), 3u);
+  EXPECT_EQ(overlaps[0], 0);
+  EXPECT_NEAR(overlaps[1], 0.3, 1e-6);
+  EXPECT_NEAR(overlaps[2], 0.3, 1e-6);
+}
+
 TEST(ContactQuality, WhatOverlapsAtRestMay) {
   // At rest 4 mm apart, R is 5 mm: nothing is beyond rest until they are nearer than 4.
   const Prepared p(twoLines(0.004), radius(0.0025));

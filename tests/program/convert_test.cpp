@@ -413,6 +413,12 @@ TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
         Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "0"}, "from 1"},
         Case{{"convert", "out/hair.rgc", "a.rgc", "--hairs", "9"}, "name with --groom the groom"},
         Case{{"convert", "out/hair.rgc", "a.rgc", "--groom", "groom.obj"}, "only --hairs needs it"},
+        Case{{"convert", "out/hair.rgc", "a.rgc", "--scene", "scene.toml"}, "only --hairs needs it"},
+        Case{
+            {"convert", "out/hair.rgc", "a.rgc", "--hairs", "9", "--groom", "groom.obj", "--scene", "a.toml"},
+            "say one of --scene and --groom"},
+        Case{{"convert", "groom.obj", "a.obj", "--hairs", "9", "--scene", "scene.toml"},
+             "IN is a groom itself"},
         Case{{"convert", "out/hair.rgc", "--info", "--hairs", "9"}, "leave out OUT"},
         Case{{"convert", "groom.obj", "a.obj", "--hairs", "9", "--groom", "groom.obj"},
              "IN is a groom itself"},

@@ -137,6 +137,25 @@ TEST_F(Outputs, HairsThatFollowAreInEveryAnimation) {
   EXPECT_EQ(frameOf("clips/hair_clips/hair.0002.usdc", {}, "2"), expected);
 }
 
+// A ball that moves with the head pushes hairs, the same in the run and afterwards.
+TEST_F(Outputs, HairsStayOutOfTheScenesBodies) {
+  std::ofstream(folder_ / "ball.toml")
+      << "[groom]\nfile = 'groom.obj'\nunit = 0.01\n[motion]\nkind = 'nod'\n"
+         "[[body]]\nshape = 'sphere'\nradius = 0.01\nposition = [0, -0.025, 0.012]\n";
+  const auto result = simulate("ball.toml", {"--hairs", "400", "--cache", "float32", "-o", "hairs"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto strands = simulate("ball.toml", {"--cache", "float32", "-o", "strands"});
+  ASSERT_EQ(strands.exitCode, 0) << strands.err;
+  const auto converted = [&](const char* known, const char* file) {
+    const auto made = run({"convert", "strands/hair.rgc", "made.rgc", "--hairs", "400", known, file});
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    return readText(folder_ / "made.rgc");
+  };
+  const std::string found = readText(folder_ / "hairs/hair.rgc");
+  EXPECT_TRUE(converted("--scene", "ball.toml") == found);
+  EXPECT_FALSE(converted("--groom", "groom.obj") == found) << "the ball must press on hairs";
+}
+
 TEST_F(Outputs, HairsHaveNothingOfTheGroomsFile) {
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"--usd-values", "groom"}, {"--usd-prims", "groom", "--usdc", "--no-usd"}}) {

@@ -6,9 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "tests/program/picture_file.h"
-#include "tests/program/run_program.h"
-#include "tests/support/test_support.h"
+#include "tests/program/rendered_run.h"
 
 namespace ringlet {
 namespace {
@@ -18,55 +16,10 @@ using nlohmann::json;
 using test::differing;
 using test::greatestDifference;
 using test::Image;
-using test::ProgramResult;
-using test::readPng;
-using test::runProgram;
-using test::scratchFolder;
 
-constexpr int kFrames = 4;
+constexpr int kFrames = test::kRenderedFrames;
 
-// A folder with head.obj, a head of 120 strands, and out/, a run of it in every format; made once for all
-// tests.
-class Render : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!folder_.empty()) return;
-    const fs::path folder = scratchFolder("render");
-    RINGLET_NEEDS_DEVICE(folder);
-    ASSERT_EQ(runProgram(folder, {"make", "head", "--strands", "120", "--particles", "24", "-o", "head.obj"})
-                  .exitCode,
-              0);
-    const auto result =
-        runProgram(folder, {"simulate", "head.obj", "--motion", "shake", "--frames", std::to_string(kFrames),
-                            "--cache", "float32", "--usdc", "--no-sheet", "-o", "out"});
-    ASSERT_EQ(result.exitCode, 0) << result.err;
-    folder_ = folder;
-  }
-
-  ProgramResult run(const std::vector<std::string>& arguments) { return runProgram(folder_, arguments); }
-
-  // Small pictures, and what is printed of them.
-  json render(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), "render");
-    for (const char* each : {"--size", "96x54", "--samples", "1", "--json"}) arguments.push_back(each);
-    const auto result = run(arguments);
-    EXPECT_EQ(result.exitCode, 0) << result.err;
-    return json::parse(result.out, nullptr, false);
-  }
-
-  void expectRefused(std::vector<std::string> arguments, int exitCode,
-                     const std::vector<std::string>& parts) {
-    arguments.insert(arguments.begin(), "render");
-    const auto result = run(arguments);
-    EXPECT_EQ(result.exitCode, exitCode) << result.err;
-    for (const std::string& part : parts)
-      EXPECT_NE(result.err.find(part), std::string::npos) << "'" << part << "' is not in: " << result.err;
-  }
-
-  Image picture(const fs::path& path) { return readPng(folder_ / path); }
-
-  static inline fs::path folder_;
-};
+using Render = test::RenderedRun;
 
 TEST_F(Render, ARunIsAPictureAFrame) {
   const json said = render({"out", "-o", "pictures"});

@@ -321,6 +321,59 @@ def test_forces_that_are_the_same_everywhere_are_another_gravity(device, swatch)
     assert not np.array_equal(falls.positions(), still)
 
 
+def test_goals_hold_hair_to_a_pose(device, swatch):
+    settings = ringlet.Settings(steps_per_frame=8)
+    rest = swatch.points * np.float32(swatch.metres_per_unit)
+    held = ringlet.Hair(ringlet.Asset(device, swatch, settings=settings, goals=True))
+    free = ringlet.Hair(ringlet.Asset(device, swatch, settings=settings))
+    held.set_goals(rest, 1000)
+    for frame in range(6):
+        for hair in (held, free):
+            hair.step(shaken(frame, 8))
+    def off(hair):
+        return np.abs(hair.positions() - hair.head.position - rest).max()
+    assert off(free) > 0.01 > 10 * off(held)
+
+    # One end is let go, and another pose is taken.
+    lifted = rest + np.float32([0, 0.02, 0])
+    held.set_goals(lifted, np.where(np.arange(len(rest)) % 2, 1000, 0), damping=2)
+    for frame in range(24):
+        held.step(shaken(6, 8))
+    assert np.abs(held.positions() - held.head.position - lifted)[1::2].max() < 0.02
+
+
+def test_the_goal_of_settings_is_the_groom(device, swatch):
+    rest = swatch.points * np.float32(swatch.metres_per_unit)
+    by_hand = ringlet.Hair(ringlet.Asset(device, swatch, goals=True))
+    by_hand.set_goals(rest, 5)
+    settings = ringlet.Settings(goal={"on": True, "strength": 5})
+    by_settings = ringlet.Hair(ringlet.Asset(device, swatch, settings=settings))
+    for frame in range(4):
+        for hair in (by_hand, by_settings):
+            hair.step(shaken(frame, 8))
+    assert np.array_equal(by_hand.positions(), by_settings.positions())
+    by_settings.set_settings(goal={"strength": 0.5})
+    by_hand.set_goals(rest, 0.5)
+    for hair in (by_hand, by_settings):
+        hair.step(shaken(4, 8))
+    assert np.array_equal(by_hand.positions(), by_settings.positions())
+
+
+def test_goals_that_do_not_fit_are_refused(device, swatch, hair):
+    count = swatch.particle_count
+    rest = np.zeros((count, 3), np.float32)
+    with pytest.raises(ringlet.Error, match="goals"):
+        hair.set_goals(rest, 1)
+    held = ringlet.Hair(ringlet.Asset(device, swatch, goals=True))
+    for places, strengths, damping in ((rest[1:], 1, 1), (rest, np.ones(count - 1), 1), (rest, -1, 1), (rest, 1, -1),
+                                       (rest, np.nan, 1), (rest, 1, np.nan), (rest * np.nan, 1, 1)):
+        with pytest.raises(ValueError):
+            held.set_goals(places, strengths, damping)
+    for places, strengths in ((rest.astype(float), 1), (rest, "much"), (None, 1)):
+        with pytest.raises(TypeError):
+            held.set_goals(places, strengths)
+
+
 def test_forces_that_do_not_fit_are_refused(device, swatch, hair):
     count = swatch.particle_count
     with pytest.raises(ringlet.Error, match="forces"):

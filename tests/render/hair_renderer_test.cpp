@@ -9,13 +9,13 @@
 #include <numbers>
 #include <vector>
 
+#include "layout/picture.h"
 #include "ringlet/bodies/icosphere.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/render/strand_points.h"
 #include "ringlet/render/stretch_colours.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {
@@ -313,6 +313,69 @@ TEST_F(HairRendererTest, APreviewLooksLikeThePicture) {
   EXPECT_LT(std::abs(sum), 1.0);
   EXPECT_LT(std::sqrt(squares), 10.0);
   EXPECT_EQ(shown(), preview) << "the same bits";
+}
+
+// A hair's pigment is its place among the look's: between two of them what absorbs light is mixed.
+TEST_F(HairRendererTest, PigmentsAreMixedBetweenNeighbours) {
+  Scene scene;
+  scene.addStrand({{-0.2f, 0, 0}, {0.2f, 0, 0}});
+  scene.width = 0.1;
+  const auto lightAt = [&](float place, std::vector<Absorption> pigments) {
+    auto strands = StrandPoints::create(gpu(), scene.firstPoint);
+    EXPECT_TRUE(strands->setPose(scene.points, 1));
+    Look look;
+    look.pigments = std::move(pigments);
+    auto renderer = HairRenderer::create(gpu(), {strands->points(), strands->firstPoint(), scene.width}, {},
+                                         {kWidth, kHeight, 1}, look);
+    EXPECT_TRUE(renderer->setFrame(scene.camera, scene.bounds, {}));
+    EXPECT_TRUE(renderer->setPigments(std::vector<float>{place}));
+    auto recorder = gpu::Recorder::create(gpu(), "picture");
+    EXPECT_TRUE(recorder->begin());
+    renderer->record(*recorder, true);
+    EXPECT_TRUE(recorder->submitAndWait());
+    return *renderer->light();
+  };
+  const Absorption red = absorptionOfColour({0.8, 0.1, 0.1}), green = absorptionOfColour({0.1, 0.8, 0.1}),
+                   blue = absorptionOfColour({0.1, 0.1, 0.8});
+  const std::vector<Absorption> three = {red, green, blue};
+  EXPECT_EQ(lightAt(0, three), lightAt(0, {red, blue}));
+  EXPECT_EQ(lightAt(0.5, three), lightAt(1, {red, green}));
+  EXPECT_EQ(lightAt(0.75, three), lightAt(0.5, {green, blue}));
+  EXPECT_EQ(lightAt(1, three), lightAt(1, {red, blue}));
+  EXPECT_NE(lightAt(0.5, three), lightAt(0.5, {red, blue}));
+}
+
+// Under a ball the ground is darker than beside it; far away it is what is behind all.
+TEST_F(HairRendererTest, AGroundTakesShadowsAndFades) {
+  Scene scene = headScene(1);
+  scene.camera = {.eye = {0, 0.4, 1.2}, .target = {0, -0.1, 0}};
+  const auto lightOf = [&](bool hasBall) {
+    Scene with = scene;
+    if (!hasBall) with.solids.clear(), with.places.clear();
+    with.solids.push_back(groundOf(2.5));
+    with.places.push_back({{0, -0.3, 0}, {}});
+    return draw(gpu(), with, {kWidth, kHeight, 2}).light;
+  };
+  const auto with = lightOf(true), without = lightOf(false);
+  const auto none = draw(gpu(), scene, {kWidth, kHeight, 2}).light;
+  int darker = 0, lighter = 0;
+  for (std::size_t pixel = 3 * kWidth * kHeight / 2; pixel < with.size(); pixel += 3) {  // the ground's half
+    darker += with[pixel] < 0.8f * without[pixel];
+    lighter += with[pixel] > 1.2f * without[pixel];
+  }
+  EXPECT_GT(darker, 200);
+  EXPECT_LT(lighter, darker / 4);
+  // Ten rows below the top the ground is seen 2.2 m from its middle, of 2.5, and at half the height near it.
+  const auto ofRow = [&](int row) {
+    double sum = 0;
+    for (int x = 0; x < kWidth; ++x) {
+      const std::size_t at = 3 * (static_cast<std::size_t>(row) * kWidth + x);
+      sum += std::abs(without[at] - none[at]) / kWidth;
+    }
+    return sum;
+  };
+  EXPECT_LT(ofRow(10), 0.2 * ofRow(60)) << ofRow(10) << " " << ofRow(60);
+  EXPECT_EQ(ofRow(0), 0) << "beyond it";
 }
 
 // Of two strands the one that is longer than at rest has the last colour, and hairs that follow take theirs.

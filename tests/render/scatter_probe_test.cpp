@@ -4,12 +4,12 @@
 #include <cmath>
 #include <vector>
 
+#include "layout/types.h"
 #include "reference/equations/hair_scattering.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet_shaders/scatter_probe_test.h"
-#include "shared/layout.h"
 #include "tests/support/gpu_test.h"
 
 namespace ringlet::test {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "layout/strands.h"
 #include "reference/step.h"
 #include "ringlet/rest/rest_state.h"
 #include "tests/rest/contact_samples.h"

@@ -58,6 +58,8 @@ const std::string kEverythingElse =
     "[body.moves]\ninterpolation = 'linear'\n[[body.moves.key]]\ntime = 1\n[[body.moves.key]]\ntime = 2\n"
     "position = [1, 0, 0]\n"
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
+    "[[camera]]\nname = 'close'\neye = [0, 1, 2]\ntarget = [0, 0.5, 0]\nup = [0, 0, 1]\nfield_of_view = 40\n"
+    "bind = 'head'\n[[camera]]\nname = 'Shot'\nfile = 'shot.glb'\n"
     "[output]\nfolder = 'out'\nwidth = 0.001\nfiles = ['sheet.png', 'last.obj']\ncache = '16bit'\n"
     "tip_width = 0.0002\nvalues = ['rest', 'id']\nhead = 'none'\nprims = 'groom'\nclip_frames = 12\nhairs = "
     "500\n";
@@ -415,6 +417,30 @@ TEST(SceneFile, MistakesAreNamedWithLineAndRemedy) {
       0u);
 }
 
+TEST(SceneFile, CamerasAreRead) {
+  const SceneFile s = parsed(kKind + kEverythingElse);
+  ASSERT_EQ(s.cameras.size(), 2u);
+  EXPECT_EQ(s.cameras[0], (SceneCamera{.name = "close",
+                                       .eye = Vec3d{0, 1, 2},
+                                       .target = {0, 0.5, 0},
+                                       .up = Vec3d{0, 0, 1},
+                                       .fieldOfView = 40,
+                                       .bind = "head"}));
+  EXPECT_EQ(s.cameras[1], (SceneCamera{.name = "Shot", .file = "files/shot.glb"}));
+  const std::string at = std::string(kGroom) + "[[camera]]\n";
+  const std::pair<const char*, const char*> refused[] = {
+      {"eye = [0, 0, 1]\n", "a camera without a name"},
+      {"name = 'a'\n", "neither eye nor file"},
+      {"name = 'a'\nfile = 'a.glb'\ntarget = [0, 0, 1]\n", "camera.target with a camera with file"},
+      {"name = 'a'\neye = [0, 0, 0]\n", "another place than camera.target"},
+      {"name = 'a'\neye = [0, 0, 1]\njoint = 'Neck'\n", "expected motion.file"},
+      {"name = 'a'\neye = [0, 0, 1]\nfield_of_view = 0\n", "from 1 to 170 deg"},
+      {"name = 'a'\neye = [0, 0, 1]\n[[camera]]\nname = 'a'\neye = [0, 0, 1]\n", "no other camera"},
+  };
+  for (const auto& [text, part] : refused)
+    EXPECT_NE(errorOf(at + text).find(part), std::string::npos) << text << errorOf(at + text);
+}
+
 // Of every key there is: what it is called, and that another type is refused in its line.
 TEST(SceneFile, EveryKeyIsListedAndChecked) {
   std::set<std::string> seen;
@@ -424,7 +450,7 @@ TEST(SceneFile, EveryKeyIsListedAndChecked) {
     EXPECT_TRUE(seen.insert(name).second) << "twice";
     for (const std::string& text : {key.type, key.standard, key.effect}) EXPECT_FALSE(text.empty());
     EXPECT_EQ(key.effect.back(), '.');
-    const bool isList = key.table == "body" || key.table == "motion.key";
+    const bool isList = key.table == "body" || key.table == "camera" || key.table == "motion.key";
     // A date is of no key's type.
     const std::string error =
         errorOf(fmt::format("{}\n{}{}{}\n{} = 2020-01-01\n", key.table == "groom" ? "" : kGroom,
@@ -436,7 +462,8 @@ TEST(SceneFile, EveryKeyIsListedAndChecked) {
   for (const char* name :
        {"groom.file", "motion.kind", "motion.pre_roll", "motion.key.quaternion",
         "simulation.teleport_distance", "contacts.damping_release_seconds", "air.eddy_size",
-        "body.half_extents", "body.moves", "output.files", "motion.roots.shift", "scalp.file", "scalp.start"})
+        "body.half_extents", "body.moves", "camera.eye", "camera.field_of_view", "output.files",
+        "motion.roots.shift", "scalp.file", "scalp.start"})
     EXPECT_TRUE(seen.count(name)) << name;
 }
 
@@ -450,6 +477,8 @@ TEST(SceneFile, WhatIsWrittenIsReadBack) {
     EXPECT_EQ(again.material.material, scene.material.material);
     EXPECT_EQ(again.groom.file, scene.groom.file);
     EXPECT_EQ(again.bodies.size(), scene.bodies.size());
+    ASSERT_EQ(again.cameras.size(), scene.cameras.size());
+    for (std::size_t k = 0; k < scene.cameras.size(); ++k) EXPECT_EQ(again.cameras[k], scene.cameras[k]);
   }
   const std::string written = sceneText(parsed(kKind + kEverythingElse), "files");
   // Every key that was stated stands there again, but presets, whose numbers do, and what is the default.

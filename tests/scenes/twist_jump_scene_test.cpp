@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "layout/strands.h"
 #include "ringlet/measure/frame_turn.h"
-#include "shared/layout.h"
 #include "tests/scenes/scene_runs.h"
 #include "tests/support/tolerances.h"
 

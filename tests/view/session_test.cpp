@@ -190,7 +190,7 @@ TEST_F(SessionTest, PanesDrawTheHairThatIsSimulated) {
   ASSERT_TRUE(pane) << pane.error().message;
   const auto draw = [&](const Camera& camera) {
     EXPECT_TRUE(pane->attach(gpu(), session.hairs()[0].simulation()));
-    EXPECT_TRUE(pane->setFrame(camera, session.head(), {}));
+    EXPECT_TRUE(pane->setFrame(camera, session.head(), {}, {}));
     auto recorder = gpu::Recorder::create(gpu(), "pane");
     EXPECT_TRUE(recorder->begin());
     pane->record(*recorder, session.head().rotation);

@@ -15,7 +15,7 @@
 namespace ringlet::c {
 namespace {
 
-constexpr std::string_view kContacts = "contacts.", kAir = "air.", kVariation = "variation.";
+constexpr std::string_view kContacts = "contacts.", kAir = "air.", kGoal = "goal.", kVariation = "variation.";
 constexpr const char* kIntegrators[] = {"jacobi", "point_jacobi", "paper"};
 
 Outcome unknown(std::string_view what, std::string_view name, const std::vector<std::string>& names) {
@@ -34,6 +34,7 @@ std::vector<std::string> settingNames() {
   addNames(names, "", settingsFields());
   addNames(names, kContacts, contactFields());
   addNames(names, kAir, airFields());
+  addNames(names, kGoal, goalFields());
   return names;
 }
 
@@ -71,6 +72,8 @@ Outcome setNamed(Settings& settings, std::string_view name, const char* type, Pu
     return setField(contactFields(), name.substr(kContacts.size()), settings.contacts, name, type, putInto);
   if (name.starts_with(kAir))
     return setField(airFields(), name.substr(kAir.size()), settings.air, name, type, putInto);
+  if (name.starts_with(kGoal))
+    return setField(goalFields(), name.substr(kGoal.size()), settings.goal, name, type, putInto);
   return setField(settingsFields(), name, settings, name, type, putInto);
 }
 

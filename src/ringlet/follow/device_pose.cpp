@@ -6,24 +6,18 @@
 #include <cstring>
 #include <utility>
 
+#include "layout/hair_points.h"
+#include "layout/pose.h"
+#include "ringlet/base/packed.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet_shaders/pose_bounds_plain.h"
 #include "ringlet_shaders/pose_points_plain.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {
 
 constexpr std::uint32_t kMostInGroup = 256;
 constexpr std::uint32_t kPointsEach = 64;  // that an invocation looks at for the box
-
-std::uint32_t groupSizeOn(const gpu::Device& device) {
-  return std::min(kMostInGroup, device.properties().maxGroupInvocations);
-}
-
-std::uint32_t groupsFor(std::uint32_t invocations, const gpu::Kernel& kernel) {
-  return (invocations + kernel.groupSize() - 1) / kernel.groupSize();
-}
 
 std::vector<std::uint32_t> tagsOf(std::span<const std::uint32_t> firstPoint, PoseTag tag) {
   std::vector<std::uint32_t> tags(firstPoint.back(), 0);
@@ -35,36 +29,24 @@ std::vector<std::uint32_t> tagsOf(std::span<const std::uint32_t> firstPoint, Pos
   return tags;
 }
 
+gpu::KernelDescription describe(const gpu::Device& device, const char* name,
+                                std::span<const std::uint32_t> spirv, bool texels) {
+  gpu::KernelDescription description;
+  description.name = name;
+  description.spirv = spirv;
+  description.pushConstantBytes = sizeof(layout::PoseParameters);
+  description.groupSize = std::min(kMostInGroup, device.properties().maxGroupInvocations);
+  description.constants = {{layout::kSpecGroupSize, description.groupSize},
+                           {layout::kSpecTexels, texels ? 1u : 0u}};
+  return description;
+}
+
 // Back from ordered bits (pose_bounds.comp).
 double valueOf(std::uint32_t ordered) {
   return std::bit_cast<float>(ordered >> 31 ? ordered ^ 0x80000000u : ~ordered);
 }
 
 }  // namespace
-
-Status DevicePose::makeKernels(gpu::Device& device, const gpu::Buffer& target, bool texels) {
-  gpu::KernelDescription description;
-  description.pushConstantBytes = sizeof(layout::PoseParameters);
-  description.groupSize = groupSizeOn(device);
-  description.constants = {{layout::kSpecGroupSize, description.groupSize},
-                           {layout::kSpecTexels, texels ? 1u : 0u}};
-  const auto make = [&](const char* name, std::span<const std::uint32_t> spirv) {
-    description.name = name;
-    description.spirv = spirv;
-    return gpu::Kernel::create(device, description);
-  };
-  auto move = make("pose_points", k_pose_points_plain);
-  if (!move) return move.error();
-  auto surround = make("pose_bounds", k_pose_bounds_plain);
-  if (!surround) return surround.error();
-  move_ = std::move(*move);
-  surround_ = std::move(*surround);
-  auto bindings = gpu::Bindings::create(
-      *surround_, {{layout::kBindPosePoints, target}, {layout::kBindPoseBounds, bounds_}});
-  if (!bindings) return bindings.error();
-  surroundBindings_.push_back(std::move(*bindings));
-  return {};
-}
 
 Status DevicePose::addPart(gpu::Device& device, const gpu::Buffer& positions,
                            std::span<const std::uint32_t> particles, bool isCarried) {
@@ -73,14 +55,15 @@ Status DevicePose::addPart(gpu::Device& device, const gpu::Buffer& positions,
   for (const std::uint32_t point : particles) places.push_back({.point = point, .tag = tags_[point]});
   auto filled = createFilled(device, places, "places of simulated hair");
   if (!filled) return filled.error();
-  auto bindings =
-      gpu::Bindings::create(*move_, {{layout::kBindPosePositions, positions},
-                                     {layout::kPoseTexels + layout::kBindPosePositions, positions},
-                                     {layout::kBindPosePlaces, *filled},
-                                     {layout::kBindPosePoints, *target_}});
-  if (!bindings) return bindings.error();
+  const bool texels = isSeenAsTexels(device, positions.bytes());
+  auto move = gpu::BoundKernel::create(device, describe(device, "pose_points", k_pose_points_plain, texels),
+                                       {{layout::kBindPosePositions, positions},
+                                        {layout::kPoseTexels + layout::kBindPosePositions, positions},
+                                        {layout::kBindPosePlaces, *filled},
+                                        {layout::kBindPosePoints, *target_}});
+  if (!move) return move.error();
   others_.push_back(std::move(*filled));
-  parts_.push_back({std::move(*bindings), static_cast<std::uint32_t>(particles.size()), isCarried});
+  parts_.push_back({std::move(*move), static_cast<std::uint32_t>(particles.size()), isCarried});
   return {};
 }
 
@@ -98,25 +81,24 @@ Result<DevicePose> DevicePose::create(gpu::Device& device, std::span<const PoseS
   self.tags_ = tagsOf(firstPoint, tag);
 
   std::vector<bool> isSimulated(self.pointCount_, false);
-  bool texels = true;
-  for (const PoseSource& source : sources) {
-    texels = texels && isSeenAsTexels(device, source.positions.bytes());
+  for (const PoseSource& source : sources)
     for (const std::uint32_t point : source.particles) isSimulated[point] = true;
-  }
   std::vector<std::uint32_t> carried;
   std::vector<layout::vec4> carriedPoints;
   for (std::uint32_t i = 0; i < self.pointCount_; ++i) {
     if (isSimulated[i]) continue;
     carried.push_back(i);
-    carriedPoints.push_back(
-        {static_cast<float>(rest[i].x), static_cast<float>(rest[i].y), static_cast<float>(rest[i].z), 0});
+    carriedPoints.push_back(packed(rest[i]));
   }
   auto still = createFilled(device, carriedPoints, "hair that the head carries");
   if (!still) return still.error();
   self.others_.reserve(sources.size() + 2);  // buffers that are bound stay where they are
   self.others_.push_back(std::move(*still));
-  texels = texels && isSeenAsTexels(device, self.others_.front().bytes());
-  if (Status made = self.makeKernels(device, target, texels); !made) return made.error();
+  auto surround =
+      gpu::BoundKernel::create(device, describe(device, "pose_bounds", k_pose_bounds_plain, false),
+                               {{layout::kBindPosePoints, target}, {layout::kBindPoseBounds, self.bounds_}});
+  if (!surround) return surround.error();
+  self.surround_.emplace(std::move(*surround));
   if (Status added = self.addPart(device, self.others_.front(), carried, true); !added) return added.error();
   for (const PoseSource& source : sources) {
     if (Status added = self.addPart(device, source.positions, source.particles, false); !added)
@@ -127,18 +109,16 @@ Result<DevicePose> DevicePose::create(gpu::Device& device, std::span<const PoseS
 
 void DevicePose::record(gpu::CommandList& list, Quatd head) const {
   list.fillZero(bounds_);
-  const auto turn = layout::vec4{static_cast<float>(head.x), static_cast<float>(head.y),
-                                 static_cast<float>(head.z), static_cast<float>(head.w)};
+  const layout::vec4 turn = packed(head);
   for (const Part& part : parts_) {
     const layout::PoseParameters parameters{
         .turn = turn, .count = part.count, .isTurned = part.isCarried ? 1u : 0u};
-    list.dispatch(*move_, part.bindings, parameters, groupsFor(part.count, *move_));
+    part.move.dispatch(list, parameters, part.count);
   }
   list.barrier();
   const std::uint32_t invocations = (pointCount_ + kPointsEach - 1) / kPointsEach;
-  list.dispatch(*surround_, surroundBindings_.front(),
-                layout::PoseParameters{.turn = turn, .count = pointCount_, .isTurned = 0},
-                groupsFor(invocations, *surround_));
+  surround_->dispatch(list, layout::PoseParameters{.turn = turn, .count = pointCount_, .isTurned = 0},
+                      invocations);
   list.barrier();
   list.copyBuffer(bounds_, seen_, sizeof(layout::PoseBounds));
   list.barrier();

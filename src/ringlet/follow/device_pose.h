@@ -3,15 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/gpu/bound_kernel.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/command_list.h"
-#include "ringlet/gpu/kernel.h"
 
 namespace ringlet {
 
@@ -50,22 +50,20 @@ class DevicePose {
 
  private:
   struct Part {
-    gpu::Bindings bindings;
+    gpu::BoundKernel move;
     std::uint32_t count = 0;
     bool isCarried = false;
   };
   explicit DevicePose(gpu::Buffer bounds, gpu::Buffer seen)
       : bounds_(std::move(bounds)), seen_(std::move(seen)) {}
-  Status makeKernels(gpu::Device& device, const gpu::Buffer& target, bool texels);
   Status addPart(gpu::Device& device, const gpu::Buffer& positions, std::span<const std::uint32_t> particles,
                  bool isCarried);
 
   gpu::Buffer bounds_, seen_;  // on the device; and what the host sees of it
   std::vector<gpu::Buffer> others_;
-  std::shared_ptr<const gpu::Kernel> move_, surround_;
-  std::vector<gpu::Bindings> surroundBindings_;  // one
   std::vector<Part> parts_;
-  std::vector<std::uint32_t> tags_;  // of all points
+  std::optional<gpu::BoundKernel> surround_;  // once made
+  std::vector<std::uint32_t> tags_;           // of all points
   const gpu::Buffer* target_ = nullptr;
   std::uint32_t pointCount_ = 0;
 };

@@ -5,17 +5,22 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <limits>
 #include <thread>
 #include <utility>
 
+#include "layout/follow.h"
+#include "layout/hair_points.h"
 #include "ringlet/base/in_parallel.h"
+#include "ringlet/base/packed.h"
 #include "ringlet/follow/core_weights.h"
 #include "ringlet/gpu/device_buffers.h"
+#include "ringlet_shaders/follow_bodies_plain.h"
 #include "ringlet_shaders/follow_core_plain.h"
 #include "ringlet_shaders/follow_frames_plain.h"
+#include "ringlet_shaders/follow_hairs_among_bodies.h"
 #include "ringlet_shaders/follow_hairs_plain.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {
@@ -27,21 +32,22 @@ struct Compiled {
   const char* name;
   std::span<const std::uint32_t> spirv;
 };
-const Compiled kCompiled[] = {{"follow_core", k_follow_core_plain},
-                              {"follow_frames", k_follow_frames_plain},
-                              {"follow_hairs", k_follow_hairs_plain}};
+// In the order of a frame.
+std::vector<Compiled> compiled(bool hasBodies) {
+  std::vector<Compiled> all{{"follow_core", k_follow_core_plain}, {"follow_frames", k_follow_frames_plain}};
+  if (!hasBodies) {
+    all.push_back({"follow_hairs", k_follow_hairs_plain});
+  } else {
+    all.push_back({"follow_hairs", k_follow_hairs_among_bodies});
+    all.push_back({"follow_bodies", k_follow_bodies_plain});
+  }
+  return all;
+}
 
 // Which of `others_` holds which binding.
 constexpr std::uint32_t kOthers[] = {layout::kBindCoreRows,     layout::kBindCoreWeights, layout::kBindCores,
                                      layout::kBindFollowGuides, layout::kBindCoreFrames,  layout::kBindCurls,
                                      layout::kBindFollowHairs};
-
-layout::vec4 vec4Of(Vec3d v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
-}
-layout::vec4 vec4Of(Quatd q) {
-  return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
-}
 
 std::vector<std::vector<CoreWeights>> weightsOf(std::span<const GuideRest> guides) {
   std::vector<std::vector<CoreWeights>> weights(guides.size());
@@ -76,7 +82,7 @@ Status FollowStage::makeGuides(gpu::Device& device, std::span<const GuideRest> g
       for (std::size_t k = 0; k < padded.size(); k += 4)
         records.push_back({padded[k], padded[k + 1], padded[k + 2], padded[k + 3]});
     }
-    constants.push_back({.restFrame = vec4Of(quaternionOf(guides[g].frame)),
+    constants.push_back({.restFrame = packed(quaternionOf(guides[g].frame)),
                          .firstParticle = first,
                          .particleCount = static_cast<std::uint32_t>(rows.size()) - first,
                          .unused = {}});
@@ -97,8 +103,22 @@ Status FollowStage::makeGuides(gpu::Device& device, std::span<const GuideRest> g
   return {};
 }
 
+Status FollowStage::makeNear(gpu::Device& device) {
+  if (bodies_.count() == 0) return {};
+  const layout::NearCount nothing{.indirect = {0, 1, 1}, .points = 0};
+  auto none = createFilled(device, std::span(&nothing, 1), "no points near bodies");
+  if (!none) return none.error();
+  auto count = createZero(device, sizeof(nothing), "number of points near bodies");
+  if (!count) return count.error();
+  auto points = gpu::Buffer::create(device, std::uint64_t{pointCount_} * sizeof(std::uint32_t),
+                                    gpu::BufferKind::storage, "points near bodies");
+  if (!points) return points.error();
+  near_.emplace(std::move(*count), std::move(*none), std::move(*points));
+  return {};
+}
+
 Status FollowStage::makeKernels(gpu::Device& device) {
-  gpu::BufferTable table;
+  gpu::BufferTable table = bodies_.bufferTable();
   const auto bind = [&](std::uint32_t number, const gpu::Buffer& buffer) {
     table.emplace(number, buffer);
     table.emplace(layout::kFollowTexels + number, buffer);
@@ -106,29 +126,30 @@ Status FollowStage::makeKernels(gpu::Device& device) {
   bind(layout::kBindGuidePoints, positions_);
   bind(layout::kBindHairPoints, points_);
   for (std::size_t i = 0; i < others_.size(); ++i) bind(kOthers[i], others_[i]);
+  if (near_) {
+    bind(layout::kBindNearCount, near_->count);
+    bind(layout::kBindNearPoints, near_->points);
+  }
   const bool texels = std::ranges::all_of(
       table, [&](const auto& entry) { return isSeenAsTexels(device, entry.second.get().bytes()); });
-  for (const Compiled& compiled : kCompiled) {
+  for (const auto& [name, spirv] : compiled(bodies_.count() > 0)) {
     gpu::KernelDescription description;
-    description.name = compiled.name;
-    description.spirv = compiled.spirv;
+    description.name = name;
+    description.spirv = spirv;
     description.remedy = "take another device, or fewer hairs";
     description.pushConstantBytes = sizeof(layout::FollowParameters);
     description.constants = {{layout::kSpecGroupSize, groupSizeOn(device)},
                              {layout::kSpecTexels, texels ? 1u : 0u}};
     description.groupSize = groupSizeOn(device);
-    auto kernel = gpu::Kernel::create(device, description);
+    auto kernel = gpu::BoundKernel::create(device, description, table);
     if (!kernel) return kernel.error();
-    auto bindings = gpu::Bindings::create(**kernel, table);
-    if (!bindings) return bindings.error();
     kernels_.push_back(std::move(*kernel));
-    bindings_.push_back(std::move(*bindings));
   }
   return {};
 }
 
 Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const GuideRest> guides,
-                                        std::span<const FollowHair> hairs) {
+                                        std::span<const FollowHair> hairs, std::span<const Body> bodies) {
   std::uint64_t particles = 0, points = 0;
   std::size_t stride = 0;
   for (const GuideRest& guide : guides) {
@@ -151,7 +172,9 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   auto out = gpu::Buffer::create(device, points * sizeof(layout::uvec4), gpu::BufferKind::storage,
                                  "points of hairs");
   if (!out) return out.error();
-  FollowStage self(std::move(*positions), std::move(*out));
+  auto posed = PosedBodies::create(device, bodies);
+  if (!posed) return posed.error();
+  FollowStage self(std::move(*positions), std::move(*out), std::move(*posed));
   self.guideCount_ = static_cast<std::uint32_t>(guides.size());
   self.particleCount_ = static_cast<std::uint32_t>(particles);
   self.hairCount_ = static_cast<std::uint32_t>(hairs.size());
@@ -176,33 +199,41 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   auto filled = createFilled(device, records, "hairs");
   if (!filled) return filled.error();
   self.others_.push_back(std::move(*filled));
+  if (Status made = self.makeNear(device); !made) return made.error();
   if (Status made = self.makeKernels(device); !made) return made.error();
   return self;
 }
 
 Status FollowStage::setPose(std::span<const Vec3d> positions) {
-  std::vector<layout::vec4> packed;
-  packed.reserve(positions.size());
-  for (const Vec3d& position : positions) packed.push_back(vec4Of(position));
-  return positions_.upload(std::as_bytes(std::span(packed)));
+  std::vector<layout::vec4> records;
+  records.reserve(positions.size());
+  for (const Vec3d& position : positions) records.push_back(packed(position));
+  return positions_.upload(std::as_bytes(std::span(records)));
 }
 
 void FollowStage::record(gpu::CommandList& list, Quatd head) const {
-  layout::FollowParameters parameters{
-      .head = vec4Of(head), .count = 0, .stride = stride_, .particles = particleCount_};
+  layout::FollowParameters parameters{.head = packed(head),
+                                      .count = 0,
+                                      .stride = stride_,
+                                      .particles = particleCount_,
+                                      .bodyCount = bodies_.count()};
+  if (near_) list.copyBuffer(near_->none, near_->count, sizeof(layout::NearCount));
   const std::uint32_t counts[] = {particleCount_, guideCount_, hairCount_};
   const std::uint32_t invocations[] = {particleCount_, guideCount_, hairCount_ * stride_};
-  for (std::size_t k = 0; k < kernels_.size(); ++k) {
+  for (std::size_t k = 0; k < std::size(counts); ++k) {
     parameters.count = counts[k];
-    const std::uint32_t groupSize = kernels_[k]->groupSize();
-    list.dispatch(*kernels_[k], bindings_[k], parameters, (invocations[k] + groupSize - 1) / groupSize);
+    kernels_[k].dispatch(list, parameters, invocations[k]);
     list.barrier();
   }
+  if (!near_) return;
+  kernels_.back().dispatchIndirect(list, parameters, near_->count, offsetof(layout::NearCount, indirect));
+  list.barrier();
 }
 
 std::uint64_t FollowStage::byteCount() const {
-  std::uint64_t bytes = positions_.bytes() + points_.bytes();
+  std::uint64_t bytes = positions_.bytes() + points_.bytes() + bodies_.byteCount();
   for (const gpu::Buffer& buffer : others_) bytes += buffer.bytes();
+  if (near_) bytes += near_->count.bytes() + near_->none.bytes() + near_->points.bytes();
   return bytes;
 }
 

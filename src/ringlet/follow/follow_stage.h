@@ -3,25 +3,27 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/follow/follow_hairs.h"
+#include "ringlet/follow/posed_bodies.h"
+#include "ringlet/gpu/bound_kernel.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/command_list.h"
-#include "ringlet/gpu/kernel.h"
 
 namespace ringlet {
 
 class FollowStage {
  public:
-  /// `hairs`: of planHairs, of these guides. Errors: the device lacks memory, or sees too little of a buffer
-  /// at once; the message says how many hairs it has room for. Cost: the guides' cores, on all processors.
+  /// `hairs`: of planHairs, of these guides. `bodies`: that hairs stay out of where their guides do; they
+  /// pass checkBody. Errors: the device lacks memory, or sees too little of a buffer at once; the message
+  /// says how many hairs it has room for. Cost: the guides' cores, on all processors.
   static Result<FollowStage> create(gpu::Device& device, std::span<const GuideRest> guides,
-                                    std::span<const FollowHair> hairs);
+                                    std::span<const FollowHair> hairs, std::span<const Body> bodies = {});
   FollowStage(FollowStage&&) = default;
 
   /// The guides' particles [m], one after the other in the guides' order. The next frame follows them. No
@@ -31,11 +33,15 @@ class FollowStage {
   /// vec4[particles]: the same on the device, for what writes it there (DevicePose).
   const gpu::Buffer& pose() const { return positions_; }
 
+  /// Where bodies are in the next frame, one pose a body; `origin` is where the guides' particles are seen
+  /// from. No submission may be using them meanwhile.
+  void setBodies(std::span<const BodyPose> poses, Vec3d origin = {}) { bodies_.setPoses(poses, origin); }
+
   /// Moves the hairs to the pose. `head`: how the head has turned since the rest pose. Ends with a barrier.
   void record(gpu::CommandList& list, Quatd head) const;
 
-  /// uvec4[pointCount()]: x, y, z as the bits of floats [m]; the hair's number, with kHairEnd (layout.h) at
-  /// its last point.
+  /// uvec4[pointCount()]: x, y, z as the bits of floats [m]; the hair's number, with kHairEnd
+  /// (layout/hair_points.h) at its last point.
   const gpu::Buffer& points() const { return points_; }
   std::uint32_t pointCount() const { return pointCount_; }
   std::uint32_t hairCount() const { return hairCount_; }
@@ -44,15 +50,22 @@ class FollowStage {
   std::uint64_t byteCount() const;  // of all its buffers
 
  private:
-  explicit FollowStage(gpu::Buffer positions, gpu::Buffer points)
-      : positions_(std::move(positions)), points_(std::move(points)) {}
+  FollowStage(gpu::Buffer positions, gpu::Buffer points, PosedBodies bodies)
+      : positions_(std::move(positions)), points_(std::move(points)), bodies_(std::move(bodies)) {}
   Status makeGuides(gpu::Device& device, std::span<const GuideRest> guides);
+  Status makeNear(gpu::Device& device);
   Status makeKernels(gpu::Device& device);
 
+  // Points of hairs near bodies: how many there are, none, and which.
+  struct Near {
+    gpu::Buffer count, none, points;
+  };
+
   gpu::Buffer positions_, points_;
+  PosedBodies bodies_;
+  std::optional<Near> near_;  // where there are bodies
   std::vector<gpu::Buffer> others_;
-  std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;
-  std::vector<gpu::Bindings> bindings_;
+  std::vector<gpu::BoundKernel> kernels_;  // in their order; that of bodies only where there are any
   std::vector<std::uint32_t> firstPoint_;
   std::uint32_t guideCount_ = 0, particleCount_ = 0, hairCount_ = 0, pointCount_ = 0, stride_ = 0;
 };

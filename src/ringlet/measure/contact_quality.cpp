@@ -9,10 +9,13 @@
 
 namespace ringlet {
 
-ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
-                               std::span<const Vec3f> positions) {
-  const auto& particles = contacts.allParticles();  // names, since Clang 14 captures no structured binding
-  const auto& graph = contacts.graph;
+namespace {
+
+// visit(a, b, overlap): of every pair nearer than R, its strands in device order and its overlap beyond rest.
+template <class Visit>
+void visitOverlaps(const RestState& rest, const RestContacts& contacts, std::span<const Vec3f> positions,
+                   const Visit& visit) {
+  const auto& particles = contacts.allParticles();
   RINGLET_ASSERT(positions.size() == rest.groomParticleCount, "one position per particle");
   std::vector<Box> boxes;
   std::vector<Vec3d> restPoints;
@@ -23,9 +26,6 @@ ContactQuality measureContacts(const RestState& rest, const RestContacts& contac
     boxes.push_back({static_cast<Vec3d>(positions[inGroom]), {radius, radius, radius}});
     restPoints.push_back(static_cast<Vec3d>(rest.points[particle]));
   }
-
-  ContactQuality quality;
-  std::uint64_t allowed = 0;
   const BoxPairs pairs(boxes);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     pairs.visitPartners(i, [&](std::size_t j) {
@@ -33,18 +33,40 @@ ContactQuality measureContacts(const RestState& rest, const RestContacts& contac
       const double R = double{particles.radii[a]} + double{particles.radii[b]};
       const double d = length(boxes[i].centre - boxes[j].centre);
       if (a == b || !(d < R)) return;
-      ++quality.overlapping;
-      allowed += graph.allows(a, b);
       const double restLength = std::min(R, length(restPoints[i] - restPoints[j]));
-      const double overlap = std::max(0.0, restLength - d) / R;
-      quality.overlapBeyondRestSum += overlap;
-      quality.deepestOverlap = std::max(quality.deepestOverlap, overlap);
+      visit(a, b, std::max(0.0, restLength - d) / R);
     });
   }
+}
+
+}  // namespace
+
+ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
+                               std::span<const Vec3f> positions) {
+  ContactQuality quality;
+  std::uint64_t allowed = 0;
+  visitOverlaps(rest, contacts, positions, [&](std::uint32_t a, std::uint32_t b, double overlap) {
+    ++quality.overlapping;
+    allowed += contacts.graph.allows(a, b);
+    quality.overlapBeyondRestSum += overlap;
+    quality.deepestOverlap = std::max(quality.deepestOverlap, overlap);
+  });
   if (quality.overlapping > 0) {
     quality.rawRecall = static_cast<double>(allowed) / static_cast<double>(quality.overlapping);
   }
   return quality;
+}
+
+std::vector<float> overlapOfStrands(const RestState& rest, const RestContacts& contacts,
+                                    std::span<const Vec3f> positions) {
+  std::vector<float> deepest(rest.groomStrandCount);
+  visitOverlaps(rest, contacts, positions, [&](std::uint32_t a, std::uint32_t b, double overlap) {
+    for (const std::uint32_t strand : {a, b}) {
+      float& its = deepest[rest.strandInGroom[strand]];
+      its = std::max(its, static_cast<float>(overlap));
+    }
+  });
+  return deepest;
 }
 
 Result<ContactRuler> ContactRuler::make(const Groom& groom, const Material& material,

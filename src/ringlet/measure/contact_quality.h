@@ -32,6 +32,11 @@ struct ContactQuality {
 ContactQuality measureContacts(const RestState& rest, const RestContacts& contacts,
                                std::span<const Vec3f> positions);
 
+/// The deepest overlap beyond rest of each strand of the groom; 0 of those that are carried rigidly.
+/// Otherwise as measureContacts.
+std::vector<float> overlapOfStrands(const RestState& rest, const RestContacts& contacts,
+                                    std::span<const Vec3f> positions);
+
 /// measureContacts of one groom, pose after pose.
 class ContactRuler {
  public:
@@ -40,6 +45,9 @@ class ContactRuler {
 
   ContactQuality measure(std::span<const Vec3f> positions) const {
     return measureContacts(rest_, contacts_, positions);
+  }
+  std::vector<float> overlapOfStrands(std::span<const Vec3f> positions) const {
+    return ringlet::overlapOfStrands(rest_, contacts_, positions);
   }
   /// What the solver warns of with these settings (Simulation::warnings).
   const std::vector<std::string>& warnings() const { return rest_.warnings; }

@@ -24,8 +24,8 @@ std::uint32_t numberAt(std::span<const std::byte> bytes, std::size_t at) {
 }
 
 Status guardText(std::span<std::byte> bytes, bool hidesMeshes) {
-  constexpr std::array<std::string_view, 7> kUnread{"images",  "textures",   "materials", "samplers",
-                                                    "cameras", "extensions", "extras"};
+  constexpr std::array<std::string_view, 6> kUnread{"images",   "textures",   "materials",
+                                                    "samplers", "extensions", "extras"};
   char* const text = reinterpret_cast<char*>(bytes.data());
   int depth = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {

@@ -1,6 +1,6 @@
-// GltfFile: what moves in a glTF 2.0 file: its nodes, their animations, the skins and meshes they carry; and
-// the way of one of its nodes through the world. Everything is checked when it is read, so nothing here
-// points beyond anything. Pictures and materials are not looked at.
+// GltfFile: what moves in a glTF 2.0 file: its nodes, their animations, the skins, meshes and cameras they
+// carry; and the way of one of its nodes through the world. Everything is checked when it is read, so nothing
+// here points beyond anything. Pictures and materials are not looked at.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct GltfNode {
   Vec3d translation, scale{1, 1, 1};
   Quatd rotation;
   std::optional<Affine> matrix;  // in place of the three; such a node is not animated
-  std::optional<std::size_t> mesh, skin;
+  std::optional<std::size_t> mesh, skin, camera;
 };
 
 /// One quantity of one node over time.
@@ -76,6 +76,11 @@ struct GltfMesh {
   std::optional<Error> problem;                 // why it could not be read; then it is empty
 };
 
+/// Looks along its node's -Z; Y is up.
+struct GltfCamera {
+  std::optional<double> heightAngle;  // from top to bottom [rad]; none: it is not perspective
+};
+
 /// How a file's world lies in ours.
 struct GltfPlacement {
   double metresPerUnit = 1;  // glTF is in metres
@@ -90,6 +95,7 @@ struct GltfFile {
   std::vector<GltfAnimation> animations;
   std::vector<GltfSkin> skins;
   std::vector<GltfMesh> meshes;
+  std::vector<GltfCamera> cameras;
 
   std::vector<std::string> names() const;  // of all nodes
   /// A node by its name, as findJoint does; of several with exactly that name a skin's joint goes before.

@@ -9,6 +9,7 @@
 #include <fstream>  // TinyGLTF forgets it where it reads no files
 #include <limits>
 #include <new>
+#include <numbers>
 #include <type_traits>
 
 #include "ringlet/base/quoted.h"
@@ -232,6 +233,11 @@ Result<GltfNode> readNode(const gltf::Model& model, std::size_t n) {
     node.skin = indexOf(from.skin, model.skins.size());
     if (!node.skin) return Error{fmt::format("node {} has skin {} of {}", n, from.skin, model.skins.size())};
   }
+  if (from.camera >= 0) {
+    node.camera = indexOf(from.camera, model.cameras.size());
+    if (!node.camera)
+      return Error{fmt::format("node {} has camera {} of {}", n, from.camera, model.cameras.size())};
+  }
   return node;
 }
 
@@ -443,6 +449,12 @@ GltfMesh readMesh(const gltf::Model& model, const gltf::Mesh& from) {
   return mesh;
 }
 
+GltfCamera readCamera(const gltf::Camera& from) {
+  const double angle = from.perspective.yfov;
+  const bool isFine = from.type == "perspective" && angle > 0 && angle < std::numbers::pi;
+  return {isFine ? std::optional(angle) : std::nullopt};
+}
+
 // TinyGLTF's way to the files beside: regular files, in the folder of the file only.
 bool isAnywhere(const std::string&, void*) { return true; }
 std::string asItIs(const std::string& path, void*) { return path; }
@@ -524,6 +536,7 @@ Result<GltfFile> fileOf(const gltf::Model& model) {
     file.skins.push_back(std::move(*skin));
   }
   for (const gltf::Mesh& mesh : model.meshes) file.meshes.push_back(readMesh(model, mesh));
+  for (const gltf::Camera& camera : model.cameras) file.cameras.push_back(readCamera(camera));
   return file;
 }
 

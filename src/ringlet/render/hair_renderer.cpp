@@ -1,5 +1,6 @@
 // Implements render/hair_renderer.h.
 #include "ringlet/render/hair_renderer.h"
+#include "ringlet/base/packed.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +10,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "layout/picture.h"
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/device_buffers.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {
@@ -20,10 +21,6 @@ constexpr std::uint32_t kMostInGroup = 256;
 constexpr std::uint32_t kShadowHairs = 10000;  // that throw shadows, for all
 constexpr double kNear = 0.01;                 // [m]
 constexpr double kMostHairs = 16384;           // before a place on average: sums stay within 32 bits
-
-layout::vec4 vec4Of(Vec3d v, double w = 0) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
-}
 
 std::uint32_t groupSizeOn(const gpu::Device& device) {
   return std::min(kMostInGroup, device.properties().maxGroupInvocations);
@@ -44,7 +41,7 @@ Status checkSize(const PictureSize& size) {
 
 // A row of a matrix that takes the world to an axis: 0 at `origin`, 1 after `length`.
 layout::vec4 rowOf(Vec3d axis, Vec3d origin, double length) {
-  return vec4Of(axis / length, -dot(axis, origin) / length);
+  return packed(axis / length, -dot(axis, origin) / length);
 }
 
 // Two lights that stand about the camera, and boxes along them about all hair.
@@ -60,20 +57,24 @@ void setLights(layout::Picture& picture, const Look& look, const Camera& camera,
     const Vec3d boxAxes[] = {across, along, deep};
     for (int axis = 0; axis < 3; ++axis)
       picture.lightAxes[3 * light + axis] = rowOf(boxAxes[axis], corner, 2 * radius);
-    picture.lightDirection[light] = vec4Of(ways[light]);
-    picture.lightColour[light] = vec4Of(colours[light]);
+    picture.lightDirection[light] = packed(ways[light]);
+    picture.lightColour[light] = packed(colours[light]);
   }
-  picture.densityBox = vec4Of(middle - Vec3d{1, 1, 1} * radius, 2 * radius / picture.densityCells);
+  picture.densityBox = packed(middle - Vec3d{1, 1, 1} * radius, 2 * radius / picture.densityCells);
   picture.shadowCellArea = static_cast<float>(std::pow(2 * radius / picture.shadowCells, 2));
 }
 
 void writeLook(layout::Picture& picture, const Look& look) {
-  picture.skyAbove = vec4Of(look.skyAbove);
-  picture.skyBelow = vec4Of(look.skyBelow);
-  for (int i = 0; i < 2; ++i) picture.pigments[i] = vec4Of(look.pigments[i]);
-  picture.solidColour = vec4Of(look.solid);
-  picture.backColours[0] = vec4Of(look.backMiddle);
-  picture.backColours[1] = vec4Of(look.backEdge);
+  picture.skyAbove = packed(look.skyAbove);
+  picture.skyBelow = packed(look.skyBelow);
+  RINGLET_ASSERT(look.pigments.size() >= 2 && look.pigments.size() <= layout::kMostPigments,
+                 "a look has two to eight pigments");
+  for (std::size_t i = 0; i < look.pigments.size(); ++i) picture.pigments[i] = packed(look.pigments[i]);
+  picture.pigmentCount = static_cast<std::uint32_t>(look.pigments.size());
+  picture.solidColour = packed(look.solid);
+  picture.groundColour = packed(look.ground);
+  picture.backColours[0] = packed(look.backMiddle);
+  picture.backColours[1] = packed(look.backEdge);
   const double b = look.roughnessAlong,
                deviation = 0.726 * b + 0.812 * b * b;  // Chiang et al. 2016, equation 7
   picture.along = static_cast<float>(deviation * deviation);
@@ -85,7 +86,7 @@ void writeLook(layout::Picture& picture, const Look& look) {
   picture.shadowOpacity = static_cast<float>(look.shadowOpacity);
 }
 
-// Between the two pigments, each hair its own place.
+// Among the pigments, each hair its own place.
 float pigmentOf(std::uint32_t hair) {
   std::uint32_t x = hair * 0x9e3779b9u + 1;
   x = (x ^ x >> 16) * 0x7feb352du;
@@ -215,7 +216,7 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
   picture.view[0] = rowOf(axes.right, camera.eye, 1);
   picture.view[1] = rowOf(axes.up, camera.eye, 1);
   picture.view[2] = rowOf(axes.forward, camera.eye, 1);
-  picture.eye = vec4Of(camera.eye);
+  picture.eye = packed(camera.eye);
   picture.shadowCells = static_cast<std::uint32_t>(size_.shadowCells);
   picture.shadowSlices = static_cast<std::uint32_t>(size_.shadowSlices);
   picture.densityCells = static_cast<std::uint32_t>(size_.densityCells);
@@ -238,16 +239,18 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
 
   // Points to be seen, then patches that throw shadows.
   std::vector<layout::SolidPoint> points;
-  const auto add = [&](const SolidPlace& place, Vec3d point, Vec3d normal, double area) {
-    points.push_back({.position = vec4Of(place.position + rotate(place.rotation, point), area),
-                      .normal = vec4Of(rotate(place.rotation, normal))});
+  const auto add = [&](const SolidPlace& place, Vec3d point, Vec3d normal, double areaOrGround,
+                       double clear) {
+    points.push_back({.position = packed(place.position + rotate(place.rotation, point), areaOrGround),
+                      .normal = packed(rotate(place.rotation, normal), clear)});
   };
   for (std::size_t s = 0; s < solids_.size(); ++s)
     for (std::size_t i = 0; i < solids_[s].points.size(); ++i)
-      add(places[s], solids_[s].points[i], solids_[s].normals[i], 0);
+      add(places[s], solids_[s].points[i], solids_[s].normals[i], solids_[s].isGround() ? 1 : 0,
+          solids_[s].isGround() ? solids_[s].clearness[i] : 0);
   for (std::size_t s = 0; s < solids_.size(); ++s)
     for (const SolidMesh::Patch& patch : solids_[s].patches)
-      add(places[s], patch.place, patch.normal, patch.area);
+      add(places[s], patch.place, patch.normal, patch.area, 0);
   return buffers_[layout::kBindSolidPoints].upload(std::as_bytes(std::span(points)));
 }
 
@@ -342,6 +345,14 @@ void HairRenderer::record(gpu::CommandList& list, bool isFirst) const {
 
 const gpu::Buffer& HairRenderer::shown() const { return buffer(layout::kBindShown); }
 const gpu::Buffer& HairRenderer::drawnHairs() const { return buffer(layout::kBindDrawnHairs); }
+
+Status HairRenderer::setPigments(std::span<const float> pigments) {
+  RINGLET_ASSERT(pigments.size() == hairCount_, "a pigment of each hair");
+  auto drawn = downloadAll<layout::DrawnHair>(drawnHairs(), hairCount_);
+  if (!drawn) return drawn.error();
+  for (std::size_t h = 0; h < pigments.size(); ++h) (*drawn)[h].pigment = pigments[h];
+  return buffers_[layout::kBindDrawnHairs].upload(std::as_bytes(std::span(*drawn)));
+}
 
 Result<std::vector<std::uint32_t>> HairRenderer::picture() const {
   return downloadAll<std::uint32_t>(buffer(layout::kBindShown),

@@ -65,6 +65,10 @@ class HairRenderer {
   /// under way.
   Status setFrame(const Camera& camera, const Bounds& hair, std::span<const SolidPlace> places);
 
+  /// From the next moment on, of each hair: its place among the look's pigments, 0 the first, 1 the last.
+  /// Nothing may be under way.
+  Status setPigments(std::span<const float> pigments);
+
   /// From the next moment on.
   void setLook(const Look& look) { look_ = look; }
 
@@ -78,7 +82,7 @@ class HairRenderer {
 
   /// The same pixels on the device, after what was recorded.
   const gpu::Buffer& shown() const;
-  /// DrawnHair[hairs] (layout.h), for what changes their pigments on the device.
+  /// DrawnHair[hairs] (layout/picture.h), for what changes their pigments on the device.
   const gpu::Buffer& drawnHairs() const;
 
   /// The same in linear light, before the exposure: red, green, blue, one after the other.

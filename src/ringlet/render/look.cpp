@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace ringlet {
 namespace {
@@ -20,6 +21,16 @@ constexpr Named kColours[] = {
     {"grey", {0.55, 0.55, 0.56}, {0.22, 0.21, 0.21}},
     {"white", {0.88, 0.87, 0.84}, {0.80, 0.78, 0.74}},
 };
+
+constexpr Vec3d kScale[] = {{0.10, 0.25, 0.75}, {0.12, 0.60, 0.30}, {0.85, 0.70, 0.08}, {0.85, 0.10, 0.04}};
+constexpr Vec3d kRainbow[] = {{0.85, 0.10, 0.08}, {0.85, 0.42, 0.05}, {0.80, 0.72, 0.10}, {0.20, 0.62, 0.15},
+                              {0.10, 0.60, 0.65}, {0.12, 0.25, 0.80}, {0.50, 0.18, 0.75}, {0.82, 0.20, 0.50}};
+
+std::vector<Absorption> absorptionsOf(std::span<const Vec3d> colours) {
+  std::vector<Absorption> absorptions;
+  for (const Vec3d& colour : colours) absorptions.push_back(absorptionOfColour(colour));
+  return absorptions;
+}
 
 }  // namespace
 
@@ -44,12 +55,14 @@ std::optional<Look> lookByName(std::string_view name) {
   for (const Named& colour : kColours) {
     if (colour.name != name) continue;
     Look look;
-    look.pigments[0] = absorptionOfColour(colour.first);
-    look.pigments[1] = absorptionOfColour(colour.second);
+    look.pigments = {absorptionOfColour(colour.first), absorptionOfColour(colour.second)};
     return look;
   }
   return std::nullopt;
 }
+
+std::vector<Absorption> scalePigments() { return absorptionsOf(kScale); }
+std::vector<Absorption> rainbowPigments() { return absorptionsOf(kRainbow); }
 
 double widthOfHairs(double count) {
   return std::min(0.0015, 0.00018 * std::sqrt(30000 / std::max(count, 1.0)));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ringlet/base/vec3.h"
 
@@ -18,17 +19,18 @@ Absorption absorptionOfMelanin(double melanin, double redness);
 Absorption absorptionOfColour(Vec3d colour);
 
 struct Look {
-  Absorption pigments[2] = {absorptionOfColour({0.30, 0.13, 0.05}),
-                            absorptionOfColour({0.17, 0.07, 0.028})};  // hairs are between the two
-  double roughnessAlong = 0.3, roughnessAbout = 0.3;                   // of fibres, in [0.1, 1]
-  double tilt = 0.035;                                                 // of their scales [rad]
-  double tipRadius = 0.4;                                              // share of a hair's radius at its tip
+  std::vector<Absorption> pigments = {absorptionOfColour({0.30, 0.13, 0.05}),
+                                      absorptionOfColour({0.17, 0.07, 0.028})};  // 2 to 8; hairs are between
+  double roughnessAlong = 0.3, roughnessAbout = 0.3;                             // of fibres, in [0.1, 1]
+  double tilt = 0.035;                                                           // of their scales [rad]
+  double tipRadius = 0.4;      // share of a hair's radius at its tip
   double shadowOpacity = 0.8;  // share of light that a hair keeps from what is behind it
   double throughHair = 0.3;    // brightness of light that came through other hairs
   Vec3d key{4.4, 4.1, 3.7};    // light from the camera's upper left, in front [irradiance]
   Vec3d rim{0.8, 0.88, 1.0};   // and from its upper right, behind
   Vec3d skyAbove{0.65, 0.72, 0.85}, skyBelow{0.30, 0.26, 0.24};         // [radiance]
   Vec3d solid{0.34, 0.27, 0.235};                                       // share that bodies reflect
+  Vec3d ground{0.10, 0.10, 0.105};                                      // and a ground
   Vec3d backMiddle{0.115, 0.12, 0.132}, backEdge{0.018, 0.020, 0.024};  // behind all [radiance]
   double exposure = 1.15;
 };
@@ -37,6 +39,12 @@ struct Look {
 std::string hairColourNames();
 /// The look with that colour of hair; none for an unknown name.
 std::optional<Look> lookByName(std::string_view colour);
+
+/// Colours of hair that stand for a number of its strand: blue the first, then green and yellow, red the
+/// last.
+std::vector<Absorption> scalePigments();
+/// The colours of the rainbow, so that strands can be told apart.
+std::vector<Absorption> rainbowPigments();
 
 /// Diameter of hairs where nothing says it [m]: 0.18 mm where there are 30,000, and so that any number of
 /// them covers as much; at most 1.5 mm.

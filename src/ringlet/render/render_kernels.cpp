@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "layout/picture.h"
 #include "ringlet_shaders/render_compact_plain.h"
 #include "ringlet_shaders/render_compact_preview.h"
 #include "ringlet_shaders/render_hairs_atomic64.h"
@@ -19,7 +20,6 @@
 #include "ringlet_shaders/render_solids_atomic64.h"
 #include "ringlet_shaders/render_solids_plain.h"
 #include "ringlet_shaders/render_tone_plain.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {

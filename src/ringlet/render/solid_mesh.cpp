@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace ringlet {
@@ -66,7 +67,7 @@ bool splitOnce(SolidMesh& mesh, double longest) {
 }  // namespace
 
 SolidMesh solidMeshOf(const TriangleMesh& source, double longest) {
-  SolidMesh mesh{source.points, std::vector<Vec3d>(source.points.size()), source.triangles, {}};
+  SolidMesh mesh{source.points, std::vector<Vec3d>(source.points.size()), source.triangles, {}, {}};
   for (const Triangle& t : mesh.triangles)
     for (std::uint32_t corner : t) mesh.normals[corner] += doubledArea(mesh, t);
   for (Vec3d& normal : mesh.normals) normal = normalizedOr(normal, Vec3d{0, 1, 0});
@@ -79,6 +80,34 @@ SolidMesh solidMeshOf(const TriangleMesh& source, double longest) {
     mesh.patches.push_back({fine.points[i], fine.normals[i], 0});
   for (const Triangle& t : fine.triangles)
     for (std::uint32_t corner : t) mesh.patches[corner].area += length(doubledArea(fine, t)) / 6;
+  return mesh;
+}
+
+SolidMesh groundOf(double radius) {
+  constexpr std::uint32_t kSpokes = 64, kRings = 56;
+  constexpr double kStep = 0.9;    // of a ring's radius, over that of the next: about square cells
+  constexpr double kWhole = 0.15;  // of the radius, where it begins to fade
+  SolidMesh mesh;
+  const auto add = [&](double r, double angle) {
+    mesh.points.push_back({r * std::cos(angle), 0, -r * std::sin(angle)});
+    mesh.normals.push_back({0, 1, 0});
+    const double s = std::clamp((r / radius - kWhole) / (1 - kWhole), 0.0, 1.0);
+    mesh.clearness.push_back(s * s * (3 - 2 * s));
+  };
+  add(0, 0);
+  for (std::uint32_t ring = 0; ring < kRings; ++ring)
+    for (std::uint32_t k = 0; k < kSpokes; ++k)
+      add(radius * std::pow(kStep, kRings - 1 - ring), 2 * std::numbers::pi * k / kSpokes);
+  const auto at = [](std::uint32_t ring, std::uint32_t spoke) {
+    return 1 + ring * kSpokes + spoke % kSpokes;
+  };
+  for (std::uint32_t k = 0; k < kSpokes; ++k) {
+    mesh.triangles.push_back({0, at(0, k), at(0, k + 1)});
+    for (std::uint32_t ring = 0; ring + 1 < kRings; ++ring) {
+      mesh.triangles.push_back({at(ring, k), at(ring + 1, k), at(ring + 1, k + 1)});
+      mesh.triangles.push_back({at(ring, k), at(ring + 1, k + 1), at(ring, k + 1)});
+    }
+  }
   return mesh;
 }
 

@@ -21,11 +21,19 @@ struct SolidMesh {
     double area = 0;  // [m^2]
   };
   std::vector<Patch> patches;
+
+  // Of a ground only: at points, the share of what is behind it that is seen, in [0, 1].
+  std::vector<double> clearness;
+  bool isGround() const { return !clearness.empty(); }
 };
 
 /// Points that triangles share shade smoothly. Patches are at most about `longest` [m] apart, but there are
 /// no more than some 100,000. The mesh has passed checkMesh.
 SolidMesh solidMeshOf(const TriangleMesh& mesh, double longest = 0.004);
+
+/// A ground: a disc of the plane y = 0 about the origin [m], which fades towards its edge. It throws no
+/// shadow. Its triangles are small near the middle: one that is partly behind a camera is not drawn.
+SolidMesh groundOf(double radius);
 
 /// A square of the plane y = 0 about the origin, seen from above [m].
 TriangleMesh squareOf(double side);

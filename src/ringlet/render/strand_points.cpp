@@ -4,7 +4,7 @@
 #include <bit>
 #include <utility>
 
-#include "shared/layout.h"
+#include "layout/hair_points.h"
 
 namespace ringlet {
 

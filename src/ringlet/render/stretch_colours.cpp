@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "layout/picture.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet_shaders/render_stretch_plain.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {
@@ -42,29 +42,20 @@ Result<StretchColours> StretchColours::create(gpu::Device& device, const gpu::Bu
   description.pushConstantBytes = sizeof(layout::StretchParameters);
   description.groupSize = std::min(kMostInGroup, device.properties().maxGroupInvocations);
   description.constants = {{layout::kSpecGroupSize, description.groupSize}};
-  auto kernel = gpu::Kernel::create(device, description);
+  auto kernel = gpu::BoundKernel::create(device, description,
+                                         {{layout::kBindStretchPoints, points},
+                                          {layout::kBindStretchLengths, self.lengths_},
+                                          {layout::kBindStretchStrands, self.strands_},
+                                          {layout::kBindStretchHairs, drawn}});
   if (!kernel) return kernel.error();
-  auto bindings = gpu::Bindings::create(**kernel, {{layout::kBindStretchPoints, points},
-                                                   {layout::kBindStretchLengths, self.lengths_},
-                                                   {layout::kBindStretchStrands, self.strands_},
-                                                   {layout::kBindStretchHairs, drawn}});
-  if (!bindings) return bindings.error();
-  self.kernel_ = std::move(*kernel);
-  self.bindings_.push_back(std::move(*bindings));
+  self.kernel_.emplace(std::move(*kernel));
   return self;
 }
 
 void StretchColours::record(gpu::CommandList& list, double most) const {
-  list.dispatch(*kernel_, bindings_.front(),
-                layout::StretchParameters{.count = hairCount_, .most = static_cast<float>(most)},
-                (hairCount_ + kernel_->groupSize() - 1) / kernel_->groupSize());
+  kernel_->dispatch(list, layout::StretchParameters{.count = hairCount_, .most = static_cast<float>(most)},
+                    hairCount_);
   list.barrier();
-}
-
-Look StretchColours::look(Look look) {
-  look.pigments[0] = absorptionOfColour({0.10, 0.25, 0.75});
-  look.pigments[1] = absorptionOfColour({0.85, 0.10, 0.04});
-  return look;
 }
 
 }  // namespace ringlet

@@ -1,17 +1,16 @@
-// StretchColours: hairs in the colour of how far their strands are stretched, found on the device.
+// StretchColours: hairs in the colour of how far their strands are stretched, found on the device: the look's
+// first pigment at rest, its last where an edge is so much longer.
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/gpu/bound_kernel.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/command_list.h"
-#include "ringlet/gpu/kernel.h"
-#include "ringlet/render/look.h"
 
 namespace ringlet {
 
@@ -30,16 +29,12 @@ class StretchColours {
   /// longer. Ends with a barrier.
   void record(gpu::CommandList& list, double most = 0.05) const;
 
-  /// The look with these colours: blue at rest, red from `most` on.
-  static Look look(Look look);
-
  private:
   StretchColours(gpu::Buffer lengths, gpu::Buffer strands)
       : lengths_(std::move(lengths)), strands_(std::move(strands)) {}
 
   gpu::Buffer lengths_, strands_;
-  std::shared_ptr<const gpu::Kernel> kernel_;
-  std::vector<gpu::Bindings> bindings_;  // one
+  std::optional<gpu::BoundKernel> kernel_;  // once made
   std::uint32_t hairCount_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 
+#include "layout/strands.h"
 #include "ringlet/groom/seeded_random.h"
 #include "ringlet/rest/root_spacing.h"
 

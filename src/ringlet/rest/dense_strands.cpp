@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "layout/strands.h"
 #include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/density_grid.h"
 #include "ringlet/scene/contact_settings.h"

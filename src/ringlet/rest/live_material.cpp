@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "layout/strands.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/rest/material_extremes.h"
 

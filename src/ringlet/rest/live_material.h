@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "layout/strands.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/rest/material.h"

@@ -408,6 +408,11 @@ Status checkSettings(const Settings& s, const Material& material) {
         fmt::format("the air is on with the integrator {}; air needs jacobi: choose it, or turn the air off",
                     s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
   }
+  if (s.goal.on && s.integrator != Integrator::jacobi) {
+    return Error{fmt::format(
+        "the goal is on with the integrator {}; a goal needs jacobi: choose it, or turn the goal off",
+        s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
+  }
   return checkMaterial(material);
 }
 

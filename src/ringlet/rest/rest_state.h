@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "layout/strands.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/rest/strand_constants.h"
 #include "ringlet/scene/settings.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "layout/strands.h"
 #include "ringlet/rest/density_grid.h"
 
 namespace ringlet {

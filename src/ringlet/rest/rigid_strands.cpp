@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/strands.h"
 #include "ringlet/rest/strand_constants.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {

@@ -5,6 +5,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/scene/air.h"
 #include "ringlet/scene/contact_settings.h"
+#include "ringlet/scene/goal.h"
 
 namespace ringlet {
 
@@ -37,6 +38,7 @@ struct Settings {
   int dampingLoops = 10;        // paper: damping loops per force loop
   ContactSettings contacts;     // between strands; jacobi only
   AirSettings air;              // jacobi only
+  GoalSettings goal;            // jacobi only
 
   /// Whether a head that moves by this distance [m] in one frame jumps.
   bool jumps(double distance) const { return teleportDistance > 0 && distance > teleportDistance; }

@@ -324,24 +324,55 @@ std::span<const SettingField<AirSettings>> airFields() {
   return all;
 }
 
+std::span<const SettingField<GoalSettings>> goalFields() {
+  using G = GoalSettings;
+  using F = SettingField<G>;
+  static const F all[] = {
+      F{"on", "", "true where [goal] stands",
+        "Whether hair is pulled to the groom, carried by the head. Needs jacobi.", &G::on},
+      F{"strength",
+        "1",
+        "",
+        "Pull at the root: weights of the hair a centimetre from its place. 0.1 is a hint, 10 holds firmly.",
+        &G::strength,
+        {0, 1e7}}
+          .live(),
+      F{"tip_share",
+        "1",
+        "",
+        "Pull at the tip, as a share of that at the root; evenly between.",
+        &G::tipShare,
+        {0, 100}}
+          .live(),
+      F{"damping", "1", "", "Damping ratio of hair about its place; 1 is critical.", &G::damping, {0, 100}}
+          .live(),
+  };
+  return all;
+}
+
 Status checkNumbers(const ContactSettings& settings) { return check(contactFields(), settings, "contacts."); }
 Status checkNumbers(const Settings& settings) {
   if (Status status = check(settingsFields(), settings, ""); !status) return status;
   if (Status status = checkNumbers(settings.contacts); !status) return status;
-  return check(airFields(), settings.air, "air.");
+  if (Status status = check(airFields(), settings.air, "air."); !status) return status;
+  return check(goalFields(), settings.goal, "goal.");
 }
 
 std::string fixedDifference(const Settings& a, const Settings& b) {
   if (a.integrator != b.integrator) return "integrator";
   std::string name = differenceOf(settingsFields(), a, b, "");
   if (name.empty()) name = fixedDifference(a.contacts, b.contacts);
-  return name.empty() ? fixedDifference(a.air, b.air) : name;
+  if (name.empty()) name = fixedDifference(a.air, b.air);
+  return name.empty() ? fixedDifference(a.goal, b.goal) : name;
 }
 std::string fixedDifference(const ContactSettings& a, const ContactSettings& b) {
   return differenceOf(contactFields(), a, b, "contacts.");
 }
 std::string fixedDifference(const AirSettings& a, const AirSettings& b) {
   return differenceOf(airFields(), a, b, "air.");
+}
+std::string fixedDifference(const GoalSettings& a, const GoalSettings& b) {
+  return differenceOf(goalFields(), a, b, "goal.");
 }
 
 }  // namespace ringlet

@@ -16,6 +16,7 @@ namespace ringlet {
 std::span<const SettingField<Settings>> settingsFields();
 std::span<const SettingField<ContactSettings>> contactFields();
 std::span<const SettingField<AirSettings>> airFields();
+std::span<const SettingField<GoalSettings>> goalFields();
 
 /// The sentence that says which number is out of its range, if any is.
 Status checkNumbers(const Settings& settings);
@@ -25,5 +26,6 @@ Status checkNumbers(const ContactSettings& settings);
 std::string fixedDifference(const Settings& a, const Settings& b);
 std::string fixedDifference(const ContactSettings& a, const ContactSettings& b);
 std::string fixedDifference(const AirSettings& a, const AirSettings& b);
+std::string fixedDifference(const GoalSettings& a, const GoalSettings& b);
 
 }  // namespace ringlet

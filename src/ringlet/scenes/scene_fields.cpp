@@ -422,6 +422,44 @@ std::span<const SceneField<SceneBody>> bodyFields() {
   return all;
 }
 
+std::span<const SceneField<SceneCamera>> cameraFields() {
+  using C = SceneCamera;
+  static const SceneField<C> all[] = {
+      {"name", "", "required", "Name for `ringlet render --camera`; of a file, the name of its node.",
+       &C::name},
+      {"eye", "m", "none", "Position of the camera.", &C::eye, kPlace, "", "eye"},
+      {"target", "m", "", "Position it looks at.", &C::target, kPlace, "", "eye"},
+      {"up", "1", "the groom's up axis", "Direction that is up in the picture.", &C::up, kPlace, "", "eye"},
+      {"field_of_view",
+       "deg",
+       "",
+       "Angle from the top of the picture to its bottom.",
+       &C::fieldOfView,
+       {1, 170},
+       "",
+       "eye"},
+      {"bind",
+       "",
+       "",
+       "Frame that eye, target and up are in: the world, or the head, with which the camera moves.",
+       &C::bind,
+       {},
+       "world, head",
+       "eye"},
+      {"joint",
+       "",
+       "none",
+       "Joint of the head's motion file in whose frame they are instead.",
+       &C::joint,
+       {},
+       "",
+       "eye"},
+      {"file", "", "none",
+       "File in place of eye: a .gltf or .glb file whose camera it is, as its animation moves it.", &C::file},
+  };
+  return all;
+}
+
 std::span<const SceneField<SceneOutput>> outputFields() {
   using O = SceneOutput;
   static const SceneField<O> all[] = {

@@ -34,8 +34,8 @@ void addKeys(std::vector<KnownKey>& keys, const std::string& table,
 const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
-    for (const char* table :
-         {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "body", "output"})
+    for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
+                              "body", "camera", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"material", "file"});
@@ -50,11 +50,13 @@ const std::vector<KnownKey>& knownKeys() {
     addKeys(keys, "simulation", simulationFields());
     addKeys(keys, "contacts", contactFields());
     addKeys(keys, "air", airFields());
+    addKeys(keys, "goal", goalFields());
     addKeys(keys, "body", bodyFields());
     keys.push_back({"body", "moves"});
     addKeys(keys, "body.moves", motionFields());
     keys.push_back({"body.moves", "key"});
     addKeys(keys, "body.moves.key", keyframeFields());
+    addKeys(keys, "camera", cameraFields());
     addKeys(keys, "output", outputFields());
     return keys;
   }();
@@ -116,9 +118,17 @@ class SceneReader {
       scene.air.on = true;
       readFields(*table, "air", airFields(), scene.air);
     }
+    if (const toml::table* table = tableOf(file, "", "goal")) {
+      scene.goal.on = true;
+      readFields(*table, "goal", goalFields(), scene.goal);
+    }
     for (const toml::table* table : tablesOf(file, "", "body")) {
       scene.bodies.emplace_back();
       readBody(*table, scene, scene.bodies.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "camera")) {
+      scene.cameras.emplace_back();
+      readCamera(*table, scene, scene.cameras.back());
     }
     if (const toml::table* table = tableOf(file, "", "output"))
       readFields(*table, "output", outputFields(), scene.output);
@@ -413,6 +423,25 @@ class SceneReader {
                          "\"head\", \"still\" or a motion, as in { kind = \"spin\" }" +
                              nearest(text ? text->get() : "", {"head", "still"}));
     }
+  }
+
+  void readCamera(const toml::table& table, const SceneFile& scene, SceneCamera& camera) {
+    readFields(table, "camera", cameraFields(), camera);
+    if (!table.get("name")) missing_.add(lineOf(table), "found a camera without a name; expected one");
+    const toml::node *eye = table.get("eye"), *path = table.get("file"), *joint = table.get("joint");
+    if (!eye && !path)
+      missing_.add(lineOf(table), "found a camera with neither eye nor file; expected one of the two");
+    refuseForeign(table, "camera", cameraFields(), path ? "file" : "eye", "a camera with");
+    if (camera.eye && *camera.eye == camera.target)
+      problems_.addFound(*eye, "camera.eye", "another place than camera.target");
+    if (joint && scene.motion.file.empty())
+      problems_.add(lineOf(*joint), "found camera.joint, but the head follows no file; expected motion.file");
+    if (joint && table.get("bind"))
+      problems_.add(std::max(lineOf(*joint), lineOf(*table.get("bind"))),
+                    "found camera.joint and camera.bind; expected one of the two");
+    const auto isSame = [&](const SceneCamera& other) { return other.name == camera.name; };
+    if (!camera.name.empty() && std::ranges::count_if(scene.cameras, isSame) > 1)
+      problems_.addFound(*table.get("name"), "camera.name", "a name that no other camera has");
   }
 
   const std::string& name_;

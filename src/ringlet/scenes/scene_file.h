@@ -29,6 +29,7 @@
 #include "ringlet/rest/material_file.h"
 #include "ringlet/scene/air.h"
 #include "ringlet/scene/contact_settings.h"
+#include "ringlet/scene/goal.h"
 #include "ringlet/scene/settings.h"
 
 namespace ringlet {
@@ -146,6 +147,20 @@ struct SceneBody {
   std::optional<SceneMotion> motion;  // its own, in the world; neither: the head carries it
 };
 
+/// A camera for pictures: at a place, or of a glTF file.
+struct SceneCamera {
+  std::string name;
+  std::optional<Vec3d> eye{};  // [m]; none: `file` has it
+  Vec3d target{};              // [m]
+  std::optional<Vec3d> up{};   // unset: the groom's up axis
+  double fieldOfView = 26;     // from top to bottom [degrees]
+  std::string bind = "world";  // the frame it is in; or head
+  std::string joint{};         // of the head's motion file, in whose frame it is instead
+  std::filesystem::path file{};
+
+  bool operator==(const SceneCamera&) const = default;
+};
+
 struct SceneOutput {
   std::filesystem::path folder;
   double width = 0.0005;
@@ -169,7 +184,9 @@ struct SceneFile {
   SceneSimulation simulation;
   ContactSettings contacts;
   AirSettings air;
+  GoalSettings goal;
   std::vector<SceneBody> bodies;
+  std::vector<SceneCamera> cameras;
   SceneOutput output;
   std::vector<std::string> warnings;  // sentences for a person, each with the file's name
 };

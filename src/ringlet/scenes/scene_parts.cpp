@@ -130,6 +130,7 @@ Settings settingsOf(const SceneFile& scene) {
   settings.dampingLoops = simulation.dampingLoops;
   settings.contacts = scene.contacts;
   settings.air = scene.air;
+  settings.goal = scene.goal;
   return settings;
 }
 
@@ -205,6 +206,7 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
   if (settings.maxStretch != Settings{}.maxStretch) simulation.maxStretch = settings.maxStretch;
   file.contacts = settings.contacts;
   file.air = settings.air;
+  file.goal = settings.goal;
   return file;
 }
 

@@ -152,10 +152,12 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "simulation", simulationFields());
   addKeys(keys, "contacts", contactFields());
   addKeys(keys, "air", airFields());
+  addKeys(keys, "goal", goalFields());
   addKeys(keys, "body", bodyFields());
   keys.push_back({"body", "moves", "head, still or a table", "", "", "head", "",
                   "What carries it: the head, nothing, or a motion of its own in the world, with the keys of "
                   "[motion], as in { kind = \"spin\" }."});
+  addKeys(keys, "camera", cameraFields());
   addKeys(keys, "output", outputFields());
   return keys;
 }
@@ -172,7 +174,10 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   text += headed("[simulation]", linesOf(simulationFields(), scene.simulation, SceneSimulation{}, folder));
   text += switchedText("[contacts]", contactFields(), scene.contacts);
   text += switchedText("[air]", airFields(), scene.air);
+  text += switchedText("[goal]", goalFields(), scene.goal);
   for (const SceneBody& body : scene.bodies) text += bodyText(body, folder);
+  for (const SceneCamera& camera : scene.cameras)
+    text += headed("[[camera]]", linesOf(cameraFields(), camera, SceneCamera{}, folder));
   text += headed("[output]", linesOf(outputFields(), scene.output, SceneOutput{}, folder));
   return text;
 }

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "layout/contacts.h"
 #include "ringlet_shaders/contact_check_plain.h"
 #include "ringlet_shaders/contact_count_plain.h"
 #include "ringlet_shaders/contact_decide_plain.h"
@@ -19,7 +20,6 @@
 #include "ringlet_shaders/contact_system_plain.h"
 #include "ringlet_shaders/contact_touch_plain.h"
 #include "ringlet_shaders/contact_touch_time.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {

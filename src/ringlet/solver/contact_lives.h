@@ -8,11 +8,11 @@
 #include <functional>
 #include <vector>
 
+#include "layout/contacts.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/solver/contact_lists.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

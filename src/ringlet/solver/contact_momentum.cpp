@@ -1,6 +1,8 @@
 // Implements solver/contact_momentum.h.
 #include "ringlet/solver/contact_momentum.h"
 
+#include "layout/contacts.h"
+#include "layout/strands.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/gpu/device_buffers.h"
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "layout/strands.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/solver/contact_kernels.h"

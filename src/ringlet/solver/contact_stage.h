@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "layout/contacts.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"

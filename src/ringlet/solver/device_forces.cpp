@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/packed.h"
 #include "ringlet/solver/device_groom.h"
-#include "ringlet/solver/packed.h"
 
 namespace ringlet {
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "layout/strands.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/gpu/device.h"
@@ -13,7 +14,6 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

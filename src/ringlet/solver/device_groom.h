@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "layout/contacts.h"
+#include "layout/strands.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/device.h"
@@ -17,7 +19,6 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

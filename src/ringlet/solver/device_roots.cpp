@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/solver/packed.h"
+#include "ringlet/base/packed.h"
 
 namespace ringlet {
 

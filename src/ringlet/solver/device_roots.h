@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "layout/strands.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
@@ -17,7 +18,6 @@
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

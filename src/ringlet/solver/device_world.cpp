@@ -4,99 +4,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/base/half.h"
+#include "ringlet/base/packed.h"
 #include "ringlet/gpu/device_buffers.h"
-#include "ringlet/solver/packed.h"
+#include "ringlet/rest/packed_bodies.h"
 
 namespace ringlet {
-namespace {
-
-constexpr double kEndless = 1e15;  // [m]: a plane's bounds; its square is still a float
-
-layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
-  layout::BodyRest rest{};
-  rest.friction = static_cast<float>(body.friction);
-  rest.shape = layout::kShapeBox;
-  const double kept = body.thickness;
-  switch (body.shape) {
-    case BodyShape::sphere:
-      rest.halfExtents = packed3({});
-      rest.rounding = static_cast<float>(body.radius + kept);
-      rest.bounds = packed({}, body.radius + kept);
-      break;
-    case BodyShape::capsule:
-      rest.halfExtents = packed3({0, body.length / 2, 0});
-      rest.rounding = static_cast<float>(body.radius + kept);
-      rest.bounds = packed({}, body.length / 2 + body.radius + kept);
-      break;
-    case BodyShape::box:
-      rest.halfExtents = packed3(body.halfExtents);
-      rest.rounding = static_cast<float>(kept);
-      rest.bounds = packed({}, length(body.halfExtents) + kept);
-      break;
-    case BodyShape::plane:
-      rest.shape = layout::kShapePlane;
-      rest.halfExtents = packed3({});
-      rest.rounding = static_cast<float>(kept);
-      rest.bounds = packed({}, kEndless);
-      break;
-    case BodyShape::grid: {
-      const DistanceGrid& grid = *body.grid;
-      const Vec3d size =
-          Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell;
-      rest.shape = layout::kShapeGrid;
-      rest.halfExtents = packed3({});
-      rest.rounding = static_cast<float>(kept);
-      rest.bounds = packed(grid.origin + size * 0.5, length(size) / 2 + kept);
-      rest.gridOrigin = packed3(grid.origin);
-      rest.cell = static_cast<float>(grid.cell);
-      std::copy(grid.counts.begin(), grid.counts.end(), rest.cells);
-      rest.firstCell = firstCell;
-      break;
-    }
-  }
-  return rest;
-}
-
-// A cell's eight corners, as gridDistance (shaders/equations/body_distance.glsl) wants them.
-using PackedCell = std::array<std::uint32_t, 4>;
-void packCells(const DistanceGrid& grid, std::vector<PackedCell>& cells) {
-  const float cell = static_cast<float>(grid.cell);
-  const auto half = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-    return std::uint32_t{halfBits(grid.distances[grid.cornerIndex(x, y, z)] / cell)};
-  };
-  for (std::uint32_t z = 0; z < grid.counts[2]; ++z)
-    for (std::uint32_t y = 0; y < grid.counts[1]; ++y)
-      for (std::uint32_t x = 0; x < grid.counts[0]; ++x) {
-        const auto pair = [&](std::uint32_t dy, std::uint32_t dz) {
-          return half(x, y + dy, z + dz) | half(x + 1, y + dy, z + dz) << 16;
-        };
-        cells.push_back({pair(0, 0), pair(1, 0), pair(0, 1), pair(1, 1)});
-      }
-}
-
-}  // namespace
-
 Result<DeviceWorld> DeviceWorld::create(gpu::Device& device, std::span<const Body> bodies,
                                         const Settings& settings, const HeadPose& start, std::size_t slots) {
-  std::vector<layout::BodyRest> rests;
-  std::vector<PackedCell> cells;
   for (const Body& body : bodies) {
     if (Status status = checkBody(body); !status) return status.error();
-    rests.push_back(restOf(body, static_cast<std::uint32_t>(cells.size())));
-    if (body.shape == BodyShape::grid) packCells(*body.grid, cells);
   }
+  PackedBodies packedBodies = packBodies(bodies);
   const std::uint64_t steps = static_cast<std::uint64_t>(settings.stepsPerFrame);
-  auto restBuffer = createFilled(device, rests, "bodies");
+  auto restBuffer = createFilled(device, packedBodies.rests, "bodies");
   if (!restBuffer) return restBuffer.error();
   auto poses =
       FrameInput::create(device, (steps + 1) * bodies.size() * sizeof(layout::BodyPose), slots, "body poses");
   if (!poses) return poses.error();
-  auto cellBuffer = createFilled(device, cells, "distance grids");
+  auto cellBuffer = createFilled(device, packedBodies.cells, "distance grids");
   if (!cellBuffer) return cellBuffer.error();
   auto air = FrameInput::create(device, settings.air.on ? steps * sizeof(layout::StepAir) : 0, slots, "air");
   if (!air) return air.error();
@@ -112,7 +40,7 @@ Result<DeviceWorld> DeviceWorld::create(gpu::Device& device, std::span<const Bod
   DeviceWorld world(std::move(*restBuffer), std::move(*poses), std::move(*cellBuffer), std::move(*air),
                     std::move(*waveBuffer));
   world.bodies_.assign(bodies.begin(), bodies.end());
-  world.packed_ = std::move(rests);
+  world.packed_ = std::move(packedBodies.rests);
   for (const Body& body : bodies) world.now_.push_back(body.poseAt(0, start));
   world.waves_ = waves;
   world.airSettings_ = settings.air;

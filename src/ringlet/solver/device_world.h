@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "layout/bodies.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"
@@ -14,7 +15,6 @@
 #include "ringlet/scene/settings.h"
 #include "ringlet/scene/wind.h"
 #include "ringlet/solver/frame_input.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

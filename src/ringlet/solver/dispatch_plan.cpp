@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "shared/layout.h"
+#include "layout/strands.h"
 
 namespace ringlet {
 namespace {

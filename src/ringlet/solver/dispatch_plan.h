@@ -17,7 +17,7 @@ struct PlannedDispatch {
   std::uint32_t range = 0;  // index into the ranges
   std::uint32_t strandBegin = 0, strandEnd = 0;
   std::uint32_t stepBegin = 0, stepEnd = 0;
-  std::uint32_t phases = 0;  // layout.h: kPhaseMove, kPhaseContacts
+  std::uint32_t phases = 0;  // layout/strands.h: kPhaseMove, kPhaseContacts
   std::uint32_t groupCount = 0;
 };
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "ringlet/solver/packed.h"
+#include "ringlet/base/packed.h"
 
 namespace ringlet {
 

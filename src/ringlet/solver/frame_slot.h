@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "layout/types.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/gpu/buffer.h"
@@ -13,7 +14,6 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/rigid_hair.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

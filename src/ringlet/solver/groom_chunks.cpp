@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "shared/layout.h"
+#include "layout/contacts.h"
+#include "layout/strands.h"
 
 namespace ringlet {
 namespace {
@@ -33,6 +34,7 @@ GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, 
   if (kinds.pairs) records.contactSystem = sizeof(layout::ContactSystem);
   if (kinds.volume) records.addedByVolume = sizeof(layout::vec4);
   if (choice.forces) records.force = sizeof(layout::vec4);
+  if (choice.goals) records.goals = 2 * sizeof(layout::vec4);  // at the frame's start and at its end
   records.strandRest = sizeof(layout::StrandRest);
   records.report = sizeof(layout::StrandReport);
   if (choice.movingRoots)

@@ -20,15 +20,16 @@ namespace ringlet {
 /// Bytes of one particle and of one strand in each of their buffers; 0: it is not needed.
 struct GroomRecords {
   std::uint64_t position = 0, velocity = 0, particleRest = 0, taps = 0, solved = 0;
-  std::uint64_t contactSystem = 0, addedByVolume = 0, force = 0;
+  std::uint64_t contactSystem = 0, addedByVolume = 0, force = 0, goals = 0;
   std::uint64_t strandRest = 0, report = 0, rootPoses = 0;
 
   std::uint64_t perParticle() const {
-    return position + velocity + particleRest + taps + solved + contactSystem + addedByVolume + force;
+    return position + velocity + particleRest + taps + solved + contactSystem + addedByVolume + force + goals;
   }
   std::uint64_t perStrand() const { return strandRest + report + rootPoses; }
-  // And for each frame in flight, in the host's memory: positions read back, forces and poses taken over.
-  std::uint64_t perParticleOfFrame() const { return position + force; }
+  // And for each frame in flight, in the host's memory: positions read back, forces, goals and poses taken
+  // over.
+  std::uint64_t perParticleOfFrame() const { return position + force + goals; }
   std::uint64_t perStrandOfFrame() const { return rootPoses; }
 };
 

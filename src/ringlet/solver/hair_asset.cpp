@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "layout/strands.h"
 #include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/hair_asset_implementation.h"
@@ -39,6 +40,8 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
                                    const Settings& settings, const KernelChoice& choice, BodyUse bodies) {
   const bool hasBodies = bodies == BodyUse::some;
   if (hasBodies && settings.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
+  if (choice.goals && settings.integrator != Integrator::jacobi)
+    return Error{"goals need the integrator jacobi; this run has another"};
   // Strands that may meet stand near each other in memory.
   std::vector<std::uint32_t> order;
   if (settings.contacts.on) order = orderAlongCurve(groom);
@@ -48,7 +51,9 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   if (!limits) return limits.error();
 
   auto self = std::make_shared<Implementation>(Implementation{
-      device, material, settings, choice, bodies, *limits, {}, std::move(*rest), {}, {}, {}, {}, {}});
+      device, material, settings, choice, bodies, *limits, {}, std::move(*rest), {}, {}, {}, {}, {}, {}});
+  if (settings.goal.on) self->goal = goalOf(groom);
+  self->choice.goals = choice.goals || settings.goal.on;
   self->choice.measured = {};
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   if (settings.contacts.on && !counts.empty()) {
@@ -58,7 +63,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   }
   auto ranges = rangesOf(counts, *limits, choice, strandWork(settings, material, self->kinds(), hasBodies));
   if (!ranges) return ranges.error();
-  self->records = groomRecords(settings, choice, self->kinds());
+  self->records = groomRecords(settings, self->choice, self->kinds());
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   self->ranges = cutRanges(*ranges, *chunks);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "ringlet/rest/goal.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/rest/rest_volume.h"
@@ -28,6 +29,7 @@ struct HairAsset::Implementation {
   std::vector<StrandRange> ranges;
   GroomRecords records;
   std::vector<ConstantChunk> constants;
+  std::optional<GroomGoal> goal;  // where Settings::goal is on
 
   ContactKinds kinds() const { return contacts ? contacts->kinds() : ContactKinds{}; }
   std::vector<GroomChunk> chunks() const {

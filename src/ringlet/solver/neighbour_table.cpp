@@ -5,7 +5,7 @@
 #include <bit>
 #include <span>
 
-#include "shared/layout.h"
+#include "layout/contacts.h"
 
 namespace ringlet {
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "layout/contacts.h"
 #include "ringlet/rest/contact_graph.h"
 #include "ringlet/rest/volume_strands.h"
 

@@ -10,12 +10,13 @@
 #include <limits>
 #include <utility>
 
+#include "layout/strands.h"
 #include "ringlet/base/assert.h"
+#include "ringlet/base/packed.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/solver/contact_momentum.h"
 #include "ringlet/solver/groom_chunks.h"
-#include "ringlet/solver/packed.h"
 #include "ringlet/solver/simulation_implementation.h"
 #include "ringlet/solver/strand_kernels.h"
 
@@ -114,6 +115,10 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   auto forces =
       DeviceForces::create(device, rest, constant.choice.forces, constant.chunks(), kFramesInFlight);
   if (!forces) return forces.error();
+  auto goals = DeviceGoals::create(device, rest, constant.choice.goals, constant.chunks(), kFramesInFlight);
+  if (!goals) return goals.error();
+  if (constant.goal)
+    goals->set(constant.goal->places, strengthsOf(*constant.goal, settings.goal), settings.goal.damping);
   RigidHair rigidHair(rest.rigid, rest.groomStrandCount);
   if (!initial.rootShifts.empty()) rigidHair.setRootShifts(initial.rootShifts);
   if (!initial.roots.empty()) {
@@ -137,6 +142,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                          .world = std::move(*world),
                          .roots = std::move(*roots),
                          .forces = std::move(*forces),
+                         .goals = std::move(*goals),
                          .rigidHair = std::move(rigidHair),
                          .pace = SubmissionPace(longestSubmission(constant.choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
@@ -161,9 +167,9 @@ Status Simulation::Implementation::makeKernels() {
                                         [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
-  const bool fitsTexels =
-      isSeenAsTexels(device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(),
-                                             roots.largestBuffer(), forces.largestBuffer()}));
+  const bool fitsTexels = isSeenAsTexels(
+      device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
+                              forces.largestBuffer(), goals.largestBuffer()}));
   const StrandKernelOptions options{.integrator = settings.integrator,
                                     .oneSmoothing = oneSmoothing,
                                     .bendVaries = bendVaries,
@@ -178,6 +184,7 @@ Status Simulation::Implementation::makeKernels() {
                                     .turbulence = world.isTurbulent(),
                                     .movingRoots = choice.movingRoots,
                                     .forces = choice.forces,
+                                    .goals = choice.goals,
                                     .subgroupSize = askedWidth(device.gpu().properties(), choice),
                                     .groupSize = asset->groupSize};
   std::vector<std::size_t> newKernels;
@@ -210,6 +217,7 @@ Status Simulation::Implementation::bindKernels() {
     table.merge(world.bufferTable());
     table.merge(roots.bufferTable(ranges[r].chunk));
     table.merge(forces.bufferTable(ranges[r].chunk));
+    table.merge(goals.bufferTable(ranges[r].chunk));
     auto bound = gpu::Bindings::create(*kernels[kernelOf[r]], table);
     if (!bound) return bound.error();
     bindings.push_back(std::move(*bound));
@@ -481,7 +489,7 @@ Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) c
 DeviceMemory Simulation::memory() const {
   const Implementation& s = *self_;
   DeviceMemory memory;
-  memory.particles = s.buffers.particleBytes() + s.forces.bytes();
+  memory.particles = s.buffers.particleBytes() + s.forces.bytes() + s.goals.bytes();
   memory.strands = s.buffers.strandBytes();
   memory.shared = s.buffers.sharedBytes();
   memory.rootPoses = s.roots.bytes();
@@ -489,7 +497,7 @@ DeviceMemory Simulation::memory() const {
   if (s.volume) memory.volume = s.volume->bytes();
   memory.world = s.buffers.poses.bytes() + s.buffers.contactControl.bytes() + s.world.bytes();
   memory.frames = s.buffers.poses.writtenBytes() + s.world.writtenBytes() + s.roots.writtenBytes() +
-                  s.forces.writtenBytes();
+                  s.forces.writtenBytes() + s.goals.writtenBytes();
   for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();
   return memory;
 }

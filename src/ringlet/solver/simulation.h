@@ -219,8 +219,17 @@ class Simulation {
   /// about 1/T^2 a metre, T being the step. Fails where the asset was built without KernelChoice::forces.
   /// Cost: 16 bytes a particle to write, and to copy in each frame; 68 bytes of memory.
   Status setForces(std::span<const Vec3f> forces);
-  /// The present settings and material; initially the asset's. Checkpoints hold neither them nor bodies and
-  /// forces: set these before restore().
+  /// Pulls particles to places: `places` in groom order, in the groom's axes [m] (the groom itself is its
+  /// rest pose), carried by the head and by root poses as roots are. Each is reached at the end of the next
+  /// frame submitted, evenly from the place before, and held until others are set. `strengths` of every
+  /// particle, not negative: a goal of strength 1 holds the particle's own weight 1 cm away; initially they
+  /// are 0. `dampingRatio`, not negative: of the particle's motion about its place, critical at 1. The solve
+  /// treats goals implicitly, so that any strength is stable. Fails where the asset was built without
+  /// KernelChoice::goals. Cost: 32 bytes a particle to write, and to copy in each frame; 136 of memory. The
+  /// strand kernel is that of bodies and air.
+  Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio = 1);
+  /// The present settings and material; initially the asset's. Checkpoints hold neither them nor bodies,
+  /// forces and goals: set these before restore().
   const Settings& settings() const;
   const Material& material() const;
 
@@ -241,7 +250,7 @@ class Simulation {
   /// each of some dozen buffers.
   DeviceMemory memory() const;
   /// One intermediate of the last step in groom order, four floats a particle (an edge's at its particle i);
-  /// `field` is one of layout.h's kTap... Needs KernelChoice::taps.
+  /// `field` is one of layout/strands.h's kTap... Needs KernelChoice::taps.
   Result<std::vector<std::array<float, 4>>> tap(std::uint32_t field) const;
   /// Time to make the kernels, mostly the driver's compiler [ms]. It is part of create. A device compiles
   /// each kernel once for all its simulations.

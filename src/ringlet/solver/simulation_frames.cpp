@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "layout/contacts.h"
+#include "layout/strands.h"
 #include "ringlet/base/assert.h"
-#include "ringlet/solver/packed.h"
+#include "ringlet/base/packed.h"
 #include "ringlet/solver/simulation_implementation.h"
 #include "ringlet/solver/strand_kernels.h"
 
@@ -34,6 +36,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   p.dragStrength = static_cast<float>(kStandardGravity / (settings.air.fallSpeed * settings.air.fallSpeed));
   p.dragAlong = static_cast<float>(settings.air.alongShare);
   p.strandCount = chunk.strandCount();
+  p.stepCount = static_cast<std::uint32_t>(settings.stepsPerFrame);
   return p;
 }
 
@@ -66,6 +69,7 @@ void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
   world.record(frame.list, frame.slot);
   roots.record(frame.list, frame.slot);
   forces.record(frame.list, frame.slot);
+  goals.record(frame.list, frame.slot);
   frame.list.barrier();
 }
 
@@ -287,6 +291,7 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
   world.writeFrame(slot, std::span(heads).subspan(1), bodyPoses, seconds());
   roots.writeFrame(slot, heads, rootPoses);
   forces.writeFrame(slot);
+  goals.writeFrame(slot);
   const auto poses = buffers.poses.of<layout::StepPose>(slot);
   poses[0] = {packed(head.now.rotation), packed(head.turn()), {}, static_cast<float>(head.now.shift)};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "layout/strands.h"
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"
@@ -17,6 +18,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_forces.h"
+#include "ringlet/solver/device_goals.h"
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/device_roots.h"
 #include "ringlet/solver/device_world.h"
@@ -29,7 +31,6 @@
 #include "ringlet/solver/stillness.h"
 #include "ringlet/solver/submission_pace.h"
 #include "ringlet/solver/volume_stage.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 
@@ -84,6 +85,7 @@ struct Simulation::Implementation {
   DeviceWorld world;
   DeviceRoots roots;
   DeviceForces forces;
+  DeviceGoals goals;
   RigidHair rigidHair;
   SubmissionPace pace;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape

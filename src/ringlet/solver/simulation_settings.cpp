@@ -1,6 +1,7 @@
 // Implements what may change of solver/simulation.h between frames.
 #include <fmt/format.h>
 
+#include "layout/strands.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
 #include "ringlet/solver/simulation_implementation.h"
@@ -48,6 +49,8 @@ Status Simulation::Implementation::change(const Settings& wanted) {
     rigidHair.rescale(share);
   }
   world.setSettings(wanted);
+  if (asset->goal && wanted.goal != settings.goal)
+    goals.set(asset->goal->places, strengthsOf(*asset->goal, wanted.goal), wanted.goal.damping);
   settings = wanted;
   stillness.wake();
   forgetRecordings();
@@ -125,6 +128,17 @@ Status Simulation::setForces(std::span<const Vec3f> forces) {
         "the hair's asset was built without forces from outside; build it with KernelChoice::forces"};
   }
   self_->forces.set(forces);
+  self_->stillness.wake();
+  return {};
+}
+
+Status Simulation::setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
+                            double dampingRatio) {
+  RINGLET_ASSERT(places.size() == self_->rest.groomParticleCount && strengths.size() == places.size(),
+                 "every particle has a place and a strength");
+  if (!self_->goals.areThere())
+    return Error{"the hair's asset was built without goals; build it with KernelChoice::goals"};
+  self_->goals.set(places, strengths, dampingRatio);
   self_->stillness.wake();
   return {};
 }

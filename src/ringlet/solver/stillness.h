@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "layout/types.h"
 #include "ringlet/base/archive.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

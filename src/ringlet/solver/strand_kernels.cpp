@@ -6,6 +6,7 @@
 #include <future>
 #include <span>
 
+#include "layout/strands.h"
 #include "ringlet_shaders/strand_step_baselines.h"
 #include "ringlet_shaders/strand_step_baselines_taps.h"
 #include "ringlet_shaders/strand_step_contacts.h"
@@ -26,7 +27,6 @@
 #include "ringlet_shaders/strand_step_serial_surroundings_taps.h"
 #include "ringlet_shaders/strand_step_surroundings.h"
 #include "ringlet_shaders/strand_step_surroundings_taps.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {
@@ -37,7 +37,7 @@ using Spirv = std::span<const std::uint32_t>;
 // buffers stay bound.
 Spirv spirvOf(const StrandShape& shape, const StrandKernelOptions& options) {
   const auto either = [&](Spirv plain, Spirv taps) { return options.taps ? taps : plain; };
-  const bool amongOthers = options.bodies || options.air;
+  const bool amongOthers = options.bodies || options.air || options.goals;
   const bool isBaseline = options.integrator != Integrator::jacobi;
   if (shape.serial()) {
     if (isBaseline) return either(k_strand_step_serial_baselines, k_strand_step_serial_baselines_taps);
@@ -97,7 +97,8 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecContacts, options.contacts ? 1u : 0u},
                            {layout::kSpecBodies, options.bodies ? 1u : 0u},
                            {layout::kSpecAir, options.air ? 1u : 0u},
-                           {layout::kSpecTurbulent, options.turbulence ? 1u : 0u}};
+                           {layout::kSpecTurbulent, options.turbulence ? 1u : 0u},
+                           {layout::kSpecGoals, options.goals ? 1u : 0u}};
   if (options.contacts) {
     description.constants.push_back({layout::kSpecPairs, options.pairs ? 1u : 0u});
     description.constants.push_back({layout::kSpecVolume, options.volume ? 1u : 0u});

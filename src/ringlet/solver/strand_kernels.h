@@ -41,6 +41,7 @@ struct StrandKernelOptions {
   bool turbulence = false;
   bool movingRoots = false;        // strands have poses of their own
   bool forces = false;             // forces from outside act on particles
+  bool goals = false;              // particles are pulled to places
   std::uint32_t subgroupSize = 0;  // of the lanes form, one the device can be asked for; 0: its default
   std::uint32_t groupSize = kStrandGroupSize;
 };

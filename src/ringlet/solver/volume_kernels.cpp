@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "layout/volume.h"
 #include "ringlet_shaders/volume_begin_plain.h"
 #include "ringlet_shaders/volume_box_plain.h"
 #include "ringlet_shaders/volume_bring_plain.h"
@@ -14,7 +15,6 @@
 #include "ringlet_shaders/volume_spread_plain.h"
 #include "ringlet_shaders/volume_start_plain.h"
 #include "ringlet_shaders/volume_sum_plain.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 namespace {

@@ -9,6 +9,9 @@
 #include <span>
 #include <utility>
 
+#include "layout/contacts.h"
+#include "layout/strands.h"
+#include "layout/volume.h"
 #include "ringlet/gpu/device_buffers.h"
 
 namespace ringlet {

@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "layout/volume.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/base/result.h"
 #include "ringlet/gpu/buffer.h"

@@ -1,8 +1,8 @@
 // Vectors and quaternions as the device has them: four floats.
 #pragma once
 
+#include "layout/types.h"
 #include "ringlet/base/vec3.h"
-#include "shared/layout.h"
 
 namespace ringlet {
 

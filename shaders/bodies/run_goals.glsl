@@ -1,0 +1,26 @@
+// Goals of this lane's particles. Included by kernels/strand_step.comp.
+#include "equations/goal_spring.glsl"
+
+vec4 goal[RUN];  // see goalPull; of the particle's mass
+
+// From positions at the step's start. Places are the groom's, carried as its roots are.
+void feelGoals(uint step) {
+  float shareBefore = float(step) / float(parameters.stepCount);
+  float shareAfter = float(step + 1) / float(parameters.stepCount);
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+    uint i = strand.firstParticle + (isParticle(k) ? first + k : 0);
+    vec4 begin = goalAtFrameStart(i);
+    vec4 end = goalAtFrameEnd(i);
+    vec3 before = mix(begin.xyz, end.xyz, shareBefore);
+    vec3 after = mix(begin.xyz, end.xyz, shareAfter);
+    vec3 carried = rotate(rotationAtStart(step), before);
+    vec3 move = displacement(turnTo(step + 1), carried) + rotate(rotationAtEnd(step), after - before);
+    vec3 there = rotate(rotationAtEnd(step), after);
+    if (kMovingRoots) {
+      move += stepSeconds() * rootVelocity(step + 1);
+      there += rootPosition(step + 1);
+    }
+    float m = isParticle(k) ? restEdge[k].x : 0.0;
+    goal[k] = m * goalPull(end.w, begin.w, p[k], there, move, stepSeconds());
+  }
+}

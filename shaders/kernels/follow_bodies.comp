@@ -1,0 +1,37 @@
+// Points of hairs near bodies, listed by follow_hairs.comp in any order, are pushed out of them. Mirrored by
+// reference/follow_guide.h.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/body_buffers.glsl"
+#include "shared/hair_on_guide.glsl"
+
+layout(set = 0, binding = kBindHairPoints) writeonly buffer HairPoints { uvec4 hairPoints[]; };
+layout(set = 0, binding = kBindNearCount) readonly buffer Counts { NearCount counts; };
+layout(set = 0, binding = kBindNearPoints) readonly buffer NearPoints { uint nearPoints[]; };
+
+float distanceFrom(BodyRest body, BodyPose pose, vec3 p) {
+  return bodyDistance(body, rotate(conjugate(pose.rotation), p - pose.position)).distance;
+}
+
+void main() {
+  if (gl_GlobalInvocationID.x >= counts.points) return;
+  uint id = nearPoints[gl_GlobalInvocationID.x];
+  uint h = id / parameters.stride;
+  uint i = id - h * parameters.stride;
+  FollowHair hair = followHair(h);
+  FollowGuide guide = followGuide(hair.guide);
+  HairOnGuide point = hairOnGuide(h, i, hair, guide);
+  vec3 root = pointOf(placeAt(guide.firstParticle)) + rotate(point.rootFrame, hair.offset);
+  vec3 before = pointOf(point.before);
+  vec3 after = pointOf(point.after);
+  vec3 x = followed(point);
+  for (uint b = 0; b < parameters.bodyCount; ++b) {
+    BodyRest body = bodyRest(b);
+    BodyPose pose = bodyPose(b);
+    Surface there = bodyDistance(body, rotate(conjugate(pose.rotation), x - pose.position));
+    float ofGuide = mix(distanceFrom(body, pose, before), distanceFrom(body, pose, after), point.between);
+    float way = wayOutBesideGuide(there.distance, ofGuide, distanceFrom(body, pose, root), point.share);
+    x += way * rotate(pose.rotation, there.normal);
+  }
+  hairPoints[hair.firstPoint + i] = uvec4(floatBitsToUint(x), point.tag);
+}

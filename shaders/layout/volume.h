@@ -1,0 +1,96 @@
+// Hair as a volume: structs, binding numbers, push constants.
+#ifndef RINGLET_LAYOUT_VOLUME
+#define RINGLET_LAYOUT_VOLUME
+
+#include "layout/types.h"
+
+#ifdef __cplusplus
+namespace ringlet::layout {
+#endif
+
+// Bindings of the volume's kernels, all in set 0.
+RINGLET_CONSTANT uint kBindVolumePositions = 0;   // vec4[particles]: as above
+RINGLET_CONSTANT uint kBindVolumeVelocities = 1;  // vec4[particles]: as above
+RINGLET_CONSTANT uint kBindVolumeSolved = 2;      // vec4[particles]: v^k
+RINGLET_CONSTANT uint kBindVolumePoses = 3;       // uniform: StepPose[kMaxStepPoses]
+RINGLET_CONSTANT uint kBindVolumeParticles = 4;   // VolumeParticle[volume particles]
+RINGLET_CONSTANT uint kBindVolumeStates = 5;      // VolumeState[volume particles]
+RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, first iterate
+RINGLET_CONSTANT uint kBindVolumeCells = 7;       // uint: see cellCount and its like in shared/volume_buffers.glsl
+RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], in cell order
+RINGLET_CONSTANT uint kBindVolumeNodes = 9;       // vec4[nodes]: xyz: mean of a [m/s]; w: density [kg/m^3]
+RINGLET_CONSTANT uint kBindVolumeAdded = 10;      // vec4[particles]: see kBindAddedByVolume
+RINGLET_CONSTANT uint kBindVolumeControl = 11;    // VolumeControl
+RINGLET_CONSTANT uint kBindVolumeHalt = 12;       // ContactControl
+RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xyz: place in cells, bits of floats; w:
+                                                  // which parcel
+RINGLET_CONSTANT uint kVolumeBindingCount = 14;
+// And as texels (shared/texels.glsl):
+RINGLET_CONSTANT uint kBindVolumePositionTexels = 14;
+RINGLET_CONSTANT uint kBindVolumeVelocityTexels = 15;
+RINGLET_CONSTANT uint kBindVolumeSolvedTexels = 16;
+RINGLET_CONSTANT uint kBindVolumeParticleTexels = 17;
+RINGLET_CONSTANT uint kBindVolumeStateTexels = 18;  // 3 a volume particle
+RINGLET_CONSTANT uint kBindVolumeBroughtTexels = 19;
+RINGLET_CONSTANT uint kBindVolumeParcelTexels = 20;  // 2 a volume particle
+RINGLET_CONSTANT uint kBindVolumeNodeTexels = 21;
+RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 22;
+RINGLET_CONSTANT uint kBindVolumeCellTexels = 23;  // four numbers each
+RINGLET_CONSTANT uint kVolumeTexelBindingCount = 10;
+
+// Constant per volume particle, in device order: one in so many of a strand that meets others as a volume, for as many.
+struct VolumeParticle {
+  uint particle;
+  float mass;             // of those it stands for [kg]
+  float ownDensity;       // of its own strand at its place at rest [kg/m^3]
+  float inverseMassUnit;  // 1 / the strand's mass unit [1/kg]; 0 for a particle that follows the head
+};
+
+// What it remembers from step to step.
+struct VolumeState {
+  vec4 memory;     // xyz: fading displacement s, in the head's frame [m]; w: density about it [kg/m^3]
+  vec4 place;      // xyz: in the head's frame at the step's start [m]; w: what of its mass counts in the step, m o [kg]
+  vec4 predicted;  // xyz: v^0 [m/s]; w: 1 where all this is known, 0 where the hair was just put there
+};
+
+// What it brings to the grid in an iteration.
+struct VolumeParcel {
+  vec4 rate;   // xyz: g a [kg m/s]; w: g [kg]
+  vec4 place;  // xyz: in cells, from the box's first node; w: mass [kg]
+};
+
+// The box of cells about all such particles, and what kernels tell each other.
+struct VolumeControl {
+  uint indirectParticles[3];  // workgroups over particles of a sort, or none
+  uint untilSort;             // steps until particles are next put into cells; 0: this step does
+  uint indirectBlocks[3];     // over blocks of cells of a sort, or none
+  uint cellCount;             // of the box, which has as many nodes
+  uint indirectNodes[3];      // over nodes
+  uint unused;
+  int least[3];               // of the cells particles are in, as found so far in this step
+  float cellsPerMetre;
+  int greatest[3];
+  float cell;                 // [m]
+  int low[3];                 // the box's first cell
+  uint unused2;
+  uint size[3];               // and how many there are along each axis
+  uint unused3;
+};
+
+struct VolumeParameters {
+  uint count;         // volume particles
+  uint cellCapacity;  // cells there is room for, a multiple of kBucketBlock
+  uint step;          // of the frame
+  float seconds;      // T
+  float cell;         // h [m]
+  float drag;         // lambda [1/s]
+  float stiffness;    // k [1/s^2]
+  float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
+  float warmth;       // as in ContactParameters
+  uint sortSteps;     // particles are put into cells every so many steps; between they stay where they were
+};
+
+#ifdef __cplusplus
+}  // namespace ringlet::layout
+#endif
+#endif

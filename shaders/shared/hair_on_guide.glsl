@@ -1,0 +1,47 @@
+// A point of a hair beside its guide, as kernels of a point an invocation find it. Mirrored by
+// reference/follow_guide.h.
+#ifndef RINGLET_HAIR_ON_GUIDE
+#define RINGLET_HAIR_ON_GUIDE
+
+#include "equations/follow.glsl"
+#include "shared/follow_buffers.glsl"
+
+layout(set = 0, binding = kBindCores) readonly buffer Cores { vec4 cores[]; };
+layout(set = 0, binding = kBindCoreFrames) readonly buffer CoreFrames { vec4 coreFrames[]; };
+layout(set = 0, binding = kBindCurls) readonly buffer Curls { vec4 curls[]; };
+
+GuidePlace placeAt(uint i) {
+  if (!kTexels) return GuidePlace(cores[i].xyz, curls[i].xyz, coreFrames[i]);
+  return GuidePlace(vectorAt(coreTexels, i).xyz, vectorAt(curlTexels, i).xyz, vectorAt(coreFrameTexels, i));
+}
+vec3 pointOf(GuidePlace place) { return place.core + rotate(place.frame, place.curl); }
+
+struct HairOnGuide {
+  FollowHair hair;
+  FollowGuide guide;
+  vec4 rootFrame;
+  float share;               // of the way from root to tip
+  GuidePlace before, after;  // the guide's particles beside the point,
+  float between;             // and where between them it is
+  uint tag;                  // of the point
+};
+
+/// Point i of hair h, where i is below the guide's particleCount.
+HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
+  uint last = guide.particleCount - 1;
+  float share = float(i) / float(last);
+  // A shorter hair lags behind its guide, but for the root.
+  float along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
+  uint k = min(uint(along), last - 1);
+  uint at = guide.firstParticle + k;
+  return HairOnGuide(hair, guide, multiply(parameters.head, guide.restFrame), share, placeAt(at), placeAt(at + 1),
+                     along - float(k), i == last ? h | kHairEnd : h);
+}
+
+/// Where it is, were there no bodies [m].
+vec3 followed(HairOnGuide point) {
+  return followedPoint(point.hair.phase, point.hair.radius, point.hair.spread, point.hair.offset,
+                       placeBetween(point.before, point.after, point.between), point.rootFrame, point.share);
+}
+
+#endif

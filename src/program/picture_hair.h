@@ -1,0 +1,71 @@
+// PictureHair: what is drawn of an animation's strands, on the device: hairs that follow them, or the strands
+// themselves.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "program/follow_plan.h"
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/follow/follow_stage.h"
+#include "ringlet/gpu/command_list.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/render/strand_points.h"
+#include "ringlet/solver/compute_device.h"
+
+namespace ringlet::program {
+
+/// As a person asked; what they left open is chosen by the number of strands.
+struct PictureHairChoice {
+  std::optional<int> hairs;     // that follow the strands; 0: the strands themselves
+  std::optional<double> width;  // diameter at the root [m]
+};
+
+class PictureHair {
+ public:
+  /// `rest`: the strands as they were groomed, in units of `metresPerUnit`; `first`: frame 1 of them;
+  /// `bodies`: that hairs stay out of. Errors: the two do not belong together; the device has too little
+  /// memory.
+  static Result<PictureHair> create(const ComputeDevice& device, const Groom& rest, const Groom& first,
+                                    double metresPerUnit, const PictureHairChoice& choice,
+                                    std::span<const Body> bodies = {});
+
+  /// The strands of the next moment, in their unit, and one pose a body. Nothing may be under way.
+  Status setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {});
+  /// How the head has turned since the rest pose.
+  Quatd headOf(std::span<const Vec3f> points) const;
+  /// Moves what follows to the pose; its stage is "follow".
+  void record(gpu::CommandList& list, Quatd head) const;
+
+  const gpu::Buffer& points() const { return hairs_ ? hairs_->points() : lines_->points(); }
+  const std::vector<std::uint32_t>& firstPoint() const {
+    return hairs_ ? hairs_->firstPoint() : lines_->firstPoint();
+  }
+  /// Of the strands [m]: three coordinates and anything.
+  const gpu::Buffer& strandPoints() const { return hairs_ ? hairs_->pose() : lines_->points(); }
+  /// Of each hair, the strand that it is or follows.
+  std::vector<std::uint32_t> strandOf() const;
+  const std::vector<Vec3d>& restRoots() const { return restRoots_; }  // [m]
+  std::vector<Vec3d> rootsOf(std::span<const Vec3f> points) const;    // [m]
+
+  std::size_t strandCount() const { return firstOfStrand_.size() - 1; }
+  std::size_t hairCount() const { return firstPoint().size() - 1; }
+  double width() const { return width_; }  // [m]
+  bool follows() const { return hairs_.has_value(); }
+  std::uint64_t byteCount() const { return hairs_ ? hairs_->byteCount() : lines_->points().bytes(); }
+
+ private:
+  PictureHair() = default;
+
+  double metresPerUnit_ = 0.01, width_ = 0;
+  std::vector<std::uint32_t> firstOfStrand_;
+  std::vector<Vec3d> restRoots_;
+  std::optional<FollowPlan> plan_;
+  std::optional<FollowStage> hairs_;  // one of the two
+  std::optional<StrandPoints> lines_;
+};
+
+}  // namespace ringlet::program

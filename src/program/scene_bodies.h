@@ -1,0 +1,18 @@
+// Where a scene's bodies are in a frame of an animation that was simulated from it.
+#pragma once
+
+#include <vector>
+
+#include "ringlet/scene/body.h"
+#include "ringlet/scenes/load_scene.h"
+
+namespace ringlet::program {
+
+/// At the end of a frame, from 1, or a share of one before; one pose a body, in the world.
+inline std::vector<BodyPose> bodiesAtFrame(const LoadedScene& scene, double frame) {
+  const double seconds = frame / scene.settings.framesPerSecond;
+  const HeadPose head = scene.motion.poseAt(seconds);
+  return bodyPosesOf(scene.bodies, std::span(&head, 1), std::span(&seconds, 1));
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,86 @@
+// Implements rest/packed_bodies.h.
+#include "ringlet/rest/packed_bodies.h"
+
+#include <algorithm>
+
+#include "ringlet/base/half.h"
+#include "ringlet/base/packed.h"
+
+namespace ringlet {
+namespace {
+
+constexpr double kEndless = 1e15;  // [m]: a plane's bounds; its square is still a float
+
+layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
+  layout::BodyRest rest{};
+  rest.friction = static_cast<float>(body.friction);
+  rest.shape = layout::kShapeBox;
+  const double kept = body.thickness;
+  switch (body.shape) {
+    case BodyShape::sphere:
+      rest.halfExtents = packed3({});
+      rest.rounding = static_cast<float>(body.radius + kept);
+      rest.bounds = packed({}, body.radius + kept);
+      break;
+    case BodyShape::capsule:
+      rest.halfExtents = packed3({0, body.length / 2, 0});
+      rest.rounding = static_cast<float>(body.radius + kept);
+      rest.bounds = packed({}, body.length / 2 + body.radius + kept);
+      break;
+    case BodyShape::box:
+      rest.halfExtents = packed3(body.halfExtents);
+      rest.rounding = static_cast<float>(kept);
+      rest.bounds = packed({}, length(body.halfExtents) + kept);
+      break;
+    case BodyShape::plane:
+      rest.shape = layout::kShapePlane;
+      rest.halfExtents = packed3({});
+      rest.rounding = static_cast<float>(kept);
+      rest.bounds = packed({}, kEndless);
+      break;
+    case BodyShape::grid: {
+      const DistanceGrid& grid = *body.grid;
+      const Vec3d size =
+          Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell;
+      rest.shape = layout::kShapeGrid;
+      rest.halfExtents = packed3({});
+      rest.rounding = static_cast<float>(kept);
+      rest.bounds = packed(grid.origin + size * 0.5, length(size) / 2 + kept);
+      rest.gridOrigin = packed3(grid.origin);
+      rest.cell = static_cast<float>(grid.cell);
+      std::copy(grid.counts.begin(), grid.counts.end(), rest.cells);
+      rest.firstCell = firstCell;
+      break;
+    }
+  }
+  return rest;
+}
+
+// Of each cell its eight corners, as gridDistance (shaders/equations/body_distance.glsl) wants them.
+void addCells(const DistanceGrid& grid, std::vector<layout::uvec4>& cells) {
+  const float cell = static_cast<float>(grid.cell);
+  const auto half = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    return std::uint32_t{halfBits(grid.distances[grid.cornerIndex(x, y, z)] / cell)};
+  };
+  for (std::uint32_t z = 0; z < grid.counts[2]; ++z)
+    for (std::uint32_t y = 0; y < grid.counts[1]; ++y)
+      for (std::uint32_t x = 0; x < grid.counts[0]; ++x) {
+        const auto pair = [&](std::uint32_t dy, std::uint32_t dz) {
+          return half(x, y + dy, z + dz) | half(x + 1, y + dy, z + dz) << 16;
+        };
+        cells.push_back({pair(0, 0), pair(1, 0), pair(0, 1), pair(1, 1)});
+      }
+}
+
+}  // namespace
+
+PackedBodies packBodies(std::span<const Body> bodies) {
+  PackedBodies packed;
+  for (const Body& body : bodies) {
+    packed.rests.push_back(restOf(body, static_cast<std::uint32_t>(packed.cells.size())));
+    if (body.shape == BodyShape::grid) addCells(*body.grid, packed.cells);
+  }
+  return packed;
+}
+
+}  // namespace ringlet

@@ -1,0 +1,63 @@
+// DeviceGoals: places that the particles of one head are pulled to; nothing where its hair was built without.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "layout/strands.h"
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/frame_input.h"
+#include "ringlet/solver/groom_chunks.h"
+
+namespace ringlet {
+
+class DeviceGoals {
+ public:
+  /// None pulls at first. `slots`: frames in flight. Fails when the device lacks memory.
+  static Result<DeviceGoals> create(gpu::Device& device, const RestState& rest, bool areThere,
+                                    std::span<const GroomChunk> chunks, std::size_t slots);
+
+  bool areThere() const { return areThere_; }
+
+  /// Of a chunk, as strand kernels bind them.
+  gpu::BufferTable bufferTable(std::size_t chunk) const {
+    return {{layout::kBindGoalsBefore, before_[chunk].seen()},
+            {layout::kBindGoals, after_[chunk].seen()},
+            {layout::kBindGoalBeforeTexels, before_[chunk].seen()},
+            {layout::kBindGoalTexels, after_[chunk].seen()}};
+  }
+  std::uint64_t largestBuffer() const { return largestOf(after_); }
+  std::uint64_t bytes() const { return bytesOf(before_) + bytesOf(after_); }
+  /// The host's part, for frames in flight.
+  std::uint64_t writtenBytes() const { return writtenBytesOf(before_) + writtenBytesOf(after_); }
+
+  /// As Simulation::setGoals: at the end of the next frame written and from then on.
+  void set(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio);
+  /// For the frame of a slot.
+  void writeFrame(std::size_t slot);
+  /// A frame of this slot begins with it.
+  void record(gpu::CommandList& list, std::size_t slot) const {
+    for (const auto* inputs : {&before_, &after_})
+      for (const FrameInput& input : *inputs) input.record(list, slot);
+  }
+
+ private:
+  DeviceGoals(bool areThere, std::size_t slots) : areThere_(areThere), isWritten_(slots, false) {}
+
+  bool areThere_;
+  bool areSet_ = false;
+  std::vector<GroomChunk> chunks_;
+  std::vector<FrameInput> before_, after_;   // of each chunk: vec4[particles]
+  std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
+  std::vector<layout::vec4> start_, end_;    // of the next frame, in device order
+  bool move_ = false;                        // in the next frame
+  std::vector<bool> isWritten_;              // whether a slot has these
+};
+
+}  // namespace ringlet
