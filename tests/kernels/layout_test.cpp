@@ -122,7 +122,8 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(bodyCount),
                         RINGLET_MEMBER(dragStrength),
                         RINGLET_MEMBER(dragAlong),
-                        RINGLET_MEMBER(strandCount)}};
+                        RINGLET_MEMBER(strandCount),
+                        RINGLET_MEMBER(stepCount)}};
     }(),
     [] {
       using S = layout::ContactRest;
