@@ -159,6 +159,8 @@ RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double metres
   strand.coreElongationLow = material.coreElongationLow;
   strand.coreElongationHigh = material.coreElongationHigh;
   strand.coreRelaxedShare = material.coreRelaxedShare;
+  strand.gravityFactor = material.gravityFactor;
+  strand.inertiaFactor = material.inertiaFactor;
 
   // Metres are rounded to float, as the solver stores them, so that both start from the same curve.
   std::vector<Vec3d> curve;
@@ -237,6 +239,8 @@ RestStrand<Real> castRestStrand(const RestStrand<double>& from) {
           .coreElongationLow = static_cast<Real>(from.coreElongationLow),
           .coreElongationHigh = static_cast<Real>(from.coreElongationHigh),
           .coreRelaxedShare = static_cast<Real>(from.coreRelaxedShare),
+          .gravityFactor = static_cast<Real>(from.gravityFactor),
+          .inertiaFactor = static_cast<Real>(from.inertiaFactor),
           .bendSmoothingShare = static_cast<Real>(from.bendSmoothingShare),
           .coreSmoothingShare = static_cast<Real>(from.coreSmoothingShare),
           .stretchRestLengths = scalars(from.stretchRestLengths),

@@ -29,6 +29,8 @@ struct RestStrand {
   Scalars<Real> coreStiffness, coreDamping;
   Real coreElongationLow = 1, coreElongationHigh = 1, coreRelaxedShare = 1;  // [1], see coreScale
 
+  Real gravityFactor = 1, inertiaFactor = 1;  // [1], on gravity and on the inertia of a head that travels
+
   Real bendSmoothingShare = 1, coreSmoothingShare = 1;  // beta_b, beta_c [1]
   Scalars<Real> stretchRestLengths;                     // N-1: |rest edge| less preload [m]
   Field<Real> restTargets;                              // N-1: target in the frame F_{i-1} [m]

@@ -83,8 +83,10 @@ void computeForces(const RestStrand<Real>& rest, bool isPaper, StepScratch<Real>
 }
 
 // What pulls on a kilogram of particle i: gravity, and forces from outside [m/s^2].
-Vector3<double> pullOn(const Settings& settings, OutsideForces forces, std::size_t i) {
-  const Vector3<double> gravity = toEigen<double>(settings.gravity);
+template <class Real>
+Vector3<double> pullOn(const RestStrand<Real>& rest, const Settings& settings, OutsideForces forces,
+                       std::size_t i) {
+  const Vector3<double> gravity = static_cast<double>(rest.gravityFactor) * toEigen<double>(settings.gravity);
   return forces.empty() ? gravity : gravity + forces[i];
 }
 
@@ -106,7 +108,7 @@ void assembleSystem(const RestStrand<Real>& rest, const Settings& settings, Outs
     const double m = system.masses[i];
     system.momenta[i] =
         m * velocities[i].template cast<double>() +
-        T * (particleForce(taps, i).template cast<double>() + m * pullOn(settings, forces, i));
+        T * (particleForce(taps, i).template cast<double>() + m * pullOn(rest, settings, forces, i));
   }
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
     const double stretchStiffness = rest.stretchStiffness[i], stretchDamp = rest.stretchDamping[i];
@@ -172,7 +174,7 @@ void runPaperLoops(const RestStrand<Real>& rest, const Settings& settings, const
   const Real dampingSeconds = forceSeconds / static_cast<Real>(settings.dampingLoops);
   for (int forceLoop = 0; forceLoop < settings.forceLoops; ++forceLoop) {
     for (std::size_t i = rest.rootCount; i < rest.particleCount(); ++i) {
-      const Vector3<Real> pull = pullOn(settings, forces, i).template cast<Real>();
+      const Vector3<Real> pull = pullOn(rest, settings, forces, i).template cast<Real>();
       velocities[i] += forceSeconds * (particleForce(taps, i) / rest.masses[i] + pull);
     }
     for (int dampingLoop = 0; dampingLoop < settings.dampingLoops; ++dampingLoop) {
@@ -256,7 +258,7 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
   const bool isPaper = settings.integrator == Integrator::paper;
 
   // The head's new translation is the new frame of reference.
-  for (Vector3<Real>& v : velocities) v -= head.velocityChange;
+  for (Vector3<Real>& v : velocities) v -= rest.inertiaFactor * head.velocityChange;
 
   if (rest.edgeCount() > 0) {
     measureShape(rest, isPaper, head, positions, velocities, scratch, taps);

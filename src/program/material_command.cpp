@@ -15,6 +15,9 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/groom_inspection.h"
+#include "ringlet/measure/material_suggestion.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
@@ -27,6 +30,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kExample =
     "Example:\n"
     "  ringlet material --list\n"
+    "  ringlet material --suggest groom.usd -o hair.toml\n"
     "  ringlet material ringlet -o soft.toml    (then edit soft.toml)\n"
     "  ringlet simulate head.obj --material soft.toml --hold 0.5 -o out\n"
     "\n"
@@ -55,7 +59,8 @@ constexpr const char* kExample =
 
 struct Typed {
   std::string name;
-  std::filesystem::path file;
+  std::filesystem::path file, groom;
+  std::optional<double> metresPerUnit;
   bool list = false, json = false;
 };
 
@@ -160,7 +165,26 @@ int list(const Typed& typed) {
   return kExitFine;
 }
 
-int show(const Typed& typed) {
+// Shows the preset that a groom looks like, and on standard error why.
+Result<std::string> suggested(const Typed& typed) {
+  auto groom = readGroom(typed.groom);
+  if (!groom) return groom.error();
+  if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
+  for (const std::string& warning : groom->warnings) say("ringlet material: warning: {}\n", warning);
+  const auto suggestion = suggestMaterial(inspectGroom(groom->groom), groom->groom.metresPerUnit);
+  say("ringlet material: {} looks like {}: {}\n", typed.groom.string(), suggestion.preset, suggestion.reason);
+  return suggestion.preset;
+}
+
+int show(Typed& typed) {
+  if (!typed.groom.empty()) {
+    auto name = suggested(typed);
+    if (!name) {
+      say("ringlet material: {}\n", name.error().message);
+      return exitCodeOf(name.error());
+    }
+    typed.name = std::move(*name);
+  }
   auto loaded = loadMaterial(typed.name);
   if (!loaded) {
     say("ringlet material: {}\n", loaded.error().message);
@@ -202,18 +226,15 @@ CLI::Validator materialName() {
       "");
 }
 
-// The dials, those of the command line turned.
-MaterialDials turned(const MaterialChoice& choice, MaterialDials dials) {
-  dials.hold = choice.hold.value_or(dials.hold);
-  dials.bounce = choice.bounce.value_or(dials.bounce);
-  dials.springBack = choice.springBack.value_or(dials.springBack);
-  dials.curlKeep = choice.curlKeep.value_or(dials.curlKeep);
-  return dials;
+// Those that act on more than springs.
+bool paperHas(const Parameter<MaterialDials>& dial) {
+  return dial.key == std::string_view("bounce") || dial.key == std::string_view("weight");
 }
 
-const Parameter<MaterialDials>& dialNamed(std::string_view key) {
-  const auto dials = dialParameters();
-  return *std::find_if(dials.begin(), dials.end(), [&](const auto& dial) { return dial.key == key; });
+std::string optionOf(const Parameter<MaterialDials>& dial) {
+  std::string option = std::string("--") + dial.key;
+  std::ranges::replace(option, '_', '-');
+  return option;
 }
 
 }  // namespace
@@ -229,19 +250,56 @@ void addMaterialCommand(CLI::App& app, int& exitCode) {
       ->check(materialName())
       ->type_name("NAME|FILE");
   command->add_flag("--list", typed->list, "List the presets and every parameter");
+  command
+      ->add_option(
+          "--suggest", typed->groom,
+          "Show the preset that this groom looks most like, by how many of its strands are curled, and "
+          "how wide")
+      ->type_name("GROOM");
+  command->add_option("--unit", typed->metresPerUnit, "With --suggest: metres per unit of the groom")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
   command->add_option("-o,--output", typed->file, "Write it to a file, every number with its comment")
       ->check(endsIn({".toml"}))
       ->type_name("FILE");
   command->add_flag("--json", typed->json, "Print one JSON object");
   command->callback([typed, &exitCode] {
-    if (typed->list == !typed->name.empty()) {
-      throw CLI::ValidationError("MATERIAL", typed->list ? "--list shows all materials; leave out the name"
-                                                         : "name a preset or a .toml file, or use --list");
-    }
+    if (typed->list && !typed->name.empty())
+      throw CLI::ValidationError("MATERIAL", "--list shows all materials; leave out the name");
+    if (!typed->groom.empty() && (typed->list || !typed->name.empty()))
+      throw CLI::ValidationError("--suggest", "names a material by itself; leave out the name and --list");
+    if (!typed->list && typed->name.empty() && typed->groom.empty())
+      throw CLI::ValidationError("MATERIAL",
+                                 "name a preset or a .toml file, or use --list or --suggest GROOM");
+    if (typed->metresPerUnit && typed->groom.empty())
+      throw CLI::ValidationError("--unit", "only --suggest reads a groom");
     if (typed->list && !typed->file.empty())
       throw CLI::ValidationError("--output", "only one material can be written; name it instead of --list");
     exitCode = typed->list ? list(*typed) : show(*typed);
   });
+}
+
+MaterialDials turned(const DialChoice& choice, MaterialDials dials) {
+  for (std::size_t d = 0; d < choice.size(); ++d) {
+    if (choice[d]) dialParameters()[d].set(dials, choice[d]);
+  }
+  return dials;
+}
+
+void addDialOptions(CLI::App* command, DialChoice& choice, const std::string& group) {
+  const auto dials = dialParameters();
+  choice.resize(dials.size());
+  for (std::size_t d = 0; d < dials.size(); ++d) {
+    const Parameter<MaterialDials>& dial = dials[d];
+    command
+        ->add_option(optionOf(dial), choice[d],
+                     fmt::format("{} A number {}, usual {} (default {})", dial.effect,
+                                 rangeText(dial.allowed, dial.unit), rangeText(dial.usual, dial.unit),
+                                 *dial.defaultValue()))
+        ->check(between(dial.allowed.low, dial.allowed.high))
+        ->type_name("X")
+        ->group(group);
+  }
 }
 
 void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::string& group) {
@@ -253,41 +311,25 @@ void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::st
       ->check(materialName())
       ->type_name("NAME|FILE")
       ->group(group);
-  auto addDial = [&](const char* option, const char* key, std::optional<double>& value) {
-    const Parameter<MaterialDials>& dial = dialNamed(key);
-    command
-        ->add_option(option, value,
-                     fmt::format("{} A number {}, usual {} (default {}, or the file's)", dial.effect,
-                                 rangeText(dial.allowed, dial.unit), rangeText(dial.usual, dial.unit),
-                                 *dial.defaultValue()))
-        ->check(between(dial.allowed.low, dial.allowed.high))
-        ->type_name("X")
-        ->group(group);
-  };
-  addDial("--hold", "hold", choice.hold);
-  addDial("--bounce", "bounce", choice.bounce);
-  addDial("--spring-back", "spring_back", choice.springBack);
-  addDial("--curl-keep", "curl_keep", choice.curlKeep);
+  addDialOptions(command, choice.dials, group);
   command
-      ->add_option("--max-stretch", choice.maxStretch,
-                   "Longest an edge may become, as a multiple of the groom's edge, 1 to 100: 1 + bounce "
-                   "(default 1.1)")
+      ->add_option(
+          "--max-stretch", choice.maxStretch,
+          "Longest an edge may become, as a multiple of the groom's edge, 1 to 100 (default 1.1); 1: "
+          "inextensible")
       ->check(between(1, 100))
       ->type_name("S")
       ->group(group);
 }
 
-void checkMaterialOptions(const MaterialChoice& choice, Integrator integrator) {
-  if (choice.bounce && choice.maxStretch) {
-    throw CLI::ValidationError("--bounce", fmt::format("--max-stretch {} says the same as --bounce {}; give "
-                                                       "one of the two",
-                                                       *choice.maxStretch, *choice.maxStretch - 1));
-  }
-  if (integrator == Integrator::paper && (choice.hold || choice.springBack || choice.curlKeep)) {
-    throw CLI::ValidationError(choice.hold         ? "--hold"
-                               : choice.springBack ? "--spring-back"
-                                                   : "--curl-keep",
-                               "--integrator paper has spring constants of its own, which no dial changes");
+void checkDialOptions(const DialChoice& choice, Integrator integrator) {
+  if (integrator != Integrator::paper) return;
+  for (std::size_t d = 0; d < choice.size(); ++d) {
+    const Parameter<MaterialDials>& dial = dialParameters()[d];
+    if (choice[d] && !paperHas(dial))
+      throw CLI::ValidationError(
+          optionOf(dial),
+          "--integrator paper has spring constants of its own, which this dial does not change");
   }
 }
 
@@ -299,11 +341,10 @@ Status applyMaterialOptions(const MaterialChoice& choice, SceneFile& scene) {
     scene.hasMaterial = true;
   }
   // The reader of the scene's own dials has told what is unusual.
-  scene.material.dials = turned(choice, scene.material.dials);
-  for (std::string& sentence : unusualNumbers({}, turned(choice, {})))
+  scene.material.dials = turned(choice.dials, scene.material.dials);
+  for (std::string& sentence : unusualNumbers({}, turned(choice.dials, {})))
     scene.warnings.push_back(std::move(sentence));
-  if (choice.bounce) scene.simulation.maxStretch.reset();  // they say the same
-  if (choice.maxStretch) scene.simulation.maxStretch = choice.maxStretch;
+  if (choice.maxStretch) scene.simulation.maxStretch = *choice.maxStretch;
   return {};
 }
 

@@ -18,6 +18,7 @@
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
+#include "program/material_command.h"
 #include "program/measure_report.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
@@ -37,6 +38,7 @@ constexpr const char* kExample =
     "  ringlet scene --list\n"
     "  ringlet scene hanging_curl --preload 0 --particles 128\n"
     "  ringlet scene walk_cycle --frames-on raw --json -o out\n"
+    "  ringlet scene bounce --bounce 2\n"
     "  ringlet scene curtain --contacts off\n"
     "  ringlet scene flip --prune 8\n"
     "  ringlet measure out/groom.obj out            measures what was written once more\n"
@@ -78,6 +80,7 @@ constexpr const char* kExitHelp =
 struct Typed {
   std::string name;
   SceneOptions scene;
+  DialChoice dials;
   ContactChoice contacts;
   RunOptions run;
   RunNames names{.material = "scene"};
@@ -334,6 +337,8 @@ void resolve(Typed& typed) {
   typed.scene.smoothedFrames = typed.framesOn == "smoothed";
   typed.scene.integrator = integratorByName(typed.names.integrator);
   if (typed.scene.integrator == Integrator::paper) checkPaper(typed);
+  checkDialOptions(typed.dials, typed.scene.integrator);
+  typed.scene.dials = turned(typed.dials, {});
   checkContactOptions(typed.contacts);
   typed.scene.contacts = typed.contacts.on();
   if (!typed.contacts.on().value_or(sceneShowsContacts(typed.name)) && !sceneShowsContacts(typed.name))
@@ -411,6 +416,7 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->type_name("WHICH")
       ->group(hair);
 
+  addDialOptions(command, typed->dials, "Dials");
   addContactOptions(command, typed->contacts, "in scenes of hair that meets hair");
 
   const char* solver = "Solver";

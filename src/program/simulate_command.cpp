@@ -180,7 +180,7 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
                                "only --integrator point_jacobi has iterations");
   }
   checkOutputs(scene.output);
-  checkMaterialOptions(typed.material, integratorByName(scene.simulation.integrator));
+  checkDialOptions(typed.material.dials, integratorByName(scene.simulation.integrator));
   checkContactOptions(typed.contacts);
   if (!scene.contacts.on && !typed.measuresContacts)
     refuseContactOptions(typed.contacts, "only with --contacts on or --measure-contacts");

@@ -94,7 +94,7 @@ AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObj
                        Settings settings, const AssetChoice& choice) {
   const KernelChoice kernel = kernelOf(choice);
   std::vector<std::string> warnings;
-  const Material made = dialled(material, settings, warnings);
+  const Material made = dialled(material, warnings);
   HairAsset built = withoutGil([&] {
     return valueOf(HairAsset::build(device->device, groom->groom(), made, settings, kernel,
                                     choice.hasBodies ? BodyUse::some : BodyUse::none));
@@ -411,9 +411,8 @@ void changeMaterial(HairObject& self, const py::object& material, const py::kwar
     if (!holder.contains(key)) (void)holder[key];  // raises the KeyError that names the nearest
     holder[key] = value;
   }
-  Settings unused;
   std::vector<std::string> warnings;
-  self.setMaterial(dialled(holder.cast<const MaterialObject&>(), unused, warnings));
+  self.setMaterial(dialled(holder.cast<const MaterialObject&>(), warnings));
 }
 
 void addDevice(py::module_& module) {

@@ -13,6 +13,7 @@
 #include "python/arrays.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
 
 namespace ringlet::python {
 namespace {
@@ -203,16 +204,14 @@ void addAttributes(Class& material) {
 
 }  // namespace
 
-Material dialled(const MaterialObject& object, Settings& settings, std::vector<std::string>& warnings) {
+Material dialled(const MaterialObject& object, std::vector<std::string>& warnings) {
   Material material = object.material;
-  const double stretch = settings.maxStretch;
-  if (const auto warning = applyDials(object.dials, material, settings)) warnings.push_back(*warning);
-  if (stretch != Settings{}.maxStretch) settings.maxStretch = stretch;
+  if (const auto warning = applyDials(object.dials, material)) warnings.push_back(*warning);
   if (Status checked = checkMaterial(material); !checked) {
     const MaterialDials& dials = object.dials;
     if (dials == MaterialDials{}) throw Failure(checked.error());
-    throw Failure({fmt::format("{}, with the dials hold {}, spring_back {}, curl_keep {} worked in",
-                               checked.error().message, dials.hold, dials.springBack, dials.curlKeep)});
+    throw Failure(
+        {fmt::format("{}, with the dials worked in: {}", checked.error().message, dialsText(dials))});
   }
   return material;
 }
@@ -228,8 +227,7 @@ void addMaterials(py::module_& module) {
       "\"profile.bend_stiffness\", "
       "have brackets only. Material.parameters() lists all with units and ranges. Numbers of unit w are "
       "multiples of a strand's own weight.\n\n"
-      "Dials are worked in where the material is used; dials.bounce says how far hair may lengthen where "
-      "settings.max_stretch is the default.");
+      "Dials are worked in where the material is used.");
   material
       .def(py::init([](const py::kwargs& numbers) {
              MaterialObject made;

@@ -7,8 +7,7 @@
 
 #include "python/binding.h"
 #include "ringlet/rest/material.h"
-#include "ringlet/rest/material_presets.h"
-#include "ringlet/scene/settings.h"
+#include "ringlet/rest/material_dials.h"
 
 namespace ringlet::python {
 
@@ -18,9 +17,9 @@ struct MaterialObject {
   std::vector<std::string> warnings{};  // of its file
 };
 
-/// The material with its dials worked in. Where settings.max_stretch is the default, the bounce decides it.
+/// The material with its dials worked in.
 /// What the dials could not do is a sentence for `warnings`. Throws Failure for a material that dials spoil.
-Material dialled(const MaterialObject& object, Settings& settings, std::vector<std::string>& warnings);
+Material dialled(const MaterialObject& object, std::vector<std::string>& warnings);
 
 /// For a fingerprint: all numbers.
 std::string textOf(const Material& material);

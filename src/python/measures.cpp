@@ -206,9 +206,9 @@ void addContactWatch(py::module_& module) {
       "each other they are. Is fed every step, and told where a frame ends.")
       .def(py::init([](const GroomHandle& groom, const std::optional<MaterialObject>& material,
                        const std::optional<Settings>& settings) {
-             Settings given = settings.value_or(Settings{});
+             const Settings given = settings.value_or(Settings{});
              std::vector<std::string> warnings;
-             const Material made = dialled(material.value_or(MaterialObject{}), given, warnings);
+             const Material made = dialled(material.value_or(MaterialObject{}), warnings);
              return ContactWatchObject{groom->particleCount(), withoutGil([&] {
                                          return valueOf(ContactWatch::make(groom->groom(), made, given));
                                        })};

@@ -67,6 +67,8 @@ class Material:
     core_stiffness: float
     core_damping_ratio: float
     core_relaxed_share: float
+    gravity_factor: float
+    inertia_factor: float
     core_elongation_low: float
     core_elongation_high: float
     bend_smoothing_length: float | None

@@ -32,7 +32,7 @@ SceneFile sceneWith(const SceneFile& scene, const Edits& edits, std::size_t mate
 Result<HairNumbers> numbersOf(const SceneFile& scene, const Groom& groom) {
   HairNumbers numbers{settingsOf(scene), {}};
   std::vector<std::string> warnings;  // they were said when the scene was loaded
-  auto material = loadMaterialOf(scene, numbers.settings, warnings);
+  auto material = loadMaterialOf(scene, numbers.settings.integrator, warnings);
   if (!material) return material.error();
   numbers.material = std::move(*material);
   if (!scene.simulation.stepsPerFrame) {

@@ -20,6 +20,7 @@
 #include "ringlet/output/usdc_writer.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
 #include "ringlet/scenes/builtin_scene.h"
 #include "ringlet/scenes/scene_file.h"
 #include "ringlet/scenes/scene_parts.h"

@@ -92,8 +92,7 @@ void tryBytes(std::span<const std::byte> bytes) {
   if (!bodies) return;
   Settings settings = settingsOf(*scene);
   Material material = scene->material.material;
-  (void)applyDials(scene->material.dials, material, settings);
-  if (scene->simulation.maxStretch) settings.maxStretch = *scene->simulation.maxStretch;
+  (void)applyDials(scene->material.dials, material);
   run(*scene, loaded->groom, material, settings, *bodies);
 }
 

@@ -106,7 +106,7 @@ TEST_F(LiveMaterials, AreAsIfTheHairHadBeenMadeOfThem) {
     }
   }
   EXPECT_EQ(taken, felt) << "some change nothing";
-  EXPECT_EQ(taken.size(), 14u);
+  EXPECT_EQ(taken.size(), 16u);
   EXPECT_GT(refused, 5);
 }
 

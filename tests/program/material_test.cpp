@@ -6,6 +6,7 @@
 
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -133,12 +134,10 @@ TEST(MaterialCommand, MistakesAreOneSentence) {
                 2,
                 "there is no material 'curly'"},
            Case{{"simulate", "curl.obj", "-o", "out", "--hold", "0"}, 2, "from 0.001 to 1000"},
-           Case{{"simulate", "curl.obj", "-o", "out", "--bounce", "0.2", "--max-stretch", "1.5"},
-                2,
-                "--max-stretch 1.5 says the same as --bounce 0.5; give one of the two"},
-           Case{{"simulate", "curl.obj", "-o", "out", "--integrator", "paper", "--hold", "2"},
-                2,
-                "which no dial changes"},
+           Case{
+               {"simulate", "curl.obj", "-o", "out", "--integrator", "paper", "--hold", "2"},
+               2,
+               "--hold: --integrator paper has spring constants of its own, which this dial does not change"},
        }) {
     const auto result = runProgram(folder, c.arguments);
     EXPECT_EQ(result.exitCode, c.exitCode) << result.err;
@@ -182,29 +181,89 @@ TEST(SimulateMaterial, NumbersReachTheHair) {
   EXPECT_EQ(hash({"--material", "empty.toml"}), plain);
 
   // Dials: on the command line, in a file, and as the number they change; the command line wins.
-  std::ofstream(folder / "dial.toml") << "[dials]\nhold = 2\n";
-  std::ofstream(folder / "number.toml") << "bend_stiffness = 10\n";
-  const std::string held = hash({"--hold", "2"});
+  std::ofstream(folder / "dial.toml") << "[dials]\nhold = 4\n";
+  std::ofstream(folder / "number.toml") << "bend_stiffness = 20\nbend_damping_ratio = 0.1\n";
+  const std::string held = hash({"--hold", "4"});
   EXPECT_NE(held, plain);
   EXPECT_EQ(hash({"--material", "dial.toml"}), held);
   EXPECT_EQ(hash({"--material", "number.toml"}), held);
   EXPECT_EQ(hash({"--material", "dial.toml", "--hold", "1"}), plain);
-  for (const char* dial : {"--spring-back", "--curl-keep"}) EXPECT_NE(hash({dial, "3"}), plain) << dial;
+  for (const char* dial :
+       {"--bounce", "--spring-back", "--curl-keep", "--weight", "--root-hold", "--tip-hold", "--wet"})
+    EXPECT_NE(hash({dial, "0.9"}), plain) << dial;
 }
 
-TEST(SimulateMaterial, BounceAndMaxStretchAreTheSameLimit) {
-  const auto folder = scratchFolder("simulate_bounce");
+TEST(SimulateMaterial, MaxStretchIsTheLimit) {
+  const auto folder = scratchFolder("simulate_stretch");
   writeCurl(folder);
-  std::ofstream(folder / "stiff.toml") << "[dials]\nbounce = 0\n";
   auto longest = [&](const std::vector<std::string>& options) {
     return simulate(folder, options)["max_edge_stretch"].get<double>();
   };
   EXPECT_GT(longest({}), 1.001);
-  EXPECT_NEAR(longest({"--bounce", "0"}), 1, 1e-6);
   EXPECT_NEAR(longest({"--max-stretch", "1"}), 1, 1e-6);
-  EXPECT_NEAR(longest({"--material", "stiff.toml"}), 1, 1e-6);
-  EXPECT_GT(longest({"--material", "stiff.toml", "--max-stretch", "1.1"}), 1.001);
-  EXPECT_GT(longest({"--material", "stiff.toml", "--bounce", "0.1"}), 1.001);
+}
+
+// Each dial that cannot act says so, and no other.
+TEST(SimulateMaterial, DialsThatCannotActSaySo) {
+  const auto folder = scratchFolder("simulate_idle_dials");
+  writeCurl(folder);
+  std::ofstream(folder / "straight.obj") << "v 0 0 0\nv 0 -1 0\nv 0 -2 0\nv 0 -3 0\nl 1 2 3 4\n";
+  const struct {
+    std::vector<std::string> idle, acting;
+    const char* sentence;
+  } kCases[] = {
+      {{"curl.obj", "--bounce", "2", "--motion", "nod"}, {"curl.obj", "--bounce", "2"}, "does not travel"},
+      {{"curl.obj", "--weight", "2", "--gravity", "0"}, {"curl.obj", "--weight", "2"}, "there is no gravity"},
+      {{"straight.obj", "--curl-keep", "2"},
+       {"curl.obj", "--curl-keep", "2"},
+       "no strand of the groom is curled"},
+  };
+  for (const auto& c : kCases) {
+    const auto warningsOf = [&](std::vector<std::string> arguments) {
+      arguments.insert(arguments.begin(), "simulate");
+      for (const char* more :
+           {"--frames", "3", "--backend", "reference", "--json", "-o", "idle", "--overwrite"})
+        arguments.emplace_back(more);
+      const auto result = runProgram(folder, arguments);
+      EXPECT_EQ(result.exitCode, 0) << result.err;
+      return json::parse(result.out)["warnings"];
+    };
+    const json idle = warningsOf(c.idle);
+    ASSERT_EQ(idle.size(), 1u) << idle;
+    expectContains(idle[0], c.sentence);
+    EXPECT_EQ(warningsOf(c.acting), json::array()) << c.sentence;
+  }
+}
+
+TEST(MaterialCommand, SuggestsWhatAGroomLooksLike) {
+  const auto folder = scratchFolder("material_suggest");
+  const struct {
+    std::vector<std::string> groom;
+    const char* preset;
+  } kCases[] = {
+      {{"make", "curl", "--radius", "0.004", "--turns", "20"}, "coil"},
+      {{"make", "curl", "--radius", "0.01", "--turns", "8"}, "ringlet"},
+      {{"make", "curl", "--radius", "0.02", "--turns", "4"}, "loose_curl"},
+      {{"make", "curl", "--turns", "0"}, "straight"},
+  };
+  for (const auto& c : kCases) {
+    std::vector<std::string> make = c.groom;
+    for (const char* more : {"--particles", "128", "-o", "groom.obj"}) make.emplace_back(more);
+    ASSERT_EQ(runProgram(folder, make).exitCode, 0) << c.preset;
+    const auto result = runProgram(folder, {"material", "--suggest", "groom.obj", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["name"], c.preset) << result.err;
+    expectContains(result.err, std::string("looks like ") + c.preset);
+  }
+  // A tenth of the size, another hair; and what cannot be read is said.
+  ASSERT_EQ(
+      runProgram(folder, {"make", "curl", "--radius", "0.02", "--turns", "4", "-o", "groom.obj"}).exitCode,
+      0);
+  const auto small = runProgram(folder, {"material", "--suggest", "groom.obj", "--unit", "0.001", "--json"});
+  EXPECT_EQ(json::parse(small.out)["name"], "coil") << small.err;
+  EXPECT_EQ(runProgram(folder, {"material", "--suggest", "none.obj"}).exitCode, 4);
+  EXPECT_EQ(runProgram(folder, {"material", "coil", "--suggest", "groom.obj"}).exitCode, 2);
+  EXPECT_EQ(runProgram(folder, {"material", "coil", "--unit", "1"}).exitCode, 2);
 }
 
 TEST(SimulateMaterial, WarningsAreSaid) {
@@ -212,7 +271,7 @@ TEST(SimulateMaterial, WarningsAreSaid) {
   writeCurl(folder);
   const json damped = simulate(folder, {"--spring-back", "0.5"});
   ASSERT_EQ(damped["warnings"].size(), 1u);
-  expectContains(damped["warnings"][0], "0.15 x 0.5 = 0.075, below 0.1");
+  expectContains(damped["warnings"][0], "a bend damping ratio of 0.075, below 0.1");
   const json paper = simulate(folder, {"--integrator", "paper", "--material", "coil"});
   ASSERT_GE(paper["warnings"].size(), 1u);
   expectContains(paper["warnings"][0], "the paper's integrator has spring constants of its own");
@@ -235,16 +294,16 @@ TEST(SimulateMaterial, DialsAreHeldToTheirRangesAsInAFile) {
   const auto result = runProgram(folder, {"simulate", "curl.obj", "-o", "none", "--spring-back", "1000"});
   EXPECT_EQ(result.exitCode, 1);
   expectContains(result.err,
-                 "bend_damping_ratio is 150; it must be from 0 to 100, with the dials hold 1, "
-                 "spring_back 1000, curl_keep 1 worked in");
+                 "bend_damping_ratio is 150; it must be from 0 to 100, with the dials worked in: "
+                 "spring_back 1000");
   EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
 TEST(SimulateMaterial, HelpNamesTheOptions) {
   const auto folder = scratchFolder("material_help");
   const std::string help = runProgram(folder, {"simulate", "--help"}).out;
-  for (const char* part :
-       {"--material", "--hold", "--bounce", "--spring-back", "--curl-keep", "--max-stretch"})
+  for (const char* part : {"--material", "--hold", "--bounce", "--spring-back", "--curl-keep", "--weight",
+                           "--root-hold", "--tip-hold", "--wet", "--max-stretch"})
     expectContains(help, part);
   for (const auto& dial : dialParameters()) {
     expectContains(help, dial.effect);

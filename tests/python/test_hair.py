@@ -142,12 +142,11 @@ def test_a_live_material_changes_the_motion(asset):
         soft.set_material(bend_stifness=1)
 
 
-def test_dials_work_into_the_material_and_bounce_into_the_settings(device, swatch):
+def test_dials_work_into_the_material(device, swatch):
     material = ringlet.Material(**{"dials.hold": 2, "dials.bounce": 0.25})
     asset = ringlet.Asset(device, swatch, material)
-    assert asset.material.bend_stiffness == 10 and asset.settings.max_stretch == 1.25
-    stated = ringlet.Asset(device, swatch, material, ringlet.Settings(max_stretch=1.5))
-    assert stated.settings.max_stretch == 1.5
+    assert asset.material.bend_stiffness == 10 and asset.material.inertia_factor == 0.25
+    assert asset.settings == ringlet.Settings()
     assert ringlet.Asset(device, swatch).settings == ringlet.Settings()
 
 

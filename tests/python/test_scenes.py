@@ -20,7 +20,7 @@ SCENES = {
     "pre-roll": SWATCH + '[motion]\nkind = "nod"\npre_roll = 0.1\nstart = [0.5, 1, 0]\n',
     "keys": SWATCH + '[motion]\n[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 0.15\nposition = [0.05, 0, 0]\n',
     "material": SWATCH + '[motion]\nkind = "shake"\n[material]\npreset = "coil"\n'
-                         '[material.dials]\nhold = 0.5\nbounce = 0.02\n',
+                         '[material.dials]\nhold = 0.5\nbounce = 0.5\n',
     "air": SWATCH + '[motion]\nkind = "still"\n[air]\nwind = [3, 0, 0]\nturbulence = 0.5\ngust = 1\n',
     "contacts": SWATCH + '[motion]\nkind = "shake"\n[contacts]\nradius = 0.008\n',
     "bodies": SWATCH + '[motion]\nkind = "shake"\n[[body]]\nshape = "sphere"\nradius = 0.05\n'

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/toml_file.h"
 #include "tests/support/test_support.h"
 
@@ -74,7 +75,8 @@ TEST(MaterialFile, MistakesAreNamedWithLineAndRemedy) {
       {"hold = 2", "line 1: found the unknown key 'hold'; did you mean dials.hold?"},
       {"[dials]\n\nbend_stiffness = 2",
        "line 3: found the unknown key 'bend_stiffness' in [dials]; did you mean bend_stiffness, which stands "
-       "above all tables? [dials] takes hold, bounce, spring_back, curl_keep"},
+       "above all tables? [dials] takes hold, bounce, spring_back, curl_keep, weight, root_hold, tip_hold, "
+       "wet"},
       {"[variation]\nsead = 2",
        "line 2: found the unknown key 'sead' in [variation]; did you mean variation.seed?"},
       {"[profile]\nxyz = 2",
@@ -147,7 +149,8 @@ TEST(MaterialFile, MistakesAreNamedWithLineAndRemedy) {
       {"abcdefgh.x = 1\nbend_stiffness = 'y'",
        "line 1: found the unknown key 'abcdefgh'; expected preset, dials, variation, profile, line_density, "
        "stretch_stiffness, stretch_damping_time, bend_stiffness, bend_damping_ratio, core_stiffness, "
-       "core_damping_ratio, core_relaxed_share, core_elongation_low, core_elongation_high, "
+       "core_damping_ratio, core_relaxed_share, core_elongation_low, core_elongation_high, gravity_factor, "
+       "inertia_factor, "
        "bend_smoothing_length, core_smoothing_length"},
   };
   for (const auto& c : kCases) {

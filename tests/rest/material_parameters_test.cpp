@@ -47,8 +47,8 @@ TEST(MaterialParameters, TablesAreComplete) {
   checkTable(materialParameters());
   checkTable(dialParameters());
   checkTable(variationParameters());
-  EXPECT_EQ(materialParameters().size(), 12u);
-  EXPECT_EQ(dialParameters().size(), 4u);
+  EXPECT_EQ(materialParameters().size(), 14u);
+  EXPECT_EQ(dialParameters().size(), 8u);
   EXPECT_EQ(variationParameters().size(), 4u);
   EXPECT_EQ(profileParameters().size(), 2u);
 }
@@ -122,11 +122,11 @@ TEST(MaterialParameters, UnusualNumbersAreSaid) {
   Material material;
   material.bendDampingRatio = 0.05;
   MaterialDials dials;
-  dials.bounce = 3;
+  dials.bounce = 6;
   const auto sentences = unusualNumbers(material, dials);
   ASSERT_EQ(sentences.size(), 2u);
   EXPECT_EQ(sentences[0].find("bend_damping_ratio is 0.05; usual is from 0.1 to 2."), 0u) << sentences[0];
-  EXPECT_EQ(sentences[1].find("dials.bounce is 3"), 0u) << sentences[1];
+  EXPECT_EQ(sentences[1].find("dials.bounce is 6"), 0u) << sentences[1];
 
   // Damping that is enough for the material, but not for its least damped strand.
   Material varied;

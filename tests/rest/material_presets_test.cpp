@@ -1,5 +1,5 @@
 // Presets on the hanging curl (radius 1 cm, 8 turns, 25 cm), in the double reference: how fast
-// they bounce, and that a shake leaves them whole. Dials by formula.
+// they bounce, and that a shake leaves them whole.
 #include "ringlet/rest/material_presets.h"
 
 #include <gtest/gtest.h>
@@ -123,60 +123,6 @@ TEST(Presets, NeedNoMoreThanFourStepsPerFrame) {
       EXPECT_FALSE(rest.coreIsCapped) << name << " " << turns;
     }
   }
-}
-
-TEST(Dials, AtTheirDefaultsChangeNothing) {
-  for (const std::string& name : presetNames()) {
-    const Material before = materialPreset(name).value();
-    Material material = before;
-    Settings settings;
-    EXPECT_FALSE(applyDials({}, material, settings)) << name;
-    EXPECT_EQ(material, before) << name;
-    EXPECT_EQ(settings.maxStretch, Settings{}.maxStretch) << name;
-  }
-}
-
-TEST(Dials, AreFactors) {
-  Material material;
-  const Material before = material;
-  Settings settings;
-  EXPECT_FALSE(applyDials({.hold = 2, .bounce = 0.5, .springBack = 3, .curlKeep = 0.25}, material, settings));
-  Material expected = before;
-  expected.bendStiffness *= 2;
-  expected.bendDampingRatio *= 3;
-  expected.coreDampingRatio *= 3;
-  expected.coreStiffness *= 0.25;
-  EXPECT_EQ(material, expected);
-  EXPECT_EQ(settings.maxStretch, 1.5);
-}
-
-TEST(Dials, BendDampingIsKeptWhereItCannotFeedOnItself) {
-  Material material;
-  Settings settings;
-  const auto warning = applyDials({.springBack = 0.5}, material, settings);
-  ASSERT_TRUE(warning);
-  EXPECT_EQ(
-      *warning,
-      "spring_back 0.5 asks for a bend damping ratio of 0.15 x 0.5 = 0.075, below 0.1, where bending can "
-      "feed on itself: 0.1 is used");
-  EXPECT_EQ(material.bendDampingRatio, kLeastBendDampingRatio);
-  EXPECT_EQ(material.coreDampingRatio, 0.5 * Material{}.coreDampingRatio);
-
-  // Exactly the least is fine.
-  Material least;
-  least.bendDampingRatio = 0.2;
-  EXPECT_FALSE(applyDials({.springBack = 0.5}, least, settings));
-  EXPECT_EQ(least.bendDampingRatio, 0.1);
-
-  // Who asked for less in the material keeps it, but dials lower it no further; raising works as ever.
-  Material low;
-  low.bendDampingRatio = 0.05;
-  EXPECT_FALSE(applyDials({}, low, settings));
-  EXPECT_EQ(low.bendDampingRatio, 0.05);
-  EXPECT_TRUE(applyDials({.springBack = 0.5}, low, settings));
-  EXPECT_EQ(low.bendDampingRatio, 0.05);
-  EXPECT_FALSE(applyDials({.springBack = 4}, low, settings));
-  EXPECT_EQ(low.bendDampingRatio, 0.2);
 }
 
 }  // namespace

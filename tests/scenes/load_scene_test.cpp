@@ -41,15 +41,14 @@ TEST(LoadScene, KeysFurtherApartThanAHeadGoesAreCut) {
   EXPECT_FALSE(loaded(keys + "[simulation]\nteleport_distance = 0\n").motion.keyframes->isCut(1));
 }
 
-TEST(LoadScene, DialsAreWorkedInAndAStatedStretchStands) {
-  const std::string material = "[material]\nbend_stiffness = 4\n[material.dials]\nhold = 2\nbounce = 0.25\n";
+TEST(LoadScene, DialsAreWorkedIn) {
+  const std::string material = "[material]\nbend_stiffness = 4\n[material.dials]\nhold = 2\nweight = 0.25\n";
   EXPECT_EQ(loaded(material).material.bendStiffness, 8);
-  EXPECT_EQ(loaded(material).settings.maxStretch, 1.25);
-  EXPECT_EQ(loaded(material + "[simulation]\nmax_stretch = 1.5\n").settings.maxStretch, 1.5);
+  EXPECT_EQ(loaded(material).material.gravityFactor, 0.25);
   const auto spoilt =
       loadScene(*parseScene(kCurl + "[material]\nbend_stiffness = 1e6\n[material.dials]\nhold = 2\n", "s"));
   ASSERT_FALSE(spoilt);
-  EXPECT_NE(spoilt.error().message.find("with the dials hold 2"), std::string::npos)
+  EXPECT_NE(spoilt.error().message.find("with the dials worked in: hold 2"), std::string::npos)
       << spoilt.error().message;
 }
 

@@ -60,6 +60,8 @@ struct Material {
   double coreRelaxedShare = 0.25;   // the core's constants at rest length, as a share of those when elongated
   double coreElongationLow = 1.0;   // core elongation (current / rest length) at which it begins to stiffen
   double coreElongationHigh = 1.1;  // and at which it has its full constants
+  double gravityFactor = 1;  // on the gravity that acts; the preload balances its share of a factor of 1
+  double inertiaFactor = 1;  // on the inertial force of a head that travels, not of one that turns
   std::optional<double> bendSmoothingLength{};  // alpha_b [m]; unset: from the rest curl; 0: raw curve
   std::optional<double> coreSmoothingLength{};  // alpha_c [m]; unset: as above
 

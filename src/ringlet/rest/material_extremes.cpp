@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ringlet/rest/material_presets.h"
+#include "ringlet/rest/material_dials.h"
 
 namespace ringlet {
 namespace {

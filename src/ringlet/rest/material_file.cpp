@@ -12,6 +12,7 @@
 #include "ringlet/base/quoted.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
 

@@ -22,7 +22,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/rest/material.h"
-#include "ringlet/rest/material_presets.h"
+#include "ringlet/rest/material_dials.h"
 
 namespace ringlet {
 

@@ -104,6 +104,20 @@ std::span<const Parameter<Material>> materialParameters() {
         {0, 1e3},
         {1.01, 3}},
        &M::coreElongationHigh},
+      {{"gravity_factor",
+        "1",
+        "Factor on the gravity that acts on hair; what the preload balances stays. More than 1 sags.",
+        {0, 100},
+        {0.2, 5}},
+       &M::gravityFactor},
+      {{"inertia_factor",
+        "1",
+        "Factor on the inertial force that hair feels where its head travels, not where it turns. More "
+        "swings "
+        "and bounces farther.",
+        {0, 100},
+        {0.2, 5}},
+       &M::inertiaFactor},
       {{"bend_smoothing_length",
         "m",
         "Smoothing length for the strand frames that steer bending. With a shorter one curls spin more.",
@@ -123,12 +137,19 @@ std::span<const Parameter<Material>> materialParameters() {
 std::span<const Parameter<MaterialDials>> dialParameters() {
   using D = MaterialDials;
   static const Parameter<D> all[] = {
-      {{"hold", "1", "Firmness: factor on bend_stiffness.", {0.001, 1000}, {0.1, 10}}, &D::hold},
+      {{"hold",
+        "1",
+        "Firmness: factor on bend_stiffness; bend_damping_ratio is divided by its root, so that hair settles "
+        "as "
+        "before.",
+        {0.001, 1000},
+        {0.1, 10}},
+       &D::hold},
       {{"bounce",
         "1",
-        "Stretch limit: an edge may become 1 + bounce times as long as in the groom; 0: inextensible.",
-        {0, 99},
-        {0, 0.5}},
+        "How far hair swings and bounces when its head travels: factor on inertia_factor.",
+        {0, 100},
+        {0.2, 5}},
        &D::bounce},
       {{"spring_back",
         "1",
@@ -139,6 +160,25 @@ std::span<const Parameter<MaterialDials>> dialParameters() {
        &D::springBack},
       {{"curl_keep", "1", "Resistance of curls to unwinding: factor on core_stiffness.", {0, 1000}, {0, 5}},
        &D::curlKeep},
+      {{"weight", "1", "How far hair sags: factor on gravity_factor.", {0, 100}, {0.2, 5}}, &D::weight},
+      {{"root_hold",
+        "1",
+        "Firmness at the root: factor on bend_stiffness there, fading to 1 at half the strand.",
+        {0.001, 1000},
+        {0.1, 10}},
+       &D::rootHold},
+      {{"tip_hold",
+        "1",
+        "Firmness at the tip: factor on bend_stiffness there, from 1 at half the strand.",
+        {0.001, 1000},
+        {0.1, 10}},
+       &D::tipHold},
+      {{"wet",
+        "1",
+        "How wet hair is, 0 dry, 1 soaked: softer, heavier and slower, its curls open.",
+        {0, 1},
+        {0, 1}},
+       &D::wet},
   };
   return all;
 }
@@ -221,6 +261,15 @@ Status checkMaterial(const Material& material) {
 }
 
 Status checkDials(const MaterialDials& dials) { return checkNumbers(dialParameters(), dials, "dials."); }
+
+std::string dialsText(const MaterialDials& dials) {
+  std::string text;
+  for (const Parameter<MaterialDials>& dial : dialParameters()) {
+    if (dial.of(dials) == dial.defaultValue()) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", dial.key, *dial.of(dials));
+  }
+  return text;
+}
 
 std::vector<std::string> unusualNumbers(const Material& material, const MaterialDials& dials) {
   std::vector<std::string> sentences;

@@ -13,7 +13,7 @@
 #include "ringlet/base/number_range.h"
 #include "ringlet/base/result.h"
 #include "ringlet/rest/material.h"
-#include "ringlet/rest/material_presets.h"
+#include "ringlet/rest/material_dials.h"
 
 namespace ringlet {
 
@@ -70,6 +70,9 @@ std::span<const ProfileParameter> profileParameters();                // of [pro
 Status checkMaterial(const Material& material);
 Status checkDials(const MaterialDials& dials);
 Status checkProfile(const ProfileParameter& parameter, const Profile& profile);
+
+/// The dials that are turned: "hold 2, bounce 0.5"; "" for none.
+std::string dialsText(const MaterialDials& dials);
 
 /// Numbers that are allowed but not usual, a sentence each.
 std::vector<std::string> unusualNumbers(const Material& material, const MaterialDials& dials);

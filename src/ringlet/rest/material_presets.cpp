@@ -1,9 +1,6 @@
 // Implements rest/material_presets.h.
 #include "ringlet/rest/material_presets.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <span>
 
 namespace ringlet {
@@ -64,22 +61,6 @@ std::optional<Material> materialPreset(std::string_view name) {
 std::string presetSummary(std::string_view name) {
   const Preset* preset = presetOf(name);
   return preset ? preset->summary : "";
-}
-
-std::optional<std::string> applyDials(const MaterialDials& dials, Material& material, Settings& settings) {
-  material.bendStiffness *= dials.hold;
-  material.coreStiffness *= dials.curlKeep;
-  material.coreDampingRatio *= dials.springBack;
-  settings.maxStretch = 1 + dials.bounce;
-
-  const double own = material.bendDampingRatio, asked = own * dials.springBack;
-  material.bendDampingRatio = std::max(asked, std::min(own, kLeastBendDampingRatio));
-  if (asked >= material.bendDampingRatio) return std::nullopt;
-  return fmt::format(
-      "spring_back {} asks for a bend damping ratio of {:.3g} x {} = {:.3g}, below {}, where bending can "
-      "feed "
-      "on itself: {:.3g} is used",
-      dials.springBack, own, dials.springBack, asked, kLeastBendDampingRatio, material.bendDampingRatio);
 }
 
 }  // namespace ringlet

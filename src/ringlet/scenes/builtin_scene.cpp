@@ -11,8 +11,10 @@
 
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_grid.h"
+#include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scenes/idle_dials.h"
 #include "ringlet/scenes/scene_grooms.h"
 #include "ringlet/scenes/scene_parts.h"
 
@@ -264,6 +266,8 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
   if (!options.core) scene.material.coreStiffness = 0;
   if (options.bendStiffness) scene.material.bendStiffness = *options.bendStiffness;
   if (!options.smoothedFrames) scene.material.bendSmoothingLength = 0;
+  if (Status checked = checkDials(options.dials); !checked) return checked.error();
+  if (auto warning = applyDials(options.dials, scene.material)) scene.warnings.push_back(std::move(*warning));
 
   if (recipe->hasHead) {
     if (options.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
@@ -281,6 +285,9 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
   settings.contacts.on = options.contacts.value_or(recipe->showsContacts);
   settings.gravityPreload = options.preload.value_or(isPaper ? 0 : recipe->preload);
   if (Status checked = checkSettings(settings, scene.material); !checked) return checked.error();
+  for (std::string& sentence :
+       idleDials(options.dials, scene.material, scene.groom, settings, scene.motion, scene.seconds))
+    scene.warnings.push_back(std::move(sentence));
   return scene;
 }
 

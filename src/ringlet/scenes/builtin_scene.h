@@ -9,7 +9,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
-#include "ringlet/rest/material.h"
+#include "ringlet/rest/material_dials.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
@@ -23,6 +23,7 @@ struct SceneOptions {
                                    // two (then of each), take whole rows; two_curls has its two
   std::optional<double> preload{};             // share of gravity balanced in the rest pose
   std::optional<double> bendStiffness{};       // K_b [w], a material's range; not for `paper`
+  MaterialDials dials{};                       // on top of the scene's material
   std::optional<bool> contacts{};              // on or off
   bool core = true;                            // false: no core spring
   bool smoothedFrames = true;                  // false: frames follow the raw strand, smoothing length 0

@@ -22,6 +22,7 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/scenes/idle_dials.h"
 #include "ringlet/scenes/scene_parts.h"
 #include "ringlet/scenes/world_bind.h"
 
@@ -211,21 +212,19 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUni
   return bodies;
 }
 
-Result<Material> loadMaterialOf(const SceneFile& scene, Settings& settings,
+Result<Material> loadMaterialOf(const SceneFile& scene, Integrator integrator,
                                 std::vector<std::string>& warnings) {
   Material material = scene.material.material;
   const MaterialDials& dials = scene.material.dials;
-  if (scene.hasMaterial && settings.integrator == Integrator::paper) {
+  if (scene.hasMaterial && integrator == Integrator::paper) {
     warnings.push_back(
-        "the paper's integrator has spring constants of its own; of the material only its smoothing lengths "
-        "and core elongations count");
+        "the paper's integrator has spring constants of its own; of the material only its smoothing lengths, "
+        "core elongations and factors on gravity and inertia count");
   }
   for (const std::string& warning : scene.material.warnings) warnings.push_back(warning);
-  if (const auto warning = applyDials(dials, material, settings)) warnings.push_back(*warning);
-  settings.maxStretch = scene.simulation.maxStretch.value_or(settings.maxStretch);
+  if (const auto warning = applyDials(dials, material)) warnings.push_back(*warning);
   if (Status checked = checkMaterial(material); !checked) {
-    return Error{fmt::format("{}, with the dials hold {}, spring_back {}, curl_keep {} worked in",
-                             checked.error().message, dials.hold, dials.springBack, dials.curlKeep)};
+    return Error{fmt::format("{}, with the dials worked in: {}", checked.error().message, dialsText(dials))};
   }
   return material;
 }
@@ -238,7 +237,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   loaded.groom = std::move(groom->groom);
   loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());
   loaded.settings = settingsOf(scene);
-  auto material = loadMaterialOf(scene, loaded.settings, loaded.warnings);
+  auto material = loadMaterialOf(scene, loaded.settings.integrator, loaded.warnings);
   if (!material) return material.error();
   loaded.material = std::move(*material);
   auto motion = loadedMotion(scene, loaded.settings, loaded.warnings);
@@ -261,6 +260,10 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   }
   loaded.preRollSeconds = scene.motion.preRollSeconds;
   loaded.frameCount = frameCountOf(scene, loaded.motion);
+  const double seconds = loaded.frameCount / loaded.settings.framesPerSecond;
+  for (std::string& sentence : idleDials(scene.material.dials, loaded.material, loaded.groom, loaded.settings,
+                                         loaded.motion, seconds))
+    loaded.warnings.push_back(std::move(sentence));
   return loaded;
 }
 

@@ -27,9 +27,9 @@ Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims = false);
 Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUnit,
                                      std::vector<std::string>& warnings);
 
-/// The scene's material with its dials worked in; sets maxStretch, and adds what a person should know.
-/// Errors: a material that its dials spoil.
-Result<Material> loadMaterialOf(const SceneFile& scene, Settings& settings,
+/// The scene's material with its dials worked in; adds what a person should know. Errors: a material that its
+/// dials spoil.
+Result<Material> loadMaterialOf(const SceneFile& scene, Integrator integrator,
                                 std::vector<std::string>& warnings);
 
 /// Everything that a run of a scene starts from.

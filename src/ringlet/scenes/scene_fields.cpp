@@ -318,7 +318,7 @@ std::span<const SceneField<SceneSimulation>> simulationFields() {
       as("steps_per_frame", &S::stepsPerFrame, "enough for this groom and material"),
       {"gravity", "m/s^2", "", "Gravity against the up axis.", &S::gravity, {-1000, 1000}},
       as("preload", &S::preload, "1; 0 for paper"),
-      as("max_stretch", &S::maxStretch, "1 + material.dials.bounce"),
+      as("max_stretch", &S::maxStretch),
       as("teleport_distance", &S::teleportDistance),
       as("sleep_speed", &S::sleepSpeed),
       as("roots", &S::roots),

@@ -115,7 +115,8 @@ struct SceneSimulation {
   std::optional<double> seconds;  // in its place
   std::optional<int> stepsPerFrame;
   double gravity = 9.81;  // downwards [m/s^2]
-  std::optional<double> preload, maxStretch;
+  std::optional<double> preload;
+  double maxStretch = Settings{}.maxStretch;
   std::string integrator = "jacobi";
   int roots = Settings{}.rootCount;
   double teleportDistance = Settings{}.teleportDistance;

@@ -121,6 +121,7 @@ Settings settingsOf(const SceneFile& scene) {
   settings.gravity = upOf(scene.groom) * -simulation.gravity;
   // The paper's own scheme knows no preload.
   settings.gravityPreload = simulation.preload.value_or(settings.integrator == Integrator::paper ? 0 : 1);
+  settings.maxStretch = simulation.maxStretch;
   settings.rootCount = simulation.roots;
   settings.teleportDistance = simulation.teleportDistance;
   settings.sleepSpeed = simulation.sleepSpeed;
@@ -203,7 +204,7 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
   simulation.chebyshev = settings.chebyshev;
   simulation.forceLoops = settings.forceLoops;
   simulation.dampingLoops = settings.dampingLoops;
-  if (settings.maxStretch != Settings{}.maxStretch) simulation.maxStretch = settings.maxStretch;
+  simulation.maxStretch = settings.maxStretch;
   file.contacts = settings.contacts;
   file.air = settings.air;
   file.goal = settings.goal;

@@ -35,8 +35,7 @@ Motion motionOf(const SceneMotion& motion, Vec3d up);
 /// Each strand's shift of its root (InitialState::rootShifts); none where nothing shifts.
 std::vector<Vec3d> rootShiftsOf(Vec3d shift, std::size_t strandCount);
 
-/// All but framesPerSecond's company: stepsPerFrame (1 where it is to be chosen), maxStretch (the
-/// material's).
+/// stepsPerFrame is 1 where it is to be chosen.
 Settings settingsOf(const SceneFile& scene);
 
 /// Everything but what must be read: `grid` of a mesh, and the motion of a joint or a file.

@@ -14,7 +14,7 @@ namespace ringlet {
 
 layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDispatch& dispatch) const {
   layout::StepParameters p{};
-  p.gravity = packed3(settings.gravity);
+  p.gravity = packed3(settings.gravity * material.gravityFactor);
   p.seconds = static_cast<float>(settings.stepSeconds());
   p.maxStretch = static_cast<float>(settings.maxStretch);
   p.coreRelaxedShare = static_cast<float>(material.coreRelaxedShare);
@@ -298,7 +298,8 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
     const Vec3d before = head.velocity(T);
     head = {head.now, stepPoses[k]};
     head.now.rotation = normalized(head.now.rotation);
-    poses[1 + k] = {packed(head.now.rotation), packed(head.turn()), packed3(head.velocity(T) - before),
+    poses[1 + k] = {packed(head.now.rotation), packed(head.turn()),
+                    packed3((head.velocity(T) - before) * material.inertiaFactor),
                     static_cast<float>(head.now.shift)};
   }
 }
