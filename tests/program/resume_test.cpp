@@ -222,8 +222,7 @@ TEST_P(Resume, WhatDiffersIsSaid) {
   };
   refused({"--frames", "25"}, "frames is 25 and was 24");
   refused({"--gravity", "9"}, "gravity");
-  refused({"--bounce", "1.2"},
-          "of another run: [material.dials] bounce is 1.2 and was not given. Ask");
+  refused({"--bounce", "1.2"}, "of another run: [material.dials] bounce is 1.2 and was not given. Ask");
   refused({"--no-usd"}, "hair.usda is false and was true");
   if (isGpu()) refused({"--kernel", "serial"}, "kernel is serial");
   const std::string groom = readText(folder_ / "tuft.obj");

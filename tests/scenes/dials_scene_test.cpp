@@ -65,7 +65,7 @@ TEST_F(DialsScene, OfACurlThatIsThrownUpAndDown) {
 // The inertia of a head that goes twice as far, which is all that hair sees of it.
 TEST_F(DialsScene, BounceIsAHeadThatGoesAsFar) {
   auto far = makeScene("head_shake", {.seconds = 1}),
-       felt = makeScene("head_shake", {.seconds = 1, .dials = {.bounce = 2}});
+       felt = makeScene("head_shake", {.dials = {.bounce = 2}, .seconds = 1});
   ASSERT_TRUE(far && felt);
   far->motion.amplitude *= 2;
   EXPECT_EQ(this->run(*far).last, this->run(*felt).last);
@@ -75,7 +75,7 @@ TEST_F(DialsScene, BounceIsAHeadThatGoesAsFar) {
 
 TEST_F(DialsScene, WeightIsAsMuchGravity) {
   auto heavy = makeScene("release", {.seconds = 1});
-  const auto felt = makeScene("release", {.seconds = 1, .dials = {.weight = 1.5}});
+  const auto felt = makeScene("release", {.dials = {.weight = 1.5}, .seconds = 1});
   ASSERT_TRUE(heavy && felt);
   heavy->settings.gravity = 1.5 * heavy->settings.gravity;
   EXPECT_EQ(this->run(*heavy).last, this->run(*felt).last);
