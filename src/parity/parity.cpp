@@ -148,6 +148,7 @@ HairState randomState(const Groom& groom, const Settings& settings, std::uint32_
 
 Material varyingMaterial() {
   Material material;
+  material.inertiaFactor = 1.3;
   material.bendStiffnessProfile.points = {{0, 2}, {0.5, 1}, {1, 0.3}};
   material.lineDensityProfile.points = {{0, 1.5}, {1, 0.5}};
   material.variation = {.bendStiffness = 0.3, .coreStiffness = 0.2, .bendDampingRatio = 0.3, .seed = 5};
