@@ -13,6 +13,8 @@ Simulation<Real>::Simulation(const Groom& groom, const Material& material, const
                              const HeadPose& start, const HeadPose& oneStepEarlier,
                              const PaperMaterial& paper, std::span<const Body> bodies)
     : settings_(settings),
+      balancedGravity_(settings.gravity),
+      paper_(paper),
       previousHead_(oneStepEarlier),
       head_(start),
       firstPoint_(groom.firstPoint),
@@ -34,6 +36,18 @@ Simulation<Real>::Simulation(const Groom& groom, const Material& material, const
   isRigid_.assign(groom.strandCount(), false);
   findContacts();
   placeAtRest();
+}
+
+template <class Real>
+void Simulation<Real>::change(const Groom& groom, const Material& material, const Settings& settings) {
+  Settings balanced = settings;
+  balanced.gravity = balancedGravity_;
+  for (std::size_t s = 0; s < rest_.size(); ++s)
+    rest_[s] = makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit, materialOfStrand(material, s),
+                                    paper_, balanced);
+  settings_ = settings;
+  if (settings.air.on) windModes_ = windModes(settings.air);
+  if (settings.goal.on) aimAtGroom(groom);
 }
 
 template <class Real>

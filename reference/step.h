@@ -71,6 +71,11 @@ class Simulation {
   /// of the next frame.
   void setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio);
 
+  /// Other settings and another material from the next frame on, of the groom it was made from; what may
+  /// differ is what the solver's setSettings and setMaterial take, but for contacts. The rest pose stays
+  /// balanced against the gravity it began with.
+  void change(const Groom& groom, const Material& material, const Settings& settings);
+
   /// These strands are carried by their roots in their rest shape, and take no part in anything. The list is
   /// the caller's (RestState::rigid). Before all else; puts the hair at rest.
   void carryRigidly(std::span<const std::uint32_t> strands);
@@ -127,6 +132,8 @@ class Simulation {
   void record(const RestStrand<Real>& rest, const StrandTaps<Real>& taps);
 
   Settings settings_;
+  Vec3d balancedGravity_;  // of the rest pose [m/s^2]
+  PaperMaterial paper_;
   HeadPose previousHead_, head_;                         // poses n - 1 and n
   Field<double> rootShifts_;                             // at HeadPose::shift 1 [m]
   std::vector<BodyPose> previousRootPoses_, rootPoses_;  // of strands in the head's frame, n - 1 and n

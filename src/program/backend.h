@@ -45,6 +45,8 @@ class Backend {
   virtual Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                              std::span<const BodyPose> rootPoses) = 0;
   virtual Status waitFrame() = 0;
+  /// As Simulation::setSettings and setMaterial, from the next frame on; no frame is in flight.
+  virtual Status change(const Settings& settings, const Material& material) = 0;
   /// Of the frame waited for last. Groom order, relative to the head's origin, along world axes [m].
   virtual std::vector<Vec3f> framePositions() = 0;
   /// The same of now, before the first frame too, and no frame in flight.

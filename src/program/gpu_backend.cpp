@@ -27,6 +27,10 @@ class GpuBackend : public Backend {
     return simulation_.submitFrame(stepPoses, bodyPoses, rootPoses);
   }
   Status waitFrame() override { return simulation_.waitFrame(); }
+  Status change(const Settings& settings, const Material& material) override {
+    if (Status set = simulation_.setSettings(settings); !set) return set;
+    return simulation_.material() == material ? Status{} : simulation_.setMaterial(material);
+  }
   std::vector<Vec3f> framePositions() override { return simulation_.framePositions(); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<std::vector<std::byte>> checkpoint() override { return simulation_.checkpoint(); }

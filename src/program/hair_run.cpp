@@ -71,10 +71,27 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
                         {options.device, options.opened, kernel, options.usesTuned, options.showProgress});
 }
 
+// The numbers that keys give the frame, where they are others than those of the time they were last taken of.
+Status takeNumbers(Backend& backend, const RunInput& input, const RunOptions& options, int frame,
+                   std::optional<double>& takenOf) {
+  if (!input.keys) return {};
+  if (options.onReference && input.settings.contacts.on && input.keys->changeContacts())
+    return Error{"numbers of contacts change over time on the GPU only (--backend gpu)"};
+  const double end = (frame + 1) / input.settings.framesPerSecond;
+  if (takenOf && input.keys->areEqual(*takenOf, end)) return {};
+  const auto numbers = input.keys->at(end, input.settings.stepsPerFrame);
+  if (!numbers) return numbers.error();
+  takenOf = end;
+  return backend.change(options.measuresContacts ? stepByStep(numbers->settings) : numbers->settings,
+                        numbers->material);
+}
+
 // The motion up to the first frame, so that hair begins it as it moves.
 Status preRoll(Backend& backend, const RunInput& input, const RunOptions& options) {
+  std::optional<double> numbersOf;
   for (int frame = -preRollFrames(input, options); frame < 0 && !wasInterrupted(); ++frame) {
     const FramePoses poses = posesOfFrame(input, frame);
+    if (Status taken = takeNumbers(backend, input, options, frame, numbersOf); !taken) return taken;
     const std::size_t together = options.measuresContacts ? 1 : poses.heads.size();  // as makeBackend says
     for (std::size_t step = 0; step < poses.heads.size(); step += together) {
       if (Status stepped = poses.step(backend, step, together); !stepped) return stepped;
@@ -154,6 +171,7 @@ class HairRun {
   std::optional<Writers> writers_;
   std::optional<BodyWatch> bodyWatch_;
   std::optional<ComputedFrame> underWay_;  // its positions are still to come
+  std::optional<double> numbersOf_;        // time whose keys the hair has [s]
 
   const Clock::time_point start_ = Clock::now();
   Clock::time_point firstFrame_{}, lastFrame_{};
@@ -263,6 +281,11 @@ Status HairRun::stepAll() {
       Stopwatch watch(posesTime_);
       return posesOfFrame(input_, frame);
     }();
+    if (input_.keys) {
+      if (Status taken = takeUnderWay(); !taken) return taken;
+      if (Status taken = takeNumbers(*backend_, input_, options_, frame, numbersOf_); !taken)
+        return afterWritten(taken.error());
+    }
     if (Status submitted = stepper_->submitFrame(poses); !submitted) {
       (void)takeUnderWay();  // it may be whole
       return afterWritten(submitted.error());

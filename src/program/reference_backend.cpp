@@ -17,7 +17,8 @@ class ReferenceBackend : public Backend {
  public:
   ReferenceBackend(const BackendInput& input, const ContactReport& atRest, std::vector<std::string> warnings,
                    std::span<const std::uint32_t> rigidStrands)
-      : warnings_(std::move(warnings)),
+      : groom_(&input.groom),
+        warnings_(std::move(warnings)),
         rigidStrandCount_(rigidStrands.size()),
         contactsAtRest_(atRest),
         simulation_(input.groom, input.material, input.settings, input.start, input.oneStepEarlier, {},
@@ -41,6 +42,10 @@ class ReferenceBackend : public Backend {
     RINGLET_ASSERT(!inFlight_.empty(), "waitFrame without submitFrame");
     waited_ = std::move(inFlight_.front());
     inFlight_.pop_front();
+    return {};
+  }
+  Status change(const Settings& settings, const Material& material) override {
+    simulation_.change(*groom_, material, settings);
     return {};
   }
   std::vector<Vec3f> framePositions() override { return waited_; }
@@ -96,6 +101,7 @@ class ReferenceBackend : public Backend {
     return points;
   }
 
+  const Groom* groom_;
   std::deque<std::vector<Vec3f>> inFlight_;  // computed, and not waited for
   std::vector<Vec3f> waited_;
   std::vector<std::string> warnings_;

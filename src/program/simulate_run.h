@@ -108,6 +108,7 @@ struct RunInput {
       rootShifts{};  // of each strand's root beside the head (HeadPose::shift) [m], or none
   std::span<const Body> bodies{};
   const HeadScalp* scalp = nullptr;  // that roots follow; none: the head carries them
+  const SceneKeys* keys = nullptr;   // of settings and material, which are then those of the start
 };
 
 /// Sees every frame, in order, on a thread of its own, the last before runHair returns: points in the groom's

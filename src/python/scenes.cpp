@@ -90,6 +90,15 @@ int preRollFrames(const LoadedScene& scene) {
   return static_cast<int>(std::ceil(scene.preRollSeconds * scene.settings.framesPerSecond - 1e-6));
 }
 
+// The numbers that keys give the frame, none being in flight.
+void takeNumbers(const LoadedScene& scene, HairObject& hair, int frame) {
+  if (!scene.keys) return;
+  const SceneNumbers numbers =
+      valueOf(scene.keys->at((frame + 1) / scene.settings.framesPerSecond, scene.settings.stepsPerFrame));
+  hair.setSettings(numbers.settings);
+  if (numbers.settings.integrator == Integrator::jacobi) hair.setMaterial(numbers.material);
+}
+
 // The hair as it begins the first frame.
 HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::string& kernel) {
   if (!device)
@@ -116,7 +125,10 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
                                      .roots = roots,
                                      .rootsEarlier = rootsEarlier,
                                      .rootShifts = scene.rootShifts});
-  for (int frame = -preRollFrames(scene); frame < 0; ++frame) hair->step(frameOf(scene, frame));
+  for (int frame = -preRollFrames(scene); frame < 0; ++frame) {
+    takeNumbers(scene, *hair, frame);
+    hair->step(frameOf(scene, frame));
+  }
   return hair;
 }
 
@@ -159,6 +171,11 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
   bool goesOn = true;
   for (int frame = 0; frame < count && goesOn; ++frame) {
     const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+    if (self.loaded.keys && underWay) {
+      goesOn = show(self, *hair, frame, *std::exchange(underWay, std::nullopt), callback);
+      if (!goesOn) return hair;
+    }
+    takeNumbers(self.loaded, *hair, frame);
     hair->submit(poses);
     if (underWay) goesOn = show(self, *hair, frame, *underWay, callback);
     underWay = headAtEnd(poses);

@@ -24,7 +24,8 @@ using test::RunningProgram;
 using test::runProgram;
 using test::scratchFolder;
 
-// A tuft on a ball that shakes in the wind: contacts, a body, air, the numbers of all of them.
+// A tuft on a ball that shakes in a wind that changes, as its material does: contacts, a body, air, the
+// numbers of all of them.
 constexpr const char* kScene = R"(
 [groom]
 file = "tuft.obj"
@@ -46,6 +47,14 @@ name = "ball"
 shape = "sphere"
 radius = 0.03
 position = [0, -0.05, 0]
+[[key]]
+time = 0.2
+air.wind = [1, 0, 2]
+material.dials.hold = 1
+[[key]]
+time = 0.8
+air.wind = [0, 0, 4]
+material.dials.hold = 3
 )";
 
 // 40 strands of 16 particles that wind through one another, in centimetres.
@@ -222,7 +231,10 @@ TEST_P(Resume, WhatDiffersIsSaid) {
   };
   refused({"--frames", "25"}, "frames is 25 and was 24");
   refused({"--gravity", "9"}, "gravity");
-  refused({"--bounce", "1.2"}, "of another run: [material.dials] bounce is 1.2 and was not given. Ask");
+  refused({"--bounce", "1.2"},
+          "of another run: [material.dials] bounce is 1.2 and was not given; material inertia_factor is 1.2 "
+          "and was "
+          "1.0. Ask");
   refused({"--no-usd"}, "hair.usda is false and was true");
   if (isGpu()) refused({"--kernel", "serial"}, "kernel is serial");
   const std::string groom = readText(folder_ / "tuft.obj");

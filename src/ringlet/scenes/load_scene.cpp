@@ -174,6 +174,34 @@ int frameCountOf(const SceneFile& scene, const Motion& motion) {
   return static_cast<int>(std::clamp(motion.keyframes->seconds() * framesPerSecond + 1e-6, 1.0, 1e6));
 }
 
+// Enough at every key.
+Result<int> stepsOf(const LoadedScene& loaded) {
+  auto steps = chooseStepsPerFrame(loaded.groom, loaded.material, loaded.settings);
+  if (!loaded.keys) return steps;
+  for (const double time : loaded.keys->times()) {
+    if (!steps) return steps;
+    const auto numbers = loaded.keys->at(time, 1);
+    if (!numbers) return numbers.error();
+    const auto now = chooseStepsPerFrame(loaded.groom, numbers->material, numbers->settings);
+    if (!now) return now;
+    steps = std::max(*steps, *now);
+  }
+  return steps;
+}
+
+// Hair begins with the numbers of the first key.
+Status takeStart(const SceneFile& scene, LoadedScene& loaded) {
+  if (!loaded.keys) return {};
+  auto start = loaded.keys->at(-scene.motion.preRollSeconds, loaded.settings.stepsPerFrame);
+  if (!start) return start.error();
+  const bool isLive = loaded.settings.integrator == Integrator::jacobi;
+  if (!isLive && !(start->material == loaded.material))
+    return Error{"keys of a material need the integrator jacobi"};
+  loaded.settings = start->settings;
+  loaded.material = std::move(start->material);
+  return {};
+}
+
 }  // namespace
 
 Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims) {
@@ -247,11 +275,17 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   if (!bodies) return bodies.error();
   loaded.bodies = std::move(*bodies);
   bindAndCheck(scene, loaded);
+  if (!scene.timeKeys.empty()) {
+    auto keys = SceneKeys::make(scene);
+    if (!keys) return keys.error();
+    loaded.keys.emplace(std::move(*keys));
+  }
   if (!scene.simulation.stepsPerFrame) {
-    const auto steps = chooseStepsPerFrame(loaded.groom, loaded.material, loaded.settings);
+    const auto steps = stepsOf(loaded);
     if (!steps) return steps.error();
     loaded.settings.stepsPerFrame = *steps;
   }
+  if (Status started = takeStart(scene, loaded); !started) return started.error();
   loaded.rootShifts = rootShiftsOf(scene.motion.roots.shift, loaded.groom.strandCount());
   if (!scene.scalp.file.empty()) {
     auto scalp = loadedScalp(scene, loaded);

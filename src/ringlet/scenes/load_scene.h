@@ -15,6 +15,7 @@
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_keys.h"
 
 namespace ringlet {
 
@@ -43,6 +44,7 @@ struct LoadedScene {
   std::optional<HeadScalp> scalp{};  // that roots follow; none: the head carries them
   double preRollSeconds = 0;
   int frameCount = 48;                  // where the file does not say: the length of keys, or this
+  std::optional<SceneKeys> keys{};      // of numbers that change; settings and material are then the start's
   std::vector<std::string> warnings{};  // a sentence each
 };
 

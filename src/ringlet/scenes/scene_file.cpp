@@ -12,11 +12,13 @@
 #include <utility>
 
 #include "ringlet/base/nearest_name.h"
+#include "ringlet/base/quoted.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
 #include "ringlet/scenes/scene_change.h"
 #include "ringlet/scenes/scene_fields.h"
+#include "ringlet/scenes/scene_keys.h"
 #include "ringlet/scenes/scene_text.h"
 
 namespace ringlet {
@@ -35,7 +37,7 @@ const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
     for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
-                              "body", "camera", "output"})
+                              "body", "camera", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"material", "file"});
@@ -130,6 +132,7 @@ class SceneReader {
       scene.cameras.emplace_back();
       readCamera(*table, scene, scene.cameras.back());
     }
+    readTimeKeys(file, scene);
     if (const toml::table* table = tableOf(file, "", "output"))
       readFields(*table, "output", outputFields(), scene.output);
 
@@ -265,6 +268,81 @@ class SceneReader {
           fmt::format("found {} with {} {}; only {} {} it", KnownKey{name, field.key}.fullName(), what, mode,
                       field.onlyWith, namesIn(field.onlyWith).size() > 1 ? "have" : "has"));
     }
+  }
+
+  void readTimeKeys(const toml::table& file, SceneFile& scene) {
+    const toml::node* node = file.get("key");
+    if (!node) return;
+    const toml::array* list = node->as_array();
+    if (!list || !std::ranges::all_of(*list, [](const toml::node& item) { return item.is_table(); })) {
+      problems_.addFound(*node, "key", "a list of tables, as in [[key]]");
+      return;
+    }
+    for (const toml::node& item : *list) {
+      const toml::table& table = *item.as_table();
+      SceneTimeKey key;
+      const std::string which = fmt::format("key {}", scene.timeKeys.size() + 1);
+      const toml::node* time = table.get("time");
+      if (!time) {
+        missing_.add(lineOf(table), fmt::format("found no time of {}; expected one, in seconds", which));
+      } else if (const auto number = valueOf<double>(*time, {-3600, 36000}, "")) {
+        key.time = *number;
+        if (!scene.timeKeys.empty() && !(key.time > scene.timeKeys.back().time))
+          problems_.add(lineOf(*time),
+                        fmt::format("found the time {} of {}; expected one after that of the key "
+                                    "before, {}",
+                                    key.time, which, scene.timeKeys.back().time));
+      } else {
+        problems_.addFound(*time, "key.time", "a number from -3600 to 36000 s");
+      }
+      readKeyedValues(table, "", scene, key);
+      if (key.values.empty() && problems_.empty())
+        missing_.add(lineOf(table),
+                     fmt::format("found nothing that {} changes; expected keys with their tables, "
+                                 "as air.wind = [1, 0, 0]",
+                                 which));
+      scene.timeKeys.push_back(std::move(key));
+    }
+  }
+
+  // The values of a key, whose names are those of the scene's tables.
+  void readKeyedValues(const toml::table& table, const std::string& above, SceneFile& scene,
+                       SceneTimeKey& key) {
+    for (const auto& [word, node] : table) {
+      const std::string name = KnownKey{above, std::string(word.str())}.fullName();
+      if (above.empty() && name == "time") continue;
+      if (const toml::table* below = node.as_table()) {
+        readKeyedValues(*below, name, scene, key);
+        continue;
+      }
+      const KeyedNumber* number = keyedNumber(name);
+      if (!number) {
+        problems_.add(lineOf(node),
+                      fmt::format("found {} in a key; it {}{}", ringlet::quoted(name),
+                                  isKnown(name) ? "does not change while hair moves" : "is no key of a scene",
+                                  nearest(name, keyedNames())));
+        continue;
+      }
+      const auto vector = number->isVector ? valueOf<Vec3d>(node, number->allowed, "") : std::nullopt;
+      const auto single = number->isVector ? std::nullopt : valueOf<double>(node, number->allowed, "");
+      if (vector || single) {
+        key.values.push_back({name, vector ? *vector : Vec3d{*single, 0, 0}});
+        switchOn(*number, scene);
+      } else {
+        const std::string range = rangeOf(number->allowed, number->unit);
+        problems_.addFound(node, name,
+                           number->isVector ? "[x, y, z]" : "a number" + (range.empty() ? "" : " " + range));
+      }
+    }
+  }
+
+  static bool isKnown(const std::string& name) {
+    return std::ranges::any_of(knownKeys(), [&](const KnownKey& key) { return key.fullName() == name; });
+  }
+  static std::vector<std::string> keyedNames() {
+    std::vector<std::string> names;
+    for (const KeyedNumber& number : keyedNumbers()) names.push_back(number.key);
+    return names;
   }
 
   void readGroom(const toml::table& file, SceneGroom& groom) {

@@ -175,6 +175,19 @@ struct SceneOutput {
   std::string cache;                // precision of hair.rgc; empty: it is not written
 };
 
+/// A number, or three, that the scene has at a time (scene_keys.h says which may be).
+struct SceneKeyedValue {
+  std::string key;  // with its table: "air.wind"
+  Vec3d value{};    // one number: x
+  bool operator==(const SceneKeyedValue&) const = default;
+};
+
+struct SceneTimeKey {
+  double time = 0;  // [s]
+  std::vector<SceneKeyedValue> values{};
+  bool operator==(const SceneTimeKey&) const = default;
+};
+
 /// What a file says, checked as far as one can without opening what it names (but a material's file).
 struct SceneFile {
   SceneGroom groom;
@@ -188,6 +201,7 @@ struct SceneFile {
   GoalSettings goal;
   std::vector<SceneBody> bodies;
   std::vector<SceneCamera> cameras;
+  std::vector<SceneTimeKey> timeKeys;  // by rising time
   SceneOutput output;
   std::vector<std::string> warnings;  // sentences for a person, each with the file's name
 };

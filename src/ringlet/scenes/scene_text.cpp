@@ -10,6 +10,7 @@
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
+#include "ringlet/scenes/scene_keys.h"
 
 namespace ringlet {
 namespace {
@@ -116,6 +117,22 @@ std::string bodyText(const SceneBody& body, const std::filesystem::path& folder)
   return headed("[[body]]", lines) + (isStill ? "" : motionText(motion, "body.moves", folder));
 }
 
+// "simulation.gravity, max_stretch; air.wind, ...": a table is named once.
+std::string keyedList() {
+  std::string list, table;
+  for (const KeyedNumber& number : keyedNumbers()) {
+    const std::size_t dot = number.key.rfind('.');
+    const std::string of = number.key.substr(0, dot);
+    if (of == table) {
+      list += ", " + number.key.substr(dot + 1);
+    } else {
+      list += (list.empty() ? "" : "; ") + number.key;
+    }
+    table = of;
+  }
+  return list;
+}
+
 // A table whose presence switches on.
 template <class Owner>
 std::string switchedText(const char* heading, std::span<const SceneField<Owner>> fields, const Owner& owner) {
@@ -158,6 +175,14 @@ std::vector<SceneKey> sceneKeys() {
                   "What carries it: the head, nothing, or a motion of its own in the world, with the keys of "
                   "[motion], as in { kind = \"spin\" }."});
   addKeys(keys, "camera", cameraFields());
+  keys.push_back({"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
+                  "Time of a key, each headed by [[key]]: numbers that change while hair moves. 0 is the "
+                  "beginning of the first frame, and a frame has the numbers of its end."});
+  keys.push_back(
+      {"key", "TABLE.KEY", "number or [x, y, z]", "", "", "none", "",
+       "What a number of another table is at that time, as air.wind = [1, 0, 0]. Between keys it goes "
+       "on a cubic; before its first key and after its last it stays. These change: " +
+           keyedList() + "."});
   addKeys(keys, "output", outputFields());
   return keys;
 }
@@ -178,6 +203,13 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   for (const SceneBody& body : scene.bodies) text += bodyText(body, folder);
   for (const SceneCamera& camera : scene.cameras)
     text += headed("[[camera]]", linesOf(cameraFields(), camera, SceneCamera{}, folder));
+  for (const SceneTimeKey& key : scene.timeKeys) {
+    text += fmt::format("\n[[key]]\ntime = {}  # [s]\n", tomlNumber(key.time));
+    for (const SceneKeyedValue& value : key.values)
+      text +=
+          fmt::format("{} = {}\n", value.key,
+                      keyedNumber(value.key)->isVector ? valueText(value.value) : valueText(value.value.x));
+  }
   text += headed("[output]", linesOf(outputFields(), scene.output, SceneOutput{}, folder));
   return text;
 }
