@@ -182,7 +182,8 @@ int run(Typed typed) {
   if (!scene) return fail(scene.error());
   for (const std::string& warning : scene->warnings) say("ringlet view: warning: {}\n", warning);
   if (scene->keys)
-    say("ringlet view: warning: in the window numbers that change over time ([[key]]) stay as at the start; `ringlet "
+    say("ringlet view: warning: in the window numbers that change over time ([[key]]) stay as at the start; "
+        "`ringlet "
         "simulate` changes them\n");
   if (typed.save.empty()) typed.save = typed.input.stem().string() + ".view.toml";
   const auto outcome = runScene(typed, *file, *scene);
