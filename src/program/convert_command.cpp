@@ -17,6 +17,7 @@
 #include "program/command_line.h"
 #include "program/convert_run.h"
 #include "program/exit_codes.h"
+#include "program/hair_look.h"
 #include "program/precision_names.h"
 #include "program/run_report.h"
 #include "ringlet/groom/groom_file.h"
@@ -69,6 +70,7 @@ struct Typed {
   std::optional<int> clips;
   std::optional<double> tipWidth;
   std::optional<int> hairs;
+  HairLook look;
   std::filesystem::path groom, scene;
   bool info = false, json = false, quiet = false, overwrite = false;
 };
@@ -126,7 +128,7 @@ Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
 Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit,
                                            std::span<const Body> bodies = {}) {
   if (!typed.hairs) return std::optional<FullHair>();
-  auto hair = FullHair::make(rest, metresPerUnit, {.hairCount = *typed.hairs}, bodies);
+  auto hair = FullHair::make(rest, metresPerUnit, typed.look.of({.hairCount = *typed.hairs}), bodies);
   if (!hair) return hair.error();
   return std::optional(std::move(*hair));
 }
@@ -153,6 +155,8 @@ void checkOptions(const Typed& typed) {
         "--hairs", "name with --groom the groom that IN was simulated from, or with --scene the scene");
   if (!typed.groom.empty() && !typed.scene.empty())
     throw CLI::ValidationError("--groom", "the scene names its groom; say one of --scene and --groom");
+  if (!typed.hairs && typed.look.isAsked())
+    throw CLI::ValidationError("--hairs", "only such hairs have frizz and clumps; say how many");
   if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
   if (!typed.hairs && !typed.scene.empty()) throw CLI::ValidationError("--scene", "only --hairs needs it");
   if (typed.frame && !typed.frames.empty())
@@ -424,6 +428,7 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
           "what one sees as locks")
       ->check(wholeBetween(1, 10'000'000))
       ->type_name("N");
+  addHairLookOptions(*command, typed->look);
   command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
       ->type_name("FILE");
   command

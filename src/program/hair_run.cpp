@@ -224,8 +224,8 @@ Status HairRun::makeSink() {
   if (folder_) {
     std::optional<FullHair> hairs;
     if (options_.hairs > 0) {
-      auto made = FullHair::make(input_.groom, input_.groom.metresPerUnit, {.hairCount = options_.hairs},
-                                 input_.bodies);
+      auto made = FullHair::make(input_.groom, input_.groom.metresPerUnit,
+                                 options_.look.of({.hairCount = options_.hairs}), input_.bodies);
       if (!made) return made.error();
       hairs.emplace(std::move(*made));
     }

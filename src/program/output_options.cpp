@@ -72,6 +72,7 @@ void addOutputOptions(CLI::App* command, OutputChoice& choice) {
       ->check(wholeBetween(1, 10'000'000))
       ->type_name("N")
       ->group(group);
+  addHairLookOptions(*command, choice.look, group);
   command->add_option("--usd-prims", choice.prims, fieldOf("prims").effect)
       ->check(oneOf(namesIn(fieldOf("prims").choices)))
       ->type_name("WHOSE")
@@ -96,6 +97,8 @@ void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
   if (choice.head) output.head = *choice.head;
   if (choice.clips) output.clipFrames = choice.clips;
   if (choice.hairs) output.hairs = choice.hairs;
+  output.frizz = choice.look.frizz.value_or(output.frizz);
+  output.clump = choice.look.clump.value_or(output.clump);
   if (choice.prims) output.prims = *choice.prims;
   if (!choice.values.empty()) output.values = choice.values;
 }
@@ -106,6 +109,8 @@ void checkOutputs(const SceneOutput& output) {
                                "velocities are written into hair.usdc and clips only; add --usdc");
   if (output.clipFrames && !holds(output.files, "hair.usda"))
     throw CLI::ValidationError("--clips", "only hair.usda has clips; leave out --no-usd");
+  if (!output.hairs && (output.frizz != SceneOutput{}.frizz || output.clump != SceneOutput{}.clump))
+    throw CLI::ValidationError("--hairs", "only such hairs have frizz and clumps; say how many");
   if (output.hairs && needsOrigin(output))
     throw CLI::ValidationError(
         "--hairs",
@@ -141,6 +146,7 @@ void chooseOutputs(const SceneOutput& output, RunOptions& options) {
                                                : UsdHead::baked;
   options.usesGroomPrims = output.prims == "groom";
   options.hairs = output.hairs.value_or(0);
+  options.look = {output.frizz, output.clump};
   options.clipFrames = output.clipFrames.value_or(0);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "program/cli_fwd.h"
+#include "program/hair_look.h"
 #include "program/simulate_run.h"
 #include "ringlet/scenes/scene_file.h"
 
@@ -17,6 +18,7 @@ struct OutputChoice {
   std::optional<double> width, tipWidth;
   std::optional<std::string> head, prims;
   std::optional<int> clips, hairs;
+  HairLook look;  // of these hairs
   std::vector<std::string> values;
   std::string sheet = "drawn";  // or rendered
   bool usdc = false, noUsd = false, noLast = false, noSheet = false;

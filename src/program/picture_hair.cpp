@@ -37,7 +37,8 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
   self.metresPerUnit_ = metresPerUnit;
   self.firstOfStrand_ = first.firstPoint;
   const UsualHairs usual = usualHairs(first.strandCount(), first.firstPoint.back());
-  const FollowOptions options = choice.hairs ? FollowOptions{.hairCount = *choice.hairs} : usual.options;
+  const FollowOptions options =
+      choice.look.of(choice.hairs ? FollowOptions{.hairCount = *choice.hairs} : usual.options);
   if (options.hairCount == 0) {
     auto lines = StrandPoints::create(device.gpu(), first.firstPoint);
     if (!lines) return lines.error();

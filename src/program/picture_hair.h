@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "program/follow_plan.h"
+#include "program/hair_look.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/follow/follow_stage.h"
@@ -22,6 +23,7 @@ namespace ringlet::program {
 struct PictureHairChoice {
   std::optional<int> hairs;     // that follow the strands; 0: the strands themselves
   std::optional<double> width;  // diameter at the root [m]
+  HairLook look;                // of hairs that follow
 };
 
 class PictureHair {

@@ -52,6 +52,8 @@ void checkInput(const RenderOptions& options) {
         "with -o, and neither --scene nor --groom");
   if (!isGroom && options.up != "Y")
     throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
+  if (options.hairs == 0 && options.look.isAsked())
+    throw CLI::ValidationError("--hairs", "0 are no hairs that could have frizz or clumps");
   if (isGroom && (!options.frames.empty() || !options.groom.empty() || !options.scene.empty()))
     throw CLI::ValidationError("IN",
                                "is a groom, which has no frames; leave out --frames, --groom and --scene");
@@ -96,7 +98,7 @@ RenderPlan renderPlanOf(const RenderOptions& options) {
   plan.target.isExr = options.format == "exr";
   if (const auto range = parsePair(options.frames, ':'))
     plan.firstFrame = range->first, plan.lastFrame = range->second;
-  plan.hair = {options.hairs, options.width};
+  plan.hair = {options.hairs, options.width, options.look};
   const auto size = *parsePair(options.size, 'x');
   plan.size = {size.first, size.second, options.samples};
   if (const StrandScale* scale = strandScaleNamed(options.colour)) {
@@ -138,6 +140,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "Hairs that follow the strands; 0: the strands themselves (default: see below)")
       ->check(wholeBetween(0, 10'000'000))
       ->type_name("N");
+  addHairLookOptions(command, options.look);
   command
       .add_option("--groom", options.groom, "The strands at rest, where IN does not begin so; for --hairs")
       ->type_name("FILE");

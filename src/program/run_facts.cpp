@@ -96,6 +96,8 @@ void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
   add("groom's prims", options.usesGroomPrims);
   add("clip_frames", options.clipFrames);
   add("hairs", options.hairs);
+  add("frizz", options.look.of({}).frizz);
+  add("clump", options.look.of({}).gather);
 }
 
 }  // namespace ringlet::program

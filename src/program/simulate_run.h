@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "program/hair_look.h"
 #include "program/run_folder.h"
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
@@ -41,6 +42,7 @@ struct RunOptions {
   std::optional<double> tipWidth;       // at the tip, in USD files [m]
   std::vector<std::string> values;      // that these have besides, as SceneOutput says them
   int hairs = 0;                        // above 0: animations have so many, which follow the strands
+  HairLook look;                        // of these
   UsdHead usdHead = UsdHead::baked;     // and where these have the head's motion
   int clipFrames = 0;                   // above 0: hair.usda has value clips of so many frames
   bool usesGroomPrims = false;          // hair.usdc has changes of the prims of the groom's file

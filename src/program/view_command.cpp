@@ -13,6 +13,7 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/follow_plan.h"
+#include "program/hair_look.h"
 #include "program/interruption.h"
 #include "program/picture_options.h"
 #include "program/picture_solids.h"
@@ -61,6 +62,7 @@ struct Typed {
   std::vector<std::string> changes;
   std::string size = "640x480", colour = "auburn", device;
   int frames = 0, samples = 2, hairs = 0;
+  HairLook look;
   bool paused = false, json = false;
 };
 
@@ -106,11 +108,11 @@ void addSolids(const LoadedScene& scene, Vec3d up, view::ViewPlan& plan) {
       plan.solids.push_back({std::nullopt, place});
 }
 
-Status addHairs(const LoadedScene& scene, int hairs, view::ViewPlan& plan) {
+Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view::ViewPlan& plan) {
   const double count = hairs > 0 ? hairs : static_cast<double>(scene.groom.strandCount());
   plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
   if (hairs == 0) return {};
-  auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, {.hairCount = hairs});
+  auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}));
   if (!follow) return follow.error();
   plan.look.guides = follow->guides();
   plan.look.bodies = scene.bodies;
@@ -124,7 +126,7 @@ Result<view::ViewOutcome> runScene(const Typed& typed, const SceneFile& file, Lo
   plan.scene = &scene;
   plan.up = upOf(file.groom);
   addSolids(scene, plan.up, plan);
-  if (Status added = addHairs(scene, typed.hairs, plan); !added) return added.error();
+  if (Status added = addHairs(scene, typed.hairs, typed.look, plan); !added) return added.error();
   const auto [width, height] = *parsePair(typed.size, 'x');
   // Volumes of light as a preview needs them.
   plan.look.size = {.width = width,
@@ -235,6 +237,7 @@ void addViewCommand(CLI::App& app, int& exitCode) {
                    "A key of the scene, as its file would have it: motion.kind=shake; again for others")
       ->check(isChange())
       ->type_name("KEY=VALUE");
+  addHairLookOptions(*command, typed->look);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")
       ->check(wholeBetween(0, 10'000'000))
       ->capture_default_str()

@@ -272,6 +272,27 @@ TEST(PlanHairs, RootsMayBeInClusters) {
   EXPECT_LT(length(Vec3d(hairs->back().offset)), 1e-9) << "it has no more ground than that";
 }
 
+// A factor on three options, up to what each may be; draws stay the same.
+TEST(PlanHairs, FrizzIsAFactor) {
+  const auto rests = restsOf(headOf(20));
+  const auto plan = [&](const FollowOptions& options) { return *planHairs(rests, options); };
+  const auto expectSame = [](const std::vector<FollowHair>& a, const std::vector<FollowHair>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t h = 0; h < a.size(); ++h) {
+      EXPECT_EQ(a[h].phase, b[h].phase) << h;
+      EXPECT_EQ(a[h].radius, b[h].radius) << h;
+      EXPECT_EQ(a[h].length, b[h].length) << h;
+      EXPECT_EQ(a[h].spread, b[h].spread) << h;
+    }
+  };
+  expectSame(plan({.hairCount = 900, .frizz = 0}),
+             plan({.hairCount = 900, .phase = 0, .radius = 0, .strayShare = 0}));
+  expectSame(plan({.hairCount = 900, .frizz = 2}),
+             plan({.hairCount = 900, .phase = 0.9, .radius = 0.24, .strayShare = 0.2}));
+  expectSame(plan({.hairCount = 900, .phase = 2, .radius = 0.5, .strayShare = 0.3, .frizz = 10}),
+             plan({.hairCount = 900, .phase = std::numbers::pi, .radius = 0.9, .strayShare = 1}));
+}
+
 TEST(PlanHairs, OptionsSayHowHairsDiffer) {
   const auto rests = restsOf(headOf(20));
   const auto plan = [&](const FollowOptions& options) { return *planHairs(rests, options); };
@@ -330,6 +351,7 @@ TEST(PlanHairs, RefusesWhatMakesNoSense) {
   EXPECT_EQ(refusal({.length = std::nan("")}).find("the variation of the length is nan;"), 0u);
   EXPECT_EQ(refusal({.gather = 2}).find("the share by which hairs gather is 2;"), 0u);
   EXPECT_EQ(refusal({.strayShare = -0.1}).find("the share of strays is -0.1;"), 0u);
+  EXPECT_EQ(refusal({.frizz = 11}).find("the frizz of hairs is 11;"), 0u);
   EXPECT_EQ(planHairs({}, {}).error().message, "there is no guide that hairs could follow");
 }
 

@@ -13,6 +13,7 @@
 namespace ringlet {
 namespace {
 
+constexpr double kMostRadius = 0.9;     // by which the radius of a curl may differ
 constexpr std::size_t kNeighbours = 8;  // roots that bound a guide's part of the scalp
 constexpr double kReach = 0.75;         // its largest radius, in the median distance of the neighbours
 constexpr std::size_t kMostSeeds = 10;  // tried for each hair
@@ -30,10 +31,11 @@ Status checkOptions(std::span<const GuideRest> guides, const FollowOptions& o) {
   } ranges[] = {{"the number of hairs", double(o.hairCount), 1, 1e7},
                 {"the reach of hairs [m]", o.reach, 1e-6, 1000},
                 {"the largest turn of a hair's curl", o.phase, 0, std::numbers::pi},
-                {"the variation of the curl radius", o.radius, 0, 0.9},
+                {"the variation of the curl radius", o.radius, 0, kMostRadius},
                 {"the variation of the length", o.length, 0, 0.9},
                 {"the share by which hairs gather", o.gather, 0, 1},
-                {"the share of strays", o.strayShare, 0, 1}};
+                {"the share of strays", o.strayShare, 0, 1},
+                {"the frizz of hairs", o.frizz, 0, 10}};
   for (const auto& range : ranges) {
     if (range.value >= range.low && range.value <= range.high) continue;  // false for NaN
     return Error{fmt::format("{} is {}; it must be between {} and {}", range.name, range.value, range.low,
@@ -150,13 +152,15 @@ std::vector<Vec3d> placesOn(const ScalpPatch& patch, double reach, std::size_t c
 
 FollowHair variedHair(const FollowOptions& options, SeededRandom random) {
   // Always the same draws in the same order, so that one option does not change the others.
-  const bool isStray = random.uniform() < options.strayShare;
+  const bool isStray = random.uniform() < options.frizz * options.strayShare;
   const double turn = random.uniform() + random.uniform() - 1;  // triangular
   const double wider = random.between(-1, 1), shorter = random.uniform(),
                together = random.between(-0.2, 2.2);
   FollowHair hair;
-  hair.phase = static_cast<float>(turn * options.phase * (isStray ? kStrayPhase : 1));
-  hair.radius = static_cast<float>(1 + options.radius * wider);
+  const double phase = std::min(options.frizz * options.phase, std::numbers::pi),
+               radius = std::min(options.frizz * options.radius, kMostRadius);
+  hair.phase = static_cast<float>(turn * phase * (isStray ? kStrayPhase : 1));
+  hair.radius = static_cast<float>(1 + radius * wider);
   hair.length = static_cast<float>(1 - options.length * shorter);
   hair.spread = static_cast<float>(isStray ? kStraySpread : std::max(0.0, 1 - options.gather * together));
   return hair;

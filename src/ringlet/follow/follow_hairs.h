@@ -31,6 +31,7 @@ struct FollowOptions {
   double length = 0.15;     // share by which the shortest hair is shorter, in [0, 0.9]
   double gather = 0.25;     // mean share by which hairs come together, in [0, 1]
   double strayShare = 0.1;  // share of hairs, in [0, 1], that keep apart and whose phase differs more
+  double frizz = 1;         // factor on phase, radius and strayShare up to their limits, in [0, 10]
   std::uint64_t seed = 1;
 };
 

@@ -1,0 +1,28 @@
+// Implements hair_look.h.
+#include "program/hair_look.h"
+
+#include <CLI/CLI.hpp>
+
+#include "program/command_line.h"
+
+namespace ringlet::program {
+
+void addHairLookOptions(CLI::App& command, HairLook& look, const std::string& group) {
+  command
+      .add_option(
+          "--frizz", look.frizz,
+          "How far hairs differ from the strand they follow: a factor, 0 to 10; 0: each curls just as "
+          "its strand (default 1)")
+      ->check(between(0, 10))
+      ->type_name("X")
+      ->group(group);
+  command
+      .add_option(
+          "--clump", look.clump,
+          "Mean share by which hairs of a strand come together beyond their roots, 0 to 1 (default 0.25)")
+      ->check(between(0, 1))
+      ->type_name("S")
+      ->group(group);
+}
+
+}  // namespace ringlet::program
