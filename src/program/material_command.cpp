@@ -21,6 +21,7 @@
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_presets.h"
+#include "ringlet/scenes/scene_maps.h"
 
 namespace ringlet::program {
 namespace {
@@ -339,6 +340,7 @@ Status applyMaterialOptions(const MaterialChoice& choice, SceneFile& scene) {
     if (!found) return found.error();
     scene.material = std::move(*found);
     scene.hasMaterial = true;
+    if (Status added = addMaps(scene.maps, scene.material.material); !added) return added;
   }
   // The reader of the scene's own dials has told what is unusual.
   scene.material.dials = turned(choice.dials, scene.material.dials);

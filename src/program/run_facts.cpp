@@ -56,6 +56,7 @@ std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene
     files.insert(body.file);
     if (body.motion) files.insert(body.motion->file);
   }
+  for (const SceneMap& map : scene.maps) files.insert(map.file);
   files.erase(fs::path());
   return {files.begin(), files.end()};
 }

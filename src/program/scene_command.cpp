@@ -156,8 +156,8 @@ void printKeys(bool asJson) {
                     {"effect", key.effect}});
     if (asJson) continue;
     if (key.table != table) {
-      const bool isList =
-          key.table == "body" || key.table == "camera" || key.table == "key" || key.table == "motion.key";
+      const bool isList = key.table == "body" || key.table == "camera" || key.table == "map" ||
+                          key.table == "key" || key.table == "motion.key";
       fmt::print("\n{}\n", isList ? "[[" + key.table + "]]" : "[" + key.table + "]");
     }
     table = key.table;

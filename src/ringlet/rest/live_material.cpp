@@ -38,6 +38,7 @@ std::string fixedDifference(const Material& a, const Material& b) {
   if (a.coreSmoothingLength != b.coreSmoothingLength) return "core_smoothing_length";
   if (!(a.bendStiffnessProfile == b.bendStiffnessProfile)) return "profile.bend_stiffness";
   if (!(a.lineDensityProfile == b.lineDensityProfile)) return "profile.line_density";
+  if (!(a.factors == b.factors)) return "map";
   return "";
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -48,6 +49,22 @@ struct MaterialVariation {
   bool operator==(const MaterialVariation&) const = default;
 };
 
+struct Material;
+
+/// What a strand's factor may be.
+inline constexpr double kLeastStrandFactor = 0.001, kMostStrandFactor = 1000;
+
+/// A factor on one number of a material, strand by strand in groom order; strands beyond the last have 1.
+struct StrandFactors {
+  double Material::*number = nullptr;
+  std::shared_ptr<const std::vector<float>> ofStrand{};  // there is one
+
+  double of(std::size_t strand) const { return strand < ofStrand->size() ? (*ofStrand)[strand] : 1; }
+  bool operator==(const StrandFactors& other) const {
+    return number == other.number && (ofStrand == other.ofStrand || *ofStrand == *other.ofStrand);
+  }
+};
+
 struct Material {
   double lineDensity =
       1e-5;  // lambda [kg/m]; cancels from the motion of free hair (everything scales with w)
@@ -65,15 +82,16 @@ struct Material {
   std::optional<double> bendSmoothingLength{};  // alpha_b [m]; unset: from the rest curl; 0: raw curve
   std::optional<double> coreSmoothingLength{};  // alpha_c [m]; unset: as above
 
-  Profile bendStiffnessProfile{};  // on K_b, root to tip
-  Profile lineDensityProfile{};    // on lambda, root to tip
-  MaterialVariation variation{};   // from strand to strand
+  Profile bendStiffnessProfile{};        // on K_b, root to tip
+  Profile lineDensityProfile{};          // on lambda, root to tip
+  MaterialVariation variation{};         // from strand to strand
+  std::vector<StrandFactors> factors{};  // likewise, as maps say
   bool operator==(const Material&) const = default;
 };
 
-/// The material of one strand: the groom's with the strand's own variation worked in, and none left.
-/// strandIndex: in groom order. The same seed and index give the same strand, whatever other strands there
-/// are.
+/// The material of one strand: the groom's with the strand's own variation and factors worked in, and none
+/// left. strandIndex: in groom order. The same seed and index give the same strand, whatever other strands
+/// there are.
 inline Material materialOfStrand(const Material& material, std::size_t strandIndex) {
   const MaterialVariation& variation = material.variation;
   // A stream apart from grooms, which draw by small seeds too.
@@ -86,6 +104,8 @@ inline Material materialOfStrand(const Material& material, std::size_t strandInd
   own.coreStiffness *= factor(variation.coreStiffness);
   own.bendDampingRatio *= factor(variation.bendDampingRatio);
   own.variation = {};
+  for (const StrandFactors& factors : material.factors) own.*factors.number *= factors.of(strandIndex);
+  own.factors.clear();
   return own;
 }
 

@@ -23,6 +23,27 @@ Status checkNumbers(std::span<const Parameter<Owner>> parameters, const Owner& o
   return {};
 }
 
+// The least and the most that a number becomes on some strand.
+Status checkFactors(const Material& material) {
+  for (const StrandFactors& factors : material.factors) {
+    if (factors.ofStrand->empty()) continue;
+    const auto [least, most] = std::ranges::minmax(*factors.ofStrand);
+    for (const Parameter<Material>& parameter : materialParameters()) {
+      const auto* member = std::get_if<double Material::*>(&parameter.member);
+      if (!member || *member != factors.number) continue;
+      for (const double factor : {least, most}) {
+        const double value = material.*factors.number * factor;
+        if (factor >= kLeastStrandFactor && factor <= kMostStrandFactor && parameter.allowed.contains(value))
+          continue;
+        return Error{fmt::format("a map makes {} {} times {} on some strand; it must be {}", parameter.key,
+                                 material.*factors.number, factor,
+                                 rangeText(parameter.allowed, parameter.unit))};
+      }
+    }
+  }
+  return {};
+}
+
 template <class Owner>
 void addUnusual(std::span<const Parameter<Owner>> parameters, const Owner& owner, const char* table,
                 std::vector<std::string>& sentences) {
@@ -257,6 +278,7 @@ Status checkMaterial(const Material& material) {
   for (const ProfileParameter& parameter : profileParameters()) {
     if (Status status = checkProfile(parameter, material.*parameter.member); !status) return status;
   }
+  if (Status status = checkFactors(material); !status) return status;
   return checkNumbers(variationParameters(), material.variation, "variation.");
 }
 

@@ -267,6 +267,11 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   loaded.settings = settingsOf(scene);
   auto material = loadMaterialOf(scene, loaded.settings.integrator, loaded.warnings);
   if (!material) return material.error();
+  for (const StrandFactors& factors : material->factors) {
+    if (factors.ofStrand->size() > loaded.groom.strandCount())
+      return Error{fmt::format("a map names strand {}; the groom has {}, numbered from 0",
+                               factors.ofStrand->size() - 1, loaded.groom.strandCount())};
+  }
   loaded.material = std::move(*material);
   auto motion = loadedMotion(scene, loaded.settings, loaded.warnings);
   if (!motion) return motion.error();

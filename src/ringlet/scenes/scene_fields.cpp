@@ -6,6 +6,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/scene/motion.h"
+#include "ringlet/scenes/scene_maps.h"
 
 namespace ringlet {
 namespace {
@@ -418,6 +419,44 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        &B::bindFrame, kBindFrames},
       {"joint", "", "none", "Joint of the head's motion file that carries it, in place of the head.",
        &B::joint},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneMap>> mapFields() {
+  using M = SceneMap;
+  static const std::string numbers = [] {
+    std::string list;
+    for (const auto& parameter : mappedParameters())
+      list += (list.empty() ? "" : ", ") + std::string(parameter.key);
+    return list;
+  }();
+  static const SceneField<M> all[] = {
+      {"number",
+       "",
+       "none",
+       "Number of the material that differs from strand to strand.",
+       &M::number,
+       {},
+       numbers},
+      {"preset",
+       "",
+       "none",
+       "In place of a number: all numbers that may differ are as this preset has them, for `strands`.",
+       &M::preset,
+       {},
+       "straight, wavy, loose_curl, ringlet, coil"},
+      {"file", "", "none",
+       "Factors on the number: lines strand,factor, strands numbered from 0 in groom order; others keep 1.",
+       &M::file},
+      {"strands", "", "none", "In place of a file: the strands, as \"0:99, 120\", from 0 in groom order.",
+       &M::strands},
+      {"factor",
+       "",
+       "",
+       "Factor on the number for these strands.",
+       &M::factor,
+       {kLeastStrandFactor, kMostStrandFactor}},
   };
   return all;
 }

@@ -21,6 +21,7 @@ std::span<const SceneField<SceneScalp>> scalpFields();
 std::span<const SceneField<SceneSimulation>> simulationFields();
 std::span<const SceneField<SceneBody>> bodyFields();
 std::span<const SceneField<SceneCamera>> cameraFields();
+std::span<const SceneField<SceneMap>> mapFields();
 std::span<const SceneField<SceneOutput>> outputFields();
 
 }  // namespace ringlet

@@ -19,6 +19,7 @@
 #include "ringlet/scenes/scene_change.h"
 #include "ringlet/scenes/scene_fields.h"
 #include "ringlet/scenes/scene_keys.h"
+#include "ringlet/scenes/scene_maps.h"
 #include "ringlet/scenes/scene_text.h"
 
 namespace ringlet {
@@ -37,7 +38,7 @@ const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
     for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
-                              "body", "camera", "key", "output"})
+                              "body", "camera", "map", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"material", "file"});
@@ -59,6 +60,7 @@ const std::vector<KnownKey>& knownKeys() {
     keys.push_back({"body.moves", "key"});
     addKeys(keys, "body.moves.key", keyframeFields());
     addKeys(keys, "camera", cameraFields());
+    addKeys(keys, "map", mapFields());
     addKeys(keys, "output", outputFields());
     return keys;
   }();
@@ -132,6 +134,7 @@ class SceneReader {
       scene.cameras.emplace_back();
       readCamera(*table, scene, scene.cameras.back());
     }
+    readMaps(file, scene);
     readTimeKeys(file, scene);
     if (const toml::table* table = tableOf(file, "", "output"))
       readFields(*table, "output", outputFields(), scene.output);
@@ -267,6 +270,40 @@ class SceneReader {
           lineOf(*node),
           fmt::format("found {} with {} {}; only {} {} it", KnownKey{name, field.key}.fullName(), what, mode,
                       field.onlyWith, namesIn(field.onlyWith).size() > 1 ? "have" : "has"));
+    }
+  }
+
+  void readMaps(const toml::table& file, SceneFile& scene) {
+    for (const toml::table* table : tablesOf(file, "", "map")) {
+      SceneMap map;
+      readFields(*table, "map", mapFields(), map);
+      const toml::node *number = table->get("number"), *preset = table->get("preset"),
+                       *path = table->get("file"), *strands = table->get("strands"),
+                       *factor = table->get("factor");
+      const auto expectOne = [&](const toml::node* a, const toml::node* b, const char* names) {
+        if (!a && !b)
+          missing_.add(lineOf(*table),
+                       fmt::format("found a map with neither of {}; expected one of the two", names));
+        if (a && b)
+          problems_.add(std::max(lineOf(*a), lineOf(*b)),
+                        fmt::format("found a map with both of {}; expected one of the two", names));
+      };
+      expectOne(number, preset, "number and preset");
+      expectOne(path, strands, "file and strands");
+      if (preset && path)
+        problems_.add(lineOf(*path), "found map.file with a preset; only a number has factors");
+      if (factor && (preset || path))
+        problems_.add(lineOf(*factor),
+                      "found map.factor with a preset or a file; only a number of strands has it");
+      if (problems_.empty() && missing_.empty()) {
+        scene.hasMaterial = true;
+        scene.maps.push_back(map);
+        if (Status added = addMaps(scene.maps, scene.material.material); !added) {
+          problems_.add(lineOf(path ? *path : *strands), added.error().message);
+        } else if (Status checked = checkMaterial(scene.material.material); !checked) {
+          problems_.add(lineOf(*table), checked.error().message);
+        }
+      }
     }
   }
 

@@ -176,6 +176,17 @@ struct SceneOutput {
   std::string cache;                // precision of hair.rgc; empty: it is not written
 };
 
+/// A factor on a number of the material for some strands, or from a file for each; or another preset for
+/// some.
+struct SceneMap {
+  std::string number;          // one of mappedParameters()
+  std::string preset;          // in its place: all these numbers are as the preset has them
+  std::filesystem::path file;  // of factors by strand; or
+  std::string strands;         // "0:99, 120"
+  double factor = 1;           // of these
+  bool operator==(const SceneMap&) const = default;
+};
+
 /// A number, or three, that the scene has at a time (scene_keys.h says which may be).
 struct SceneKeyedValue {
   std::string key;  // with its table: "air.wind"
@@ -202,6 +213,7 @@ struct SceneFile {
   GoalSettings goal;
   std::vector<SceneBody> bodies;
   std::vector<SceneCamera> cameras;
+  std::vector<SceneMap> maps;          // worked into the material
   std::vector<SceneTimeKey> timeKeys;  // by rising time
   SceneOutput output;
   std::vector<std::string> warnings;  // sentences for a person, each with the file's name

@@ -175,6 +175,7 @@ std::vector<SceneKey> sceneKeys() {
                   "What carries it: the head, nothing, or a motion of its own in the world, with the keys of "
                   "[motion], as in { kind = \"spin\" }."});
   addKeys(keys, "camera", cameraFields());
+  addKeys(keys, "map", mapFields());
   keys.push_back({"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
                   "Time of a key, each headed by [[key]]: numbers that change while hair moves. 0 is the "
                   "beginning of the first frame, and a frame has the numbers of its end."});
@@ -203,6 +204,8 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   for (const SceneBody& body : scene.bodies) text += bodyText(body, folder);
   for (const SceneCamera& camera : scene.cameras)
     text += headed("[[camera]]", linesOf(cameraFields(), camera, SceneCamera{}, folder));
+  for (const SceneMap& map : scene.maps)
+    text += headed("[[map]]", linesOf(mapFields(), map, SceneMap{}, folder));
   for (const SceneTimeKey& key : scene.timeKeys) {
     text += fmt::format("\n[[key]]\ntime = {}  # [s]\n", tomlNumber(key.time));
     for (const SceneKeyedValue& value : key.values)

@@ -1,0 +1,146 @@
+// Factors on a material's numbers, strand by strand: what files and scenes say of them, and what becomes of a
+// strand.
+#include "ringlet/scenes/scene_maps.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "ringlet/rest/live_material.h"
+#include "ringlet/rest/material_presets.h"
+#include "ringlet/scenes/load_scene.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+const std::string kGroom = "[groom]\ngenerate = \"swatch\"\ncolumns = 3\nrows = 2\n";
+
+Result<SceneFile> parsed(const std::string& text, const std::filesystem::path& folder = {}) {
+  return parseScene(kGroom + text, "scene.toml", folder);
+}
+
+TEST(SceneMaps, StrandsAreRangesAndNumbers) {
+  const auto ranges = parseStrands("0:99, 120 ,7:7");
+  ASSERT_TRUE(ranges) << ranges.error().message;
+  ASSERT_EQ(ranges->size(), 3u);
+  EXPECT_EQ((*ranges)[0].first, 0u);
+  EXPECT_EQ((*ranges)[0].last, 99u);
+  EXPECT_EQ((*ranges)[1].first, 120u);
+  EXPECT_EQ((*ranges)[1].last, 120u);
+  for (const char* wrong : {"a", "1:", ":2", "3:1", "-1", "1.5", "1,,2", "1 2", "99999999999", "20000001"}) {
+    const auto refused = parseStrands(wrong);
+    ASSERT_FALSE(refused) << wrong;
+    EXPECT_NE(refused.error().message.find("expected strands from 0 to 20000000"), std::string::npos);
+  }
+}
+
+TEST(SceneMaps, FilesHaveAStrandAndAFactorALine) {
+  const auto factors = parseStrandFactors("strand,factor\r\n3, 0.5\n\n# none\n0,2 # the first\n1,1e-2");
+  ASSERT_TRUE(factors) << factors.error().message;
+  EXPECT_EQ(*factors, (std::vector<float>{2, 0.01f, 1, 0.5}));
+  EXPECT_TRUE(parseStrandFactors("")->empty());
+  const struct {
+    const char *text, *message;
+  } kCases[] = {
+      {"0,1\nstrand,factor",
+       "line 2: found 'strand,factor'; expected a strand from 0 to 20000000 and a factor from "
+       "0.001 to 1000, as 12,0.5"},
+      {"0", "line 1: found '0';"},
+      {"0,0", "line 1: found '0,0';"},
+      {"0,nan", "line 1: found '0,nan';"},
+      {"0,2000", "line 1: found '0,2000';"},
+      {"-1,1", "line 1: found '-1,1';"},
+      {"20000001,1", "line 1: found '20000001,1';"},
+      {"0,1,2", "line 1: found '0,1,2';"},
+      {"0,1\n0,1", "line 2: strand 0 is there twice"},
+  };
+  for (const auto& c : kCases) {
+    const auto refused = parseStrandFactors(c.text);
+    ASSERT_FALSE(refused) << c.text;
+    EXPECT_EQ(refused.error().message.find(c.message), 0u) << refused.error().message;
+  }
+}
+
+TEST(SceneMaps, MultiplyStrandByStrand) {
+  const auto folder = test::scratchFolder("scene_maps");
+  std::ofstream(folder / "soft.csv") << "1,0.5\n4,3\n";
+  const auto scene = parsed(
+      "[material]\nbend_stiffness = 8\n[material.dials]\nhold = 2\n[[map]]\nnumber = "
+      "\"bend_stiffness\"\nfile = "
+      "\"soft.csv\"\n[[map]]\nnumber = \"bend_stiffness\"\nstrands = \"0:1\"\nfactor = 10\n[[map]]\nnumber = "
+      "\"core_stiffness\"\nstrands = \"5\"\nfactor = 0.25\n",
+      folder);
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto loaded = loadScene(*scene);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  const double stiffness[] = {160, 80, 16, 16, 48, 16}, core = Material{}.coreStiffness;
+  for (std::size_t s = 0; s < 6; ++s) {
+    const Material own = materialOfStrand(loaded->material, s);
+    EXPECT_DOUBLE_EQ(own.bendStiffness, stiffness[s]) << s;
+    EXPECT_EQ(own.coreStiffness, s == 5 ? 0.25 * core : core) << s;
+    EXPECT_TRUE(own.factors.empty());
+  }
+  Material other = loaded->material;
+  other.factors.pop_back();
+  EXPECT_EQ(fixedDifference(loaded->material, other), "map");
+  EXPECT_EQ(fixedDifference(loaded->material, loadScene(*scene)->material), "")
+      << "the same from another reading";
+
+  const auto again = parseScene(sceneText(*scene, folder), "again", folder);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->maps, scene->maps);
+  EXPECT_EQ(again->material.material, scene->material.material);
+}
+
+TEST(SceneMaps, APresetForSomeStrands) {
+  const auto scene =
+      parsed("[material]\npreset = \"straight\"\n[[map]]\npreset = \"coil\"\nstrands = \"2:3\"\n");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Material straight = *materialPreset("straight"), coil = *materialPreset("coil");
+  for (std::size_t s = 0; s < 6; ++s) {
+    const Material own = materialOfStrand(scene->material.material, s);
+    const Material& expected = s == 2 || s == 3 ? coil : straight;
+    for (const Parameter<Material>& parameter : mappedParameters())
+      EXPECT_NEAR(*parameter.of(own) / *parameter.of(expected), 1, 1e-6) << s << " " << parameter.key;
+  }
+}
+
+TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
+  const auto folder = test::scratchFolder("scene_maps_wrong");
+  std::ofstream(folder / "wrong.csv") << "1;2\n";
+  const struct {
+    const char *text, *message;
+  } kCases[] = {
+      {"[[map]]\nstrands = \"0\"",
+       "line 5: found a map with neither of number and preset; expected one of the two"},
+      {"[[map]]\nnumber = \"bend_stiffness\"", "line 5: found a map with neither of file and strands"},
+      {"[[map]]\nnumber = \"bend_stiffnes\"\nstrands = \"0\"", "did you mean bend_stiffness?"},
+      {"[[map]]\nnumber = \"gravity_factor\"\nstrands = \"0\"",
+       "line 6: found the text 'gravity_factor' for map.number"},
+      {"[[map]]\nnumber = \"bend_stiffness\"\nstrands = \"x\"", "line 7: found 'x'; expected strands"},
+      {"[[map]]\nnumber = \"bend_stiffness\"\nfile = \"none.csv\"", "none.csv"},
+      {"[[map]]\nnumber = \"bend_stiffness\"\nfile = \"wrong.csv\"", "wrong.csv: line 1: found '1;2'"},
+      {"[[map]]\nnumber = \"bend_stiffness\"\nstrands = \"0\"\nfactor = 0", "a number from 0.001 to 1000"},
+      {"[[map]]\npreset = \"coil\"\nfile = \"wrong.csv\"", "only a number has factors"},
+      {"[[map]]\npreset = \"coil\"\nstrands = \"0\"\nfactor = 2", "only a number of strands has it"},
+      {"[material]\ncore_stiffness = 0\n[[map]]\npreset = \"coil\"\nstrands = \"0\"",
+       "a map cannot make coil of a material whose core_stiffness is 0"},
+      {"[material]\nbend_damping_ratio = 50\n[[map]]\nnumber = \"bend_damping_ratio\"\nstrands = "
+       "\"0\"\nfactor = 9",
+       "a map makes bend_damping_ratio 50 times 9 on some strand; it must be from 0 to 100"},
+  };
+  for (const auto& c : kCases) {
+    const auto scene = parsed(c.text, folder);
+    ASSERT_FALSE(scene) << c.text;
+    EXPECT_NE(scene.error().message.find(c.message), std::string::npos) << scene.error().message;
+  }
+  const auto beyond = parsed("[[map]]\nnumber = \"bend_stiffness\"\nstrands = \"4:6\"\nfactor = 2\n");
+  ASSERT_TRUE(beyond) << beyond.error().message;
+  const auto loaded = loadScene(*beyond);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().message, "a map names strand 6; the groom has 6, numbered from 0");
+}
+
+}  // namespace
+}  // namespace ringlet
