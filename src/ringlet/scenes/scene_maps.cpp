@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -101,7 +101,7 @@ Result<std::vector<StrandRange>> parseStrands(std::string_view text) {
     const auto first = strandOf(low), last = isRange ? strandOf(high) : first;
     if (!first || !last || *last < *first)
       return Error{fmt::format("found {}; expected strands from 0 to {}, as 0:99, 120",
-                               quoted(std::string(trimmed(word))), kMostMappedStrand)};
+                               ringlet::quoted(std::string(trimmed(word))), kMostMappedStrand)};
     ranges.push_back({*first, *last});
   }
   return ranges;
@@ -118,12 +118,14 @@ Result<std::vector<float>> parseStrandFactors(std::string_view text) {
     const auto [name, value] = splitAt(words, ',');
     const auto strand = strandOf(name);
     const auto factor = numberOf<double>(value);
-    if (!strand && line == 1 && !numberOf<double>(name)) continue;  // the columns' names
+    const bool isWord = std::isalpha(static_cast<unsigned char>(words.front())) != 0;
+    if (line == 1 && isWord) continue;  // the columns' names
     if (!strand || !factor || !(*factor >= kLeastStrandFactor && *factor <= kMostStrandFactor))
-      return Error{fmt::format(
-          "line {}: found {}; expected a strand from 0 to {} and a factor from {} to {}, as "
-          "12,0.5",
-          line, quoted(std::string(words)), kMostMappedStrand, kLeastStrandFactor, kMostStrandFactor)};
+      return Error{
+          fmt::format("line {}: found {}; expected a strand from 0 to {} and a factor from {} to {}, as "
+                      "12,0.5",
+                      line, ringlet::quoted(std::string(words)), kMostMappedStrand, kLeastStrandFactor,
+                      kMostStrandFactor)};
     if (isThere.size() <= *strand) isThere.resize(*strand + 1);
     if (isThere[*strand]) return Error{fmt::format("line {}: strand {} is there twice", line, *strand)};
     isThere[*strand] = true;
