@@ -167,6 +167,7 @@ Status writeTables(const fs::path& folder) {
   const std::string digits =
       "bend_stiffness = 8.123456789012345\n[profile]\nbend_stiffness = [[0, 0.1234567890123], [1, 1]]\n";
   write(seed(folder, "material_file", "digits"), digits);
+  write(seed(folder, "strand_factors", "named"), std::string("strand,factor\n0,2\n7,0.5 # soft\n\n3,1e-2\n"));
   const DeviceCosts device{
       "a GPU", "driver 1", "9c0f3a51e2d47b68", {{{4, 16}, 612.5}, {kAnySerialShape, 46}}, 8};
   if (Status status = writeShapeCosts(seed(folder, "shape_cost_file", "two"), {device, device}); !status)

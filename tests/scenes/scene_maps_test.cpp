@@ -21,39 +21,41 @@ Result<SceneFile> parsed(const std::string& text, const std::filesystem::path& f
 }
 
 TEST(SceneMaps, StrandsAreRangesAndNumbers) {
-  const auto ranges = parseStrands("0:99, 120 ,7:7");
-  ASSERT_TRUE(ranges) << ranges.error().message;
-  ASSERT_EQ(ranges->size(), 3u);
-  EXPECT_EQ((*ranges)[0].first, 0u);
-  EXPECT_EQ((*ranges)[0].last, 99u);
-  EXPECT_EQ((*ranges)[1].first, 120u);
-  EXPECT_EQ((*ranges)[1].last, 120u);
-  for (const char* wrong : {"a", "1:", ":2", "3:1", "-1", "1.5", "1,,2", "1 2", "99999999999", "20000001"}) {
-    const auto refused = parseStrands(wrong);
+  const auto runs = parseStrands("100:120, 7 ,0:6,1000000000:1000000000", 2.5);
+  ASSERT_TRUE(runs) << runs.error().message;
+  EXPECT_EQ(*runs, (std::vector<StrandRun>{
+                       {0, 6, 2.5f}, {7, 7, 2.5f}, {100, 120, 2.5f}, {1000000000, 1000000000, 2.5f}}));
+  const StrandFactors factors{&Material::bendStiffness, std::make_shared<std::vector<StrandRun>>(*runs)};
+  for (const std::size_t in : {0, 3, 6, 7, 100, 120, 1000000000}) EXPECT_EQ(factors.of(in), 2.5) << in;
+  for (const std::size_t out : {8, 99, 121, 999999999, 1000000001}) EXPECT_EQ(factors.of(out), 1) << out;
+  for (const char* wrong :
+       {"a", "1:", ":2", "3:1", "-1", "1.5", "1,,2", "1 2", "99999999999", "1000000001"}) {
+    const auto refused = parseStrands(wrong, 1);
     ASSERT_FALSE(refused) << wrong;
-    EXPECT_NE(refused.error().message.find("expected strands from 0 to 20000000"), std::string::npos);
+    EXPECT_NE(refused.error().message.find("expected strands from 0 to 1000000000"), std::string::npos);
   }
+  EXPECT_EQ(parseStrands("4:9,9", 1).error().message, "strand 9 is there twice");
 }
 
 TEST(SceneMaps, FilesHaveAStrandAndAFactorALine) {
-  const auto factors = parseStrandFactors("strand,factor\r\n3, 0.5\n\n# none\n0,2 # the first\n1,1e-2");
-  ASSERT_TRUE(factors) << factors.error().message;
-  EXPECT_EQ(*factors, (std::vector<float>{2, 0.01f, 1, 0.5}));
+  const auto runs = parseStrandFactors("strand,factor\r\n3, 0.5\n\n# none\n0,2 # the first\n1,1e-2");
+  ASSERT_TRUE(runs) << runs.error().message;
+  EXPECT_EQ(*runs, (std::vector<StrandRun>{{0, 0, 2}, {1, 1, 0.01f}, {3, 3, 0.5}}));
   EXPECT_TRUE(parseStrandFactors("")->empty());
   const struct {
     const char *text, *message;
   } kCases[] = {
       {"0,1\nstrand,factor",
-       "line 2: found 'strand,factor'; expected a strand from 0 to 20000000 and a factor from "
+       "line 2: found 'strand,factor'; expected a strand from 0 to 1000000000 and a factor from "
        "0.001 to 1000, as 12,0.5"},
       {"0", "line 1: found '0';"},
       {"0,0", "line 1: found '0,0';"},
       {"0,nan", "line 1: found '0,nan';"},
       {"0,2000", "line 1: found '0,2000';"},
       {"-1,1", "line 1: found '-1,1';"},
-      {"20000001,1", "line 1: found '20000001,1';"},
+      {"1000000001,1", "line 1: found '1000000001,1';"},
       {"0,1,2", "line 1: found '0,1,2';"},
-      {"0,1\n0,1", "line 2: strand 0 is there twice"},
+      {"5,1\n0,1\n5,2", "strand 5 is there twice"},
   };
   for (const auto& c : kCases) {
     const auto refused = parseStrandFactors(c.text);
@@ -128,13 +130,20 @@ TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
        "a map cannot make coil of a material whose core_stiffness is 0"},
       {"[material]\nbend_damping_ratio = 50\n[[map]]\nnumber = \"bend_damping_ratio\"\nstrands = "
        "\"0\"\nfactor = 9",
-       "a map makes bend_damping_ratio 50 times 9 on some strand; it must be from 0 to 100"},
+       "maps make bend_damping_ratio of strand 0 450; it must be from 0 to 100"},
   };
   for (const auto& c : kCases) {
     const auto scene = parsed(c.text, folder);
     ASSERT_FALSE(scene) << c.text;
     EXPECT_NE(scene.error().message.find(c.message), std::string::npos) << scene.error().message;
   }
+  // Two that are fine together, but for where the first has ended.
+  const auto ended = parsed(
+      "[material]\nbend_damping_ratio = 50\n[[map]]\nnumber = \"bend_damping_ratio\"\nstrands = "
+      "\"0:3\"\nfactor = "
+      "0.01\n[[map]]\nnumber = \"bend_damping_ratio\"\nstrands = \"0:4\"\nfactor = 9\n");
+  ASSERT_FALSE(ended);
+  EXPECT_NE(ended.error().message.find("maps make bend_damping_ratio of strand 4 450"), std::string::npos);
   const auto beyond = parsed("[[map]]\nnumber = \"bend_stiffness\"\nstrands = \"4:6\"\nfactor = 2\n");
   ASSERT_TRUE(beyond) << beyond.error().message;
   const auto loaded = loadScene(*beyond);

@@ -5,8 +5,10 @@
 // number does and its range: rest/material_parameters.h.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -54,14 +56,25 @@ struct Material;
 /// What a strand's factor may be.
 inline constexpr double kLeastStrandFactor = 0.001, kMostStrandFactor = 1000;
 
-/// A factor on one number of a material, strand by strand in groom order; strands beyond the last have 1.
+/// Neighbouring strands of one factor, in groom order from 0.
+struct StrandRun {
+  std::uint32_t first = 0, last = 0;
+  float factor = 1;
+  bool operator==(const StrandRun&) const = default;
+};
+
+/// A factor on one number of a material, for some strands; the others have 1.
 struct StrandFactors {
   double Material::*number = nullptr;
-  std::shared_ptr<const std::vector<float>> ofStrand{};  // there is one
+  std::shared_ptr<const std::vector<StrandRun>> runs{};  // there are some; rising, none over another
 
-  double of(std::size_t strand) const { return strand < ofStrand->size() ? (*ofStrand)[strand] : 1; }
+  double of(std::size_t strand) const {
+    const auto next = std::upper_bound(runs->begin(), runs->end(), strand,
+                                       [](std::size_t s, const StrandRun& run) { return s < run.first; });
+    return next == runs->begin() || strand > std::prev(next)->last ? 1 : std::prev(next)->factor;
+  }
   bool operator==(const StrandFactors& other) const {
-    return number == other.number && (ofStrand == other.ofStrand || *ofStrand == *other.ofStrand);
+    return number == other.number && (runs == other.runs || *runs == *other.runs);
   }
 };
 
@@ -85,7 +98,7 @@ struct Material {
   Profile bendStiffnessProfile{};        // on K_b, root to tip
   Profile lineDensityProfile{};          // on lambda, root to tip
   MaterialVariation variation{};         // from strand to strand
-  std::vector<StrandFactors> factors{};  // likewise, as maps say
+  std::vector<StrandFactors> factors{};  // likewise, as maps say; of one number they multiply
   bool operator==(const Material&) const = default;
 };
 

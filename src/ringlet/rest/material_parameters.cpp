@@ -23,21 +23,22 @@ Status checkNumbers(std::span<const Parameter<Owner>> parameters, const Owner& o
   return {};
 }
 
-// The least and the most that a number becomes on some strand.
+// What a number becomes by all factors on it. It changes only where some run begins or has ended.
 Status checkFactors(const Material& material) {
-  for (const StrandFactors& factors : material.factors) {
-    if (factors.ofStrand->empty()) continue;
-    const auto [least, most] = std::ranges::minmax(*factors.ofStrand);
-    for (const Parameter<Material>& parameter : materialParameters()) {
-      const auto* member = std::get_if<double Material::*>(&parameter.member);
-      if (!member || *member != factors.number) continue;
-      for (const double factor : {least, most}) {
-        const double value = material.*factors.number * factor;
-        if (factor >= kLeastStrandFactor && factor <= kMostStrandFactor && parameter.allowed.contains(value))
-          continue;
-        return Error{fmt::format("a map makes {} {} times {} on some strand; it must be {}", parameter.key,
-                                 material.*factors.number, factor,
-                                 rangeText(parameter.allowed, parameter.unit))};
+  for (const Parameter<Material>& parameter : materialParameters()) {
+    const auto* member = std::get_if<double Material::*>(&parameter.member);
+    for (const StrandFactors& some : material.factors) {
+      if (!member || some.number != *member) continue;
+      for (const StrandRun& run : *some.runs) {
+        for (const std::size_t strand : {std::size_t{run.first}, std::size_t{run.last} + 1}) {
+          double value = material.**member;
+          for (const StrandFactors& factors : material.factors)
+            if (factors.number == *member) value *= factors.of(strand);
+          const bool isFactor = run.factor >= kLeastStrandFactor && run.factor <= kMostStrandFactor;
+          if (isFactor && parameter.allowed.contains(value)) continue;
+          return Error{fmt::format("maps make {} of strand {} {}; it must be {}", parameter.key, strand,
+                                   value, rangeText(parameter.allowed, parameter.unit))};
+        }
       }
     }
   }

@@ -268,9 +268,9 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   auto material = loadMaterialOf(scene, loaded.settings.integrator, loaded.warnings);
   if (!material) return material.error();
   for (const StrandFactors& factors : material->factors) {
-    if (factors.ofStrand->size() > loaded.groom.strandCount())
+    if (factors.runs->back().last >= loaded.groom.strandCount())
       return Error{fmt::format("a map names strand {}; the groom has {}, numbered from 0",
-                               factors.ofStrand->size() - 1, loaded.groom.strandCount())};
+                               factors.runs->back().last, loaded.groom.strandCount())};
   }
   loaded.material = std::move(*material);
   auto motion = loadedMotion(scene, loaded.settings, loaded.warnings);

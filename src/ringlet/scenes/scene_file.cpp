@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -295,16 +296,18 @@ class SceneReader {
       if (factor && (preset || path))
         problems_.add(lineOf(*factor),
                       "found map.factor with a preset or a file; only a number of strands has it");
-      if (problems_.empty() && missing_.empty()) {
-        scene.hasMaterial = true;
-        scene.maps.push_back(map);
-        if (Status added = addMaps(scene.maps, scene.material.material); !added) {
-          problems_.add(lineOf(path ? *path : *strands), added.error().message);
-        } else if (Status checked = checkMaterial(scene.material.material); !checked) {
-          problems_.add(lineOf(*table), checked.error().message);
-        }
-      }
+      if (!problems_.empty() || !missing_.empty()) continue;
+      // By itself first, so that a mistake has its line.
+      Material alone = scene.material.material;
+      if (Status added = applyMaps(std::span(&map, 1), alone); !added)
+        problems_.add(lineOf(path ? *path : *strands), added.error().message);
+      scene.maps.push_back(std::move(map));
     }
+    if (scene.maps.empty() || !problems_.empty() || !missing_.empty()) return;
+    scene.hasMaterial = true;
+    Status whole = applyMaps(scene.maps, scene.material.material);
+    if (whole) whole = checkMaterial(scene.material.material);
+    if (!whole) problems_.add(lineOf(*file.get("map")), whole.error().message);
   }
 
   void readTimeKeys(const toml::table& file, SceneFile& scene) {

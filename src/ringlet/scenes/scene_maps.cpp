@@ -44,19 +44,24 @@ std::pair<std::string_view, std::string_view> splitAt(std::string_view text, cha
   return {text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
 }
 
-using Factors = std::vector<float>;
+using Runs = std::vector<StrandRun>;
 
-void multiply(Factors& factors, std::uint32_t strand, double factor) {
-  if (factors.size() <= strand) factors.resize(strand + 1, 1.0f);
-  factors[strand] = static_cast<float>(factors[strand] * factor);
+// Sorted, unless a strand is in two of them.
+Result<Runs> sorted(Runs runs) {
+  std::ranges::sort(runs, {}, &StrandRun::first);
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    if (runs[i].first <= runs[i - 1].last)
+      return Error{fmt::format("strand {} is there twice", runs[i].first)};
+  }
+  return runs;
 }
 
-Result<Factors> factorsOfFile(const std::filesystem::path& path) {
+Result<Runs> runsOfFile(const std::filesystem::path& path) {
   const auto bytes = readWholeFile(path);
   if (!bytes) return bytes.error();
-  auto factors = parseStrandFactors({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-  if (!factors) return Error{fmt::format("{}: {}", path.string(), factors.error().message)};
-  return factors;
+  auto runs = parseStrandFactors({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (!runs) return Error{fmt::format("{}: {}", path.string(), runs.error().message)};
+  return runs;
 }
 
 // The numbers that a map is of, each with its factor.
@@ -91,8 +96,8 @@ std::span<const Parameter<Material>> mappedParameters() {
   return all;
 }
 
-Result<std::vector<StrandRange>> parseStrands(std::string_view text) {
-  std::vector<StrandRange> ranges;
+Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor) {
+  Runs runs;
   while (!text.empty()) {
     const auto [word, rest] = splitAt(text, ',');
     text = rest;
@@ -102,61 +107,45 @@ Result<std::vector<StrandRange>> parseStrands(std::string_view text) {
     if (!first || !last || *last < *first)
       return Error{fmt::format("found {}; expected strands from 0 to {}, as 0:99, 120",
                                ringlet::quoted(std::string(trimmed(word))), kMostMappedStrand)};
-    ranges.push_back({*first, *last});
+    runs.push_back({*first, *last, static_cast<float>(factor)});
   }
-  return ranges;
+  return sorted(std::move(runs));
 }
 
-Result<std::vector<float>> parseStrandFactors(std::string_view text) {
-  Factors factors;
-  std::vector<bool> isThere;
+Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text) {
+  Runs runs;
   for (std::size_t line = 1; !text.empty(); ++line) {
     const auto [whole, rest] = splitAt(text, '\n');
     text = rest;
     const std::string_view words = trimmed(splitAt(whole, '#').first);
-    if (words.empty()) continue;
+    const bool isWord = !words.empty() && std::isalpha(static_cast<unsigned char>(words.front())) != 0;
+    if (words.empty() || (line == 1 && isWord)) continue;  // the columns' names
     const auto [name, value] = splitAt(words, ',');
     const auto strand = strandOf(name);
     const auto factor = numberOf<double>(value);
-    const bool isWord = std::isalpha(static_cast<unsigned char>(words.front())) != 0;
-    if (line == 1 && isWord) continue;  // the columns' names
     if (!strand || !factor || !(*factor >= kLeastStrandFactor && *factor <= kMostStrandFactor))
       return Error{
           fmt::format("line {}: found {}; expected a strand from 0 to {} and a factor from {} to {}, as "
                       "12,0.5",
                       line, ringlet::quoted(std::string(words)), kMostMappedStrand, kLeastStrandFactor,
                       kMostStrandFactor)};
-    if (isThere.size() <= *strand) isThere.resize(*strand + 1);
-    if (isThere[*strand]) return Error{fmt::format("line {}: strand {} is there twice", line, *strand)};
-    isThere[*strand] = true;
-    multiply(factors, *strand, *factor);
+    runs.push_back({*strand, *strand, static_cast<float>(*factor)});
   }
-  return factors;
+  return sorted(std::move(runs));
 }
 
-Status addMaps(std::span<const SceneMap> maps, Material& material) {
-  std::vector<std::pair<double Material::*, Factors>> all;
+Status applyMaps(std::span<const SceneMap> maps, Material& material) {
+  material.factors.clear();
   for (const SceneMap& map : maps) {
     const auto numbers = numbersOf(map, material);
     if (!numbers) return numbers.error();
     for (const auto& [member, factor] : *numbers) {
-      auto of = std::ranges::find(all, member, &std::pair<double Material::*, Factors>::first);
-      if (of == all.end()) of = all.insert(all.end(), {member, {}});
-      if (map.file.empty()) {
-        const auto ranges = parseStrands(map.strands);
-        if (!ranges) return ranges.error();
-        for (const StrandRange& range : *ranges)
-          for (std::uint32_t s = range.first; s <= range.last; ++s) multiply(of->second, s, factor);
-      } else {
-        const auto factors = factorsOfFile(map.file);
-        if (!factors) return factors.error();
-        for (std::uint32_t s = 0; s < factors->size(); ++s) multiply(of->second, s, (*factors)[s]);
-      }
+      auto runs = map.file.empty() ? parseStrands(map.strands, factor) : runsOfFile(map.file);
+      if (!runs) return runs.error();
+      if (!runs->empty())
+        material.factors.push_back({member, std::make_shared<const Runs>(std::move(*runs))});
     }
   }
-  material.factors.clear();
-  for (auto& [member, factors] : all)
-    material.factors.push_back({member, std::make_shared<const Factors>(std::move(factors))});
   return {};
 }
 
