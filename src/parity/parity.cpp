@@ -153,8 +153,9 @@ Material varyingMaterial() {
   material.bendStiffnessProfile.points = {{0, 2}, {0.5, 1}, {1, 0.3}};
   material.lineDensityProfile.points = {{0, 1.5}, {1, 0.5}};
   using Runs = std::vector<StrandRun>;
-  material.factors = {{&Material::bendStiffness, std::make_shared<Runs>(Runs{{0, 0, 0.5f}, {2, 7, 3}})},
-                      {&Material::coreStiffness, std::make_shared<Runs>(Runs{{1, 3, 0.3f}})}};
+  material.factors = {
+      {&Material::bendStiffness, std::make_shared<Runs>(Runs{{0, 0, 0.5f}, {1, 1, 3}, {2, 7, 1.5f}})},
+      {&Material::coreStiffness, std::make_shared<Runs>(Runs{{1, 3, 0.3f}})}};
   material.variation = {.bendStiffness = 0.3, .coreStiffness = 0.2, .bendDampingRatio = 0.3, .seed = 5};
   return material;
 }
