@@ -66,6 +66,8 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
                           input.rootShifts, input.bodies,   bodies,   roots, rootsEarlier};
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
+  kernel.fields = input.forces && input.forces->haveFields();
+  kernel.goals = input.forces && input.forces->haveHolds();
   kernel.residual = measuresResidual(input, options);
   return makeGpuBackend(made,
                         {options.device, options.opened, kernel, options.usesTuned, options.showProgress});

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -39,7 +40,7 @@ const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
     for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
-                              "body", "camera", "map", "key", "output"})
+                              "body", "camera", "field", "hold", "map", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"material", "file"});
@@ -61,6 +62,8 @@ const std::vector<KnownKey>& knownKeys() {
     keys.push_back({"body.moves", "key"});
     addKeys(keys, "body.moves.key", keyframeFields());
     addKeys(keys, "camera", cameraFields());
+    addKeys(keys, "field", forceFieldFields());
+    addKeys(keys, "hold", holdFields());
     addKeys(keys, "map", mapFields());
     addKeys(keys, "output", outputFields());
     return keys;
@@ -134,6 +137,14 @@ class SceneReader {
     for (const toml::table* table : tablesOf(file, "", "camera")) {
       scene.cameras.emplace_back();
       readCamera(*table, scene, scene.cameras.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "field")) {
+      scene.fields.emplace_back();
+      readForceField(*table, scene, scene.fields.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "hold")) {
+      scene.holds.emplace_back();
+      readHold(*table, scene, scene.holds.back());
     }
     readMaps(file, scene);
     readTimeKeys(file, scene);
@@ -355,12 +366,12 @@ class SceneReader {
         readKeyedValues(*below, name, scene, key);
         continue;
       }
-      const KeyedNumber* number = keyedNumber(name);
+      const auto number = keyedNumber(scene, name);
       if (!number) {
         problems_.add(lineOf(node),
                       fmt::format("found {} in a key; it {}{}", ringlet::quoted(name),
                                   isKnown(name) ? "does not change while hair moves" : "is no key of a scene",
-                                  nearest(name, keyedNames())));
+                                  nearest(name, keyedNames(scene))));
         continue;
       }
       const auto vector = number->isVector ? valueOf<Vec3d>(node, number->allowed, "") : std::nullopt;
@@ -379,9 +390,10 @@ class SceneReader {
   static bool isKnown(const std::string& name) {
     return std::ranges::any_of(knownKeys(), [&](const KnownKey& key) { return key.fullName() == name; });
   }
-  static std::vector<std::string> keyedNames() {
+  static std::vector<std::string> keyedNames(const SceneFile& scene) {
     std::vector<std::string> names;
     for (const KeyedNumber& number : keyedNumbers()) names.push_back(number.key);
+    for (const KeyedNumber& number : actingNumbers(scene)) names.push_back(number.key);
     return names;
   }
 
@@ -546,20 +558,75 @@ class SceneReader {
   void readCamera(const toml::table& table, const SceneFile& scene, SceneCamera& camera) {
     readFields(table, "camera", cameraFields(), camera);
     if (!table.get("name")) missing_.add(lineOf(table), "found a camera without a name; expected one");
-    const toml::node *eye = table.get("eye"), *path = table.get("file"), *joint = table.get("joint");
+    const toml::node *eye = table.get("eye"), *path = table.get("file");
     if (!eye && !path)
       missing_.add(lineOf(table), "found a camera with neither eye nor file; expected one of the two");
     refuseForeign(table, "camera", cameraFields(), path ? "file" : "eye", "a camera with");
     if (camera.eye && *camera.eye == camera.target)
       problems_.addFound(*eye, "camera.eye", "another place than camera.target");
+    checkJoint(table, "camera", scene);
+    refuseTwice(table, "camera", scene.cameras, camera.name);
+  }
+
+  // Names by which keys and options find one of a list.
+  template <class Owner>
+  void refuseTwice(const toml::table& table, const std::string& what, const std::vector<Owner>& all,
+                   const std::string& name) {
+    if (!name.empty() && std::ranges::count(all, name, &Owner::name) > 1)
+      problems_.addFound(*table.get("name"), what + ".name",
+                         fmt::format("a name that no other {} has", what));
+  }
+
+  // Of one that a joint carries.
+  void checkJoint(const toml::table& table, const std::string& what, const SceneFile& scene) {
+    const toml::node *joint = table.get("joint"), *bind = table.get("bind");
     if (joint && scene.motion.file.empty())
-      problems_.add(lineOf(*joint), "found camera.joint, but the head follows no file; expected motion.file");
-    if (joint && table.get("bind"))
-      problems_.add(std::max(lineOf(*joint), lineOf(*table.get("bind"))),
-                    "found camera.joint and camera.bind; expected one of the two");
-    const auto isSame = [&](const SceneCamera& other) { return other.name == camera.name; };
-    if (!camera.name.empty() && std::ranges::count_if(scene.cameras, isSame) > 1)
-      problems_.addFound(*table.get("name"), "camera.name", "a name that no other camera has");
+      problems_.add(lineOf(*joint), fmt::format("found {}.joint, but the head follows no file; expected "
+                                                "motion.file",
+                                                what));
+    if (joint && bind)
+      problems_.add(std::max(lineOf(*joint), lineOf(*bind)),
+                    fmt::format("found {0}.joint and {0}.bind; expected one of the two", what));
+  }
+
+  void readForceField(const toml::table& table, const SceneFile& scene, SceneForceField& field) {
+    readFields(table, "field", forceFieldFields(), field);
+    if (!table.get("kind"))
+      missing_.add(lineOf(table), fmt::format("found a field without a kind; expected kind = one of {}",
+                                              fieldNamed(forceFieldFields(), "kind")->choices));
+    refuseForeign(table, "field", forceFieldFields(), field.kind, "the kind");
+    if (field.kind == "grid" && !table.get("file"))
+      missing_.add(lineOf(table), "found a grid without a file; expected an .npy file");
+    if (const toml::node* axis = table.get("axis"); axis && !(length(field.axis) > 0))
+      problems_.addFound(*axis, "field.axis", "a direction, of any length above 0");
+    checkJoint(table, "field", scene);
+    refuseTwice(table, "field", scene.fields, field.name);
+    checkName(table, "field", field.name);
+  }
+
+  void readHold(const toml::table& table, const SceneFile& scene, SceneHold& hold) {
+    readFields(table, "hold", holdFields(), hold);
+    const toml::node *begin = table.get("begin"), *end = table.get("end"), *start = table.get("start"),
+                     *release = table.get("release");
+    if ((begin || end) && !(hold.begin <= hold.end))
+      problems_.addFound(*(end ? end : begin), end ? "hold.end" : "hold.begin",
+                         "an end that is no nearer to the root than the beginning");
+    if (start && release && !(*hold.start < *hold.release))
+      problems_.addFound(*release, "hold.release", "a time after hold.start");
+    if (const toml::node* strands = table.get("strands"); strands && !hold.strands.empty()) {
+      if (const auto runs = parseStrands(hold.strands, 1); !runs)
+        problems_.add(lineOf(*strands), fmt::format("hold.strands: {}", runs.error().message));
+    }
+    checkJoint(table, "hold", scene);
+    refuseTwice(table, "hold", scene.holds, hold.name);
+    checkName(table, "hold", hold.name);
+  }
+
+  // Keys have it between dots.
+  void checkName(const toml::table& table, const std::string& what, const std::string& name) {
+    const auto isFine = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+    if (!name.empty() && !std::ranges::all_of(name, isFine))
+      problems_.addFound(*table.get("name"), what + ".name", "letters, digits, _ and - only");
   }
 
   const std::string& name_;

@@ -175,6 +175,8 @@ std::vector<SceneKey> sceneKeys() {
                   "What carries it: the head, nothing, or a motion of its own in the world, with the keys of "
                   "[motion], as in { kind = \"spin\" }."});
   addKeys(keys, "camera", cameraFields());
+  addKeys(keys, "field", forceFieldFields());
+  addKeys(keys, "hold", holdFields());
   addKeys(keys, "map", mapFields());
   keys.push_back({"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
                   "Time of a key, each headed by [[key]]: numbers that change while hair moves. 0 is the "
@@ -183,7 +185,9 @@ std::vector<SceneKey> sceneKeys() {
       {"key", "TABLE.KEY", "number or [x, y, z]", "", "", "none", "",
        "What a number of another table is at that time, as air.wind = [1, 0, 0]. Between keys it goes "
        "on a cubic; before its first key and after its last it stays. These change: " +
-           keyedList() + "."});
+           keyedList() +
+           "; and of a field or hold that has a name, field.NAME.strength, position, reach, drag, "
+           "hold.NAME.strength, gather."});
   addKeys(keys, "output", outputFields());
   return keys;
 }
@@ -204,14 +208,18 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   for (const SceneBody& body : scene.bodies) text += bodyText(body, folder);
   for (const SceneCamera& camera : scene.cameras)
     text += headed("[[camera]]", linesOf(cameraFields(), camera, SceneCamera{}, folder));
+  for (const SceneForceField& field : scene.fields)
+    text += headed("[[field]]", linesOf(forceFieldFields(), field, SceneForceField{}, folder));
+  for (const SceneHold& hold : scene.holds)
+    text += headed("[[hold]]", linesOf(holdFields(), hold, SceneHold{}, folder));
   for (const SceneMap& map : scene.maps)
     text += headed("[[map]]", linesOf(mapFields(), map, SceneMap{}, folder));
   for (const SceneTimeKey& key : scene.timeKeys) {
     text += fmt::format("\n[[key]]\ntime = {}  # [s]\n", tomlNumber(key.time));
     for (const SceneKeyedValue& value : key.values)
-      text +=
-          fmt::format("{} = {}\n", value.key,
-                      keyedNumber(value.key)->isVector ? valueText(value.value) : valueText(value.value.x));
+      text += fmt::format(
+          "{} = {}\n", value.key,
+          keyedNumber(scene, value.key)->isVector ? valueText(value.value) : valueText(value.value.x));
   }
   text += headed("[output]", linesOf(outputFields(), scene.output, SceneOutput{}, folder));
   return text;
