@@ -18,8 +18,9 @@ FramePoses posesOfFrame(const RunInput& input, int frame) {
       std::ranges::copy(input.scalp->rootPosesAt(times.back()), std::back_inserter(poses.roots));
   }
   if (input.forces) {
-    poses.forces = input.forces->inFrame(frame / settings.framesPerSecond, times.back(), input.motion,
-                                         settings, input.keys);
+    poses.forces =
+        input.forces->inFrame(frame / settings.framesPerSecond, (frame + 1) / settings.framesPerSecond,
+                              input.motion, settings, input.keys);
   }
   poses.bodies = bodyPosesOf(input.bodies, poses.heads, times);
   return poses;

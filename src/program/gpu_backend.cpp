@@ -29,7 +29,7 @@ class GpuBackend : public Backend {
   Status waitFrame() override { return simulation_.waitFrame(); }
   Status change(const Settings& settings, const Material& material) override {
     if (Status set = simulation_.setSettings(settings); !set) return set;
-    return simulation_.material() == material ? Status{} : simulation_.setMaterial(material);
+    return simulation_.setMaterial(material);
   }
   Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) override {
     return simulation_.setFields(fields, from);

@@ -209,17 +209,16 @@ GoalPose SceneForces::goalsAt(double seconds, const HeadPose& head, const GoalSe
   return pose;
 }
 
-FrameForces SceneForces::inFrame(double begin, double end, const Motion& head, const Settings& settings,
+FrameForces SceneForces::inFrame(const Moment& begin, const Moment& end, const GoalSettings& goal,
                                  const SceneKeys* keys) const {
   FrameForces forces;
-  const HeadPose from = head.poseAt(begin), to = head.poseAt(end);
-  forces.fieldsFrom = fieldsAt(begin, from, keys);
-  forces.fields = fieldsAt(end, to, keys);
+  forces.fieldsFrom = fieldsAt(begin.seconds, begin.head, keys);
+  forces.fields = fieldsAt(end.seconds, end.head, keys);
   if (!haveHolds()) return forces;
-  const GoalSettings goal = keys ? keys->goalAt(end) : settings.goal;
-  forces.goals = goalsAt(end, to, goal, keys);
-  forces.placesFrom = goalsAt(begin, from, goal, keys).places;
-  forces.goalDamping = goal.damping;
+  const GoalSettings now = keys ? keys->goalAt(end.seconds) : goal;
+  forces.goals = goalsAt(end.seconds, end.head, now, keys);
+  forces.placesFrom = goalsAt(begin.seconds, begin.head, now, keys).places;
+  forces.goalDamping = now.damping;
   return forces;
 }
 

@@ -59,9 +59,18 @@ class SceneForces {
   /// Those of holds, and of [goal]: where several hold a particle, as all of them together.
   GoalPose goalsAt(double seconds, const HeadPose& head, const GoalSettings& goal,
                    const SceneKeys* keys) const;
-  /// In a frame of a motion between two times [s]. `settings`: those without keys.
-  FrameForces inFrame(double begin, double end, const Motion& head, const Settings& settings,
+  struct Moment {
+    double seconds;
+    HeadPose head;
+  };
+  /// Between two. `goal`: [goal] without keys.
+  FrameForces inFrame(const Moment& begin, const Moment& end, const GoalSettings& goal,
                       const SceneKeys* keys) const;
+  /// In a frame of a motion between two times [s].
+  FrameForces inFrame(double begin, double end, const Motion& head, const Settings& settings,
+                      const SceneKeys* keys) const {
+    return inFrame({begin, head.poseAt(begin)}, {end, head.poseAt(end)}, settings.goal, keys);
+  }
 
  private:
   // Where something is carried from its own frame.
