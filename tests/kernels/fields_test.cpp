@@ -123,6 +123,23 @@ TEST_F(Fields, AreReplacedWhileHairMoves) {
   }
 }
 
+// As many as before, but a grid is another one.
+TEST_F(Fields, TakeOtherGrids) {
+  const Hair hair = hairs()[0];
+  ForceField field = sampleFields({}, 0).back();
+  ForceField other = field;
+  VelocityGrid turned = *field.grid;
+  std::ranges::reverse(turned.velocities);
+  other.grid = std::make_shared<const VelocityGrid>(turned);
+  Simulation changed = simulationOf(device(), hair, true), built = simulationOf(device(), hair, true);
+  ASSERT_TRUE(changed.setFields(std::span(&field, 1)));
+  for (Simulation* each : {&changed, &built}) {
+    ASSERT_TRUE(each->setFields(std::span(&other, 1)));
+    ASSERT_TRUE(each->stepFrame(headAt(1)));
+  }
+  EXPECT_TRUE(built.state()->positions == changed.state()->positions);
+}
+
 // Hair that sleeps wakes for a field that comes.
 TEST_F(Fields, WakeHair) {
   Hair hair = hairs()[0];

@@ -159,7 +159,7 @@ TEST(SceneForces, HoldsBeginAndLetGo) {
 // What the world or a joint holds begins where it is at 0 s, and goes where that goes.
 TEST(SceneForces, HoldsAreCarried) {
   const auto folder = test::scratchFolder("scene_forces_holds");
-  test::writeBvhOf(test::kJointAxes[2], folder / "walk.bvh");
+  test::writeBvhOf(test::kJointAxes[0], folder / "walk.bvh");
   const std::string motion = "[motion]\nfile = \"walk.bvh\"\nunit = 0.01\n";
   const double t = 6 / 24.0;
   for (const char* by : {"bind = \"world\"", "joint = \"Hips\"", "bind = \"head\""}) {
