@@ -66,6 +66,15 @@ TEST_F(SceneForcesProgram, EveryKindAgreesWithTheReference) {
   }
 }
 
+// Step by step a front goes on within a frame.
+TEST_F(SceneForcesProgram, FieldsMoveWithinFrames) {
+  const std::string scene =
+      "[[field]]\nkind = \"blast\"\nstrength = 3000\nstart = 0.9\nspeed = 4\nthickness = 0.05\n";
+  const json frames = run(scene), steps = run(scene, {"--measure-contacts"});
+  EXPECT_GT(std::abs(droopOf(frames)), 5);
+  EXPECT_NEAR(droopOf(frames), droopOf(steps), 0.001 * std::abs(droopOf(frames)));
+}
+
 TEST_F(SceneForcesProgram, HeldHairIsLetGo) {
   const std::string falls = "[[field]]\nkind = \"uniform\"\nstrength = -30\n";
   const std::string hold = "[[hold]]\nbegin = 0\nend = 1\nstrength = 1000\n";
