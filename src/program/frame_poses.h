@@ -47,6 +47,7 @@ struct FramePoses {
 };
 
 /// Frame 0 is the first that is written. Times are exact quotients, so they do not drift.
-FramePoses posesOfFrame(const RunInput& input, int frame);
+/// Errors: an animation of the scene that cannot be read.
+Result<FramePoses> posesOfFrame(const RunInput& input, int frame);
 
 }  // namespace ringlet::program

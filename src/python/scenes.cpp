@@ -103,8 +103,8 @@ void takeNumbers(const LoadedScene& scene, HairObject& hair, int frame) {
 void takeForces(const LoadedScene& scene, HairObject& hair, int frame) {
   const FrameForces forces = withoutGil([&] {
     const double framesPerSecond = scene.settings.framesPerSecond;
-    return scene.forces.inFrame(frame / framesPerSecond, (frame + 1) / framesPerSecond, scene.motion,
-                                scene.settings, scene.keys ? &*scene.keys : nullptr);
+    return valueOf(scene.forces.inFrame(frame / framesPerSecond, (frame + 1) / framesPerSecond, scene.motion,
+                                        scene.settings, scene.keys ? &*scene.keys : nullptr));
   });
   hair.ask([&](Simulation& simulation) { demand(forces.set(simulation)); });
 }
@@ -119,7 +119,7 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
       buildAsset(std::move(device), self.groom, MaterialObject{scene.material, {}}, scene.settings,
                  {.hasBodies = !scene.bodies.empty(),
                   .movesRoots = scene.scalp.has_value(),
-                  .hasGoals = scene.forces.haveHolds(),
+                  .hasGoals = scene.forces.haveGoals(),
                   .hasFields = scene.forces.haveFields(),
                   .heads = 1,
                   .kernel = kernel});

@@ -100,10 +100,11 @@ Status Session::submitFrame() {
   const HeadPose headNow = standing_.head;
   for (LiveHair& hair : hairs_) {
     const Poses poses = posesOfNext(hair.numbers().settings);
-    const FrameForces forces =
+    const auto forces =
         scene_->forces.inFrame({seconds_, headNow}, {seconds_ + frameSeconds, poses.heads.back()},
                                hair.numbers().settings.goal, nullptr);
-    if (Status set = forces.set(hair.simulation()); !set) return set;
+    if (!forces) return forces.error();
+    if (Status set = forces->set(hair.simulation()); !set) return set;
     if (Status submitted = hair.simulation().submitFrame(poses.heads, poses.bodies, poses.roots); !submitted)
       return submitted;
     if (&hair != &hairs_.front()) continue;

@@ -89,5 +89,23 @@ TEST_F(SceneForcesProgram, HeldHairIsLetGo) {
   EXPECT_NEAR(droopOf(device), droopOf(watched), 0.05);
 }
 
+// An animation as goal: what hair did in another run it does again under other forces, however many steps.
+TEST_F(SceneForcesProgram, AnAnimationIsFollowed) {
+  const std::string motion = "[motion]\nkind = \"walk\"\n";
+  std::ofstream(folder_ / "first.toml") << "[groom]\nfile = \"head.obj\"\n[simulation]\nframes = 24\n"
+                                        << motion;
+  ASSERT_EQ(runProgram(folder_, {"simulate", "first.toml", "-o", "first", "--cache", "float32"}).exitCode, 0);
+  for (const char* file : {"first/hair.rgc", "first/hair.usda"}) {
+    const std::string scene = "steps_per_frame = 16\n" + motion + "[goal]\nstrength = 1e6\nfile = \"" + file +
+                              "\"\n[[field]]\nkind = \"uniform\"\nstrength = 20\naxis = [1, 0, 0]\n";
+    const json device = run(scene);
+    const auto compared = runProgram(folder_, {"measure", "head.obj", "first", "--json"});
+    const double first = json::parse(compared.out, nullptr, false)["droop_mm"];
+    EXPECT_NEAR(droopOf(device), first, 0.05) << file;
+    EXPECT_GT(std::abs(droopOf(device) - droopOf(run(motion + "[goal]\nstrength = 1e6\n"))), 0.05);
+    EXPECT_NEAR(droopOf(device), droopOf(run(scene, {"--backend", "reference"})), 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace ringlet::test

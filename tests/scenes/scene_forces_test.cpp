@@ -31,8 +31,10 @@ std::vector<ForceField> fieldsOf(const LoadedScene& scene, double seconds) {
   return scene.forces.fieldsAt(seconds, scene.motion.poseAt(seconds), scene.keys ? &*scene.keys : nullptr);
 }
 GoalPose goalsOf(const LoadedScene& scene, double seconds) {
-  return scene.forces.goalsAt(seconds, scene.motion.poseAt(seconds), scene.settings.goal,
-                              scene.keys ? &*scene.keys : nullptr);
+  auto goals = scene.forces.goalsAt(seconds, scene.motion.poseAt(seconds), scene.settings.goal,
+                                    scene.keys ? &*scene.keys : nullptr);
+  EXPECT_TRUE(goals) << goals.error().message;
+  return std::move(*goals);
 }
 std::string errorOf(const std::string& text) {
   const auto scene = parseScene(kGroom + text, "scene.toml");
@@ -200,7 +202,7 @@ TEST(SceneForces, FramesComeInParts) {
       "[1, 0, 0]\n"
       "[[hold]]\nbind = \"world\"\n[[key]]\ntime = 0\nfield.1.strength = 0\n[[key]]\ntime = "
       "1\nfield.1.strength = 8\n");
-  const FrameForces whole = scene.forces.inFrame(0.25, 0.75, scene.motion, scene.settings, &*scene.keys);
+  const FrameForces whole = *scene.forces.inFrame(0.25, 0.75, scene.motion, scene.settings, &*scene.keys);
   const FrameForces first = whole.part(0, 0.5), second = whole.part(0.5, 1);
   const auto areNear = [](const ForceField& a, const ForceField& b) {
     return apart(a.place.position, b.place.position) + apart(worldAxis(a), worldAxis(b)) < 1e-12 &&
@@ -244,7 +246,7 @@ TEST(SceneForces, MistakesAreNamed) {
        "the hold tie: no particle stands between 0.3 and 0.4 of its strand's length"},
       {"[[field]]\nname = \"smoke\"\nkind = \"grid\"\nfile = \"none.npy\"", "the field smoke: "},
       {"[simulation]\nintegrator = \"paper\"\n[[field]]\nkind = \"drag\"",
-       "fields and holds need the integrator jacobi"},
+       "fields, holds and goals of a file need the integrator jacobi"},
   };
   for (const auto& c : kCases) {
     const std::string error = errorOf(c.text);

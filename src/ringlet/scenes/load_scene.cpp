@@ -294,9 +294,9 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   auto forces = SceneForces::load(scene, loaded.groom, loaded.motion, loaded.warnings);
   if (!forces) return forces.error();
   loaded.forces = std::move(*forces);
-  if ((loaded.forces.haveFields() || loaded.forces.haveHolds()) &&
+  if ((loaded.forces.haveFields() || loaded.forces.haveGoals()) &&
       loaded.settings.integrator != Integrator::jacobi)
-    return Error{"fields and holds need the integrator jacobi; this run has another"};
+    return Error{"fields, holds and goals of a file need the integrator jacobi; this run has another"};
   if (!scene.simulation.stepsPerFrame) {
     const auto steps = stepsOf(loaded);
     if (!steps) return steps.error();

@@ -56,6 +56,7 @@ const std::vector<KnownKey>& knownKeys() {
     addKeys(keys, "contacts", contactFields());
     addKeys(keys, "air", airFields());
     addKeys(keys, "goal", goalFields());
+    keys.push_back({"goal", "file"});
     addKeys(keys, "body", bodyFields());
     keys.push_back({"body", "moves"});
     addKeys(keys, "body.moves", motionFields());
@@ -129,6 +130,11 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "goal")) {
       scene.goal.on = true;
       readFields(*table, "goal", goalFields(), scene.goal);
+      if (const toml::node* path = table->get("file")) {
+        const auto file = valueOf<std::filesystem::path>(*path, {}, "");
+        if (!file) problems_.addFound(*path, "goal.file", "a path");
+        scene.goalFile = file.value_or(std::filesystem::path{});
+      }
     }
     for (const toml::table* table : tablesOf(file, "", "body")) {
       scene.bodies.emplace_back();

@@ -244,6 +244,7 @@ struct SceneFile {
   ContactSettings contacts;
   AirSettings air;
   GoalSettings goal;
+  std::filesystem::path goalFile;  // an animation or a groom in place of the groom itself; none: empty
   std::vector<SceneBody> bodies;
   std::vector<SceneCamera> cameras;
   std::vector<SceneForceField> fields;

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/output/animation_reader.h"
 #include "ringlet/rest/goal.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_maps.h"
@@ -162,8 +163,33 @@ Result<SceneForces> SceneForces::load(const SceneFile& scene, const Groom& groom
       return Error{fmt::format("the hold {}: {}", nameInKeys(scene.holds[i].name, i), hold.error().message)};
     self.holds_.push_back(std::move(*hold));
   }
-  if (!self.holds_.empty()) self.groom_ = goalOf(groom);
+  if (Status loaded = self.loadGoal(scene, groom); !loaded)
+    return Error{fmt::format("the goal: {}", loaded.error().message)};
   return self;
+}
+
+Status SceneForces::loadGoal(const SceneFile& scene, const Groom& groom) {
+  hasGoalFile_ = !scene.goalFile.empty();
+  if (haveGoals()) groom_ = goalOf(groom);
+  if (!hasGoalFile_) return {};
+  if (holdsAnimation(scene.goalFile)) {
+    auto animation = GoalAnimation::open(scene.goalFile, groom, scene.groom.up == "Z");
+    if (!animation) return animation.error();
+    animation_ = std::move(*animation);
+    return {};
+  }
+  SceneGroom placed = scene.groom;
+  placed.generate.clear();
+  placed.file = scene.goalFile;
+  auto pose = loadGroom(placed);
+  if (!pose) return pose.error();
+  if (pose->groom.firstPoint != groom.firstPoint)
+    return Error{
+        fmt::format("{} has other strands than the groom; expected the same ones, particle for "
+                    "particle",
+                    scene.goalFile.string())};
+  groom_.places = goalOf(pose->groom).places;
+  return {};
 }
 
 std::vector<ForceField> SceneForces::fieldsAt(double seconds, const HeadPose& head,
@@ -182,11 +208,16 @@ std::vector<ForceField> SceneForces::fieldsAt(double seconds, const HeadPose& he
   return fields;
 }
 
-GoalPose SceneForces::goalsAt(double seconds, const HeadPose& head, const GoalSettings& goal,
-                              const SceneKeys* keys) const {
+Result<GoalPose> SceneForces::goalsAt(double seconds, const HeadPose& head, const GoalSettings& goal,
+                                      const SceneKeys* keys) const {
   const std::vector<SceneHold> stated = keys ? keys->holdsAt(seconds) : scene_.holds;
   GoalPose pose{groom_.places, std::vector<float>(groom_.places.size(), 0)};
   if (goal.on) pose.strengths = strengthsOf(groom_, goal);
+  if (animation_) {
+    auto places = animation_->placesAt(seconds, head);
+    if (!places) return places.error();
+    pose.places = std::move(*places);
+  }
   const Quatd back = head.rotation.conjugate();
   for (std::size_t h = 0; h < holds_.size(); ++h) {
     const Hold& hold = holds_[h];
@@ -209,15 +240,18 @@ GoalPose SceneForces::goalsAt(double seconds, const HeadPose& head, const GoalSe
   return pose;
 }
 
-FrameForces SceneForces::inFrame(const Moment& begin, const Moment& end, const GoalSettings& goal,
-                                 const SceneKeys* keys) const {
+Result<FrameForces> SceneForces::inFrame(const Moment& begin, const Moment& end, const GoalSettings& goal,
+                                         const SceneKeys* keys) const {
   FrameForces forces;
   forces.fieldsFrom = fieldsAt(begin.seconds, begin.head, keys);
   forces.fields = fieldsAt(end.seconds, end.head, keys);
-  if (!haveHolds()) return forces;
+  if (!haveGoals()) return forces;
   const GoalSettings now = keys ? keys->goalAt(end.seconds) : goal;
-  forces.goals = goalsAt(end.seconds, end.head, now, keys);
-  forces.placesFrom = goalsAt(begin.seconds, begin.head, now, keys).places;
+  auto from = goalsAt(begin.seconds, begin.head, now, keys), to = goalsAt(end.seconds, end.head, now, keys);
+  if (!from) return from.error();
+  if (!to) return to.error();
+  forces.placesFrom = std::move(from->places);
+  forces.goals = std::move(*to);
   forces.goalDamping = now.damping;
   return forces;
 }

@@ -2,6 +2,7 @@
 // [[hold]] of a scene file.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "ringlet/rest/goal.h"
 #include "ringlet/scene/force_field.h"
 #include "ringlet/scene/motion.h"
+#include "ringlet/scenes/goal_animation.h"
 #include "ringlet/scenes/scene_file.h"
 #include "ringlet/scenes/scene_keys.h"
 
@@ -52,23 +54,25 @@ class SceneForces {
                                   std::vector<std::string>& warnings);
 
   bool haveFields() const { return !fields_.empty(); }
-  bool haveHolds() const { return !holds_.empty(); }
+  /// Whether goals are other than the groom itself all the time.
+  bool haveGoals() const { return !holds_.empty() || hasGoalFile_; }
 
   /// In the world, with the head at `head`. `keys`: of the same scene, or none.
   std::vector<ForceField> fieldsAt(double seconds, const HeadPose& head, const SceneKeys* keys) const;
-  /// Those of holds, and of [goal]: where several hold a particle, as all of them together.
-  GoalPose goalsAt(double seconds, const HeadPose& head, const GoalSettings& goal,
-                   const SceneKeys* keys) const;
+  /// Those of holds, and of [goal]: where several hold a particle, as all of them together. Errors: an
+  /// animation that cannot be read.
+  Result<GoalPose> goalsAt(double seconds, const HeadPose& head, const GoalSettings& goal,
+                           const SceneKeys* keys) const;
   struct Moment {
     double seconds;
     HeadPose head;
   };
-  /// Between two. `goal`: [goal] without keys.
-  FrameForces inFrame(const Moment& begin, const Moment& end, const GoalSettings& goal,
-                      const SceneKeys* keys) const;
+  /// Between two. `goal`: [goal] without keys. Errors: those of goalsAt.
+  Result<FrameForces> inFrame(const Moment& begin, const Moment& end, const GoalSettings& goal,
+                              const SceneKeys* keys) const;
   /// In a frame of a motion between two times [s].
-  FrameForces inFrame(double begin, double end, const Motion& head, const Settings& settings,
-                      const SceneKeys* keys) const {
+  Result<FrameForces> inFrame(double begin, double end, const Motion& head, const Settings& settings,
+                              const SceneKeys* keys) const {
     return inFrame({begin, head.poseAt(begin)}, {end, head.poseAt(end)}, settings.goal, keys);
   }
 
@@ -102,7 +106,11 @@ class SceneForces {
   SceneFile scene_;  // its fields and holds
   std::vector<Field> fields_;
   std::vector<Hold> holds_;
-  GroomGoal groom_;  // with holds
+  Status loadGoal(const SceneFile& scene, const Groom& groom);
+
+  GroomGoal groom_;  // with goals; of a goal's pose in its place
+  bool hasGoalFile_ = false;
+  std::shared_ptr<GoalAnimation> animation_;  // that moves it
 };
 
 }  // namespace ringlet

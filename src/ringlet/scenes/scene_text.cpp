@@ -40,6 +40,12 @@ std::string valueText(const std::optional<T>& value) {
   return value ? valueText(*value) : "";
 }
 
+std::string pathText(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const auto relative = path.lexically_relative(folder);
+  const bool isBelow = !relative.empty() && *relative.begin() != "..";
+  return valueText(isBelow ? relative : path);
+}
+
 // A default for a person: 0.01 rather than 0.01.0, Y rather than "Y".
 std::string shown(const auto& value) {
   std::string text = valueText(value);
@@ -73,9 +79,7 @@ std::string linesOf(std::span<const SceneField<Owner>> fields, const Owner& owne
           if constexpr (std::is_same_v<Value, std::filesystem::path>) {
             const std::filesystem::path& path = owner.*member;
             if (path.empty()) return {};
-            const auto relative = path.lexically_relative(folder);
-            const bool isBelow = !relative.empty() && *relative.begin() != "..";
-            return {valueText(isBelow ? relative : path), ""};
+            return {pathText(path, folder), ""};
           } else if constexpr (std::is_same_v<Value, std::string>) {
             return {(owner.*member).empty() ? "" : valueText(owner.*member), valueText(standard.*member)};
           } else {
@@ -170,6 +174,11 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "contacts", contactFields());
   addKeys(keys, "air", airFields());
   addKeys(keys, "goal", goalFields());
+  keys.push_back(
+      {"goal", "file", "path", "", "", "none: the groom itself", "",
+       "What hair is pulled to: an animation that Ringlet wrote (.usda, .usdc, .rgc), whose points are "
+       "in the world, or a groom in another pose, placed as the groom is. Its strands are the "
+       "groom's."});
   addKeys(keys, "body", bodyFields());
   keys.push_back({"body", "moves", "head, still or a table", "", "", "head", "",
                   "What carries it: the head, nothing, or a motion of its own in the world, with the keys of "
@@ -205,6 +214,7 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   text += switchedText("[contacts]", contactFields(), scene.contacts);
   text += switchedText("[air]", airFields(), scene.air);
   text += switchedText("[goal]", goalFields(), scene.goal);
+  if (!scene.goalFile.empty()) text += fmt::format("file = {}\n", pathText(scene.goalFile, folder));
   for (const SceneBody& body : scene.bodies) text += bodyText(body, folder);
   for (const SceneCamera& camera : scene.cameras)
     text += headed("[[camera]]", linesOf(cameraFields(), camera, SceneCamera{}, folder));
