@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, GoalAnimations, testing::ValuesIn([] {
                              if (format.isRead) read.push_back(format.extension);
                            return read;
                          }()),
-                         [](const auto& info) { return std::string(info.param + 1); });
+                         [](const auto& of) { return std::string(of.param + 1); });
 
 // [goal] file of a scene: a groom is placed as the scene's own.
 TEST(GoalFiles, AreAnimationsOrPoses) {

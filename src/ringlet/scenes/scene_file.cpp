@@ -131,9 +131,9 @@ class SceneReader {
       scene.goal.on = true;
       readFields(*table, "goal", goalFields(), scene.goal);
       if (const toml::node* path = table->get("file")) {
-        const auto file = valueOf<std::filesystem::path>(*path, {}, "");
-        if (!file) problems_.addFound(*path, "goal.file", "a path");
-        scene.goalFile = file.value_or(std::filesystem::path{});
+        const auto pose = valueOf<std::filesystem::path>(*path, {}, "");
+        if (!pose) problems_.addFound(*path, "goal.file", "a path");
+        scene.goalFile = pose.value_or(std::filesystem::path{});
       }
     }
     for (const toml::table* table : tablesOf(file, "", "body")) {

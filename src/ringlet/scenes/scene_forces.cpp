@@ -10,6 +10,7 @@
 #include "ringlet/base/assert.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/rest/goal.h"
+#include "ringlet/scenes/goal_animation.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_maps.h"
 #include "ringlet/scenes/scene_parts.h"

@@ -13,11 +13,12 @@
 #include "ringlet/rest/goal.h"
 #include "ringlet/scene/force_field.h"
 #include "ringlet/scene/motion.h"
-#include "ringlet/scenes/goal_animation.h"
 #include "ringlet/scenes/scene_file.h"
 #include "ringlet/scenes/scene_keys.h"
 
 namespace ringlet {
+
+class GoalAnimation;
 
 /// Goals of all particles at a time, as Simulation::setGoals takes them.
 struct GoalPose {
