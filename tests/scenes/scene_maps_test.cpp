@@ -115,8 +115,8 @@ TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
     const char *text, *message;
   } kCases[] = {
       {"[[map]]\nstrands = \"0\"",
-       "line 5: found a map with neither of number and preset; expected one of the two"},
-      {"[[map]]\nnumber = \"bend_stiffness\"", "line 5: found a map with neither of file and strands"},
+       "line 5: found a map with none of number, preset; expected one of them"},
+      {"[[map]]\nnumber = \"bend_stiffness\"", "line 5: found a map with none of file, strands, primvar, texture"},
       {"[[map]]\nnumber = \"bend_stiffnes\"\nstrands = \"0\"", "did you mean bend_stiffness?"},
       {"[[map]]\nnumber = \"gravity_factor\"\nstrands = \"0\"",
        "line 6: found the text 'gravity_factor' for map.number"},

@@ -40,7 +40,7 @@ const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
     for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
-                              "body", "camera", "field", "hold", "map", "key", "output"})
+                              "body", "camera", "field", "hold", "group", "map", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"material", "file"});
@@ -65,6 +65,7 @@ const std::vector<KnownKey>& knownKeys() {
     addKeys(keys, "camera", cameraFields());
     addKeys(keys, "field", forceFieldFields());
     addKeys(keys, "hold", holdFields());
+    addKeys(keys, "group", groupFields());
     addKeys(keys, "map", mapFields());
     addKeys(keys, "output", outputFields());
     return keys;
@@ -143,6 +144,10 @@ class SceneReader {
     for (const toml::table* table : tablesOf(file, "", "camera")) {
       scene.cameras.emplace_back();
       readCamera(*table, scene, scene.cameras.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "group")) {
+      scene.groups.emplace_back();
+      readGroup(*table, scene, scene.groups.back());
     }
     for (const toml::table* table : tablesOf(file, "", "field")) {
       scene.fields.emplace_back();
@@ -291,38 +296,60 @@ class SceneReader {
     }
   }
 
+  void readGroup(const toml::table& table, const SceneFile& scene, SceneGroup& group) {
+    readFields(table, "group", groupFields(), group);
+    for (const char* key : {"name", "strands"})
+      if (!table.get(key))
+        missing_.add(lineOf(table), fmt::format("found a group without {}; expected name and strands", key));
+    refuseTwice(table, "group", scene.groups, group.name);
+    checkName(table, "group", group.name);
+    const toml::node* name = table.get("name");
+    if (name && !group.name.empty() && !std::isalpha(static_cast<unsigned char>(group.name.front())))
+      problems_.addFound(*name, "group.name", "a name that begins with a letter");
+    const std::span<const SceneGroup> before(scene.groups.data(), scene.groups.size() - 1);
+    if (const toml::node* strands = table.get("strands"); strands && !group.strands.empty()) {
+      if (const auto runs = parseStrands(group.strands, 1, before); !runs)
+        problems_.add(lineOf(*strands), fmt::format("group.strands: {}", runs.error().message));
+    }
+  }
+
   void readMaps(const toml::table& file, SceneFile& scene) {
     for (const toml::table* table : tablesOf(file, "", "map")) {
       SceneMap map;
       readFields(*table, "map", mapFields(), map);
-      const toml::node *number = table->get("number"), *preset = table->get("preset"),
-                       *path = table->get("file"), *strands = table->get("strands"),
-                       *factor = table->get("factor");
-      const auto expectOne = [&](const toml::node* a, const toml::node* b, const char* names) {
-        if (!a && !b)
+      const toml::node *number = table->get("number"), *preset = table->get("preset");
+      const auto expectOne = [&](std::initializer_list<const char*> names) {
+        std::vector<const toml::node*> found;
+        for (const char* name : names)
+          if (const toml::node* node = table->get(name)) found.push_back(node);
+        if (found.size() == 1) return found.front();
+        const std::string list = fmt::format("{}", fmt::join(names, ", "));
+        if (found.empty())
           missing_.add(lineOf(*table),
-                       fmt::format("found a map with neither of {}; expected one of the two", names));
-        if (a && b)
-          problems_.add(std::max(lineOf(*a), lineOf(*b)),
-                        fmt::format("found a map with both of {}; expected one of the two", names));
+                       fmt::format("found a map with none of {}; expected one of them", list));
+        else
+          problems_.add(lineOf(**std::ranges::max_element(found, {}, [](auto* n) { return lineOf(*n); })),
+                        fmt::format("found a map with {} of {}; expected one of them", found.size(), list));
+        return static_cast<const toml::node*>(nullptr);
       };
-      expectOne(number, preset, "number and preset");
-      expectOne(path, strands, "file and strands");
-      if (preset && path)
-        problems_.add(lineOf(*path), "found map.file with a preset; only a number has factors");
-      if (factor && (preset || path))
-        problems_.add(lineOf(*factor),
-                      "found map.factor with a preset or a file; only a number of strands has it");
+      expectOne({"number", "preset"});
+      const toml::node* source = expectOne({"file", "strands", "primvar", "texture"});
+      if (preset && !number && source && source != table->get("strands"))
+        problems_.add(lineOf(*source), "found a preset for other than strands; only a number has factors");
+      if (const toml::node* factor = table->get("factor"); factor && preset)
+        problems_.add(lineOf(*factor), "found map.factor with a preset; only a number has it");
+      for (const char* key : {"file", "strands", "primvar", "texture"})
+        if (source && source == table->get(key)) refuseForeign(*table, "map", mapFields(), key, "a map of");
       if (!problems_.empty() || !missing_.empty()) continue;
       // By itself first, so that a mistake has its line.
       Material alone = scene.material.material;
-      if (Status added = applyMaps(std::span(&map, 1), alone); !added)
-        problems_.add(lineOf(path ? *path : *strands), added.error().message);
+      if (Status added = applyMaps(std::span(&map, 1), scene, alone); !added)
+        problems_.add(lineOf(*source), added.error().message);
       scene.maps.push_back(std::move(map));
     }
     if (scene.maps.empty() || !problems_.empty() || !missing_.empty()) return;
     scene.hasMaterial = true;
-    Status whole = applyMaps(scene.maps, scene.material.material);
+    Status whole = applyMaps(scene.maps, scene, scene.material.material);
     if (whole) whole = checkMaterial(scene.material.material);
     if (!whole) problems_.add(lineOf(*file.get("map")), whole.error().message);
   }
@@ -620,7 +647,7 @@ class SceneReader {
     if (start && release && !(*hold.start < *hold.release))
       problems_.addFound(*release, "hold.release", "a time after hold.start");
     if (const toml::node* strands = table.get("strands"); strands && !hold.strands.empty()) {
-      if (const auto runs = parseStrands(hold.strands, 1); !runs)
+      if (const auto runs = parseStrands(hold.strands, 1, scene.groups); !runs)
         problems_.add(lineOf(*strands), fmt::format("hold.strands: {}", runs.error().message));
     }
     checkJoint(table, "hold", scene);

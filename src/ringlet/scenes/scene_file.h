@@ -212,12 +212,24 @@ struct SceneOutput {
 /// A factor on a number of the material for some strands, or from a file for each; or another preset for
 /// some.
 struct SceneMap {
-  std::string number;          // one of mappedParameters()
-  std::string preset;          // in its place: all these numbers are as the preset has them
-  std::filesystem::path file;  // of factors by strand; or
-  std::string strands;         // "0:99, 120"
-  double factor = 1;           // of these
+  std::string number;  // one of mappedParameters()
+  std::string preset;  // in its place: all these numbers are as the preset has them
+  // One of four:
+  std::filesystem::path file;     // of factors by strand
+  std::string strands;            // "0:99, fringe"
+  std::string primvar;            // of a USD groom
+  std::filesystem::path texture;  // at the UVs of a USD groom
+  double factor = 1;              // of `strands`
+  std::string uv = "st";          // primvar that has them
+  double low = 0, high = 1;       // factors where primvar or texture are 0 and 1
   bool operator==(const SceneMap&) const = default;
+};
+
+/// [[group]]: strands with a name.
+struct SceneGroup {
+  std::string name;
+  std::string strands;  // "0:99, 120"
+  bool operator==(const SceneGroup&) const = default;
 };
 
 /// A number, or three, that the scene has at a time (scene_keys.h says which may be).
@@ -249,6 +261,7 @@ struct SceneFile {
   std::vector<SceneCamera> cameras;
   std::vector<SceneForceField> fields;
   std::vector<SceneHold> holds;
+  std::vector<SceneGroup> groups;
   std::vector<SceneMap> maps;          // worked into the material
   std::vector<SceneTimeKey> timeKeys;  // by rising time
   SceneOutput output;

@@ -106,7 +106,7 @@ Result<SceneForces::Hold> SceneForces::holdOf(const SceneFile& scene, const Scen
   hold.carrier = std::move(*carrier);
   const auto last = static_cast<std::uint32_t>(groom.strandCount() - 1);
   auto runs = stated.strands.empty() ? Result<std::vector<StrandRun>>(std::vector<StrandRun>{{0, last, 1.f}})
-                                     : parseStrands(stated.strands, 1);
+                                     : parseStrands(stated.strands, 1, scene.groups);
   if (!runs) return runs.error();
   if (runs->back().last > last)
     return Error{fmt::format("it names strand {}; the groom has {}, numbered from 0", runs->back().last,

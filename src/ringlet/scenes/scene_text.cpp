@@ -186,6 +186,7 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "camera", cameraFields());
   addKeys(keys, "field", forceFieldFields());
   addKeys(keys, "hold", holdFields());
+  addKeys(keys, "group", groupFields());
   addKeys(keys, "map", mapFields());
   keys.push_back({"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
                   "Time of a key, each headed by [[key]]: numbers that change while hair moves. 0 is the "
@@ -218,6 +219,8 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   for (const SceneBody& body : scene.bodies) text += bodyText(body, folder);
   for (const SceneCamera& camera : scene.cameras)
     text += headed("[[camera]]", linesOf(cameraFields(), camera, SceneCamera{}, folder));
+  for (const SceneGroup& group : scene.groups)
+    text += headed("[[group]]", linesOf(groupFields(), group, SceneGroup{}, folder));
   for (const SceneForceField& field : scene.fields)
     text += headed("[[field]]", linesOf(forceFieldFields(), field, SceneForceField{}, folder));
   for (const SceneHold& hold : scene.holds)
