@@ -246,6 +246,14 @@ RestContacts makeRestContacts(const std::vector<RestStrand<Real>>& strands, cons
     rest.volumeGroups.assign(strands.size(), 0);
   else if (settings.mayBeVolume())
     rest.volumeGroups = dense;
+  if (settings.bundles) {
+    rest.bundles.assign(strands.size(), RestContacts::kNoGroup);
+    for (std::size_t b = 0; b < settings.bundles->size(); ++b)
+      for (const std::uint32_t s : (*settings.bundles)[b]) {
+        rest.bundles[s] = static_cast<std::uint32_t>(b);
+        if (!rest.volumeGroups.empty()) rest.volumeGroups[s] = RestContacts::kNoGroup;
+      }
+  }
   rest.prunesPairs = settings.prunePairs;
   if (rest.prunesPairs) {
     rest.neighbours = prunedNeighbours(overlapCounts(points, rest, settings.enlargement), settings);

@@ -27,9 +27,12 @@ struct RestContacts {
   static constexpr std::uint32_t kNoGroup = 0xffffffffu;
   std::vector<std::uint32_t> volumeGroups{};
 
+  std::vector<std::uint32_t> bundles{};  // of each strand, or kNoGroup; none of these is in the volume
+
   bool isInVolume(std::size_t s) const { return !volumeGroups.empty() && volumeGroups[s] != kNoGroup; }
   bool mayTouch(std::uint32_t s, std::uint32_t t) const {
     if (isInVolume(s) && isInVolume(t) && volumeGroups[s] == volumeGroups[t]) return false;
+    if (!bundles.empty() && bundles[s] != kNoGroup && bundles[s] == bundles[t]) return false;
     if (!prunesPairs) return s != t;
     return std::binary_search(neighbours[s].begin(), neighbours[s].end(), t);
   }

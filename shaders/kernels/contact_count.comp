@@ -21,7 +21,7 @@ void main() {
   ContactRest rest = contactOf(c);
   vec3 x = positionOf(rest.particle);
   ivec3 cell = cellOf(x);
-  if (kBesideVolume && !hasOthersNear(cell, groupOf(rest.strand))) {
+  if (kInGroups && !hasOthersNear(cell, groupOf(rest.strand))) {
     grid[gridBucketOf(c)] = kNoBucket;
     lists[listOf(c)] = 0;
     histories[c].position = vec4(x, 0);

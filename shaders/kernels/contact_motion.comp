@@ -35,7 +35,7 @@ void main() {
   vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
   histories[c].predicted[control.parity ^ 1] = vec4(v, 0);
   guesses[particle] = vec4(v + parameters.warmth * change, rest.radius);
-  if (kBesideVolume) {
+  if (kInGroups) {
     uint group = groupOf(rest.strand);
     ivec3 cell = cellOf(x);
     enter(cellGroups(bucketOf(cell)), group);

@@ -49,7 +49,7 @@ void main() {
   if (control.isHalted != 0 || !listsHadRoom()) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
-  if (kBesideVolume) emptyCells(c);
+  if (kInGroups) emptyCells(c);
   ContactRest rest = contactOf(c);
   particle = rest.particle;
   x = positionOf(particle);

@@ -9,7 +9,7 @@ namespace ringlet::layout {
 #endif
 
 // Specialization constant of the contact kernels.
-RINGLET_CONSTANT uint kSpecBesideVolume = 2;
+RINGLET_CONSTANT uint kSpecInGroups = 2;
 
 // Bindings of the contact kernels, all in set 0.
 RINGLET_CONSTANT uint kBindContactPositions = 0;   // vec4[particles]: as above
@@ -51,7 +51,7 @@ RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 RINGLET_CONSTANT uint kListBlock = 16;          // two bits of an integer for each (contact_touch.comp)
 RINGLET_CONSTANT uint kLiveBlock = 4;
 RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are summed together
-// Beside a volume, who is in a cell: 0 nobody, a group and one more, or several groups.
+// Of strands in groups, who is in a cell: 0 nobody, a group and one more, or several groups.
 RINGLET_CONSTANT uint kSeveralGroups = 0xffffffffu;
 RINGLET_CONSTANT uint kNoBucket = 0xffffffffu;  // of a contact particle that is not in the grid
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for

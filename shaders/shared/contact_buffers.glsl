@@ -38,11 +38,11 @@ layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
 layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
-layout(constant_id = kSpecBesideVolume) const bool kBesideVolume = false;  // some strands meet as a volume as well
+layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of a group do not meet here
 
 uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
 /// Strands of one group do not meet pair by pair (rest/volume_strands.h).
-uint groupOf(uint strand) { return kBesideVolume ? neighbourRecord(strand).z : strand; }
+uint groupOf(uint strand) { return kInGroups ? neighbourRecord(strand).z : strand; }
 
 // Records as they were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
@@ -102,7 +102,7 @@ uint regionGroups(uint bucket) { return cellGroups(parameters.bucketCount) + buc
 bool hasOthers(uint groups, uint group) { return groups != 0 && groups != group + 1; }
 /// How many contact particles are in the grid: beside a volume only those that may have anybody to meet.
 uint placedCount() {
-  return kBesideVolume ? grid[gridSum(parameters.bucketCount / kBucketBlock)] : parameters.contactCount;
+  return kInGroups ? grid[gridSum(parameters.bucketCount / kBucketBlock)] : parameters.contactCount;
 }
 
 uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBucketBlock)]; }
@@ -112,7 +112,7 @@ uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket
 // A product, not a quotient: Vulkan rounds products one way only, and two kernels must find the same cell for one
 // place.
 ivec3 cellOf(vec3 x) {
-  float cellsPerMetre = kBesideVolume ? parameters.cellsPerMetre : control.cellsPerMetre;
+  float cellsPerMetre = kInGroups ? parameters.cellsPerMetre : control.cellsPerMetre;
   return ivec3(clamp(floor(x * cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
 }
 uint bucketOf(ivec3 cell) {

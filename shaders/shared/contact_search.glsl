@@ -60,7 +60,7 @@ bool search(uint place, float skin) {
     uint entry = startOf(first);
     uint entries = startOf(min(first + 3, parameters.bucketCount)) - entry;
     if (first + 3 > parameters.bucketCount) entries += startOf(first + 3 - parameters.bucketCount);
-    if (kBesideVolume && !rowHasOthers(first, group)) entries = 0;
+    if (kInGroups && !rowHasOthers(first, group)) entries = 0;
     if (entries > 0) do {
       if (entry == placed) entry = 0;
       uint looked = min(min(entries, 32), placed - entry);

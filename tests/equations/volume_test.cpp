@@ -152,9 +152,17 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
       points.push_back(p + Vec3f{0.02f + 0.04f * float(k), 0.01f, 0} * float(1 / groom.metresPerUnit));
     groom.addStrand(points);
   }
-  for (const ContactMethod method :
-       {ContactMethod::automatic, ContactMethod::explicitPairs, ContactMethod::volume}) {
+  // Of the dense strands and of the others; the first strand of the groom is in one.
+  const auto bundles = std::make_shared<const std::vector<ContactBundle>>(
+      std::vector<ContactBundle>{{0, 5, 7, 190}, {2, 3, 191}});
+  for (const auto& [method, bundled] : {std::pair{ContactMethod::automatic, false},
+                                        {ContactMethod::explicitPairs, false},
+                                        {ContactMethod::volume, false},
+                                        {ContactMethod::automatic, true},
+                                        {ContactMethod::explicitPairs, true},
+                                        {ContactMethod::volume, true}}) {
     Settings settings;
+    if (bundled) settings.contacts.bundles = bundles;
     settings.contacts.on = true;
     settings.contacts.method = method;
     settings.contacts.radius = 0.01;
@@ -170,6 +178,8 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
 
     std::size_t count = 0;
     const auto groupOf = [&](std::size_t s) {  // as the host names them
+      if (bundled && contacts.rest.bundles[s] != RestContacts::kNoGroup)
+        return 1000 + contacts.rest.bundles[s];
       return contacts.rest.isInVolume(s) ? contacts.rest.volumeGroups[s] : static_cast<std::uint32_t>(s);
     };
     for (std::size_t a = 0; a < strands.size(); ++a) {
@@ -178,7 +188,10 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
       count += host.volume.isIn[a];
       for (std::size_t b = 0; b < a; ++b) {
         EXPECT_EQ(host.volume.groups[a] == host.volume.groups[b],
-                  groupOf(inGroomA) == groupOf(state->strandInGroom[b]));
+                  groupOf(inGroomA) == groupOf(state->strandInGroom[b]))
+            << a << ", " << b;
+        EXPECT_EQ(host.volume.inOneBundle(a, b),
+                  groupOf(inGroomA) >= 1000 && groupOf(inGroomA) == groupOf(state->strandInGroom[b]));
       }
     }
     EXPECT_EQ(host.volume.count, count);
@@ -186,7 +199,7 @@ TEST(Volume, GroupsAndDensitiesAreTheHosts) {
       EXPECT_GT(count, 20u);
       EXPECT_LT(count, 196u);
     } else {
-      EXPECT_EQ(count, method == ContactMethod::volume ? 196u : 0u);
+      EXPECT_EQ(count, method == ContactMethod::volume ? (bundled ? 189u : 196u) : 0u);
     }
 
     const RestVolume volume = buildRestVolume(*state, host);

@@ -153,6 +153,50 @@ TEST_F(ContactStep, FramesOfThinnedHairAgreeWithDouble) {
   EXPECT_LE(*worst, kMeetingMetres);
 }
 
+// Strands of a bundle pass through each other, and meet all others. In the swatch two of three strands are in
+// one of two bundles; in the bunch, which is dense, half of it is, and leaves the volume.
+TEST_F(ContactStep, FramesOfBundlesAgreeWithDouble) {
+  struct Case {
+    const char* what;
+    Groom groom;
+    ContactMethod method;
+    std::uint32_t bundled;
+  };
+  for (const auto& [what, groom, method, bundled] :
+       {Case{"swatch", denseSwatch(32), ContactMethod::explicitPairs, 32},
+        Case{"bunch", bunchAndStrands(), ContactMethod::automatic, 30}}) {
+    std::vector<ContactBundle> bundles(2);
+    for (std::uint32_t s = 0; s < bundled; ++s)
+      if (s % 3 < 2) bundles[s % 3].push_back(s);
+    Settings settings = meetingSettings();
+    settings.contacts.method = method;
+    const auto run = [&](int frames) {
+      std::pair<std::uint64_t, std::size_t> contactsAndVolume{};
+      const auto worst =
+          shakenError(device(), groom, settings, {}, frames,
+                      [&](const Simulation& simulation, const reference::Simulation<double>& reference) {
+                        expectSameContacts(simulation, reference, settings.contacts, 1e-5, what);
+                        const ContactReport report = *simulation.contactReport();
+                        contactsAndVolume = {report.contacts, report.volumeStrands};
+                      });
+      EXPECT_TRUE(worst) << worst.error().message;
+      if (worst) EXPECT_LE(*worst, kMeetingMetres) << what;
+      return contactsAndVolume;
+    };
+    const int frames = 2;
+    const auto [before, inVolume] = run(frames);
+    settings.contacts.bundles = std::make_shared<const std::vector<ContactBundle>>(bundles);
+    const auto [after, left] = run(frames);
+    fmt::print("{}: {} contacts without bundles, {} with; {} and {} strands in the volume\n", what, before,
+               after, inVolume, left);
+    if (method == ContactMethod::automatic) {
+      EXPECT_EQ(left, inVolume - bundles[0].size() - bundles[1].size());
+    } else {
+      EXPECT_LT(after, 0.9 * static_cast<double>(before));
+    }
+  }
+}
+
 // Strands that meet because their roots go to each other: each its own way, as those that go together would
 // touch or not by rounding. Contacts do not fade here: they end where pairs are further apart than the break
 // distance, as slowly as those part.

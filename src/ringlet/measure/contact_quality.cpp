@@ -32,7 +32,7 @@ void visitOverlaps(const RestState& rest, const RestContacts& contacts, std::spa
       const std::uint32_t a = particles.strands[i], b = particles.strands[j];
       const double R = double{particles.radii[a]} + double{particles.radii[b]};
       const double d = length(boxes[i].centre - boxes[j].centre);
-      if (a == b || !(d < R)) return;
+      if (a == b || !(d < R) || contacts.volume.inOneBundle(a, b)) return;
       const double restLength = std::min(R, length(restPoints[i] - restPoints[j]));
       visit(a, b, std::max(0.0, restLength - d) / R);
     });

@@ -2,8 +2,31 @@
 #include "ringlet/rest/volume_strands.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <utility>
 
 namespace ringlet {
+namespace {
+
+// Bundles leave the volume, each a group of its own.
+void takeOut(const std::vector<ContactBundle>& bundles, const RestState& rest, VolumeStrands& volume) {
+  std::unordered_map<std::uint32_t, std::uint32_t> bundleOf;  // of strands in groom order, from 1
+  for (std::uint32_t b = 0; b < bundles.size(); ++b)
+    for (const std::uint32_t strand : bundles[b]) bundleOf[strand] = b + 1;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t>
+      firstOf;  // by bundle, 0 for none, and group
+  for (std::uint32_t s = 0; s < volume.groups.size(); ++s) {
+    const auto found = bundleOf.find(rest.strandInGroom[s]);
+    const std::uint32_t bundle = found == bundleOf.end() ? 0 : found->second;
+    volume.isIn[s] = volume.isIn[s] && bundle == 0;
+    volume.hasBundles = volume.hasBundles || bundle > 0;
+    volume.groups[s] = firstOf.try_emplace({bundle, bundle > 0 ? 0 : volume.groups[s]}, s).first->second;
+  }
+}
+
+}  // namespace
 
 VolumeStrands chooseVolumeStrands(const RestState& rest, const ContactParticles& particles,
                                   const DenseStrands& dense, const ContactSettings& settings) {
@@ -16,6 +39,7 @@ VolumeStrands chooseVolumeStrands(const RestState& rest, const ContactParticles&
   } else {
     static_cast<DenseStrands&>(volume) = settings.mayBeVolume() ? dense : noDenseStrands(rest);
   }
+  if (settings.bundles) takeOut(*settings.bundles, rest, volume);
   volume.count = static_cast<std::size_t>(std::ranges::count(volume.isIn, true));
   return volume;
 }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace ringlet {
 
@@ -44,6 +46,10 @@ constexpr const char* nameOf(ContactMethod method) { return kContactMethodNames[
 /// Connected strands are dense where the median strand has as much hair around it at rest as this number of
 /// strands like itself. Strands with less than half of that are left out (rest/dense_strands.h).
 inline constexpr double kDenseStrands = 9;
+
+/// Strands, groom order, that do not touch each other: those of a braid or a bun, whose shape a goal keeps.
+/// They meet all other strands pair by pair.
+using ContactBundle = std::vector<std::uint32_t>;
 
 /// Cell size of the volume's grid, in default radii of contact particles.
 inline constexpr double kVolumeCellRadii = 4;
@@ -87,6 +93,8 @@ struct ContactSettings {
   double dropShare = 0;      // share of the remaining pairs that is dropped at random, 0 to 1 (the paper's
                              // stochastic pruning)
   std::uint32_t seed = 1;    // of dropShare and detail
+
+  std::shared_ptr<const std::vector<ContactBundle>> bundles;  // no strand in two; null: none
 
   // The spring between two spheres that touch. Spheres may overlap at rest; the spring has no force there.
   double stiffness = 1000;  // in w / R, 0 to 1e7; a tenth of the default is soft

@@ -23,6 +23,7 @@
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/idle_dials.h"
+#include "ringlet/scenes/scene_maps.h"
 #include "ringlet/scenes/scene_parts.h"
 #include "ringlet/scenes/world_bind.h"
 
@@ -208,6 +209,35 @@ Status takeStart(const SceneFile& scene, LoadedScene& loaded) {
   return {};
 }
 
+// Groups whose strands do not touch each other.
+Status addBundles(const SceneFile& scene, std::size_t strandCount, ContactSettings& contacts) {
+  std::vector<ContactBundle> bundles;
+  std::vector<const SceneGroup*> bundleOf(strandCount);
+  for (const SceneGroup& group : scene.groups) {
+    if (group.touch) continue;
+    const auto runs = parseStrands(group.strands, 1, scene.groups);
+    if (!runs) return Error{fmt::format("the group {}: {}", group.name, runs.error().message)};
+    ContactBundle& bundle = bundles.emplace_back();
+    for (const StrandRun& run : *runs) {
+      if (run.last >= strandCount)
+        return Error{fmt::format("the group {} names strand {}; the groom has {}, numbered from 0",
+                                 group.name, run.last, strandCount)};
+      for (std::uint32_t s = run.first; s <= run.last; ++s) {
+        if (bundleOf[s])
+          return Error{
+              fmt::format("strand {} is in the groups {} and {}, and strands of neither touch each "
+                          "other; expected it in one of them, or both as one group",
+                          s, bundleOf[s]->name, group.name)};
+        bundleOf[s] = &group;
+        bundle.push_back(s);
+      }
+    }
+  }
+  if (!bundles.empty())
+    contacts.bundles = std::make_shared<const std::vector<ContactBundle>>(std::move(bundles));
+  return {};
+}
+
 }  // namespace
 
 Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims) {
@@ -271,6 +301,8 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   loaded.groom = std::move(groom->groom);
   loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());
   loaded.settings = settingsOf(scene);
+  if (Status added = addBundles(scene, loaded.groom.strandCount(), loaded.settings.contacts); !added)
+    return added.error();
   auto material = loadMaterialOf(scene, loaded.settings.integrator, loaded.warnings);
   if (!material) return material.error();
   for (const StrandFactors& factors : material->factors) {

@@ -485,6 +485,10 @@ std::span<const SceneField<SceneGroup>> groupFields() {
       {"name", "", "required", "Name of the group, for the strands of maps and holds.", &G::name},
       {"strands", "", "required",
        "Its strands, as \"0:99, 120\", from 0 in groom order, or groups before it.", &G::strands},
+      {"touch", "", "true",
+       "Whether its strands touch each other where contacts are on; false for a braid or a bun that a goal "
+       "keeps.",
+       &G::touch},
   };
   return all;
 }

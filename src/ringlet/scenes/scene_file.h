@@ -229,6 +229,7 @@ struct SceneMap {
 struct SceneGroup {
   std::string name;
   std::string strands;  // "0:99, 120"
+  bool touch = true;    // each other
   bool operator==(const SceneGroup&) const = default;
 };
 

@@ -53,7 +53,7 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 
 }  // namespace
 
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool besideVolume,
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
                                              std::uint32_t groupSize, bool texels) {
   const Compiled& compiled = compiledOf(which, taper);
   gpu::KernelDescription description;
@@ -63,7 +63,7 @@ gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper t
   description.pushConstantBytes = sizeof(layout::ContactParameters);
   description.constants = {{layout::kSpecGroupSize, groupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u},
-                           {layout::kSpecBesideVolume, besideVolume ? 1u : 0u}};
+                           {layout::kSpecInGroups, inGroups ? 1u : 0u}};
   description.groupSize = groupSize;
   return description;
 }

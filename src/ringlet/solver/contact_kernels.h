@@ -37,9 +37,9 @@ constexpr std::size_t contactKernelCount(ContactTaper taper) {
 /// Invocations of a workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
-/// besideVolume: some strands meet as a volume as well; texels: records are read as texels
+/// inGroups: some strands do not meet pair by pair, see VolumeStrands; texels: records are read as texels
 /// (gpu::BindingKind).
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool besideVolume,
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
                                              std::uint32_t groupSize, bool texels);
 
 }  // namespace ringlet

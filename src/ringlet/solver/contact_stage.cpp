@@ -93,8 +93,8 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.particles_ = particles.particles;
   self.everyPair_ = contacts.graph.everyPair;
   // Of hair that meets as a volume few touch others, and of those a sample may have none.
-  const bool besideVolume = contacts.volume.count > 0;
-  self.sampleStride_ = besideVolume ? 0 : sampleStride(contacts, settings.contacts);
+  const bool inGroups = contacts.volume.hasGroups();
+  self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
   self.largestRadius_ = *std::max_element(particles.radii.begin(), particles.radii.end());
   const std::uint64_t count = self.particles_.size();
   if (self.contactGroups() > device.properties().maxGroupCount) {
@@ -113,7 +113,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   }
   for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
     const auto description = describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper,
-                                                   besideVolume, kGroupSize, texels);
+                                                   inGroups, kGroupSize, texels);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
@@ -121,8 +121,8 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   }
 
   const auto table = neighbourTable(contacts.graph, contacts.volume);
-  const std::uint64_t gridWords = (besideVolume ? 4 : 2) * self.bucketCount_ + 1 +
-                                  self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
+  const std::uint64_t gridWords =
+      (inGroups ? 4 : 2) * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
   const std::uint64_t needed =
       count * (sizeof(layout::ContactRest) + sizeof(layout::ContactPlace) + sizeof(layout::ContactHistory)) +
       gridWords * sizeof(std::uint32_t) + table.size() * sizeof(table[0]) +
