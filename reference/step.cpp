@@ -2,6 +2,8 @@
 #include "reference/step.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "ringlet/base/assert.h"
 #include "ringlet/rest/goal.h"
@@ -147,6 +149,18 @@ void Simulation<Real>::setGoals(std::span<const Vec3f> places, std::span<const f
     goalStiffness_.push_back(goalStiffness(strengths[i]));
     goalDamping_.push_back(goalDamping(goalStiffness_.back(), dampingRatio));
   }
+  for (std::size_t s = 0; settings_.goal.shape && s < rest_.size(); ++s) {
+    const RestStrand<Real>& rest = rest_[s];
+    const double mass = std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0);
+    for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+      const std::size_t at = firstPoint_[s] + i;
+      const double weight = mass * kStandardGravity, strength = strengths[at];
+      const double edgeMass = static_cast<double>(rest.edgeLengths[i]) * static_cast<double>(rest.masses[i]);
+      goalStiffness_[at] = strength * weight / edgeMass;
+      goalDamping_[at] =
+          dampingRatio * rest.arcLength * std::sqrt(strength * weight * mass / rest.arcLength) / edgeMass;
+    }
+  }
   if (isFirst) goalsBefore_ = goals_;
   if (from.empty()) return;
   goalsBefore_.clear();
@@ -192,7 +206,7 @@ void Simulation<Real>::aimAtGroom(const Groom& groom) {
 
 template <class Real>
 GoalStep Simulation<Real>::goalStep(std::size_t s, std::size_t k, std::size_t steps) const {
-  GoalStep step;
+  GoalStep step{.isShape = settings_.goal.shape};
   if (goals_.empty()) return step;
   const double n = static_cast<double>(steps), begin = static_cast<double>(k) / n,
                end = static_cast<double>(k + 1) / n;

@@ -148,10 +148,28 @@ void addAir(const RestStrand<Real>& rest, const AirStep<Real>& air, const Field<
   }
 }
 
+// What goals of edges add: a spring between two particles, with the mass of the one towards the root.
+template <class Real>
+void addGoalShape(const RestStrand<Real>& rest, const HeadStep<Real>& head, const GoalStep& goals,
+                  FieldView<Real> positions, StrandSystem& system) {
+  for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
+    const Vector3<double> edge = (positions[i + 1] - positions[i]).template cast<double>();
+    const Vector3<double> before = head.now * (goals.before[i + 1] - goals.before[i]);
+    const Vector3<double> after = head.next * (goals.after[i + 1] - goals.after[i]);
+    const GoalPull<double> pull = goalPull<double>(goals.stiffness[i], goals.damping[i], edge, before, after,
+                                                   static_cast<double>(head.seconds));
+    const double m = rest.masses[i];
+    system.across[i] += m * pull.weight;
+    system.momenta[i] -= m * pull.momentum;
+    system.momenta[i + 1] += m * pull.momentum;
+  }
+}
+
 // What goals add to the system, from positions at the step's start.
 template <class Real>
-void addGoals(const HeadStep<Real>& head, const GoalStep& goals, FieldView<Real> positions,
-              StrandSystem& system) {
+void addGoals(const RestStrand<Real>& rest, const HeadStep<Real>& head, const GoalStep& goals,
+              FieldView<Real> positions, StrandSystem& system) {
+  if (goals.isShape) return addGoalShape(rest, head, goals, positions, system);
   for (std::size_t i = 0; i < goals.before.size(); ++i) {
     const Vector3<double> before = head.originNow + head.now * goals.before[i];
     const Vector3<double> after = head.originNext + head.next * goals.after[i];
@@ -289,7 +307,7 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
   }
   if (!isPaper) {
     assembleSystem<Real>(rest, settings, forces, taps, scratch.directions, velocities, system);
-    addGoals<Real>(head, goals, positions, system);
+    addGoals<Real>(rest, head, goals, positions, system);
     addFields<Real>(rest, fields, settings.stepSeconds(), positions, system);
   }
 }

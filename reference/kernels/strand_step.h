@@ -103,8 +103,9 @@ void differences(FieldView<Real> values, Field<Real>& result) {
 using OutsideForces = std::span<const Vector3<double>>;
 
 /// Places that a strand's particles are pulled to, in the groom's axes at the step's start and end [m], and
-/// how hard: k [1/s^2], c [1/s]; or none.
+/// how hard: k [1/s^2], c [1/s]; or none. Of a shape, how the edges between places are to lie.
 struct GoalStep {
+  bool isShape = false;
   Field<double> before, after;
   std::vector<double> stiffness, damping;
 };

@@ -1,5 +1,28 @@
-// Goals of this lane's particles. Included by bodies/run_pulls.glsl.
+// Goals of this lane's particles, or of its edges. Included by bodies/run_pulls.glsl.
 #include "equations/goal_spring.glsl"
+
+// Of edges: what is pulled is how the edge lies, with the mass of its particle. From positions at the step's start; e, in
+// place of p, and force.
+void feelGoalShape(uint step) {
+  float shareBefore = float(step) / float(parameters.stepCount);
+  float shareAfter = float(step + 1) / float(parameters.stepCount);
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+    uint i = strand.firstParticle + (isEdge(k) ? first + k : 0);
+    vec4 begin = goalAtFrameStart(i);
+    vec4 end = goalAtFrameEnd(i);
+    vec3 edgeBegin = goalAtFrameStart(i + 1).xyz - begin.xyz;
+    vec3 edgeEnd = goalAtFrameEnd(i + 1).xyz - end.xyz;
+    vec3 before = mix(edgeBegin, edgeEnd, shareBefore);
+    vec3 after = mix(edgeBegin, edgeEnd, shareAfter);
+    vec3 move = displacement(turnTo(step + 1), rotate(rotationAtStart(step), before)) +
+                rotate(rotationAtEnd(step), after - before);
+    vec3 there = rotate(rotationAtEnd(step), after);
+    float m = isEdge(k) ? restEdge[k].x : 0.0;
+    vec4 onEdge = m * goalPull(end.w, begin.w, e[k], there, move, stepSeconds());
+    force[k] -= (1.0 / stepSeconds()) * onEdge.xyz;
+    goalAcross[k] = onEdge.w;
+  }
+}
 
 // From positions at the step's start. Places are the groom's, carried as its roots are.
 void feelGoals(uint step) {

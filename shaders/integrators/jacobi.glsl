@@ -5,8 +5,12 @@
 
 ImplicitEdge implicitEdgeOf(int k) {
   float s = restEdge[k].w;
-  return implicitEdge(eHat[k], stepSeconds(), strand.stretchStiffness * s, strand.stretchDamping * s,
-                      bendStiffnessOf(k), bendDampingOf(k));
+  ImplicitEdge edge = implicitEdge(eHat[k], stepSeconds(), strand.stretchStiffness * s, strand.stretchDamping * s,
+                                   bendStiffnessOf(k), bendDampingOf(k));
+#ifdef RINGLET_SURROUNDINGS
+  if (kGoals && kGoalShape) edge.across += goalAcross[k];
+#endif
+  return edge;
 }
 
 // M v + T (springs + gravity + forces from outside) of particle k.

@@ -34,13 +34,22 @@ vec4 pullAddedToRun(int j, int k) {
   return vec4(0);
 }
 
-// A⁻¹ of an edge of this direction and length; void ones are never used.
-Symmetric complianceOf(vec3 direction, float edgeLength) {
+// What the goal of an edge adds to its matrix, of edge j where lanes go from the root, or k.
+float goalAddedToEdge(int j, int k) {
+#ifdef RINGLET_SURROUNDINGS
+  if (kGoals && kGoalShape) return lane == 0 ? goalAcross[j] : goalAcross[k];
+#endif
+  return 0.0;
+}
+
+// A⁻¹ of an edge of this direction and length, with what its goal adds; void ones are never used.
+Symmetric complianceOf(vec3 direction, float edgeLength, float added) {
   ImplicitEdge one = implicitEdge(direction, stepSeconds(), strand.stretchStiffness, strand.stretchDamping,
       strand.bendStiffness,
                                   compensatedBendDamping(strand.bendDamping, strand.bendStiffness, stepSeconds()));
-  float a = edgeLength / one.across;
-  return addOuter(symmetricDiagonal(a), -a * (one.along / (one.along + one.across)), direction);
+  float across = one.across + (kGoalShape ? edgeLength * added : 0.0);
+  float a = edgeLength / across;
+  return addOuter(symmetricDiagonal(a), -a * (one.along / (one.along + across)), direction);
 }
 
 // To the particle before it, the way this lane goes.
@@ -48,7 +57,7 @@ bool isLinked(int j) { return j > 0 && (lane == 0 ? isEdge(j - 1) : isEdge(RUN -
 
 // Across the edge between the lanes, from what their last particles' mobilities are; each lane's own.
 vec3 forceBetweenLanes(Symmetric C, vec3 c) {
-  Symmetric apart = add(C, complianceOf(eHat[RUN - 1], edgeLengthOf(RUN - 1)));
+  Symmetric apart = add(C, complianceOf(eHat[RUN - 1], edgeLengthOf(RUN - 1), goalAddedToEdge(RUN - 1, RUN - 1)));
   apart = add(apart, Symmetric(fromTipward(C.d, 1), fromTipward(C.o, 1)));
   vec3 f = multiply(inverse(apart), fromTipward(c, 1) - c);
   if (!isEdge(RUN - 1)) f = vec3(0);
@@ -74,7 +83,8 @@ void solveFromEnds(vec3 pinned[3]) {
     mass[j] = (fromRoot ? restEdge[j].x : restEdge[k].x) + added.w;
     if (j > 0) {
       Symmetric S = add(C[max(j - 1, 0)], complianceOf(fromRoot ? eHat[max(j - 1, 0)] : eHat[k],
-                                                       fromRoot ? edgeLengthOf(max(j - 1, 0)) : edgeLengthOf(k)));
+                                                       fromRoot ? edgeLengthOf(max(j - 1, 0)) : edgeLengthOf(k),
+                                                       goalAddedToEdge(max(j - 1, 0), k)));
       Symmetric E = inverse(addDiagonal(scale(S, mass[j]), 1.0));
       C[j] = multiplyCommuting(E, S);
       c[j] = multiply(E, c[max(j - 1, 0)] + multiply(S, r[j]));

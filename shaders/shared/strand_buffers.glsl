@@ -34,11 +34,13 @@ layout(constant_id = kSpecAir) const bool kAir = false;         // hair feels it
 layout(constant_id = kSpecTurbulent) const bool kTurbulent = false;  // and it has waves
 layout(constant_id = kSpecGoals) const bool kGoals = false;       // particles are pulled to places
 layout(constant_id = kSpecFields) const bool kFields = false;     // fields act on them
+layout(constant_id = kSpecGoalShape) const bool kGoalShape = false;  // goals are of edges, in place of particles
 #else
 const bool kBodies = false;
 const bool kAir = false;
 const bool kGoals = false;
 const bool kFields = false;
+const bool kGoalShape = false;
 #endif
 const bool kPulls = kGoals || kFields;
 layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own

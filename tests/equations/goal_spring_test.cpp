@@ -94,5 +94,33 @@ TEST(GoalSpring, ARatioOfOneIsCritical) {
   }
 }
 
+// What the units of shapes say, however finely a strand is cut: an edge gives way to the weight w' beyond it
+// by w' / (strength w) of its length. Straight hair to the side, with next to no springs of its own.
+TEST(GoalSpring, AShapeHoldsItsWeight) {
+  constexpr double kArc = 0.25, kStrength = 50;
+  for (const int particles : {16, 64}) {
+    Settings settings;
+    settings.gravity = {};  // the rest pose is balanced against none
+    settings.goal = {.on = true, .strength = kStrength, .shape = true};
+    Material material;
+    material.bendStiffness = material.coreStiffness = 1e-3;
+    const Groom groom = groomOf(straightStrand({kArc, 0, 0}, particles));
+    Simulation<double> simulation(groom, material, settings);
+    settings.gravity = {0, -kStandardGravity, 0};
+    simulation.change(groom, material, settings);
+    for (int frame = 0; frame < 60; ++frame) simulation.stepFrame(HeadPose{});
+    const RestStrand<double>& rest = simulation.restStrands()[0];
+    double all = 0, beyond = 0, droop = 0;
+    for (const double m : rest.masses) all += m;
+    for (std::size_t i = rest.edgeCount(); i-- > 0;) {
+      beyond += rest.masses[i + 1];
+      droop += rest.edgeLengths[i] * beyond / (kStrength * all);
+    }
+    EXPECT_NEAR(droop, kArc / 2 / kStrength, 0.05 * kArc / 2 / kStrength) << particles;
+    const Vector3<double> tip = simulation.positions().back();
+    EXPECT_NEAR(-tip.y(), droop, 0.01 * droop) << particles;
+  }
+}
+
 }  // namespace
 }  // namespace ringlet::reference::test

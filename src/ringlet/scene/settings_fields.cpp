@@ -346,6 +346,11 @@ std::span<const SettingField<GoalSettings>> goalFields() {
           .live(),
       F{"damping", "1", "", "Damping ratio of hair about its place; 1 is critical.", &G::damping, {0, 100}}
           .live(),
+      F{"shape", "", "false",
+        "Whether the goal is how hair lies and not where it is: the direction of every edge. A strength is "
+        "then in the "
+        "strand's weight, as bend_stiffness is.",
+        &G::shape},
   };
   return all;
 }

@@ -140,6 +140,11 @@ Result<SceneForces::Hold> SceneForces::holdOf(const SceneFile& scene, const Scen
 
 Result<SceneForces> SceneForces::load(const SceneFile& scene, const Groom& groom, const Motion& head,
                                       std::vector<std::string>& warnings) {
+  if (scene.goal.shape && !scene.holds.empty())
+    return Error{
+        "goal.shape = true cannot stand with [[hold]]: a hold pulls hair to places, and goals are of one "
+        "kind; leave "
+        "out one of them"};
   SceneForces self;
   self.scene_.fields = scene.fields;
   self.scene_.holds = scene.holds;

@@ -19,11 +19,13 @@ namespace ringlet {
 
 class DeviceGoals {
  public:
+  enum class Kind { none, places, shape };
+
   /// None pulls at first. `slots`: frames in flight. Fails when the device lacks memory.
-  static Result<DeviceGoals> create(gpu::Device& device, const RestState& rest, bool areThere,
+  static Result<DeviceGoals> create(gpu::Device& device, const RestState& rest, Kind kind,
                                     std::span<const GroomChunk> chunks, std::size_t slots);
 
-  bool areThere() const { return areThere_; }
+  bool areThere() const { return !groomIndices_.empty(); }
 
   /// Of a chunk, as strand kernels bind them.
   gpu::BufferTable bufferTable(std::size_t chunk) const {
@@ -49,13 +51,20 @@ class DeviceGoals {
   }
 
  private:
-  DeviceGoals(bool areThere, std::size_t slots) : areThere_(areThere), isWritten_(slots, false) {}
+  // Of a strength and a damping ratio of 1.
+  struct Unit {
+    double stiffness;  // [1/s^2]
+    double damping;    // [1/s]
+  };
+  static std::vector<Unit> unitsOf(const RestState& rest, Kind kind);
 
-  bool areThere_;
+  explicit DeviceGoals(std::size_t slots) : isWritten_(slots, false) {}
+
   bool areSet_ = false;
   std::vector<GroomChunk> chunks_;
   std::vector<FrameInput> before_, after_;   // of each chunk: vec4[particles]
   std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
+  std::vector<Unit> units_;                  // of each particle, in device order
   std::vector<layout::vec4> start_, end_;    // of the next frame, in device order
   bool move_ = false;                        // in the next frame
   std::vector<bool> isWritten_;              // whether a slot has these

@@ -115,7 +115,10 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   auto forces =
       DeviceForces::create(device, rest, constant.choice.forces, constant.chunks(), kFramesInFlight);
   if (!forces) return forces.error();
-  auto goals = DeviceGoals::create(device, rest, constant.choice.goals, constant.chunks(), kFramesInFlight);
+  const auto goalKind = !constant.choice.goals ? DeviceGoals::Kind::none
+                        : settings.goal.shape  ? DeviceGoals::Kind::shape
+                                               : DeviceGoals::Kind::places;
+  auto goals = DeviceGoals::create(device, rest, goalKind, constant.chunks(), kFramesInFlight);
   if (!goals) return goals.error();
   auto fields = DeviceFields::create(device, {}, settings.stepsPerFrame, kFramesInFlight);
   if (!fields) return fields.error();
@@ -188,6 +191,7 @@ Status Simulation::Implementation::makeKernels() {
                                     .movingRoots = choice.movingRoots,
                                     .forces = choice.forces,
                                     .goals = choice.goals,
+                                    .goalShape = settings.goal.shape,
                                     .fields = choice.fields,
                                     .subgroupSize = askedWidth(device.gpu().properties(), choice),
                                     .groupSize = asset->groupSize};

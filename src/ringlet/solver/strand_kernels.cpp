@@ -99,7 +99,8 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecAir, options.air ? 1u : 0u},
                            {layout::kSpecTurbulent, options.turbulence ? 1u : 0u},
                            {layout::kSpecGoals, options.goals ? 1u : 0u},
-                           {layout::kSpecFields, options.fields ? 1u : 0u}};
+                           {layout::kSpecFields, options.fields ? 1u : 0u},
+                           {layout::kSpecGoalShape, options.goals && options.goalShape ? 1u : 0u}};
   if (options.contacts) {
     description.constants.push_back({layout::kSpecPairs, options.pairs ? 1u : 0u});
     description.constants.push_back({layout::kSpecVolume, options.volume ? 1u : 0u});
