@@ -206,7 +206,8 @@ void Simulation<Real>::aimAtGroom(const Groom& groom) {
 
 template <class Real>
 GoalStep Simulation<Real>::goalStep(std::size_t s, std::size_t k, std::size_t steps) const {
-  GoalStep step{.isShape = settings_.goal.shape};
+  GoalStep step;
+  step.isShape = settings_.goal.shape;
   if (goals_.empty()) return step;
   const double n = static_cast<double>(steps), begin = static_cast<double>(k) / n,
                end = static_cast<double>(k + 1) / n;
