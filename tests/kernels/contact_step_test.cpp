@@ -180,7 +180,9 @@ TEST_F(ContactStep, FramesOfBundlesAgreeWithDouble) {
                         contactsAndVolume = {report.contacts, report.volumeStrands};
                       });
       EXPECT_TRUE(worst) << worst.error().message;
-      if (worst) EXPECT_LE(*worst, kMeetingMetres) << what;
+      if (worst) {
+        EXPECT_LE(*worst, kMeetingMetres) << what;
+      }
       return contactsAndVolume;
     };
     const int frames = 2;
