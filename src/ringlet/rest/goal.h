@@ -6,6 +6,7 @@
 
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
+#include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/goal.h"
 
 namespace ringlet {
@@ -27,6 +28,15 @@ inline double shapeStiffness(double strength, double M, double l, double m) {
 inline double shapeDamping(double strength, double ratio, double M, double S, double l, double m) {
   return ratio * M * std::sqrt(strength * kStandardGravity * S) / (l * m);
 }
+
+/// What makes a goal of a strength and a damping ratio: stiffness goes with the strength, damping with its
+/// root.
+struct GoalUnit {
+  double stiffness;  // [1/s^2]
+  double damping;    // [1/s]
+};
+/// Of each particle, device order; of a shape that of its edge, and of a strand's last particle any.
+std::vector<GoalUnit> goalUnits(const RestState& rest, bool shape);
 
 /// The groom as a goal, one entry a particle, groom order.
 struct GroomGoal {

@@ -11,40 +11,21 @@
 
 namespace ringlet {
 
-std::vector<DeviceGoals::Unit> DeviceGoals::unitsOf(const RestState& rest, Kind kind) {
-  const double k = goalStiffness(1);
-  std::vector<Unit> units(rest.particles.size(), {k, goalDamping(k, 1)});
-  if (kind == Kind::places) return units;
-  for (const layout::StrandRest& strand : rest.strands) {
-    const std::span particles(rest.particles.begin() + strand.firstParticle, strand.particleCount);
-    double mass = 0, arc = 0;  // [mass unit], [m]
-    for (const layout::ParticleRest& particle : particles) mass += static_cast<double>(particle.mass);
-    for (const layout::ParticleRest& particle : particles.first(particles.size() - 1))
-      arc += static_cast<double>(particle.edgeLength);
-    for (std::size_t i = 0; i + 1 < particles.size(); ++i) {
-      const double l = particles[i].edgeLength, m = particles[i].mass;
-      units[strand.firstParticle + i] = {shapeStiffness(1, mass, l, m), shapeDamping(1, 1, mass, arc, l, m)};
-    }
-  }
-  return units;
-}
-
-Result<DeviceGoals> DeviceGoals::create(gpu::Device& device, const RestState& rest, Kind kind,
+Result<DeviceGoals> DeviceGoals::create(gpu::Device& device, const RestState& rest,
+                                        const std::vector<GoalUnit>* units,
                                         std::span<const GroomChunk> chunks, std::size_t slots) {
-  DeviceGoals goals(slots);
-  const bool areThere = kind != Kind::none;
+  DeviceGoals goals(units, slots);
   goals.chunks_.assign(chunks.begin(), chunks.end());
   for (const GroomChunk& chunk : chunks) {
-    const std::uint64_t bytes = areThere ? chunk.particleCount() * sizeof(layout::vec4) : 0;
+    const std::uint64_t bytes = goals.areThere() ? chunk.particleCount() * sizeof(layout::vec4) : 0;
     for (auto* inputs : {&goals.before_, &goals.after_}) {
       auto input = FrameInput::create(device, bytes, slots, "goals");
       if (!input) return input.error();
       inputs->push_back(std::move(*input));
     }
   }
-  if (areThere) {
+  if (goals.areThere()) {
     goals.groomIndices_ = groomIndices(rest);
-    goals.units_ = unitsOf(rest, kind);
     goals.start_.resize(goals.groomIndices_.size());
     goals.end_.resize(goals.groomIndices_.size());
   }
@@ -56,9 +37,10 @@ void DeviceGoals::set(std::span<const Vec3f> places, std::span<const float> stre
   for (std::size_t i = 0; i < end_.size(); ++i) {
     const std::uint32_t g = groomIndices_[i];
     const double strength = strengths[g];
-    end_[i] = packed(Vec3d(places[g]), strength * units_[i].stiffness);
+    const GoalUnit& unit = (*units_)[i];
+    end_[i] = packed(Vec3d(places[g]), strength * unit.stiffness);
     if (!from.empty() || !areSet_) start_[i] = packed(from.empty() ? places[g] : from[g]);
-    start_[i].w = static_cast<float>(dampingRatio * std::sqrt(strength) * units_[i].damping);
+    start_[i].w = static_cast<float>(dampingRatio * std::sqrt(strength) * unit.damping);
   }
   areSet_ = move_ = true;
   isWritten_.assign(isWritten_.size(), false);

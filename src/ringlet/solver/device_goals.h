@@ -11,6 +11,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
+#include "ringlet/rest/goal.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"
@@ -19,13 +20,13 @@ namespace ringlet {
 
 class DeviceGoals {
  public:
-  enum class Kind { none, places, shape };
+  /// None pulls at first. `units`: goalUnits, which must outlive this, or null for hair without goals.
+  /// `slots`: frames in flight. Fails when the device lacks memory.
+  static Result<DeviceGoals> create(gpu::Device& device, const RestState& rest,
+                                    const std::vector<GoalUnit>* units, std::span<const GroomChunk> chunks,
+                                    std::size_t slots);
 
-  /// None pulls at first. `slots`: frames in flight. Fails when the device lacks memory.
-  static Result<DeviceGoals> create(gpu::Device& device, const RestState& rest, Kind kind,
-                                    std::span<const GroomChunk> chunks, std::size_t slots);
-
-  bool areThere() const { return !groomIndices_.empty(); }
+  bool areThere() const { return units_ != nullptr; }
 
   /// Of a chunk, as strand kernels bind them.
   gpu::BufferTable bufferTable(std::size_t chunk) const {
@@ -51,20 +52,14 @@ class DeviceGoals {
   }
 
  private:
-  // Of a strength and a damping ratio of 1.
-  struct Unit {
-    double stiffness;  // [1/s^2]
-    double damping;    // [1/s]
-  };
-  static std::vector<Unit> unitsOf(const RestState& rest, Kind kind);
-
-  explicit DeviceGoals(std::size_t slots) : isWritten_(slots, false) {}
+  DeviceGoals(const std::vector<GoalUnit>* units, std::size_t slots)
+      : units_(units), isWritten_(slots, false) {}
 
   bool areSet_ = false;
   std::vector<GroomChunk> chunks_;
   std::vector<FrameInput> before_, after_;   // of each chunk: vec4[particles]
   std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
-  std::vector<Unit> units_;                  // of each particle, in device order
+  const std::vector<GoalUnit>* units_;       // of each particle, in device order
   std::vector<layout::vec4> start_, end_;    // of the next frame, in device order
   bool move_ = false;                        // in the next frame
   std::vector<bool> isWritten_;              // whether a slot has these

@@ -53,9 +53,10 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   if (!limits) return limits.error();
 
   auto self = std::make_shared<Implementation>(Implementation{
-      device, material, settings, choice, bodies, *limits, {}, std::move(*rest), {}, {}, {}, {}, {}, {}});
+      device, material, settings, choice, bodies, *limits, {}, std::move(*rest), {}, {}, {}, {}, {}, {}, {}});
   if (settings.goal.on) self->goal = goalOf(groom);
   self->choice.goals = choice.goals || settings.goal.on;
+  if (self->choice.goals) self->goalUnits = goalUnits(self->rest, settings.goal.shape);
   self->choice.measured = {};
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   if (settings.contacts.on && !counts.empty()) {

@@ -29,7 +29,8 @@ struct HairAsset::Implementation {
   std::vector<StrandRange> ranges;
   GroomRecords records;
   std::vector<ConstantChunk> constants;
-  std::optional<GroomGoal> goal;  // where Settings::goal is on
+  std::optional<GroomGoal> goal;                   // where Settings::goal is on
+  std::optional<std::vector<GoalUnit>> goalUnits;  // with goals
 
   ContactKinds kinds() const { return contacts ? contacts->kinds() : ContactKinds{}; }
   std::vector<GroomChunk> chunks() const {

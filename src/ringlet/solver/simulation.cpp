@@ -115,10 +115,8 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   auto forces =
       DeviceForces::create(device, rest, constant.choice.forces, constant.chunks(), kFramesInFlight);
   if (!forces) return forces.error();
-  const auto goalKind = !constant.choice.goals ? DeviceGoals::Kind::none
-                        : settings.goal.shape  ? DeviceGoals::Kind::shape
-                                               : DeviceGoals::Kind::places;
-  auto goals = DeviceGoals::create(device, rest, goalKind, constant.chunks(), kFramesInFlight);
+  auto goals = DeviceGoals::create(device, rest, constant.goalUnits ? &*constant.goalUnits : nullptr,
+                                   constant.chunks(), kFramesInFlight);
   if (!goals) return goals.error();
   auto fields = DeviceFields::create(device, {}, settings.stepsPerFrame, kFramesInFlight);
   if (!fields) return fields.error();
