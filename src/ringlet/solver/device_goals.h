@@ -11,7 +11,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/gpu/kernel.h"
-#include "ringlet/rest/goal.h"
+#include "ringlet/rest/goal_units.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"

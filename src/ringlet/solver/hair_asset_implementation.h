@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ringlet/rest/goal.h"
+#include "ringlet/rest/goal_units.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/rest/rest_volume.h"
