@@ -152,13 +152,13 @@ void Simulation<Real>::setGoals(std::span<const Vec3f> places, std::span<const f
   for (std::size_t s = 0; settings_.goal.shape && s < rest_.size(); ++s) {
     const RestStrand<Real>& rest = rest_[s];
     const double mass = std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0);
+    const double arc = std::accumulate(rest.edgeLengths.begin(), rest.edgeLengths.end(), 0.0);
     for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
       const std::size_t at = firstPoint_[s] + i;
       const double weight = mass * kStandardGravity, strength = strengths[at];
       const double edgeMass = static_cast<double>(rest.edgeLengths[i]) * static_cast<double>(rest.masses[i]);
       goalStiffness_[at] = strength * weight / edgeMass;
-      goalDamping_[at] =
-          dampingRatio * rest.arcLength * std::sqrt(strength * weight * mass / rest.arcLength) / edgeMass;
+      goalDamping_[at] = dampingRatio * arc * std::sqrt(strength * weight * mass / arc) / edgeMass;
     }
   }
   if (isFirst) goalsBefore_ = goals_;
