@@ -164,7 +164,7 @@ TEST_F(ContactStep, FramesOfBundlesAgreeWithDouble) {
   };
   for (const auto& [what, groom, method, bundled] :
        {Case{"swatch", denseSwatch(32), ContactMethod::explicitPairs, 12},
-        Case{"bunch", bunchAndStrands(), ContactMethod::automatic, 30}}) {
+        Case{"bunch", bunchAndStrands(), ContactMethod::automatic, 9}}) {
     std::vector<ContactBundle> bundles(2);
     for (std::uint32_t s = 0; s < bundled; ++s)
       if (s % 3 < 2) bundles[s % 3].push_back(s);
