@@ -231,13 +231,14 @@ struct RandomGoals {
   explicit RandomGoals(const ParityCase& c) {
     Random random(c.seed + 4000);
     const double off = c.settings.goal.shape ? 0.001 : 0.03;  // [m]
+    const float most = c.settings.goal.shape ? 10 : 300;
     for (std::size_t i = 0; c.kernel.goals && i < c.groom.points.size(); ++i) {
       const Vec3d way = random.vector();
       const Vec3f place = c.groom.points[i] * static_cast<float>(c.groom.metresPerUnit);
       first.push_back(place);
       second.push_back(place + static_cast<Vec3f>(way * off));
       const auto high = static_cast<float>(std::abs(way.x));
-      strengths.push_back(i % 3 == 0 ? 0.f : 0.1f + 300.f * high * high * high);
+      strengths.push_back(i % 3 == 0 ? 0.f : 0.1f + most * high * high * high);
     }
   }
   template <class Hair>
