@@ -226,7 +226,8 @@ std::vector<Vec3f> randomForces(const ParityCase& c) {
 }
 
 // Where particles are pulled, some centimetres off the groom, or for a shape some shares of an edge, and how
-// hard: up to some hundred weights, a third of them not at all. None where they are not asked for.
+// hard: up to some hundred weights, of a shape some ten, a third of them not at all. None where they are not
+// asked for.
 struct RandomGoals {
   explicit RandomGoals(const ParityCase& c) {
     Random random(c.seed + 4000);

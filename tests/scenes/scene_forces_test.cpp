@@ -196,6 +196,21 @@ TEST(SceneForces, HoldsAndTheGoalAddUp) {
 }
 
 // Steps by themselves get what they have of the whole frame.
+TEST(SceneForces, MapsAreFactorsOnTheGoal) {
+  const LoadedScene scene = loadedFrom(
+      "[goal]\nstrength = 4\ntip_share = 0.5\n[[map]]\nnumber = \"goal.strength\"\nstrands = \"1\"\nfactor = "
+      "3\n"
+      "[[map]]\nnumber = \"goal.strength\"\nstrands = \"0:1\"\nfactor = 0.5\n"
+      "[[hold]]\nstrands = \"0\"\nbegin = 1\nend = 1\nstrength = 7\n");
+  EXPECT_TRUE(scene.forces.haveGoals());
+  const GoalPose goals = goalsOf(scene, 0);
+  EXPECT_FLOAT_EQ(goals.strengths[0], 2);
+  EXPECT_FLOAT_EQ(goals.strengths[4], 1 + 7) << "a hold has its own";
+  EXPECT_FLOAT_EQ(goals.strengths[5], 6);
+  EXPECT_FLOAT_EQ(goals.strengths[9], 3);
+  EXPECT_EQ(materialOfStrand(scene.material, 1), materialOfStrand(Material{}, 1));
+}
+
 TEST(SceneForces, FramesComeInParts) {
   const LoadedScene scene = loadedFrom(
       "[motion]\nkind = \"spin\"\n[[field]]\nkind = \"uniform\"\nstrength = 1\nbind = \"head\"\nposition = "
@@ -245,6 +260,12 @@ TEST(SceneForces, MistakesAreNamed) {
       {"[[hold]]\nname = \"tie\"\nbegin = 0.3\nend = 0.4",
        "the hold tie: no particle stands between 0.3 and 0.4 of its strand's length"},
       {"[[field]]\nname = \"smoke\"\nkind = \"grid\"\nfile = \"none.npy\"", "the field smoke: "},
+      {"[goal]\nshape = true\n[[hold]]\n", "goal.shape = true cannot stand with [[hold]]"},
+      {"[[map]]\nnumber = \"goal.strength\"\nstrands = \"1\"\n",
+       "line 14: found a map of goal.strength without [goal]"},
+      {"[goal]\n[[map]]\nnumber = \"goal.strength\"\nfile = \"none.csv\"\n", "line 16: "},
+      {"[goal]\n[[map]]\nnumber = \"goal.strength\"\nstrands = \"0:2\"\n",
+       "the goal: a map names strand 2; the groom has 2, numbered from 0"},
       {"[simulation]\nintegrator = \"paper\"\n[[field]]\nkind = \"drag\"",
        "fields, holds and goals of a file need the integrator jacobi"},
   };

@@ -108,6 +108,34 @@ TEST(SceneMaps, APresetForSomeStrands) {
   }
 }
 
+TEST(SceneMaps, GroupsWhoseStrandsDoNotTouchAreBundles) {
+  const std::string kGroups =
+      "[[group]]\nname = \"bun\"\nstrands = \"0:1, 5\"\ntouch = false\n"
+      "[[group]]\nname = \"rest\"\nstrands = \"2:4\"\n";
+  const auto scene = parsed(kGroups + "[[group]]\nname = \"braid\"\nstrands = \"rest\"\ntouch = false\n");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto loaded = loadScene(*scene);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_TRUE(loaded->settings.contacts.bundles);
+  EXPECT_EQ(*loaded->settings.contacts.bundles, (std::vector<ContactBundle>{{0, 1, 5}, {2, 3, 4}}));
+  EXPECT_EQ(parseScene(sceneText(*scene), "scene.toml")->groups, scene->groups);
+  const auto plain = loadScene(*parsed("[[group]]\nname = \"all\"\nstrands = \"0:5\"\n"));
+  EXPECT_FALSE(plain->settings.contacts.bundles);
+  const struct {
+    const char *text, *message;
+  } kCases[] = {
+      {"[[group]]\nname = \"braid\"\nstrands = \"4:5\"\ntouch = false\n",
+       "strand 5 is in the groups bun and braid, and strands of neither touch each other; expected"},
+      {"[[group]]\nname = \"braid\"\nstrands = \"6\"\ntouch = false\n",
+       "the group braid names strand 6; the groom has 6, numbered from 0"},
+  };
+  for (const auto& c : kCases) {
+    const auto wrong = loadScene(*parsed(kGroups + c.text));
+    ASSERT_FALSE(wrong) << c.text;
+    EXPECT_NE(wrong.error().message.find(c.message), std::string::npos) << wrong.error().message;
+  }
+}
+
 TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
   const auto folder = test::scratchFolder("scene_maps_wrong");
   std::ofstream(folder / "wrong.csv") << "1;2\n";

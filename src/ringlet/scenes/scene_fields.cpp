@@ -427,15 +427,14 @@ std::span<const SceneField<SceneMap>> mapFields() {
   using M = SceneMap;
   static const std::string numbers = [] {
     std::string list;
-    for (const auto& parameter : mappedParameters())
-      list += (list.empty() ? "" : ", ") + std::string(parameter.key);
-    return list;
+    for (const auto& parameter : mappedParameters()) list += std::string(parameter.key) + ", ";
+    return list + kGoalStrengthMap;
   }();
   static const SceneField<M> all[] = {
       {"number",
        "",
        "none",
-       "Number of the material that differs from strand to strand.",
+       "Number of the material that differs from strand to strand; or the strength of [goal].",
        &M::number,
        {},
        numbers},

@@ -341,14 +341,21 @@ class SceneReader {
       for (const char* key : {"file", "strands", "primvar", "texture"})
         if (source && source == table->get(key)) refuseForeign(*table, "map", mapFields(), key, "a map of");
       if (!problems_.empty() || !missing_.empty()) continue;
+      if (map.number == kGoalStrengthMap && !scene.goal.on)
+        problems_.add(lineOf(*number),
+                      "found a map of goal.strength without [goal]; expected a goal it is of");
       // By itself first, so that a mistake has its line.
       Material alone = scene.material.material;
-      if (Status added = applyMaps(std::span(&map, 1), scene, alone); !added)
-        problems_.add(lineOf(*source), added.error().message);
+      const std::span<const SceneMap> one(&map, 1);
+      Status added = applyMaps(one, scene, alone);
+      if (const auto goal = goalStrengthMaps(one, scene); added && !goal) added = goal.error();
+      if (!added) problems_.add(lineOf(*source), added.error().message);
       scene.maps.push_back(std::move(map));
     }
     if (scene.maps.empty() || !problems_.empty() || !missing_.empty()) return;
-    scene.hasMaterial = true;
+    scene.hasMaterial = scene.hasMaterial || std::ranges::any_of(scene.maps, [](const SceneMap& map) {
+                          return map.number != kGoalStrengthMap;
+                        });
     Status whole = applyMaps(scene.maps, scene, scene.material.material);
     if (whole) whole = checkMaterial(scene.material.material);
     if (!whole) problems_.add(lineOf(*file.get("map")), whole.error().message);

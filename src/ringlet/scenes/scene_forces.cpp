@@ -176,6 +176,18 @@ Result<SceneForces> SceneForces::load(const SceneFile& scene, const Groom& groom
 
 Status SceneForces::loadGoal(const SceneFile& scene, const Groom& groom) {
   hasGoalFile_ = !scene.goalFile.empty();
+  const auto maps = goalStrengthMaps(scene.maps, scene);
+  if (!maps) return maps.error();
+  if (!maps->empty()) goalFactors_.assign(groom.points.size(), 1);
+  for (const std::vector<StrandRun>& runs : *maps) {
+    for (const StrandRun& run : runs) {
+      if (run.last >= groom.strandCount())
+        return Error{fmt::format("a map names strand {}; the groom has {}, numbered from 0", run.last,
+                                 groom.strandCount())};
+      for (std::size_t i = groom.firstPoint[run.first]; i < groom.firstPoint[run.last + 1]; ++i)
+        goalFactors_[i] *= run.factor;
+    }
+  }
   if (haveGoals()) groom_ = goalOf(groom);
   if (!hasGoalFile_) return {};
   if (holdsAnimation(scene.goalFile)) {
@@ -219,6 +231,7 @@ Result<GoalPose> SceneForces::goalsAt(double seconds, const HeadPose& head, cons
   const std::vector<SceneHold> stated = keys ? keys->holdsAt(seconds) : scene_.holds;
   GoalPose pose{groom_.places, std::vector<float>(groom_.places.size(), 0)};
   if (goal.on) pose.strengths = strengthsOf(groom_, goal);
+  for (std::size_t i = 0; i < goalFactors_.size(); ++i) pose.strengths[i] *= goalFactors_[i];
   if (animation_) {
     auto places = animation_->placesAt(seconds, head);
     if (!places) return places.error();

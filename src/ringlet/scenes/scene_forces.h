@@ -56,7 +56,7 @@ class SceneForces {
 
   bool haveFields() const { return !fields_.empty(); }
   /// Whether goals are other than the groom itself all the time.
-  bool haveGoals() const { return !holds_.empty() || hasGoalFile_; }
+  bool haveGoals() const { return !holds_.empty() || hasGoalFile_ || !goalFactors_.empty(); }
 
   /// In the world, with the head at `head`. `keys`: of the same scene, or none.
   std::vector<ForceField> fieldsAt(double seconds, const HeadPose& head, const SceneKeys* keys) const;
@@ -111,6 +111,7 @@ class SceneForces {
 
   GroomGoal groom_;  // with goals; of a goal's pose in its place
   bool hasGoalFile_ = false;
+  std::vector<float> goalFactors_;            // of maps, on each particle's strength; empty: all 1
   std::shared_ptr<GoalAnimation> animation_;  // that moves it
 };
 

@@ -120,6 +120,12 @@ Result<std::vector<std::pair<double Material::*, double>>> numbersOf(const Scene
   return numbers;
 }
 
+// factor: where the map names strands.
+Result<Runs> runsOf(const SceneMap& map, double factor, const SceneFile& scene, GroomValues& groom) {
+  if (!map.file.empty()) return runsOfFile(map.file);
+  return map.strands.empty() ? groom.runsOf(map) : parseStrands(map.strands, factor, scene.groups);
+}
+
 }  // namespace
 
 std::span<const Parameter<Material>> mappedParameters() {
@@ -183,6 +189,19 @@ Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text) {
   return sorted(std::move(runs));
 }
 
+Result<std::vector<std::vector<StrandRun>>> goalStrengthMaps(std::span<const SceneMap> maps,
+                                                             const SceneFile& scene) {
+  std::vector<Runs> factors;
+  GroomValues groom(scene.groom);
+  for (const SceneMap& map : maps) {
+    if (map.number != kGoalStrengthMap) continue;
+    auto runs = runsOf(map, map.factor, scene, groom);
+    if (!runs) return runs.error();
+    factors.push_back(std::move(*runs));
+  }
+  return factors;
+}
+
 Status applyMaps(std::span<const SceneMap> maps, const SceneFile& scene, Material& material) {
   material.factors.clear();
   GroomValues groom(scene.groom);
@@ -190,9 +209,7 @@ Status applyMaps(std::span<const SceneMap> maps, const SceneFile& scene, Materia
     const auto numbers = numbersOf(map, material);
     if (!numbers) return numbers.error();
     for (const auto& [member, factor] : *numbers) {
-      auto runs = !map.file.empty()      ? runsOfFile(map.file)
-                  : !map.strands.empty() ? parseStrands(map.strands, factor, scene.groups)
-                                         : groom.runsOf(map);
+      auto runs = runsOf(map, factor, scene, groom);
       if (!runs) return runs.error();
       if (!runs->empty())
         material.factors.push_back({member, std::make_shared<const Runs>(std::move(*runs))});

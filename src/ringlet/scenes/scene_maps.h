@@ -28,8 +28,16 @@ Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor
 /// is there twice.
 Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text);
 
-/// Sets the `factors` of a material to what maps of a scene say. Errors: a file that cannot be read, that of
-/// the groom too where a map is of its primvars; a preset that needs what the material has none of.
+/// In place of a number of the material: the strength of the goal.
+inline constexpr const char* kGoalStrengthMap = "goal.strength";
+
+/// Factors on the strength of the goal, one entry a map of it. Errors: those of applyMaps.
+Result<std::vector<std::vector<StrandRun>>> goalStrengthMaps(std::span<const SceneMap> maps,
+                                                             const SceneFile& scene);
+
+/// Sets the `factors` of a material to what maps of a scene say; those of the goal are left out. Errors: a
+/// file that cannot be read, that of the groom too where a map is of its primvars; a preset that needs what
+/// the material has none of.
 Status applyMaps(std::span<const SceneMap> maps, const SceneFile& scene, Material& material);
 
 }  // namespace ringlet
