@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <random>
 
@@ -81,6 +82,17 @@ TEST(ContactQuality, WhatOverlapsAtRestMay) {
   EXPECT_EQ(atRest.rawRecall, 1);
   const ContactQuality pressed = p.at(twoLines(0.0035).points);
   EXPECT_NEAR(pressed.deepestOverlap, 0.1, 1e-6);
+}
+
+TEST(ContactQuality, BundlesAreLeftOut) {
+  Groom groom = twoLines(0.0035);
+  groom.addStrand(line({0.007, 0, 0}, {0.007, -0.076, 0}, 20));
+  ContactSettings settings = radius(0.0025);
+  const ContactQuality all = Prepared(groom, settings).at(groom.points);
+  settings.bundles = std::make_shared<const std::vector<ContactBundle>>(std::vector<ContactBundle>{{0, 1}});
+  const ContactQuality some = Prepared(groom, settings).at(groom.points);
+  EXPECT_EQ(all.overlapping, 40u);
+  EXPECT_EQ(some.overlapping, 20u);
 }
 
 TEST(ContactQuality, RecallCountsPairsOfSpheres) {
