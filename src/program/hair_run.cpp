@@ -255,9 +255,9 @@ Status HairRun::makeSink() {
   return done > 0 ? restore() : Status{};
 }
 
-// What keys did in the frames before, of which a checkpoint knows nothing. A material that was another and came
-// back has other last bits than one that never changed: the first change is made too. The state, restored after
-// this, says whether the hair sleeps; numbers that are set anew would wake it.
+// What keys did in the frames before, of which a checkpoint knows nothing. A material that was another and
+// came back has other last bits than one that never changed: the first change is made too. The state,
+// restored after this, says whether the hair sleeps; numbers that are set anew would wake it.
 Status HairRun::takeNumbersBefore(int frame) {
   if (!input_.keys) return {};
   for (int before = -preRollFrames(input_, options_); before < frame - 1; ++before) {

@@ -173,8 +173,8 @@ TEST_P(Resume, AnInterruptedRunGoesOn) {
   resumeToTheSameBits("interrupted");
 }
 
-// A checkpoint knows nothing of what keys did before it: a material that came back to what it was, hair that sleeps
-// since nothing changes any more.
+// A checkpoint knows nothing of what keys did before it: a material that came back to what it was, hair that
+// sleeps since nothing changes any more.
 TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
   struct Case {
     const char* what;
@@ -195,10 +195,23 @@ TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
                              120, 90}}) {
     std::ofstream(folder_ / "keys.toml") << c.scene;
     const auto arguments = [&](const char* out) {
-      return std::vector<std::string>{"simulate",  "keys.toml", "--backend",    GetParam(), "--frames",
-                                      std::to_string(c.frames), "--cache",      "float32",  "--no-usd",
-                                      "--no-sheet", "--checkpoint", "5", "--resume", "--json-progress",
-                                      "--quiet",   "-o",        out};
+      return std::vector<std::string>{"simulate",
+                                      "keys.toml",
+                                      "--backend",
+                                      GetParam(),
+                                      "--frames",
+                                      std::to_string(c.frames),
+                                      "--cache",
+                                      "float32",
+                                      "--no-usd",
+                                      "--no-sheet",
+                                      "--checkpoint",
+                                      "5",
+                                      "--resume",
+                                      "--json-progress",
+                                      "--quiet",
+                                      "-o",
+                                      out};
     };
     for (const char* out : {"keys_whole", "keys_out"}) fs::remove_all(folder_ / out);
     ASSERT_EQ(runProgram(folder_, arguments("keys_whole")).exitCode, 0) << c.what;
@@ -212,7 +225,8 @@ TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
     const auto resumed = runProgram(folder_, arguments("keys_out"));
     ASSERT_EQ(resumed.exitCode, 0) << c.what << ": " << resumed.err;
     EXPECT_EQ(resumed.out.find("\"frame\": 1,"), std::string::npos) << c.what << ": it began anew";
-    EXPECT_TRUE(readText(folder_ / "keys_out/hair.rgc") == readText(folder_ / "keys_whole/hair.rgc")) << c.what;
+    EXPECT_TRUE(readText(folder_ / "keys_out/hair.rgc") == readText(folder_ / "keys_whole/hair.rgc"))
+        << c.what;
   }
 }
 
