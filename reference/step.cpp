@@ -85,6 +85,7 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
     previousRootPoses_ = rootPoses_;
     for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
     report_.steps += stepPoses.size();
+    fieldsBefore_ = fields_;
     return;
   }
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
@@ -97,6 +98,7 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
              std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
   }
   goalsBefore_ = goals_;
+  fieldsBefore_ = fields_;
 }
 
 template <class Real>
@@ -135,7 +137,7 @@ void Simulation<Real>::setForces(std::span<const Vec3f> forces) {
 
 template <class Real>
 void Simulation<Real>::setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
-                                double dampingRatio) {
+                                double dampingRatio, std::span<const Vec3f> from) {
   const bool isFirst = goals_.empty();
   goals_.clear();
   goalStiffness_.clear();
@@ -146,6 +148,26 @@ void Simulation<Real>::setGoals(std::span<const Vec3f> places, std::span<const f
     goalDamping_.push_back(goalDamping(goalStiffness_.back(), dampingRatio));
   }
   if (isFirst) goalsBefore_ = goals_;
+  if (from.empty()) return;
+  goalsBefore_.clear();
+  for (const Vec3f& place : from) goalsBefore_.push_back(toEigen<double>(place));
+}
+
+template <class Real>
+void Simulation<Real>::setFields(std::span<const ForceField> fields, std::span<const ForceField> from) {
+  fields_.assign(fields.begin(), fields.end());
+  fieldsBefore_ = fields_;
+  if (!from.empty()) fieldsBefore_.assign(from.begin(), from.end());
+}
+
+// A step takes them as they are at its end.
+template <class Real>
+std::vector<ForceField> Simulation<Real>::fieldsAtStep(std::size_t k, std::size_t steps) const {
+  std::vector<ForceField> now;
+  for (std::size_t f = 0; f < fields_.size(); ++f)
+    now.push_back(
+        interpolate(fieldsBefore_[f], fields_[f], static_cast<double>(k + 1) / static_cast<double>(steps)));
+  return now;
 }
 
 // Settings::goal: its strength goes evenly from the root's to the tip's along the arc.
@@ -256,6 +278,9 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
                                 std::span<const BodyPose> bodyPoses, const std::vector<BodyPose>& roots) {
   const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
   const AirStep<Real> air = airStep(next);
+  const std::vector<ForceField> inStep = fieldsAtStep(k, steps);
+  const FieldStep fields{inStep, toEigen<double>(head_.position),
+                         toEigen<double>((next.position - head_.position) / settings_.stepSeconds())};
   for (std::size_t s = 0; s < rest_.size(); ++s) {
     if (isRigid_[s]) continue;
     const HeadStep<Real> head = headStep(next, s, roots[s]);
@@ -263,8 +288,8 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
     const OutsideForces forces =
         forces_.empty() ? OutsideForces{}
                         : OutsideForces(forces_).subspan(firstPoint_[s], rest_[s].particleCount());
-    prepareStrand(rest_[s], settings_, head, air, forces, goalStep(s, k, steps), positions, velocities,
-                  scratch_, taps_[s], systems_[s]);
+    prepareStrand(rest_[s], settings_, head, air, forces, goalStep(s, k, steps), fields, positions,
+                  velocities, scratch_, taps_[s], systems_[s]);
     solveVelocities(rest_[s], settings_, head, forces, bodies, systems_[s], scratch_, taps_[s], positions,
                     velocities);
   }

@@ -69,7 +69,10 @@ class Simulation {
 
   /// Places that particles are pulled to, as Simulation::setGoals of the solver has them: reached at the end
   /// of the next frame.
-  void setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio);
+  void setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
+                std::span<const Vec3f> from = {});
+  /// As Simulation::setFields of the solver has them.
+  void setFields(std::span<const ForceField> fields, std::span<const ForceField> from = {});
 
   /// Other settings and another material from the next frame on, of the groom it was made from; what may
   /// differ is what the solver's setSettings and setMaterial take, but for contacts. The rest pose stays
@@ -118,6 +121,7 @@ class Simulation {
   AirStep<Real> airStep(const HeadPose& next) const;
   // Of strand s, in step k of the frame's.
   GoalStep goalStep(std::size_t s, std::size_t k, std::size_t steps) const;
+  std::vector<ForceField> fieldsAtStep(std::size_t k, std::size_t steps) const;
 
   // In double, as headStep.
   std::vector<BodyStep<Real>> bodySteps(const HeadPose& next, std::span<const BodyPose> poses) const;
@@ -144,7 +148,8 @@ class Simulation {
   Field<double> forces_;               // from outside; empty: none
   Field<double> goalsBefore_, goals_;  // at the frame's start and end, in the groom's axes [m]; empty: none
   std::vector<double> goalStiffness_, goalDamping_;
-  std::vector<BodyPose> bodyPoses_;  // at pose n, in the world
+  std::vector<ForceField> fieldsBefore_, fields_;  // at the frame's start and end
+  std::vector<BodyPose> bodyPoses_;                // at pose n, in the world
   std::vector<RestStrand<Real>> rest_;
   Field<Real> positions_, velocities_;
   std::vector<StrandSystem> systems_;  // of the current step

@@ -7,6 +7,7 @@
 #include "reference/equations/bend_spring.h"
 #include "reference/equations/body_contact.h"
 #include "reference/equations/core_spring.h"
+#include "reference/equations/force_field.h"
 #include "reference/equations/frame.h"
 #include "reference/equations/goal_spring.h"
 #include "reference/equations/smoothing.h"
@@ -163,6 +164,21 @@ void addGoals(const HeadStep<Real>& head, const GoalStep& goals, FieldView<Real>
   }
 }
 
+// What fields add to the system, from positions at the step's start.
+template <class Real>
+void addFields(const RestStrand<Real>& rest, const FieldStep& step, double T, FieldView<Real> positions,
+               StrandSystem& system) {
+  for (const ForceField& field : step.fields) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const Vector3<double> x = step.origin + positions[i].template cast<double>();
+      const GoalPull<double> pull = fieldPull(field, x, step.travel, T);
+      const double m = rest.masses[i];
+      system.masses[i] += m * pull.weight;
+      system.momenta[i] += m * pull.momentum;
+    }
+  }
+}
+
 // Integrator::paper, section 5: the springs' forces of the step's start over dampingLoops x forceLoops small
 // steps. In each, damping from the velocities as they are, then the limit on rates.
 template <class Real>
@@ -253,8 +269,8 @@ Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i) {
 template <class Real>
 void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
                    const AirStep<Real>& air, OutsideForces forces, const GoalStep& goals,
-                   FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
-                   StrandTaps<Real>& taps, StrandSystem& system) {
+                   const FieldStep& fields, FieldView<Real> positions, FieldView<Real> velocities,
+                   StepScratch<Real>& scratch, StrandTaps<Real>& taps, StrandSystem& system) {
   const bool isPaper = settings.integrator == Integrator::paper;
 
   // The head's new translation is the new frame of reference.
@@ -274,6 +290,7 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
   if (!isPaper) {
     assembleSystem<Real>(rest, settings, forces, taps, scratch.directions, velocities, system);
     addGoals<Real>(head, goals, positions, system);
+    addFields<Real>(rest, fields, settings.stepSeconds(), positions, system);
   }
 }
 
@@ -345,23 +362,24 @@ void moveStrand(const RestStrand<Real>& rest, const Settings& settings, const He
   taps.velocities.assign(velocities.begin(), velocities.end());
 }
 
-#define RINGLET_INSTANTIATE(Real)                                                                           \
-  template Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);                        \
-  template void prepareStrand(const RestStrand<Real>& rest, const Settings& settings,                       \
-                              const HeadStep<Real>& head, const AirStep<Real>& air, OutsideForces forces,   \
-                              const GoalStep& goals, FieldView<Real> positions, FieldView<Real> velocities, \
-                              StepScratch<Real>& scratch, StrandTaps<Real>& taps, StrandSystem& system);    \
-  template void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies,   \
-                                 FieldView<Real> positions, const StrandSystem& system,                     \
-                                 StepScratch<Real>& scratch, FieldView<double> velocities);                 \
-  template void solveVelocities(const RestStrand<Real>& rest, const Settings& settings,                     \
-                                const HeadStep<Real>& head, OutsideForces forces,                           \
-                                const std::vector<BodyStep<Real>>& bodies, const StrandSystem& system,      \
-                                StepScratch<Real>& scratch, const StrandTaps<Real>& taps,                   \
-                                FieldView<Real> positions, FieldView<Real> velocities);                     \
-  template void moveStrand(const RestStrand<Real>& rest, const Settings& settings,                          \
-                           const HeadStep<Real>& head, const std::vector<BodyStep<Real>>& bodies,           \
-                           FieldView<Real> positions, FieldView<Real> velocities,                           \
+#define RINGLET_INSTANTIATE(Real)                                                                         \
+  template Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);                      \
+  template void prepareStrand(const RestStrand<Real>& rest, const Settings& settings,                     \
+                              const HeadStep<Real>& head, const AirStep<Real>& air, OutsideForces forces, \
+                              const GoalStep& goals, const FieldStep& fields, FieldView<Real> positions,  \
+                              FieldView<Real> velocities, StepScratch<Real>& scratch,                     \
+                              StrandTaps<Real>& taps, StrandSystem& system);                              \
+  template void solveAmongBodies(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>& bodies, \
+                                 FieldView<Real> positions, const StrandSystem& system,                   \
+                                 StepScratch<Real>& scratch, FieldView<double> velocities);               \
+  template void solveVelocities(const RestStrand<Real>& rest, const Settings& settings,                   \
+                                const HeadStep<Real>& head, OutsideForces forces,                         \
+                                const std::vector<BodyStep<Real>>& bodies, const StrandSystem& system,    \
+                                StepScratch<Real>& scratch, const StrandTaps<Real>& taps,                 \
+                                FieldView<Real> positions, FieldView<Real> velocities);                   \
+  template void moveStrand(const RestStrand<Real>& rest, const Settings& settings,                        \
+                           const HeadStep<Real>& head, const std::vector<BodyStep<Real>>& bodies,         \
+                           FieldView<Real> positions, FieldView<Real> velocities,                         \
                            StepScratch<Real>& scratch, StrandTaps<Real>& taps)
 RINGLET_INSTANTIATE(float);
 RINGLET_INSTANTIATE(double);

@@ -11,6 +11,7 @@
 #include "reference/kernels/body_step.h"
 #include "reference/rest_strand.h"
 #include "reference/strand_solve.h"
+#include "ringlet/scene/force_field.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/scene/wind.h"
 
@@ -108,6 +109,13 @@ struct GoalStep {
   std::vector<double> stiffness, damping;
 };
 
+/// Fields in a step, in the world, and what velocities are relative to there; or none.
+struct FieldStep {
+  std::span<const ForceField> fields;
+  Vector3<double> origin = Vector3<double>::Zero();  // where the head is when the step starts [m]
+  Vector3<double> travel = Vector3<double>::Zero();  // the head's [m/s]
+};
+
 /// Sum of the forces on particle i [N]: +f_i of the edge below it, -f_{i-1} of the edge above.
 template <class Real>
 Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);
@@ -117,8 +125,8 @@ Vector3<Real> particleForce(const StrandTaps<Real>& taps, std::size_t i);
 template <class Real>
 void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const HeadStep<Real>& head,
                    const AirStep<Real>& air, OutsideForces forces, const GoalStep& goals,
-                   FieldView<Real> positions, FieldView<Real> velocities, StepScratch<Real>& scratch,
-                   StrandTaps<Real>& taps, StrandSystem& system);
+                   const FieldStep& fields, FieldView<Real> positions, FieldView<Real> velocities,
+                   StepScratch<Real>& scratch, StrandTaps<Real>& taps, StrandSystem& system);
 
 /// Integrator::jacobi: the strand as block; where that would go into a body once more, and again with
 /// friction.

@@ -1,7 +1,5 @@
-// Goals of this lane's particles. Included by kernels/strand_step.comp.
+// Goals of this lane's particles. Included by bodies/run_pulls.glsl.
 #include "equations/goal_spring.glsl"
-
-vec4 goal[RUN];  // see goalPull; of the particle's mass
 
 // From positions at the step's start. Places are the groom's, carried as its roots are.
 void feelGoals(uint step) {
@@ -21,6 +19,6 @@ void feelGoals(uint step) {
       there += rootPosition(step + 1);
     }
     float m = isParticle(k) ? restEdge[k].x : 0.0;
-    goal[k] = m * goalPull(end.w, begin.w, p[k], there, move, stepSeconds());
+    pull[k] += m * goalPull(end.w, begin.w, p[k], there, move, stepSeconds());
   }
 }

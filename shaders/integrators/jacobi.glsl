@@ -16,18 +16,18 @@ vec3 rightHandSide(int k, vec3 forceBefore) {
 }
 
 // What is added to particle k's mass, and to its right-hand side: by contacts, 2 D + g and a momentum, read where they
-// are used and not kept in registers; by the air; by bodies; by goals.
+// are used and not kept in registers; by the air; by bodies; by goals and fields.
 bool withContacts = false;
 #ifdef RINGLET_CONTACTS
 bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
 #endif
-const bool kAddsMass = kContacts || kAir || kBodies || kGoals;
+const bool kAddsMass = kContacts || kAir || kBodies || kPulls;
 Symmetric massOf(int k) {
   Symmetric mass = symmetricDiagonal(restEdge[k].x);
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) mass = add(mass, airDragMatrix(drag[k], tangent[k], restEdge[k].x));
   if (kBodies) mass = add(mass, pushWeight[k]);
-  if (kGoals) mass = addDiagonal(mass, goal[k].w);
+  if (kPulls) mass = addDiagonal(mass, pull[k].w);
 #endif
 #ifdef RINGLET_CONTACTS
   if (meetsContacts(k)) mass = add(mass, contactMass(strand.firstParticle + first + k));
@@ -42,7 +42,7 @@ vec3 addedMomentum(int k) {
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) momentum += restEdge[k].x * multiply(drag[k], tangent[k], wind[k]);
   if (kBodies) momentum += pushMomentum[k];
-  if (kGoals) momentum += goal[k].xyz;
+  if (kPulls) momentum += pull[k].xyz;
 #endif
   return momentum;
 }

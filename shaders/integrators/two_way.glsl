@@ -14,7 +14,7 @@
 //   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
 // All sums of positive matrices: stiff edges cost no digits.
 
-// What a volume adds to a mass is a number, as the mass is, and so is what a goal adds.
+// What a volume adds to a mass is a number, as the mass is, and so is what a goal or a field adds.
 const bool kAddsMatrix = kContacts && kPairs || kAir || kBodies;
 const bool kFromEnds = kLanes <= 2 && !kAddsMatrix && !kBendVaries;
 
@@ -26,10 +26,10 @@ vec4 volumeAddedToRun(int k) {
   return vec4(0);
 }
 
-// What a goal adds, likewise, to particle j where lanes go from the root, or k; each in registers.
-vec4 goalAddedToRun(int j, int k) {
+// What goals and fields add, likewise, to particle j where lanes go from the root, or k; each in registers.
+vec4 pullAddedToRun(int j, int k) {
 #ifdef RINGLET_SURROUNDINGS
-  if (kGoals) return lane == 0 ? goal[j] : goal[k];
+  if (kPulls) return lane == 0 ? pull[j] : pull[k];
 #endif
   return vec4(0);
 }
@@ -69,7 +69,7 @@ void solveFromEnds(vec3 pinned[3]) {
     vec3 rootSide = rightHandSide(j, j > 0 ? force[max(j - 1, 0)] : forceBefore);
     vec3 tipSide = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
     vec4 added = volumeAddedToRun(fromRoot ? j : k);
-    if (kGoals) added += goalAddedToRun(j, k);
+    if (kPulls) added += pullAddedToRun(j, k);
     r[j] = (fromRoot ? rootSide : tipSide) + added.xyz;
     mass[j] = (fromRoot ? restEdge[j].x : restEdge[k].x) + added.w;
     if (j > 0) {

@@ -4,8 +4,9 @@
 // that masks lanes (lavapipe) runs the body of one that asks before it once more than it has turns. Specialized with
 // RUN = particles per lane, the lanes per strand and the integrator. With contacts every solve is a dispatch of its
 // own; the last of a step moves the strand and goes on to the next step's first. Compiled for `jacobi` by itself; with
-// RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies, air and goals; with RINGLET_BASELINES, the
-// other integrators; each with the run in registers and, with RINGLET_IN_MEMORY, in memory (scan/lanes.glsl).
+// RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies, air, goals and fields; with
+// RINGLET_BASELINES, the other integrators; each with the run in registers and, with RINGLET_IN_MEMORY, in memory
+// (scan/lanes.glsl).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -225,7 +226,7 @@ vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN -
 #ifdef RINGLET_SURROUNDINGS
 #include "bodies/run_air.glsl"
 #include "bodies/run_bodies.glsl"
-#include "bodies/run_goals.glsl"
+#include "bodies/run_pulls.glsl"
 #endif
 #include "integrators/jacobi.glsl"
 #include "integrators/two_way.glsl"
@@ -260,7 +261,7 @@ void solveVelocities(uint step) {
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) vStart[k] = v[k];
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) feelAir(step);
-  if (kGoals) feelGoals(step);
+  if (kPulls) feelPulls(step);
   if (kBodies) solveAmongBodies(step, pinned);
 #endif
   if (kIntegrator == kIntegratorJacobi && !kBodies) {

@@ -25,6 +25,7 @@ RINGLET_CONSTANT uint kSpecBodies = 13;
 RINGLET_CONSTANT uint kSpecAir = 14;
 RINGLET_CONSTANT uint kSpecTurbulent = 15;
 RINGLET_CONSTANT uint kSpecGoals = 16;
+RINGLET_CONSTANT uint kSpecFields = 17;
 
 // Bindings of the strand_step kernels, all in set 0.
 RINGLET_CONSTANT uint kBindPositions = 0;   // vec4[particles]: position relative to the head [m], 0
@@ -172,6 +173,7 @@ struct StepParameters {
   float dragAlong;     // share of drag that what passes along a strand has
   uint strandCount;    // of the chunk: stride of the root poses
   uint stepCount;      // of the frame
+  uint fieldCount;
 };
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 // The buffers and parameters of the strand_step kernels (layout/strands.h), and the taps, which only a kernel compiled
-// with RINGLET_TAPS writes. Kernels know of contacts where compiled with RINGLET_CONTACTS, of bodies, air and goals
-// where compiled with RINGLET_SURROUNDINGS: a constant that is false still leaves their buffers bound, and a small
-// device has few.
+// with RINGLET_TAPS writes. Kernels know of contacts where compiled with RINGLET_CONTACTS, of bodies, air, goals
+// and fields where compiled with RINGLET_SURROUNDINGS: a constant that is false still leaves their buffers bound, and a
+// small device has few.
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 
@@ -33,11 +33,14 @@ layout(constant_id = kSpecBodies) const bool kBodies = false;      // there are 
 layout(constant_id = kSpecAir) const bool kAir = false;         // hair feels it
 layout(constant_id = kSpecTurbulent) const bool kTurbulent = false;  // and it has waves
 layout(constant_id = kSpecGoals) const bool kGoals = false;       // particles are pulled to places
+layout(constant_id = kSpecFields) const bool kFields = false;     // fields act on them
 #else
 const bool kBodies = false;
 const bool kAir = false;
 const bool kGoals = false;
+const bool kFields = false;
 #endif
+const bool kPulls = kGoals || kFields;
 layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own
 layout(constant_id = kSpecForces) const bool kForces = false;            // forces from outside act on particles
 
@@ -115,6 +118,7 @@ vec4 goalAtFrameStart(uint i) { return kTexels ? vectorAt(goalBeforeTexels, i) :
 vec4 goalAtFrameEnd(uint i) { return kTexels ? vectorAt(goalTexels, i) : goals[i]; }
 #include "shared/air_buffers.glsl"
 #include "shared/body_buffers.glsl"
+#include "shared/field_buffers.glsl"
 #endif
 
 StrandRest strand;  // this invocation's

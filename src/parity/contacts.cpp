@@ -1,5 +1,6 @@
 // Implements parity/contacts.h.
 #include "parity/contacts.h"
+#include "parity/parity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -138,6 +139,13 @@ Result<double> shakenError(
     const std::vector<float> strengths(places.size(), 3.f);
     if (Status set = simulation->setGoals(places, strengths); !set) return set.error();
     reference.setGoals(places, strengths, 1);
+  }
+  if (kernel.fields) {
+    // Gentle ones: a strong field presses pairs to where float and double go different ways.
+    std::vector<ForceField> fields = sampleFields({}, 0);
+    std::erase_if(fields, [](const ForceField& f) { return f.name != "along" && f.name != "vortex"; });
+    if (Status set = simulation->setFields(fields); !set) return set.error();
+    reference.setFields(fields);
   }
   HeadPose before;
   // Ones at which no pair is within rounding of touching or not in any step: from there on float and double

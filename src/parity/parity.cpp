@@ -247,7 +247,50 @@ struct RandomGoals {
   std::vector<float> strengths;
 };
 
+// In the step from `from` to `to` [s], about the head, where they are asked for.
+template <class Hair>
+void setSampleFields(Hair& hair, const ParityCase& c, const HeadPose& head, double from, double to) {
+  if (!c.kernel.fields) return;
+  (void)hair.setFields(sampleFields(head.position, to), sampleFields(head.position, from));
+}
+
 }  // namespace
+
+std::vector<ForceField> sampleFields(const Vec3d& about, double seconds) {
+  static const auto grid = [] {
+    Random random(77);
+    auto made = std::make_shared<VelocityGrid>(VelocityGrid{{5, 4, 6}, 0.07, {}});
+    for (int i = 0; i < 5 * 4 * 6; ++i) made->velocities.push_back(static_cast<Vec3f>(random.vector() * 8.0));
+    return std::shared_ptr<const VelocityGrid>(std::move(made));
+  }();
+  const Vec3d moved = about + Vec3d{0.3, -0.1, 0.2} * seconds;
+  const auto at = [&](double x, double y, double z) {
+    return BodyPose{moved + Vec3d{x, y, z}, fromRotationVector(Vec3d{0.3, 0.2 + seconds, -0.1})};
+  };
+  return {
+      {.name = "along", .place = at(0, 0, 0), .axis = {1, 2, 0}, .axial = 15 + 30 * seconds, .reach = 0.6},
+      {.name = "point", .place = at(0.1, 0, 0), .radial = -40, .core = 0.03},
+      {.name = "line",
+       .place = at(0, 0, 0.1),
+       .axis = {0, 0, 2},
+       .aboutAxis = true,
+       .radial = -30,
+       .reach = 0.5},
+      {.name = "vortex", .place = at(0.05, 0.1, 0), .aboutAxis = true, .around = 6, .core = 0.01, .drag = 20},
+      {.name = "blast",
+       .place = at(0, -0.2, 0),
+       .radial = 300,
+       .front = 0.1 + 3 * seconds,
+       .thickness = 0.08},
+      {.name = "brake", .place = at(-0.1, -0.1, 0), .reach = 0.25, .drag = 50},
+      {.name = "grid",
+       .place = at(-0.15, -0.15, -0.2),
+       .reach = 0.5,
+       .drag = 30,
+       .grid = grid,
+       .gridShare = 0.8},
+  };
+}
 
 std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c, SimulationReport* report) {
   c.settings.framesPerSecond *= c.settings.stepsPerFrame;
@@ -274,6 +317,7 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   }
   const RandomGoals goals(c);
   for (const auto& places : {goals.first, goals.second}) goals.set(*simulation, places);
+  setSampleFields(*simulation, c, head.now, 0, T);
   const std::vector<double> end{T};
   const std::vector<BodyPose> bodyPoses = bodyPosesOf(c.bodies, std::span(&head.next, 1), end);
   if (Status stepped = simulation->stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext); !stepped)
@@ -287,6 +331,7 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
   if (!forces.empty()) expected.setForces(forces);
   for (const auto& places : {goals.first, goals.second}) goals.set(expected, places);
+  setSampleFields(expected, c, head.now, 0, T);
   expected.stepFrame(std::span(&head.next, 1), bodyPoses, rootsNext);
 
   double largestSpeed = 0;
@@ -363,6 +408,9 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
       goals.set(*simulation, places);
       goals.set(expected, places);
     }
+    const double seconds = c.settings.stepsPerFrame * c.settings.stepSeconds();
+    setSampleFields(*simulation, c, pose(0), frame * seconds, (frame + 1) * seconds);
+    setSampleFields(expected, c, pose(0), frame * seconds, (frame + 1) * seconds);
     std::vector<BodyPose> rootPoses;
     std::vector<HeadPose> poses;
     std::vector<double> times;

@@ -37,6 +37,8 @@ struct HeadStep {
   HeadPose before, now, next;
 };
 HeadStep movingHead();
+/// A field of every kind about a place, with a grid, some that move, at a time [s].
+std::vector<ForceField> sampleFields(const Vec3d& about, double seconds);
 
 struct FieldError {
   std::string field;
@@ -51,7 +53,8 @@ struct ParityCase {
   KernelChoice kernel;
   std::uint32_t seed = 1;
   // With kernel.movingRoots every strand has small poses of its own, with kernel.forces every particle a
-  // force of a few times its weight, with kernel.goals a place that it is pulled to, at random.
+  // force of a few times its weight, with kernel.goals a place that it is pulled to, at random; with
+  // kernel.fields, sampleFields().
   std::vector<Body> bodies{};
 };
 

@@ -47,6 +47,10 @@ class Backend {
   virtual Status waitFrame() = 0;
   /// As Simulation::setSettings and setMaterial, from the next frame on; no frame is in flight.
   virtual Status change(const Settings& settings, const Material& material) = 0;
+  /// As the ones of Simulation, for the next frame.
+  virtual Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) = 0;
+  virtual Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
+                          double dampingRatio, std::span<const Vec3f> from) = 0;
   /// Of the frame waited for last. Groom order, relative to the head's origin, along world axes [m].
   virtual std::vector<Vec3f> framePositions() = 0;
   /// The same of now, before the first frame too, and no frame in flight.

@@ -257,6 +257,9 @@ void checkSurroundings(const ConformCases& cases, const Tell& tell) {
     parity::ParityCase aimed = c;
     aimed.kernel.goals = true;
     checkStep(cases.device, aimed, fmt::format("goals{}", form), parity::kOneStep, tell);
+    parity::ParityCase inFields = c;
+    inFields.kernel.fields = true;
+    checkStep(cases.device, inFields, fmt::format("fields{}", form), parity::kOneStep, tell);
     parity::ParityCase airy = c;
     airy.settings.air = {.on = true, .fallSpeed = 2, .wind = {5, 0, 1}, .gust = 0.5, .turbulence = 2};
     checkStep(cases.device, airy, fmt::format("air{}", form), parity::kOneStep, tell);

@@ -6,7 +6,7 @@
 
 namespace ringlet::program {
 
-FramePoses posesOfFrame(const RunInput& input, int frame) {
+Result<FramePoses> posesOfFrame(const RunInput& input, int frame) {
   const Settings& settings = input.settings;
   FramePoses poses;
   std::vector<double> times;
@@ -16,6 +16,13 @@ FramePoses posesOfFrame(const RunInput& input, int frame) {
     poses.heads.push_back(input.motion.poseAt(times.back()));
     if (input.scalp)
       std::ranges::copy(input.scalp->rootPosesAt(times.back()), std::back_inserter(poses.roots));
+  }
+  if (input.forces) {
+    auto forces =
+        input.forces->inFrame(frame / settings.framesPerSecond, (frame + 1) / settings.framesPerSecond,
+                              input.motion, settings, input.keys);
+    if (!forces) return forces.error();
+    poses.forces = std::move(*forces);
   }
   poses.bodies = bodyPosesOf(input.bodies, poses.heads, times);
   return poses;

@@ -10,6 +10,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
+#include "ringlet/scenes/scene_forces.h"
 
 namespace ringlet::program {
 
@@ -18,6 +19,7 @@ struct FramePoses {
   std::vector<HeadPose> heads;
   std::vector<BodyPose> bodies;  // as bodyPosesOf gives them
   std::vector<BodyPose> roots;   // as Simulation::stepFrame takes them
+  FrameForces forces;            // of the whole frame
 
   /// Hands over steps [first, first + count) of them.
   Status submit(Backend& backend, std::size_t first, std::size_t count) const {
@@ -25,6 +27,13 @@ struct FramePoses {
       const std::size_t each = poses.size() / heads.size();
       return std::span(poses).subspan(first * each, count * each);
     };
+    const auto share = [&](std::size_t step) {
+      return static_cast<double>(step) / static_cast<double>(heads.size());
+    };
+    const bool isWhole = count == heads.size();
+    const Status set =
+        isWhole ? forces.set(backend) : forces.part(share(first), share(first + count)).set(backend);
+    if (!set) return set;
     return backend.submitFrame(std::span(heads).subspan(first, count), ofSteps(bodies), ofSteps(roots));
   }
   Status submit(Backend& backend) const { return submit(backend, 0, heads.size()); }
@@ -38,6 +47,7 @@ struct FramePoses {
 };
 
 /// Frame 0 is the first that is written. Times are exact quotients, so they do not drift.
-FramePoses posesOfFrame(const RunInput& input, int frame);
+/// Errors: an animation of the scene that cannot be read.
+Result<FramePoses> posesOfFrame(const RunInput& input, int frame);
 
 }  // namespace ringlet::program

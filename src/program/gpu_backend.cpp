@@ -29,7 +29,14 @@ class GpuBackend : public Backend {
   Status waitFrame() override { return simulation_.waitFrame(); }
   Status change(const Settings& settings, const Material& material) override {
     if (Status set = simulation_.setSettings(settings); !set) return set;
-    return simulation_.material() == material ? Status{} : simulation_.setMaterial(material);
+    return simulation_.setMaterial(material);
+  }
+  Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) override {
+    return simulation_.setFields(fields, from);
+  }
+  Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
+                  std::span<const Vec3f> from) override {
+    return simulation_.setGoals(places, strengths, dampingRatio, from);
   }
   std::vector<Vec3f> framePositions() override { return simulation_.framePositions(); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }

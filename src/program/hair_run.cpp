@@ -66,6 +66,8 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
                           input.rootShifts, input.bodies,   bodies,   roots, rootsEarlier};
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
+  kernel.fields = input.forces && input.forces->haveFields();
+  kernel.goals = input.forces && input.forces->haveGoals();
   kernel.residual = measuresResidual(input, options);
   return makeGpuBackend(made,
                         {options.device, options.opened, kernel, options.usesTuned, options.showProgress});
@@ -90,7 +92,9 @@ Status takeNumbers(Backend& backend, const RunInput& input, const RunOptions& op
 Status preRoll(Backend& backend, const RunInput& input, const RunOptions& options) {
   std::optional<double> numbersOf;
   for (int frame = -preRollFrames(input, options); frame < 0 && !wasInterrupted(); ++frame) {
-    const FramePoses poses = posesOfFrame(input, frame);
+    const auto found = posesOfFrame(input, frame);
+    if (!found) return found.error();
+    const FramePoses& poses = *found;
     if (Status taken = takeNumbers(backend, input, options, frame, numbersOf); !taken) return taken;
     const std::size_t together = options.measuresContacts ? 1 : poses.heads.size();  // as makeBackend says
     for (std::size_t step = 0; step < poses.heads.size(); step += together) {
@@ -295,10 +299,15 @@ Status HairRun::stepAll() {
     if (checkpoints_.areDueAt(frame) && frame > first) {
       if (Status saved = saveAt(frame); !saved) return saved;
     }
-    const FramePoses poses = [&] {
+    const auto found = [&] {
       Stopwatch watch(posesTime_);
       return posesOfFrame(input_, frame);
     }();
+    if (!found) {
+      (void)takeUnderWay();  // it may be whole
+      return afterWritten(found.error());
+    }
+    const FramePoses& poses = *found;
     if (input_.keys) {
       if (Status taken = takeUnderWay(); !taken) return taken;
       if (Status taken = takeNumbers(*backend_, input_, options_, frame, numbersOf_); !taken)

@@ -340,7 +340,7 @@ Status applyMaterialOptions(const MaterialChoice& choice, SceneFile& scene) {
     if (!found) return found.error();
     scene.material = std::move(*found);
     scene.hasMaterial = true;
-    if (Status added = applyMaps(scene.maps, scene.material.material); !added) return added;
+    if (Status added = applyMaps(scene.maps, scene, scene.material.material); !added) return added;
   }
   // The reader of the scene's own dials has told what is unusual.
   scene.material.dials = turned(choice.dials, scene.material.dials);

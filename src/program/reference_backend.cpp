@@ -48,6 +48,18 @@ class ReferenceBackend : public Backend {
     simulation_.change(*groom_, material, settings);
     return {};
   }
+  Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) override {
+    for (const ForceField& field : fields) {
+      if (Status checked = checkForceField(field); !checked) return checked;
+    }
+    simulation_.setFields(fields, from);
+    return {};
+  }
+  Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
+                  std::span<const Vec3f> from) override {
+    simulation_.setGoals(places, strengths, dampingRatio, from);
+    return {};
+  }
   std::vector<Vec3f> framePositions() override { return waited_; }
   Result<std::vector<Vec3f>> positions() override { return pointsNow(); }
   Result<std::vector<std::byte>> checkpoint() override {

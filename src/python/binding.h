@@ -51,6 +51,7 @@ void addMaterials(py::module_& module);
 void addSettings(py::module_& module);
 void addMotions(py::module_& module);
 void addBodies(py::module_& module);
+void addFields(py::module_& module);
 void addDevices(py::module_& module);
 void addHair(py::module_& module);
 void addScenes(py::module_& module);

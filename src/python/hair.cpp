@@ -63,6 +63,7 @@ KernelChoice kernelOf(const AssetChoice& choice) {
   kernel.heads = choice.heads;
   kernel.forces = choice.hasForces;
   kernel.goals = choice.hasGoals;
+  kernel.fields = choice.hasFields;
   return kernel;
 }
 
@@ -465,19 +466,20 @@ void addAsset(py::module_& module) {
       "All of some hair that does not change, for one device; any number of Hair share it. Constant.")
       .def(py::init([](const DeviceHandle& device, const GroomHandle& groom,
                        const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
-                       bool bodies, bool movingRoots, bool forces, bool goals, int heads,
+                       bool bodies, bool movingRoots, bool forces, bool goals, bool fields, int heads,
                        const std::string& kernel) {
              return buildAsset(device, groom, material.value_or(MaterialObject{}),
                                settings.value_or(Settings{}),
-                               {bodies, movingRoots, forces, goals, heads, kernel});
+                               {bodies, movingRoots, forces, goals, fields, heads, kernel});
            }),
            py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
            py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
            py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("goals") = false,
-           py::arg("heads") = 1, py::arg("kernel") = "auto",
+           py::arg("fields") = false, py::arg("heads") = 1, py::arg("kernel") = "auto",
            "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
            "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
-           "act on them from outside; goals: whether it will be pulled to places (set_goals); heads: about "
+           "act on them from outside; goals: whether it will be pulled to places (set_goals); fields: "
+           "whether it will be in some (set_fields); heads: about "
            "how "
            "many will "
            "have this hair; kernel: \"auto\", \"lanes\", \"memory\" or \"serial\". ringlet.Error, with what "
@@ -644,6 +646,19 @@ void addHairClass(py::module_& module) {
           "(particles,): weights of the hair a centimetre from its place, 0 or more. damping: ratio about "
           "the "
           "place, 1 is critical. ringlet.Error for hair whose asset was built without goals=True.")
+      .def(
+          "set_fields",
+          [](HairObject& self, const std::vector<ForceField>& fields, const std::vector<ForceField>& from) {
+            if (!from.empty() && from.size() != fields.size())
+              throw py::value_error(
+                  fmt::format("there are {} fields, and {} that they come from", fields.size(), from.size()));
+            self.ask([&](Simulation& simulation) { demand(simulation.setFields(fields, from)); });
+          },
+          py::arg("fields"), py::arg("come_from") = py::list(),
+          "Fields as they are at the end of the next frame, any number up to 64; they hold until others are "
+          "set. come_from: the same ones at its start, from where they change evenly; without, they are "
+          "there "
+          "at once. ringlet.Error for hair whose asset was built without fields=True.")
       .def(
           "checkpoint",
           [](HairObject& self) {

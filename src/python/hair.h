@@ -36,7 +36,7 @@ struct AssetObject {
 using AssetHandle = std::shared_ptr<AssetObject>;
 
 struct AssetChoice {
-  bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false;
+  bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false, hasFields = false;
   int heads = 1;
   std::string kernel = "auto";  // or lanes, memory, serial
 };

@@ -93,6 +93,7 @@ PYBIND11_MODULE(ringlet, module) {
   addSettings(module);
   addMotions(module);
   addBodies(module);
+  addFields(module);
   addDevices(module);
   addHair(module);
   addScenes(module);

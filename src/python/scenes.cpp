@@ -96,7 +96,17 @@ void takeNumbers(const LoadedScene& scene, HairObject& hair, int frame) {
   const SceneNumbers numbers =
       valueOf(scene.keys->at((frame + 1) / scene.settings.framesPerSecond, scene.settings.stepsPerFrame));
   hair.setSettings(numbers.settings);
-  if (numbers.settings.integrator == Integrator::jacobi) hair.setMaterial(numbers.material);
+  hair.setMaterial(numbers.material);
+}
+
+// What fields and holds do in the frame.
+void takeForces(const LoadedScene& scene, HairObject& hair, int frame) {
+  const FrameForces forces = withoutGil([&] {
+    const double framesPerSecond = scene.settings.framesPerSecond;
+    return valueOf(scene.forces.inFrame(frame / framesPerSecond, (frame + 1) / framesPerSecond, scene.motion,
+                                        scene.settings, scene.keys ? &*scene.keys : nullptr));
+  });
+  hair.ask([&](Simulation& simulation) { demand(forces.set(simulation)); });
 }
 
 // The hair as it begins the first frame.
@@ -109,6 +119,8 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
       buildAsset(std::move(device), self.groom, MaterialObject{scene.material, {}}, scene.settings,
                  {.hasBodies = !scene.bodies.empty(),
                   .movesRoots = scene.scalp.has_value(),
+                  .hasGoals = scene.forces.haveGoals(),
+                  .hasFields = scene.forces.haveFields(),
                   .heads = 1,
                   .kernel = kernel});
   const double start = -preRollFrames(scene) / scene.settings.framesPerSecond;
@@ -127,6 +139,7 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
                                      .rootShifts = scene.rootShifts});
   for (int frame = -preRollFrames(scene); frame < 0; ++frame) {
     takeNumbers(scene, *hair, frame);
+    takeForces(scene, *hair, frame);
     hair->step(frameOf(scene, frame));
   }
   return hair;
@@ -176,6 +189,7 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
       if (!goesOn) return hair;
     }
     takeNumbers(self.loaded, *hair, frame);
+    takeForces(self.loaded, *hair, frame);
     hair->submit(poses);
     if (underWay) goesOn = show(self, *hair, frame, *underWay, callback);
     underWay = headAtEnd(poses);

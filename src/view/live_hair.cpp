@@ -38,6 +38,8 @@ Result<LiveHair> LiveHair::create(const ComputeDevice& device, const LoadedScene
 Status LiveHair::build(const Standing& standing) {
   KernelChoice choice;
   choice.movingRoots = !standing.roots.empty();
+  choice.fields = scene_->forces.haveFields();
+  choice.goals = scene_->forces.haveGoals();
   auto asset = HairAsset::build(*device_, scene_->groom, numbers_.material, numbers_.settings, choice,
                                 scene_->bodies.empty() ? BodyUse::none : BodyUse::some);
   if (!asset) return asset.error();

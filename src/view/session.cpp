@@ -97,8 +97,14 @@ Status Session::submitFrame() {
   const double frameSeconds = 1 / framesPerSecond();
   headDrag.advance(frameSeconds);
   for (DraggedPose& drag : bodyDrags) drag.advance(frameSeconds);
+  const HeadPose headNow = standing_.head;
   for (LiveHair& hair : hairs_) {
     const Poses poses = posesOfNext(hair.numbers().settings);
+    const auto forces =
+        scene_->forces.inFrame({seconds_, headNow}, {seconds_ + frameSeconds, poses.heads.back()},
+                               hair.numbers().settings.goal, nullptr);
+    if (!forces) return forces.error();
+    if (Status set = forces->set(hair.simulation()); !set) return set;
     if (Status submitted = hair.simulation().submitFrame(poses.heads, poses.bodies, poses.roots); !submitted)
       return submitted;
     if (&hair != &hairs_.front()) continue;

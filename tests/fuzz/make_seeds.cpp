@@ -167,6 +167,10 @@ Status writeTables(const fs::path& folder) {
   const std::string digits =
       "bend_stiffness = 8.123456789012345\n[profile]\nbend_stiffness = [[0, 0.1234567890123], [1, 1]]\n";
   write(seed(folder, "material_file", "digits"), digits);
+  write(seed(folder, "velocities", "small"),
+        std::string("\x93NUMPY\x01\x00\x76\x00", 10) +
+            "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 2, 3), }" + std::string(53, ' ') +
+            "\n" + std::string(96, '\0'));
   write(seed(folder, "strand_factors", "named"), std::string("strand,factor\n0,2\n7,0.5 # soft\n\n3,1e-2\n"));
   const DeviceCosts device{
       "a GPU", "driver 1", "9c0f3a51e2d47b68", {{{4, 16}, 612.5}, {kAnySerialShape, 46}}, 8};

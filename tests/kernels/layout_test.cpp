@@ -2,6 +2,7 @@
 // and array strides are read from the SPIR-V itself, and which structs there are is read from its files.
 #include "layout/bodies.h"
 #include "layout/contacts.h"
+#include "layout/fields.h"
 #include "layout/follow.h"
 #include "layout/picture.h"
 #include "layout/pose.h"
@@ -99,6 +100,17 @@ const std::vector<CppStruct> kCppStructs = {
       return CppStruct{"WindWave", sizeof(S), {RINGLET_MEMBER(wave), RINGLET_MEMBER(amplitude)}};
     }(),
     [] {
+      using S = layout::StepField;
+      return CppStruct{
+          "StepField",
+          sizeof(S),
+          {RINGLET_MEMBER(place), RINGLET_MEMBER(axial), RINGLET_MEMBER(axis), RINGLET_MEMBER(radial),
+           RINGLET_MEMBER(still), RINGLET_MEMBER(around), RINGLET_MEMBER(aboutAxis), RINGLET_MEMBER(core),
+           RINGLET_MEMBER(perReach), RINGLET_MEMBER(drag), RINGLET_MEMBER(front),
+           RINGLET_MEMBER(perThickness), RINGLET_MEMBER(gridShare), RINGLET_MEMBER(cell),
+           RINGLET_MEMBER(rotation), RINGLET_MEMBER(nodes), RINGLET_MEMBER(firstNode)}};
+    }(),
+    [] {
       using S = layout::StepParameters;
       return CppStruct{"StepParameters",
                        sizeof(S),
@@ -123,7 +135,8 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(dragStrength),
                         RINGLET_MEMBER(dragAlong),
                         RINGLET_MEMBER(strandCount),
-                        RINGLET_MEMBER(stepCount)}};
+                        RINGLET_MEMBER(stepCount),
+                        RINGLET_MEMBER(fieldCount)}};
     }(),
     [] {
       using S = layout::ContactRest;
@@ -410,10 +423,10 @@ TEST(Layout, PushConstantsFitEveryDevice) {
 // They are read as texels of 16 bytes (shared/texels.glsl).
 TEST(Layout, TexelRecordsAreWholeTexels) {
   for (const char* name :
-       {"ParticleRest", "StrandRest",    "RootPose",     "BodyRest",       "BodyPose",
-        "StepAir",      "WindWave",      "ContactRest",  "ContactPair",    "ContactLife",
-        "ContactForce", "ContactSystem", "ContactPlace", "ContactHistory", "VolumeParticle",
-        "VolumeState",  "VolumeParcel",  "CoreRow",      "FollowGuide",    "FollowHair"})
+       {"ParticleRest",  "StrandRest",   "RootPose",       "BodyRest",       "BodyPose",    "StepAir",
+        "StepField",     "WindWave",     "ContactRest",    "ContactPair",    "ContactLife", "ContactForce",
+        "ContactSystem", "ContactPlace", "ContactHistory", "VolumeParticle", "VolumeState", "VolumeParcel",
+        "CoreRow",       "FollowGuide",  "FollowHair"})
     EXPECT_EQ(cppStruct(name)->size % sizeof(layout::vec4), 0u) << name;
 }
 

@@ -28,7 +28,7 @@ double residualOfReference(std::span<const Vec3f> points, const Settings& settin
   reference::StepScratch<double> scratch;
   reference::StrandTaps<double> taps;
   reference::StrandSystem system;
-  reference::prepareStrand<double>(rest, settings, head, {}, {}, {}, positions, velocities, scratch, taps,
+  reference::prepareStrand<double>(rest, settings, head, {}, {}, {}, {}, positions, velocities, scratch, taps,
                                    system);
   reference::solveVelocities<double>(rest, settings, head, {}, {}, system, scratch, taps, positions,
                                      velocities);

@@ -53,7 +53,7 @@ TEST(IncludeRules, ModulesKnowOnlyWhomTheyMay) {
       {"bodies", {"base", "groom", "scene", "bodies"}},
       {"motion", {"base", "scene", "bodies", "motion"}},
       {"rest", {"base", "groom", "scene", "rest"}},
-      {"scenes", {"base", "groom", "scene", "rest", "bodies", "motion", "measure", "scenes"}},
+      {"scenes", {"base", "groom", "scene", "rest", "bodies", "motion", "measure", "output", "scenes"}},
       {"gpu", {"base", "gpu"}},
       {"solver", {"base", "groom", "scene", "rest", "gpu", "solver"}},
       {"c", {"base", "groom", "scene", "bodies", "rest", "solver", "c"}},

@@ -25,7 +25,7 @@ using test::runProgram;
 using test::scratchFolder;
 
 // A tuft on a ball that shakes in a wind that changes, as its material does: contacts, a body, air, the
-// numbers of all of them.
+// numbers of all of them; a field that comes up, and some strands that are held and let go.
 constexpr const char* kScene = R"(
 [groom]
 file = "tuft.obj"
@@ -51,10 +51,24 @@ position = [0, -0.05, 0]
 time = 0.2
 air.wind = [1, 0, 2]
 material.dials.hold = 1
+field.fan.strength = 0
 [[key]]
 time = 0.8
 air.wind = [0, 0, 4]
 material.dials.hold = 3
+field.fan.strength = 8
+[[field]]
+name = "fan"
+kind = "vortex"
+drag = 3
+bind = "head"
+[[hold]]
+strands = "0:9"
+gather = 0.4
+bind = "world"
+start = 0.1
+release = 0.7
+ease = 0.3
 )";
 
 // 40 strands of 16 particles that wind through one another, in centimetres.

@@ -389,3 +389,47 @@ def test_forces_that_do_not_fit_are_refused(device, swatch, hair):
         pulled.set_forces(np.zeros((count, 3)))
     with pytest.raises(ValueError):
         pulled.set_forces(np.full((count, 3), np.nan, np.float32))
+
+
+def test_fields_act_on_hair(device, swatch):
+    def after(*fields, come_from=()):
+        hair = ringlet.Hair(ringlet.Asset(device, swatch, fields=True))
+        hair.set_fields(list(fields), list(come_from))
+        for frame in range(6):
+            hair.step()
+        return hair.positions()
+
+    still = after()
+    along = after(ringlet.Field(axis=(1, 0, 0), axial=5))
+    assert (along - still)[:, 0].max() > 0.01
+    # A grid of one velocity, drawn along as air: what the same air without a grid does.
+    air = ringlet.Field(axis=(1, 0, 0), axial=2, drag=4)
+    grid = np.zeros((3, 4, 5, 3))
+    grid[..., 0] = 1
+    box = ringlet.Field(position=(-2, -3, -4), grid=grid, cell=2, grid_share=2, drag=4, name="box")
+    assert np.abs(after(box) - after(air)).max() < 1e-5
+    assert not np.array_equal(after(air), still)
+    # They change evenly from where they come from.
+    nothing = ringlet.Field(axis=(1, 0, 0), axial=0)
+    rising = after(ringlet.Field(axis=(1, 0, 0), axial=5), come_from=[nothing])
+    assert not np.array_equal(rising, along)
+    assert box.name == "box" and "box at (-2, -3, -4)" in repr(box)
+
+
+def test_fields_that_do_not_fit_are_refused(device, swatch, hair):
+    with pytest.raises(ringlet.Error, match="fields"):
+        hair.set_fields([ringlet.Field()])
+    windy = ringlet.Hair(ringlet.Asset(device, swatch, fields=True))
+    with pytest.raises(ValueError, match="1 fields, and 2"):
+        windy.set_fields([ringlet.Field()], [ringlet.Field(), ringlet.Field()])
+    with pytest.raises(ringlet.Error, match="at most 64"):
+        windy.set_fields([ringlet.Field()] * 65)
+    with pytest.raises(TypeError):
+        windy.set_fields([1])
+    for numbers in ({"drag": -1}, {"axis": (0, 0, 0)}, {"core": 1e9}, {"axial": 1e9}):
+        with pytest.raises(ringlet.Error):
+            ringlet.Field(**numbers)
+    for numbers in ({"grid": np.zeros((2, 2, 3))}, {"grid": np.zeros((2, 2, 1, 3))}, {"position": (1, 2)},
+                    {"axial": np.nan, "grid": np.full((2, 2, 2, 3), np.nan)}):
+        with pytest.raises(ValueError):
+            ringlet.Field(**numbers)

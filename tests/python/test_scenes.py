@@ -35,6 +35,12 @@ SCENES = {
     "gltf": SWATCH + '[motion]\nfile = "walk.gltf"\n[[body]]\nshape = "sphere"\nradius = 0.04\njoint = "Head"\n'
                      'position = [0, -0.2, 0]\n',
     "roots": SWATCH + '[motion]\nkind = "shake"\n[motion.roots]\nshift = [0.01, 0, 0]\nease = 0.1\n',
+    "fields": SWATCH + '[motion]\nkind = "shake"\npre_roll = 0.1\n[[field]]\nname = "fan"\nkind = "vortex"\ndrag = 5\n'
+                       'bind = "head"\n[[field]]\nkind = "grid"\nfile = "smoke.npy"\ncell = 0.3\n'
+                       'position = [-1, -1, -1]\nstrength = 2\n[[key]]\ntime = 0\nfield.fan.strength = 0\n[[key]]\n'
+                       'time = 0.2\nfield.fan.strength = 6\n',
+    "holds": SWATCH + '[motion]\nkind = "shake"\n[goal]\nstrength = 0.1\n[[hold]]\nstrands = "0:3"\nbegin = 0.5\n'
+                      'gather = 0.3\nbind = "world"\nrelease = 0.1\n',
     "paper": SWATCH.replace("steps_per_frame = 4", 'steps_per_frame = 30\nintegrator = "paper"') +
              '[motion]\nkind = "shake"\n',
     "steps": SWATCH.replace("steps_per_frame = 4\n", "max_stretch = 1.005\n") + '[motion]\nkind = "shake"\n',
@@ -47,6 +53,7 @@ SCENES = {
 def test_a_scene_file_has_the_bits_of_the_program(device, program, name):
     (program.folder / "walk.bvh").write_text(BVH)
     gltf(program.folder / "walk.gltf")
+    np.save(program.folder / "smoke.npy", np.random.default_rng(1).normal(size=(8, 7, 6, 3)).astype(np.float32))
     (program.folder / "scene.toml").write_text(SCENES[name])
     told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet")
     scene = ringlet.Scene.load(program.folder / "scene.toml")

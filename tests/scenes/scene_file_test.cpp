@@ -61,6 +61,14 @@ const std::string kEverythingElse =
     "[[body]]\nshape = 'mesh'\ngenerate = 'head'\n"
     "[[camera]]\nname = 'close'\neye = [0, 1, 2]\ntarget = [0, 0.5, 0]\nup = [0, 0, 1]\nfield_of_view = 40\n"
     "bind = 'head'\n[[camera]]\nname = 'Shot'\nfile = 'shot.glb'\n"
+    "[[field]]\nname = 'fan'\nkind = 'uniform'\nstrength = 3\nposition = [1, 2, 3]\nrotate_degrees = [0, 0, "
+    "90]\naxis = [1, 0, 0]\nreach = 0.5\ndrag = 4\nbind = 'head'\n"
+    "[[field]]\nkind = 'blast'\nstrength = 50\nstart = 0.5\nspeed = 5\nthickness = 0.2\ncore = 0.01\n"
+    "[[field]]\nkind = 'grid'\nstrength = 1\nfile = 'smoke.npy'\ncell = 0.05\n"
+    "[[hold]]\nname = 'tie'\nstrands = '0:3,7'\nbegin = 0.2\nend = 0.3\ngather = 0.5\nposition = [0, 0.1, "
+    "0]\nbind = 'world'\nstrength = 7\nstart = 0.1\nrelease = 2\nease = 0.2\n"
+    "[[key]]\ntime = 1\nfield.fan.strength = 5\nfield.fan.position = [0, 1, 0]\nfield.2.drag = 1\n"
+    "hold.tie.gather = 1\n"
     "[output]\nfolder = 'out'\nwidth = 0.001\nfiles = ['sheet.png', 'last.obj']\ncache = '16bit'\n"
     "tip_width = 0.0002\nvalues = ['rest', 'id']\nhead = 'none'\nprims = 'groom'\nclip_frames = 12\nhairs = "
     "500\n";
@@ -80,7 +88,8 @@ const std::string kFile =
     "length = 0.3\nphase = 1\nhand = 'left'\nvary_radius = 0.2\nvary_length = 0.3\nvary_phase = 0.5\n"
     "other_hand = 0\nseed = 3\n"
     "[motion]\nfile = 'walk.bvh'\njoint = 'Neck'\nunit = 0.01\nskip_frames = 2\n"
-    "[[body]]\nshape = 'sphere'\njoint = 'Spine1'\n";
+    "[[body]]\nshape = 'sphere'\njoint = 'Spine1'\n"
+    "[[field]]\nkind = 'point'\nstrength = -1\njoint = 'Hand'\n[[hold]]\njoint = 'Hand'\n";
 
 const std::string kKeys =
     "[groom]\ngenerate = 'head'\nstrands = 20\nlocks = 4\nscalp_radius = 0.1\n"
@@ -451,7 +460,8 @@ TEST(SceneFile, EveryKeyIsListedAndChecked) {
     EXPECT_TRUE(seen.insert(name).second) << "twice";
     for (const std::string& text : {key.type, key.standard, key.effect}) EXPECT_FALSE(text.empty());
     EXPECT_EQ(key.effect.back(), '.');
-    const bool isList = key.table == "body" || key.table == "camera" || key.table == "motion.key";
+    const bool isList = key.table == "body" || key.table == "camera" || key.table == "motion.key" ||
+                        key.table == "field" || key.table == "hold";
     // A date is of no key's type.
     const std::string error =
         errorOf(fmt::format("{}\n{}{}{}\n{} = 2020-01-01\n", key.table == "groom" ? "" : kGroom,
@@ -464,7 +474,7 @@ TEST(SceneFile, EveryKeyIsListedAndChecked) {
        {"groom.file", "motion.kind", "motion.pre_roll", "motion.key.quaternion",
         "simulation.teleport_distance", "contacts.damping_release_seconds", "air.eddy_size",
         "body.half_extents", "body.moves", "camera.eye", "camera.field_of_view", "output.files",
-        "motion.roots.shift", "scalp.file", "scalp.start"})
+        "motion.roots.shift", "scalp.file", "scalp.start", "field.kind", "hold.gather"})
     EXPECT_TRUE(seen.count(name)) << name;
 }
 
@@ -478,6 +488,9 @@ TEST(SceneFile, WhatIsWrittenIsReadBack) {
     EXPECT_EQ(again.material.material, scene.material.material);
     EXPECT_EQ(again.groom.file, scene.groom.file);
     EXPECT_EQ(again.bodies.size(), scene.bodies.size());
+    EXPECT_EQ(again.fields, scene.fields);
+    EXPECT_EQ(again.holds, scene.holds);
+    EXPECT_EQ(again.timeKeys, scene.timeKeys);
     ASSERT_EQ(again.cameras.size(), scene.cameras.size());
     for (std::size_t k = 0; k < scene.cameras.size(); ++k) EXPECT_EQ(again.cameras[k], scene.cameras[k]);
   }

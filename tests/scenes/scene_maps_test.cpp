@@ -114,9 +114,9 @@ TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
   const struct {
     const char *text, *message;
   } kCases[] = {
-      {"[[map]]\nstrands = \"0\"",
-       "line 5: found a map with neither of number and preset; expected one of the two"},
-      {"[[map]]\nnumber = \"bend_stiffness\"", "line 5: found a map with neither of file and strands"},
+      {"[[map]]\nstrands = \"0\"", "line 5: found a map with none of number, preset; expected one of them"},
+      {"[[map]]\nnumber = \"bend_stiffness\"",
+       "line 5: found a map with none of file, strands, primvar, texture"},
       {"[[map]]\nnumber = \"bend_stiffnes\"\nstrands = \"0\"", "did you mean bend_stiffness?"},
       {"[[map]]\nnumber = \"gravity_factor\"\nstrands = \"0\"",
        "line 6: found the text 'gravity_factor' for map.number"},
@@ -125,7 +125,8 @@ TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
       {"[[map]]\nnumber = \"bend_stiffness\"\nfile = \"wrong.csv\"", "wrong.csv: line 1: found '1;2'"},
       {"[[map]]\nnumber = \"bend_stiffness\"\nstrands = \"0\"\nfactor = 0", "a number from 0.001 to 1000"},
       {"[[map]]\npreset = \"coil\"\nfile = \"wrong.csv\"", "only a number has factors"},
-      {"[[map]]\npreset = \"coil\"\nstrands = \"0\"\nfactor = 2", "only a number of strands has it"},
+      {"[[map]]\npreset = \"coil\"\nstrands = \"0\"\nfactor = 2",
+       "found map.factor with a preset; only a number has it"},
       {"[material]\ncore_stiffness = 0\n[[map]]\npreset = \"coil\"\nstrands = \"0\"",
        "a map cannot make coil of a material whose core_stiffness is 0"},
       {"[material]\nbend_damping_ratio = 50\n[[map]]\nnumber = \"bend_damping_ratio\"\nstrands = "

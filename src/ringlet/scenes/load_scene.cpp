@@ -69,25 +69,31 @@ MotionFileChoice motionFileOf(const SceneMotion& motion) {
   return {motion.file, motion.joint, motion.metresPerUnit, motion.skipFrames, motion.animation};
 }
 
+}  // namespace
+
+Result<Motion> jointMotion(const SceneFile& scene, const std::string& joint,
+                           std::vector<std::string>& warnings) {
+  if (scene.motion.file.empty())
+    return Error{
+        fmt::format("its joint {} is one of the head's motion file, but the head follows none", joint)};
+  MotionFileChoice choice = motionFileOf(scene.motion);
+  choice.joint = joint;
+  auto motion = readMotionFile(choice, scene.groom.up == "Z", warnings);
+  if (motion) motion->start = scene.motion.start;
+  return motion;
+}
+
+namespace {
+
 // The way of a joint or of a body's own file.
 Status loadMotion(const SceneBody& scene, const SceneFile& file, Body& body,
                   std::vector<std::string>& warnings) {
-  MotionFileChoice choice;
-  if (!scene.joint.empty()) {
-    if (file.motion.file.empty()) {
-      return Error{fmt::format("its joint {} is one of the head's motion file, but the head follows none",
-                               scene.joint)};
-    }
-    choice = motionFileOf(file.motion);
-    choice.joint = scene.joint;
-  } else if (scene.motion && !scene.motion->file.empty()) {
-    choice = motionFileOf(*scene.motion);
-  } else {
-    return {};
-  }
-  auto motion = readMotionFile(choice, file.groom.up == "Z", warnings);
+  if (scene.joint.empty() && (!scene.motion || scene.motion->file.empty())) return {};
+  auto motion = scene.joint.empty()
+                    ? readMotionFile(motionFileOf(*scene.motion), file.groom.up == "Z", warnings)
+                    : jointMotion(file, scene.joint, warnings);
   if (!motion) return motion.error();
-  motion->start = scene.joint.empty() ? scene.motion->start : file.motion.start;
+  if (scene.joint.empty()) motion->start = scene.motion->start;
   body.motion = std::move(*motion);
   return {};
 }
@@ -285,6 +291,12 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
     if (!keys) return keys.error();
     loaded.keys.emplace(std::move(*keys));
   }
+  auto forces = SceneForces::load(scene, loaded.groom, loaded.motion, loaded.warnings);
+  if (!forces) return forces.error();
+  loaded.forces = std::move(*forces);
+  if ((loaded.forces.haveFields() || loaded.forces.haveGoals()) &&
+      loaded.settings.integrator != Integrator::jacobi)
+    return Error{"fields, holds and goals of a file need the integrator jacobi; this run has another"};
   if (!scene.simulation.stepsPerFrame) {
     const auto steps = stepsOf(loaded);
     if (!steps) return steps.error();

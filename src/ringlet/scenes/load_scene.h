@@ -15,6 +15,7 @@
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_forces.h"
 #include "ringlet/scenes/scene_keys.h"
 
 namespace ringlet {
@@ -27,6 +28,10 @@ Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims = false);
 /// the body's name.
 Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUnit,
                                      std::vector<std::string>& warnings);
+
+/// The way of a joint of the head's motion file.
+Result<Motion> jointMotion(const SceneFile& scene, const std::string& joint,
+                           std::vector<std::string>& warnings);
 
 /// The scene's material with its dials worked in; adds what a person should know. Errors: a material that its
 /// dials spoil.
@@ -42,6 +47,7 @@ struct LoadedScene {
   std::vector<Vec3d> rootShifts{};  // as InitialState takes them
   std::vector<Body> bodies{};
   std::optional<HeadScalp> scalp{};  // that roots follow; none: the head carries them
+  SceneForces forces{};              // fields and holds
   double preRollSeconds = 0;
   int frameCount = 48;                  // where the file does not say: the length of keys, or this
   std::optional<SceneKeys> keys{};      // of numbers that change; settings and material are then the start's

@@ -449,14 +449,42 @@ std::span<const SceneField<SceneMap>> mapFields() {
       {"file", "", "none",
        "Factors on the number: lines strand,factor, strands numbered from 0 in groom order; others keep 1.",
        &M::file},
-      {"strands", "", "none", "In place of a file: the strands, as \"0:99, 120\", from 0 in groom order.",
+      {"strands", "", "none",
+       "In place of a file: the strands, as \"0:99, 120\", from 0 in groom order, or names of groups.",
        &M::strands},
+      {"primvar", "", "none",
+       "In place of a file: a primvar of a USD groom, of each curve or at its root; of a colour the mean.",
+       &M::primvar},
+      {"texture", "", "none", "In place of a file: a PNG file, whose grey is read at each strand's UVs.",
+       &M::texture},
+      {"uv", "", "", "Primvar of a USD groom that has the UVs.", &M::uv, {}, "", "texture"},
       {"factor",
+       "1",
        "",
-       "",
-       "Factor on the number for these strands.",
+       "Factor on the number for the strands.",
        &M::factor,
-       {kLeastStrandFactor, kMostStrandFactor}},
+       {kLeastStrandFactor, kMostStrandFactor},
+       "",
+       "strands"},
+      {"low",
+       "1",
+       "",
+       "Factor where the primvar or the texture is 0; at least 0.001.",
+       &M::low,
+       {0, kMostStrandFactor},
+       "",
+       "primvar, texture"},
+      {"high", "1", "", "Factor where it is 1.", &M::high, {0, kMostStrandFactor}, "", "primvar, texture"},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneGroup>> groupFields() {
+  using G = SceneGroup;
+  static const SceneField<G> all[] = {
+      {"name", "", "required", "Name of the group, for the strands of maps and holds.", &G::name},
+      {"strands", "", "required",
+       "Its strands, as \"0:99, 120\", from 0 in groom order, or groups before it.", &G::strands},
   };
   return all;
 }

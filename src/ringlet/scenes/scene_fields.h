@@ -21,7 +21,10 @@ std::span<const SceneField<SceneScalp>> scalpFields();
 std::span<const SceneField<SceneSimulation>> simulationFields();
 std::span<const SceneField<SceneBody>> bodyFields();
 std::span<const SceneField<SceneCamera>> cameraFields();
+std::span<const SceneField<SceneForceField>> forceFieldFields();
+std::span<const SceneField<SceneHold>> holdFields();
 std::span<const SceneField<SceneMap>> mapFields();
+std::span<const SceneField<SceneGroup>> groupFields();
 std::span<const SceneField<SceneOutput>> outputFields();
 
 }  // namespace ringlet

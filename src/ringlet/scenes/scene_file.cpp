@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -39,7 +40,7 @@ const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
     for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
-                              "body", "camera", "map", "key", "output"})
+                              "body", "camera", "field", "hold", "group", "map", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"material", "file"});
@@ -55,12 +56,16 @@ const std::vector<KnownKey>& knownKeys() {
     addKeys(keys, "contacts", contactFields());
     addKeys(keys, "air", airFields());
     addKeys(keys, "goal", goalFields());
+    keys.push_back({"goal", "file"});
     addKeys(keys, "body", bodyFields());
     keys.push_back({"body", "moves"});
     addKeys(keys, "body.moves", motionFields());
     keys.push_back({"body.moves", "key"});
     addKeys(keys, "body.moves.key", keyframeFields());
     addKeys(keys, "camera", cameraFields());
+    addKeys(keys, "field", forceFieldFields());
+    addKeys(keys, "hold", holdFields());
+    addKeys(keys, "group", groupFields());
     addKeys(keys, "map", mapFields());
     addKeys(keys, "output", outputFields());
     return keys;
@@ -126,6 +131,11 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "goal")) {
       scene.goal.on = true;
       readFields(*table, "goal", goalFields(), scene.goal);
+      if (const toml::node* path = table->get("file")) {
+        const auto pose = valueOf<std::filesystem::path>(*path, {}, "");
+        if (!pose) problems_.addFound(*path, "goal.file", "a path");
+        scene.goalFile = pose.value_or(std::filesystem::path{});
+      }
     }
     for (const toml::table* table : tablesOf(file, "", "body")) {
       scene.bodies.emplace_back();
@@ -134,6 +144,18 @@ class SceneReader {
     for (const toml::table* table : tablesOf(file, "", "camera")) {
       scene.cameras.emplace_back();
       readCamera(*table, scene, scene.cameras.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "group")) {
+      scene.groups.emplace_back();
+      readGroup(*table, scene, scene.groups.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "field")) {
+      scene.fields.emplace_back();
+      readForceField(*table, scene, scene.fields.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "hold")) {
+      scene.holds.emplace_back();
+      readHold(*table, scene, scene.holds.back());
     }
     readMaps(file, scene);
     readTimeKeys(file, scene);
@@ -274,38 +296,60 @@ class SceneReader {
     }
   }
 
+  void readGroup(const toml::table& table, const SceneFile& scene, SceneGroup& group) {
+    readFields(table, "group", groupFields(), group);
+    for (const char* key : {"name", "strands"})
+      if (!table.get(key))
+        missing_.add(lineOf(table), fmt::format("found a group without {}; expected name and strands", key));
+    refuseTwice(table, "group", scene.groups, group.name);
+    checkName(table, "group", group.name);
+    const toml::node* name = table.get("name");
+    if (name && !group.name.empty() && !std::isalpha(static_cast<unsigned char>(group.name.front())))
+      problems_.addFound(*name, "group.name", "a name that begins with a letter");
+    const std::span<const SceneGroup> before(scene.groups.data(), scene.groups.size() - 1);
+    if (const toml::node* strands = table.get("strands"); strands && !group.strands.empty()) {
+      if (const auto runs = parseStrands(group.strands, 1, before); !runs)
+        problems_.add(lineOf(*strands), fmt::format("group.strands: {}", runs.error().message));
+    }
+  }
+
   void readMaps(const toml::table& file, SceneFile& scene) {
     for (const toml::table* table : tablesOf(file, "", "map")) {
       SceneMap map;
       readFields(*table, "map", mapFields(), map);
-      const toml::node *number = table->get("number"), *preset = table->get("preset"),
-                       *path = table->get("file"), *strands = table->get("strands"),
-                       *factor = table->get("factor");
-      const auto expectOne = [&](const toml::node* a, const toml::node* b, const char* names) {
-        if (!a && !b)
+      const toml::node *number = table->get("number"), *preset = table->get("preset");
+      const auto expectOne = [&](std::initializer_list<const char*> names) {
+        std::vector<const toml::node*> found;
+        for (const char* name : names)
+          if (const toml::node* node = table->get(name)) found.push_back(node);
+        if (found.size() == 1) return found.front();
+        const std::string list = fmt::format("{}", fmt::join(names, ", "));
+        if (found.empty())
           missing_.add(lineOf(*table),
-                       fmt::format("found a map with neither of {}; expected one of the two", names));
-        if (a && b)
-          problems_.add(std::max(lineOf(*a), lineOf(*b)),
-                        fmt::format("found a map with both of {}; expected one of the two", names));
+                       fmt::format("found a map with none of {}; expected one of them", list));
+        else
+          problems_.add(lineOf(**std::ranges::max_element(found, {}, [](auto* n) { return lineOf(*n); })),
+                        fmt::format("found a map with {} of {}; expected one of them", found.size(), list));
+        return static_cast<const toml::node*>(nullptr);
       };
-      expectOne(number, preset, "number and preset");
-      expectOne(path, strands, "file and strands");
-      if (preset && path)
-        problems_.add(lineOf(*path), "found map.file with a preset; only a number has factors");
-      if (factor && (preset || path))
-        problems_.add(lineOf(*factor),
-                      "found map.factor with a preset or a file; only a number of strands has it");
+      expectOne({"number", "preset"});
+      const toml::node* source = expectOne({"file", "strands", "primvar", "texture"});
+      if (preset && !number && source && source != table->get("strands"))
+        problems_.add(lineOf(*source), "found a preset for other than strands; only a number has factors");
+      if (const toml::node* factor = table->get("factor"); factor && preset)
+        problems_.add(lineOf(*factor), "found map.factor with a preset; only a number has it");
+      for (const char* key : {"file", "strands", "primvar", "texture"})
+        if (source && source == table->get(key)) refuseForeign(*table, "map", mapFields(), key, "a map of");
       if (!problems_.empty() || !missing_.empty()) continue;
       // By itself first, so that a mistake has its line.
       Material alone = scene.material.material;
-      if (Status added = applyMaps(std::span(&map, 1), alone); !added)
-        problems_.add(lineOf(path ? *path : *strands), added.error().message);
+      if (Status added = applyMaps(std::span(&map, 1), scene, alone); !added)
+        problems_.add(lineOf(*source), added.error().message);
       scene.maps.push_back(std::move(map));
     }
     if (scene.maps.empty() || !problems_.empty() || !missing_.empty()) return;
     scene.hasMaterial = true;
-    Status whole = applyMaps(scene.maps, scene.material.material);
+    Status whole = applyMaps(scene.maps, scene, scene.material.material);
     if (whole) whole = checkMaterial(scene.material.material);
     if (!whole) problems_.add(lineOf(*file.get("map")), whole.error().message);
   }
@@ -355,12 +399,12 @@ class SceneReader {
         readKeyedValues(*below, name, scene, key);
         continue;
       }
-      const KeyedNumber* number = keyedNumber(name);
+      const auto number = keyedNumber(scene, name);
       if (!number) {
         problems_.add(lineOf(node),
                       fmt::format("found {} in a key; it {}{}", ringlet::quoted(name),
                                   isKnown(name) ? "does not change while hair moves" : "is no key of a scene",
-                                  nearest(name, keyedNames())));
+                                  nearest(name, keyedNames(scene))));
         continue;
       }
       const auto vector = number->isVector ? valueOf<Vec3d>(node, number->allowed, "") : std::nullopt;
@@ -379,9 +423,10 @@ class SceneReader {
   static bool isKnown(const std::string& name) {
     return std::ranges::any_of(knownKeys(), [&](const KnownKey& key) { return key.fullName() == name; });
   }
-  static std::vector<std::string> keyedNames() {
+  static std::vector<std::string> keyedNames(const SceneFile& scene) {
     std::vector<std::string> names;
     for (const KeyedNumber& number : keyedNumbers()) names.push_back(number.key);
+    for (const KeyedNumber& number : actingNumbers(scene)) names.push_back(number.key);
     return names;
   }
 
@@ -546,20 +591,75 @@ class SceneReader {
   void readCamera(const toml::table& table, const SceneFile& scene, SceneCamera& camera) {
     readFields(table, "camera", cameraFields(), camera);
     if (!table.get("name")) missing_.add(lineOf(table), "found a camera without a name; expected one");
-    const toml::node *eye = table.get("eye"), *path = table.get("file"), *joint = table.get("joint");
+    const toml::node *eye = table.get("eye"), *path = table.get("file");
     if (!eye && !path)
       missing_.add(lineOf(table), "found a camera with neither eye nor file; expected one of the two");
     refuseForeign(table, "camera", cameraFields(), path ? "file" : "eye", "a camera with");
     if (camera.eye && *camera.eye == camera.target)
       problems_.addFound(*eye, "camera.eye", "another place than camera.target");
+    checkJoint(table, "camera", scene);
+    refuseTwice(table, "camera", scene.cameras, camera.name);
+  }
+
+  // Names by which keys and options find one of a list.
+  template <class Owner>
+  void refuseTwice(const toml::table& table, const std::string& what, const std::vector<Owner>& all,
+                   const std::string& name) {
+    if (!name.empty() && std::ranges::count(all, name, &Owner::name) > 1)
+      problems_.addFound(*table.get("name"), what + ".name",
+                         fmt::format("a name that no other {} has", what));
+  }
+
+  // Of one that a joint carries.
+  void checkJoint(const toml::table& table, const std::string& what, const SceneFile& scene) {
+    const toml::node *joint = table.get("joint"), *bind = table.get("bind");
     if (joint && scene.motion.file.empty())
-      problems_.add(lineOf(*joint), "found camera.joint, but the head follows no file; expected motion.file");
-    if (joint && table.get("bind"))
-      problems_.add(std::max(lineOf(*joint), lineOf(*table.get("bind"))),
-                    "found camera.joint and camera.bind; expected one of the two");
-    const auto isSame = [&](const SceneCamera& other) { return other.name == camera.name; };
-    if (!camera.name.empty() && std::ranges::count_if(scene.cameras, isSame) > 1)
-      problems_.addFound(*table.get("name"), "camera.name", "a name that no other camera has");
+      problems_.add(lineOf(*joint), fmt::format("found {}.joint, but the head follows no file; expected "
+                                                "motion.file",
+                                                what));
+    if (joint && bind)
+      problems_.add(std::max(lineOf(*joint), lineOf(*bind)),
+                    fmt::format("found {0}.joint and {0}.bind; expected one of the two", what));
+  }
+
+  void readForceField(const toml::table& table, const SceneFile& scene, SceneForceField& field) {
+    readFields(table, "field", forceFieldFields(), field);
+    if (!table.get("kind"))
+      missing_.add(lineOf(table), fmt::format("found a field without a kind; expected kind = one of {}",
+                                              fieldNamed(forceFieldFields(), "kind")->choices));
+    refuseForeign(table, "field", forceFieldFields(), field.kind, "the kind");
+    if (field.kind == "grid" && !table.get("file"))
+      missing_.add(lineOf(table), "found a grid without a file; expected an .npy file");
+    if (const toml::node* axis = table.get("axis"); axis && !(length(field.axis) > 0))
+      problems_.addFound(*axis, "field.axis", "a direction, of any length above 0");
+    checkJoint(table, "field", scene);
+    refuseTwice(table, "field", scene.fields, field.name);
+    checkName(table, "field", field.name);
+  }
+
+  void readHold(const toml::table& table, const SceneFile& scene, SceneHold& hold) {
+    readFields(table, "hold", holdFields(), hold);
+    const toml::node *begin = table.get("begin"), *end = table.get("end"), *start = table.get("start"),
+                     *release = table.get("release");
+    if ((begin || end) && !(hold.begin <= hold.end))
+      problems_.addFound(*(end ? end : begin), end ? "hold.end" : "hold.begin",
+                         "an end that is no nearer to the root than the beginning");
+    if (start && release && !(*hold.start < *hold.release))
+      problems_.addFound(*release, "hold.release", "a time after hold.start");
+    if (const toml::node* strands = table.get("strands"); strands && !hold.strands.empty()) {
+      if (const auto runs = parseStrands(hold.strands, 1, scene.groups); !runs)
+        problems_.add(lineOf(*strands), fmt::format("hold.strands: {}", runs.error().message));
+    }
+    checkJoint(table, "hold", scene);
+    refuseTwice(table, "hold", scene.holds, hold.name);
+    checkName(table, "hold", hold.name);
+  }
+
+  // Keys have it between dots.
+  void checkName(const toml::table& table, const std::string& what, const std::string& name) {
+    const auto isFine = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+    if (!name.empty() && !std::ranges::all_of(name, isFine))
+      problems_.addFound(*table.get("name"), what + ".name", "letters, digits, _ and - only");
   }
 
   const std::string& name_;

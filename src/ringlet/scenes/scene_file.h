@@ -162,6 +162,39 @@ struct SceneCamera {
   bool operator==(const SceneCamera&) const = default;
 };
 
+/// [[field]]: see scene/force_field.h.
+struct SceneForceField {
+  std::string name, kind;
+  double strength = 0;  // [m/s^2]; with drag [m/s]; of a grid a factor
+  Vec3d position{}, rotateDegrees{}, axis{0, 1, 0};
+  double reach = 0, core = 0.02;       // [m]
+  std::optional<double> drag;          // unset: 20 of drag and grid, else 0 [1/s]
+  double start = 0;                    // [s]
+  double speed = 10, thickness = 0.1;  // [m/s], [m]
+  std::filesystem::path file;
+  double cell = 0.1;           // [m]
+  std::string bind = "world";  // or head
+  std::string joint;           // of the head's motion file, in place of either
+
+  bool operator==(const SceneForceField&) const = default;
+};
+
+/// [[hold]]: hair that is tied, clipped or pinned to something that moves.
+struct SceneHold {
+  std::string name;
+  std::string strands;            // empty: all
+  double begin = 0.4, end = 0.6;  // shares of the arc
+  double gather = 1;
+  std::optional<Vec3d> position;  // of the middle [m]; none: where it is in the groom
+  std::string bind = "head";      // or world
+  std::string joint;              // of the head's motion file, in place of either
+  double strength = 100;
+  std::optional<double> start, release;  // [s]
+  double ease = 0.05;                    // [s]
+
+  bool operator==(const SceneHold&) const = default;
+};
+
 struct SceneOutput {
   std::filesystem::path folder;
   double width = 0.0005;
@@ -179,12 +212,24 @@ struct SceneOutput {
 /// A factor on a number of the material for some strands, or from a file for each; or another preset for
 /// some.
 struct SceneMap {
-  std::string number;          // one of mappedParameters()
-  std::string preset;          // in its place: all these numbers are as the preset has them
-  std::filesystem::path file;  // of factors by strand; or
-  std::string strands;         // "0:99, 120"
-  double factor = 1;           // of these
+  std::string number;  // one of mappedParameters()
+  std::string preset;  // in its place: all these numbers are as the preset has them
+  // One of four:
+  std::filesystem::path file;     // of factors by strand
+  std::string strands;            // "0:99, fringe"
+  std::string primvar;            // of a USD groom
+  std::filesystem::path texture;  // at the UVs of a USD groom
+  double factor = 1;              // of `strands`
+  std::string uv = "st";          // primvar that has them
+  double low = 0, high = 1;       // factors where primvar or texture are 0 and 1
   bool operator==(const SceneMap&) const = default;
+};
+
+/// [[group]]: strands with a name.
+struct SceneGroup {
+  std::string name;
+  std::string strands;  // "0:99, 120"
+  bool operator==(const SceneGroup&) const = default;
 };
 
 /// A number, or three, that the scene has at a time (scene_keys.h says which may be).
@@ -211,8 +256,12 @@ struct SceneFile {
   ContactSettings contacts;
   AirSettings air;
   GoalSettings goal;
+  std::filesystem::path goalFile;  // an animation or a groom in place of the groom itself; none: empty
   std::vector<SceneBody> bodies;
   std::vector<SceneCamera> cameras;
+  std::vector<SceneForceField> fields;
+  std::vector<SceneHold> holds;
+  std::vector<SceneGroup> groups;
   std::vector<SceneMap> maps;          // worked into the material
   std::vector<SceneTimeKey> timeKeys;  // by rising time
   SceneOutput output;

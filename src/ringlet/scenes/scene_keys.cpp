@@ -22,18 +22,24 @@ double inRange(double value, const NumberRange& allowed) {
   return isAny ? value : std::clamp(value, allowed.low, allowed.high);
 }
 
+// How to get at a part of a scene.
+template <class Owner>
+auto partOf(Owner SceneFile::*owner) {
+  return [owner](auto& scene) -> auto& { return scene.*owner; };
+}
+
 // Whole numbers, texts and switches do not change smoothly.
 template <class Owner>
-void addField(std::vector<KeyedNumber>& numbers, const char* table, const SettingField<Owner>& field,
-              Owner SceneFile::*owner) {
+void addField(std::vector<KeyedNumber>& numbers, const std::string& table, const SettingField<Owner>& field,
+              auto ownerOf) {
   const std::string key = fmt::format("{}.{}", table, field.key);
   std::visit(
       [&](auto member) {
         using Value = typename Unwrapped<std::remove_cvref_t<decltype(std::declval<Owner&>().*member)>>::Type;
         if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, Vec3d>) {
           constexpr bool isVector = std::is_same_v<Value, Vec3d>;
-          const auto get = [owner, member](const SceneFile& scene) {
-            const auto& value = (scene.*owner).*member;
+          const auto get = [ownerOf, member](const SceneFile& scene) {
+            const auto& value = ownerOf(scene).*member;
             Value now{};
             if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, std::optional<Value>>) {
               now = value.value_or(Value{});
@@ -46,11 +52,11 @@ void addField(std::vector<KeyedNumber>& numbers, const char* table, const Settin
               return Vec3d{now, 0, 0};
             }
           };
-          const auto set = [owner, member](SceneFile& scene, const Vec3d& value) {
+          const auto set = [ownerOf, member](SceneFile& scene, const Vec3d& value) {
             if constexpr (isVector) {
-              (scene.*owner).*member = value;
+              ownerOf(scene).*member = value;
             } else {
-              (scene.*owner).*member = value.x;
+              ownerOf(scene).*member = value.x;
             }
           };
           numbers.push_back({key, field.unit, field.allowed, isVector, get, set});
@@ -60,10 +66,23 @@ void addField(std::vector<KeyedNumber>& numbers, const char* table, const Settin
 }
 
 template <class Owner>
-void addLive(std::vector<KeyedNumber>& numbers, const char* table,
-             std::span<const SettingField<Owner>> fields, Owner SceneFile::*owner) {
+void addLive(std::vector<KeyedNumber>& numbers, const std::string& table,
+             std::span<const SettingField<Owner>> fields, auto ownerOf) {
   for (const SettingField<Owner>& field : fields)
-    if (field.isLive) addField(numbers, table, field, owner);
+    if (field.isLive) addField(numbers, table, field, ownerOf);
+}
+
+// The live ones of every table of a list.
+template <class Owner>
+void addListed(std::vector<KeyedNumber>& numbers, const char* table,
+               std::span<const SettingField<Owner>> fields, const SceneFile& scene,
+               std::vector<Owner> SceneFile::*list) {
+  for (std::size_t i = 0; i < (scene.*list).size(); ++i) {
+    const std::string name = nameInKeys((scene.*list)[i].name, i);
+    addLive(
+        numbers, fmt::format("{}.{}", table, name), fields,
+        [ list, i ](auto& of) -> auto& { return (of.*list)[i]; });
+  }
 }
 
 // Those of a material that it may change while hair moves: found by changing them.
@@ -96,7 +115,7 @@ std::span<const KeyedNumber> keyedNumbers() {
     for (const auto& field : simulationFields()) {
       for (const char* key : {"gravity", "max_stretch", "teleport_distance", "sleep_speed"})
         if (field.key == std::string_view(key))
-          addField(numbers, "simulation", field, &SceneFile::simulation);
+          addField(numbers, "simulation", field, partOf(&SceneFile::simulation));
     }
     addMaterial(numbers, "material", materialParameters(),
                 [](LoadedMaterial& m) -> Material& { return m.material; });
@@ -104,18 +123,32 @@ std::span<const KeyedNumber> keyedNumbers() {
                 [](LoadedMaterial& m) -> MaterialDials& { return m.dials; });
     addMaterial(numbers, "material.variation", variationParameters(),
                 [](LoadedMaterial& m) -> MaterialVariation& { return m.material.variation; });
-    addLive(numbers, "contacts", contactFields(), &SceneFile::contacts);
-    addLive(numbers, "air", airFields(), &SceneFile::air);
-    addLive(numbers, "goal", goalFields(), &SceneFile::goal);
+    addLive(numbers, "contacts", contactFields(), partOf(&SceneFile::contacts));
+    addLive(numbers, "air", airFields(), partOf(&SceneFile::air));
+    addLive(numbers, "goal", goalFields(), partOf(&SceneFile::goal));
     return numbers;
   }();
   return all;
 }
 
-const KeyedNumber* keyedNumber(std::string_view key) {
-  const auto numbers = keyedNumbers();
-  const auto found = std::ranges::find(numbers, key, &KeyedNumber::key);
-  return found == numbers.end() ? nullptr : &*found;
+std::string nameInKeys(const std::string& name, std::size_t index) {
+  return name.empty() ? fmt::format("{}", index + 1) : name;
+}
+
+std::vector<KeyedNumber> actingNumbers(const SceneFile& scene) {
+  std::vector<KeyedNumber> numbers;
+  addListed(numbers, "field", forceFieldFields(), scene, &SceneFile::fields);
+  addListed(numbers, "hold", holdFields(), scene, &SceneFile::holds);
+  return numbers;
+}
+
+std::optional<KeyedNumber> keyedNumber(const SceneFile& scene, std::string_view key) {
+  const auto among = [&](std::span<const KeyedNumber> numbers) -> std::optional<KeyedNumber> {
+    const auto found = std::ranges::find(numbers, key, &KeyedNumber::key);
+    return found == numbers.end() ? std::nullopt : std::optional(*found);
+  };
+  if (auto number = among(keyedNumbers())) return number;
+  return among(actingNumbers(scene));
 }
 
 void switchOn(const KeyedNumber& number, SceneFile& scene) {
@@ -127,9 +160,9 @@ void switchOn(const KeyedNumber& number, SceneFile& scene) {
 
 Vec3d SceneKeys::Track::at(double seconds) const {
   const Vec3d value = keys.poseAt(seconds).position;
-  const NumberRange& allowed = number->allowed;
-  return {inRange(value.x, allowed), number->isVector ? inRange(value.y, allowed) : 0,
-          number->isVector ? inRange(value.z, allowed) : 0};
+  const NumberRange& allowed = number.allowed;
+  return {inRange(value.x, allowed), number.isVector ? inRange(value.y, allowed) : 0,
+          number.isVector ? inRange(value.z, allowed) : 0};
 }
 
 Result<SceneKeys> SceneKeys::make(const SceneFile& scene) {
@@ -138,11 +171,11 @@ Result<SceneKeys> SceneKeys::make(const SceneFile& scene) {
   for (const SceneTimeKey& key : scene.timeKeys) {
     self.times_.push_back(key.time);
     for (const SceneKeyedValue& value : key.values) {
-      const KeyedNumber* number = keyedNumber(value.key);
+      const auto number = keyedNumber(scene, value.key);
       if (!number) return Error{fmt::format("{} does not change while hair moves", value.key)};
-      auto track = std::ranges::find(self.tracks_, number, &Track::number);
+      auto track = std::ranges::find(self.tracks_, value.key, [](const Track& of) { return of.number.key; });
       if (track == self.tracks_.end()) {
-        self.tracks_.push_back({number, Keyframes{.poses = {}, .restsAtEnds = true}});
+        self.tracks_.push_back({*number, Keyframes{.poses = {}, .restsAtEnds = true}});
         track = self.tracks_.end() - 1;
         switchOn(*number, self.scene_);
       }
@@ -158,7 +191,7 @@ Result<SceneKeys> SceneKeys::make(const SceneFile& scene) {
 
 Result<SceneNumbers> SceneKeys::at(double seconds, int stepsPerFrame) const {
   SceneFile scene = scene_;
-  for (const Track& track : tracks_) track.number->set(scene, track.at(seconds));
+  for (const Track& track : tracks_) track.number.set(scene, track.at(seconds));
   SceneNumbers numbers{settingsOf(scene), {}};
   numbers.settings.stepsPerFrame = stepsPerFrame;
   std::vector<std::string> warnings;  // said of the file
@@ -168,13 +201,40 @@ Result<SceneNumbers> SceneKeys::at(double seconds, int stepsPerFrame) const {
   return numbers;
 }
 
+std::vector<SceneForceField> SceneKeys::fieldsAt(double seconds) const {
+  SceneFile scene;
+  scene.fields = scene_.fields;
+  for (const Track& track : tracks_)
+    if (track.number.key.starts_with("field.")) track.number.set(scene, track.at(seconds));
+  return scene.fields;
+}
+
+std::vector<SceneHold> SceneKeys::holdsAt(double seconds) const {
+  SceneFile scene;
+  scene.holds = scene_.holds;
+  for (const Track& track : tracks_)
+    if (track.number.key.starts_with("hold.")) track.number.set(scene, track.at(seconds));
+  return scene.holds;
+}
+
+GoalSettings SceneKeys::goalAt(double seconds) const {
+  SceneFile scene;
+  scene.goal = scene_.goal;
+  for (const Track& track : tracks_)
+    if (track.number.key.starts_with("goal.")) track.number.set(scene, track.at(seconds));
+  return scene.goal;
+}
+
 bool SceneKeys::areEqual(double a, double b) const {
-  return std::ranges::all_of(tracks_, [&](const Track& track) { return track.at(a) == track.at(b); });
+  return std::ranges::all_of(tracks_, [&](const Track& track) {
+    return track.number.key.starts_with("field.") || track.number.key.starts_with("hold.") ||
+           track.at(a) == track.at(b);
+  });
 }
 
 bool SceneKeys::changeContacts() const {
   return std::ranges::any_of(tracks_,
-                             [](const Track& track) { return track.number->key.starts_with("contacts."); });
+                             [](const Track& track) { return track.number.key.starts_with("contacts."); });
 }
 
 }  // namespace ringlet

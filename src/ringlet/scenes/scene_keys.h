@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,8 +29,12 @@ struct KeyedNumber {
 /// All there are: the live ones of settings_fields.h, but for a frame's length, and of a material and its
 /// dials what setMaterial takes.
 std::span<const KeyedNumber> keyedNumbers();
-/// Null for a key that is not among them.
-const KeyedNumber* keyedNumber(std::string_view key);
+/// And those of fields and holds that a scene has: "field.NAME.strength".
+std::vector<KeyedNumber> actingNumbers(const SceneFile& scene);
+/// Nothing for a key that is among neither.
+std::optional<KeyedNumber> keyedNumber(const SceneFile& scene, std::string_view key);
+/// What a field or hold is called in keys: its name, or its number from 1.
+std::string nameInKeys(const std::string& name, std::size_t index);
 
 /// Switches on what a keyed number is a part of: keys of air.wind are air, with or without [air].
 void switchOn(const KeyedNumber& number, SceneFile& scene);
@@ -51,13 +56,17 @@ class SceneKeys {
   Result<SceneNumbers> at(double seconds, int stepsPerFrame) const;
   /// Of the keys, rising [s].
   const std::vector<double>& times() const { return times_; }
-  /// Whether all numbers are at both times the same.
+  /// Fields and holds as they are then, in the scene's order.
+  std::vector<SceneForceField> fieldsAt(double seconds) const;
+  std::vector<SceneHold> holdsAt(double seconds) const;
+  GoalSettings goalAt(double seconds) const;
+  /// Whether all numbers of settings and material are at both times the same.
   bool areEqual(double a, double b) const;
   bool changeContacts() const;
 
  private:
   struct Track {
-    const KeyedNumber* number;
+    KeyedNumber number;
     Keyframes keys;  // values are positions
     Vec3d at(double seconds) const;
   };

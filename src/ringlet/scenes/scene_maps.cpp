@@ -11,7 +11,9 @@
 
 #include "ringlet/base/quoted.h"
 #include "ringlet/base/whole_file.h"
+#include "ringlet/groom/groom_file.h"
 #include "ringlet/rest/material_presets.h"
+#include "ringlet/scenes/strand_values.h"
 
 namespace ringlet {
 namespace {
@@ -64,6 +66,43 @@ Result<Runs> runsOfFile(const std::filesystem::path& path) {
   return runs;
 }
 
+// A groom that is read once, when a map asks for what its file says of curves.
+class GroomValues {
+ public:
+  explicit GroomValues(const SceneGroom& scene) : scene_(&scene) {}
+
+  Result<Runs> runsOf(const SceneMap& map) {
+    if (!groom_) {
+      if (scene_->file.empty()) return Error{"primvars and UVs are of USD grooms; this one is generated"};
+      auto read = readGroom(scene_->file, {.upIsZ = scene_->up == "Z", .keepsPrims = true});
+      if (!read) return read.error();
+      groom_.emplace(std::move(*read));
+    }
+    const auto values = map.texture.empty() ? valuesOfPrimvar(*groom_, map.primvar)
+                                            : valuesOfTexture(*groom_, map.texture, map.uv);
+    if (!values) return values.error();
+    Runs runs;
+    for (std::size_t s = 0; s < values->size(); ++s) {
+      const double factor = map.low + (map.high - map.low) * (*values)[s];
+      if (!(factor <= kMostStrandFactor))
+        return Error{fmt::format("strand {} has the factor {}; expected one of at most {}", s, factor,
+                                 kMostStrandFactor)};
+      const auto strand = static_cast<std::uint32_t>(s);
+      const auto bounded = static_cast<float>(std::max(factor, kLeastStrandFactor));
+      if (!runs.empty() && runs.back().factor == bounded) {
+        runs.back().last = strand;
+      } else {
+        runs.push_back({strand, strand, bounded});
+      }
+    }
+    return runs;
+  }
+
+ private:
+  const SceneGroom* scene_;
+  std::optional<LoadedGroom> groom_;
+};
+
 // The numbers that a map is of, each with its factor.
 Result<std::vector<std::pair<double Material::*, double>>> numbersOf(const SceneMap& map,
                                                                      const Material& base) {
@@ -96,17 +135,27 @@ std::span<const Parameter<Material>> mappedParameters() {
   return all;
 }
 
-Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor) {
+Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor,
+                                            std::span<const SceneGroup> groups) {
   Runs runs;
   while (!text.empty()) {
     const auto [word, rest] = splitAt(text, ',');
     text = rest;
+    const auto group = std::ranges::find(groups, trimmed(word), &SceneGroup::name);
+    if (group != groups.end()) {
+      const auto before = groups.first(static_cast<std::size_t>(group - groups.begin()));
+      const auto named = parseStrands(group->strands, factor, before);
+      if (!named) return named.error();
+      runs.insert(runs.end(), named->begin(), named->end());
+      continue;
+    }
     const auto [low, high] = splitAt(word, ':');
     const bool isRange = word.find(':') != std::string_view::npos;
     const auto first = strandOf(low), last = isRange ? strandOf(high) : first;
     if (!first || !last || *last < *first)
-      return Error{fmt::format("found {}; expected strands from 0 to {}, as 0:99, 120",
-                               ringlet::quoted(std::string(trimmed(word))), kMostMappedStrand)};
+      return Error{fmt::format("found {}; expected strands from 0 to {}, as 0:99, 120{}",
+                               ringlet::quoted(std::string(trimmed(word))), kMostMappedStrand,
+                               groups.empty() ? "" : ", or the name of a group")};
     runs.push_back({*first, *last, static_cast<float>(factor)});
   }
   return sorted(std::move(runs));
@@ -134,13 +183,16 @@ Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text) {
   return sorted(std::move(runs));
 }
 
-Status applyMaps(std::span<const SceneMap> maps, Material& material) {
+Status applyMaps(std::span<const SceneMap> maps, const SceneFile& scene, Material& material) {
   material.factors.clear();
+  GroomValues groom(scene.groom);
   for (const SceneMap& map : maps) {
     const auto numbers = numbersOf(map, material);
     if (!numbers) return numbers.error();
     for (const auto& [member, factor] : *numbers) {
-      auto runs = map.file.empty() ? parseStrands(map.strands, factor) : runsOfFile(map.file);
+      auto runs = !map.file.empty()      ? runsOfFile(map.file)
+                  : !map.strands.empty() ? parseStrands(map.strands, factor, scene.groups)
+                                         : groom.runsOf(map);
       if (!runs) return runs.error();
       if (!runs->empty())
         material.factors.push_back({member, std::make_shared<const Runs>(std::move(*runs))});

@@ -18,17 +18,18 @@ inline constexpr std::uint32_t kMostMappedStrand = 1'000'000'000;
 /// The numbers of a material that may differ from strand to strand.
 std::span<const Parameter<Material>> mappedParameters();
 
-/// "0:99, 120": runs of strands in groom order from 0, each with this factor; rising. Errors: the word that
-/// is none, a strand that is there twice.
-Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor);
+/// "0:99, fringe": runs of strands in groom order from 0, and those of groups by name, each with this factor;
+/// rising. Errors: the word that is neither, a strand that is there twice.
+Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor,
+                                            std::span<const SceneGroup> groups = {});
 
 /// Lines "strand,factor" in any order; empty lines and what follows a # are left out, and so is a first line
 /// that begins with a letter. Rising. Errors: the line, what was found and what was expected; a strand that
 /// is there twice.
 Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text);
 
-/// Sets the `factors` of a material to what maps say. Errors: a file that cannot be read; a preset that needs
-/// what the material has none of.
-Status applyMaps(std::span<const SceneMap> maps, Material& material);
+/// Sets the `factors` of a material to what maps of a scene say. Errors: a file that cannot be read, that of
+/// the groom too where a map is of its primvars; a preset that needs what the material has none of.
+Status applyMaps(std::span<const SceneMap> maps, const SceneFile& scene, Material& material);
 
 }  // namespace ringlet

@@ -40,6 +40,12 @@ std::string valueText(const std::optional<T>& value) {
   return value ? valueText(*value) : "";
 }
 
+std::string pathText(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const auto relative = path.lexically_relative(folder);
+  const bool isBelow = !relative.empty() && *relative.begin() != "..";
+  return valueText(isBelow ? relative : path);
+}
+
 // A default for a person: 0.01 rather than 0.01.0, Y rather than "Y".
 std::string shown(const auto& value) {
   std::string text = valueText(value);
@@ -73,9 +79,7 @@ std::string linesOf(std::span<const SceneField<Owner>> fields, const Owner& owne
           if constexpr (std::is_same_v<Value, std::filesystem::path>) {
             const std::filesystem::path& path = owner.*member;
             if (path.empty()) return {};
-            const auto relative = path.lexically_relative(folder);
-            const bool isBelow = !relative.empty() && *relative.begin() != "..";
-            return {valueText(isBelow ? relative : path), ""};
+            return {pathText(path, folder), ""};
           } else if constexpr (std::is_same_v<Value, std::string>) {
             return {(owner.*member).empty() ? "" : valueText(owner.*member), valueText(standard.*member)};
           } else {
@@ -170,11 +174,19 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "contacts", contactFields());
   addKeys(keys, "air", airFields());
   addKeys(keys, "goal", goalFields());
+  keys.push_back(
+      {"goal", "file", "path", "", "", "none: the groom itself", "",
+       "What hair is pulled to: an animation that Ringlet wrote (.usda, .usdc, .rgc), whose points are "
+       "in the world, or a groom in another pose, placed as the groom is. Its strands are the "
+       "groom's."});
   addKeys(keys, "body", bodyFields());
   keys.push_back({"body", "moves", "head, still or a table", "", "", "head", "",
                   "What carries it: the head, nothing, or a motion of its own in the world, with the keys of "
                   "[motion], as in { kind = \"spin\" }."});
   addKeys(keys, "camera", cameraFields());
+  addKeys(keys, "field", forceFieldFields());
+  addKeys(keys, "hold", holdFields());
+  addKeys(keys, "group", groupFields());
   addKeys(keys, "map", mapFields());
   keys.push_back({"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
                   "Time of a key, each headed by [[key]]: numbers that change while hair moves. 0 is the "
@@ -183,7 +195,9 @@ std::vector<SceneKey> sceneKeys() {
       {"key", "TABLE.KEY", "number or [x, y, z]", "", "", "none", "",
        "What a number of another table is at that time, as air.wind = [1, 0, 0]. Between keys it goes "
        "on a cubic; before its first key and after its last it stays. These change: " +
-           keyedList() + "."});
+           keyedList() +
+           "; and of a field or hold that has a name, field.NAME.strength, position, reach, drag, "
+           "hold.NAME.strength, gather."});
   addKeys(keys, "output", outputFields());
   return keys;
 }
@@ -201,17 +215,24 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
   text += switchedText("[contacts]", contactFields(), scene.contacts);
   text += switchedText("[air]", airFields(), scene.air);
   text += switchedText("[goal]", goalFields(), scene.goal);
+  if (!scene.goalFile.empty()) text += fmt::format("file = {}\n", pathText(scene.goalFile, folder));
   for (const SceneBody& body : scene.bodies) text += bodyText(body, folder);
   for (const SceneCamera& camera : scene.cameras)
     text += headed("[[camera]]", linesOf(cameraFields(), camera, SceneCamera{}, folder));
+  for (const SceneGroup& group : scene.groups)
+    text += headed("[[group]]", linesOf(groupFields(), group, SceneGroup{}, folder));
+  for (const SceneForceField& field : scene.fields)
+    text += headed("[[field]]", linesOf(forceFieldFields(), field, SceneForceField{}, folder));
+  for (const SceneHold& hold : scene.holds)
+    text += headed("[[hold]]", linesOf(holdFields(), hold, SceneHold{}, folder));
   for (const SceneMap& map : scene.maps)
     text += headed("[[map]]", linesOf(mapFields(), map, SceneMap{}, folder));
   for (const SceneTimeKey& key : scene.timeKeys) {
     text += fmt::format("\n[[key]]\ntime = {}  # [s]\n", tomlNumber(key.time));
     for (const SceneKeyedValue& value : key.values)
-      text +=
-          fmt::format("{} = {}\n", value.key,
-                      keyedNumber(value.key)->isVector ? valueText(value.value) : valueText(value.value.x));
+      text += fmt::format(
+          "{} = {}\n", value.key,
+          keyedNumber(scene, value.key)->isVector ? valueText(value.value) : valueText(value.value.x));
   }
   text += headed("[output]", linesOf(outputFields(), scene.output, SceneOutput{}, folder));
   return text;

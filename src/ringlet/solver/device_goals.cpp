@@ -31,12 +31,13 @@ Result<DeviceGoals> DeviceGoals::create(gpu::Device& device, const RestState& re
   return goals;
 }
 
-void DeviceGoals::set(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio) {
+void DeviceGoals::set(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
+                      std::span<const Vec3f> from) {
   for (std::size_t i = 0; i < end_.size(); ++i) {
     const std::uint32_t g = groomIndices_[i];
     const double stiffness = goalStiffness(strengths[g]);
     end_[i] = packed(Vec3d(places[g]), stiffness);
-    if (!areSet_) start_[i] = packed(places[g]);
+    if (!from.empty() || !areSet_) start_[i] = packed(from.empty() ? places[g] : from[g]);
     start_[i].w = static_cast<float>(goalDamping(stiffness, dampingRatio));
   }
   areSet_ = move_ = true;

@@ -38,7 +38,8 @@ class DeviceGoals {
   std::uint64_t writtenBytes() const { return writtenBytesOf(before_) + writtenBytesOf(after_); }
 
   /// As Simulation::setGoals: at the end of the next frame written and from then on.
-  void set(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio);
+  void set(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
+           std::span<const Vec3f> from);
   /// For the frame of a slot.
   void writeFrame(std::size_t slot);
   /// A frame of this slot begins with it.

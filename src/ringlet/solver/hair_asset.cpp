@@ -42,6 +42,8 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   if (hasBodies && settings.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
   if (choice.goals && settings.integrator != Integrator::jacobi)
     return Error{"goals need the integrator jacobi; this run has another"};
+  if (choice.fields && settings.integrator != Integrator::jacobi)
+    return Error{"fields need the integrator jacobi; this run has another"};
   // Strands that may meet stand near each other in memory.
   std::vector<std::uint32_t> order;
   if (settings.contacts.on) order = orderAlongCurve(groom);

@@ -35,6 +35,7 @@ struct KernelChoice {
   bool movingRoots = false;  // strands have root poses (Simulation::stepFrame)
   bool forces = false;       // external forces on particles (Simulation::setForces)
   bool goals = false;        // places that particles are pulled to (Simulation::setGoals)
+  bool fields = false;       // fields of force and moving air (Simulation::setFields)
   bool taps = false;         // write every intermediate of the last step (Simulation::tap); slower, for tests
   // Approximate longest device time of a submission [s]: a desktop resets a device that works too long. 0:
   // 0.3, and no limit on a CPU device.

@@ -117,8 +117,10 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   if (!forces) return forces.error();
   auto goals = DeviceGoals::create(device, rest, constant.choice.goals, constant.chunks(), kFramesInFlight);
   if (!goals) return goals.error();
+  auto fields = DeviceFields::create(device, {}, settings.stepsPerFrame, kFramesInFlight);
+  if (!fields) return fields.error();
   if (constant.goal)
-    goals->set(constant.goal->places, strengthsOf(*constant.goal, settings.goal), settings.goal.damping);
+    goals->set(constant.goal->places, strengthsOf(*constant.goal, settings.goal), settings.goal.damping, {});
   RigidHair rigidHair(rest.rigid, rest.groomStrandCount);
   if (!initial.rootShifts.empty()) rigidHair.setRootShifts(initial.rootShifts);
   if (!initial.roots.empty()) {
@@ -143,6 +145,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                          .roots = std::move(*roots),
                          .forces = std::move(*forces),
                          .goals = std::move(*goals),
+                         .fields = std::move(*fields),
                          .rigidHair = std::move(rigidHair),
                          .pace = SubmissionPace(longestSubmission(constant.choice, limits))});
   if (Status status = self->placeAtRest(); !status) return status.error();
@@ -169,7 +172,7 @@ Status Simulation::Implementation::makeKernels() {
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
-                              forces.largestBuffer(), goals.largestBuffer()}));
+                              forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));
   const StrandKernelOptions options{.integrator = settings.integrator,
                                     .oneSmoothing = oneSmoothing,
                                     .bendVaries = bendVaries,
@@ -185,6 +188,7 @@ Status Simulation::Implementation::makeKernels() {
                                     .movingRoots = choice.movingRoots,
                                     .forces = choice.forces,
                                     .goals = choice.goals,
+                                    .fields = choice.fields,
                                     .subgroupSize = askedWidth(device.gpu().properties(), choice),
                                     .groupSize = asset->groupSize};
   std::vector<std::size_t> newKernels;
@@ -218,6 +222,7 @@ Status Simulation::Implementation::bindKernels() {
     table.merge(roots.bufferTable(ranges[r].chunk));
     table.merge(forces.bufferTable(ranges[r].chunk));
     table.merge(goals.bufferTable(ranges[r].chunk));
+    table.merge(fields.bufferTable());
     auto bound = gpu::Bindings::create(*kernels[kernelOf[r]], table);
     if (!bound) return bound.error();
     bindings.push_back(std::move(*bound));
@@ -495,9 +500,10 @@ DeviceMemory Simulation::memory() const {
   memory.rootPoses = s.roots.bytes();
   if (s.contacts) memory.contacts = s.contacts->bytes(), memory.contactLists = s.contacts->listBytes();
   if (s.volume) memory.volume = s.volume->bytes();
-  memory.world = s.buffers.poses.bytes() + s.buffers.contactControl.bytes() + s.world.bytes();
+  memory.world =
+      s.buffers.poses.bytes() + s.buffers.contactControl.bytes() + s.world.bytes() + s.fields.bytes();
   memory.frames = s.buffers.poses.writtenBytes() + s.world.writtenBytes() + s.roots.writtenBytes() +
-                  s.forces.writtenBytes() + s.goals.writtenBytes();
+                  s.forces.writtenBytes() + s.goals.writtenBytes() + s.fields.writtenBytes();
   for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();
   return memory;
 }

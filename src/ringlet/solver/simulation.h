@@ -21,6 +21,7 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/scene/body.h"
+#include "ringlet/scene/force_field.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
 #include "ringlet/solver/compute_device.h"
@@ -221,15 +222,24 @@ class Simulation {
   Status setForces(std::span<const Vec3f> forces);
   /// Pulls particles to places: `places` in groom order, in the groom's axes [m] (the groom itself is its
   /// rest pose), carried by the head and by root poses as roots are. Each is reached at the end of the next
-  /// frame submitted, evenly from the place before, and held until others are set. `strengths` of every
-  /// particle, not negative: a goal of strength 1 holds the particle's own weight 1 cm away; initially they
-  /// are 0. `dampingRatio`, not negative: of the particle's motion about its place, critical at 1. The solve
-  /// treats goals implicitly, so that any strength is stable. Fails where the asset was built without
-  /// KernelChoice::goals. Cost: 32 bytes a particle to write, and to copy in each frame; 136 of memory. The
-  /// strand kernel is that of bodies and air.
-  Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio = 1);
+  /// frame submitted, evenly from the place before or, with `from`, from there, and held until others are
+  /// set. `strengths` of every particle, not negative: a goal of strength 1 holds the particle's own weight 1
+  /// cm away; initially they are 0. `dampingRatio`, not negative: of the particle's motion about its place,
+  /// critical at 1. The solve treats goals implicitly, so that any strength is stable. Fails where the asset
+  /// was built without KernelChoice::goals. Cost: 32 bytes a particle to write, and to copy in each frame;
+  /// 136 of memory. The strand kernel is that of bodies and air.
+  Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio = 1,
+                  std::span<const Vec3f> from = {});
+  /// Replaces the fields that hair is in: as they are at the end of the next frame submitted, and from then
+  /// on until others are set. `from`: as they are at its start, from where they change evenly; without, they
+  /// do not change. The solve takes drag implicitly, so that any is stable, and accelerations explicitly: one
+  /// that pulls towards a place must not grow by more than about 1/T^2 a metre, T being the step. Fails,
+  /// without a change, where the asset was built without KernelChoice::fields, on a number out of range and
+  /// on more than kMostForceFields. Cost: the strand kernel is that of bodies and air; another number of
+  /// fields or other grids wait for frames in flight.
+  Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from = {});
   /// The present settings and material; initially the asset's. Checkpoints hold neither them nor bodies,
-  /// forces and goals: set these before restore().
+  /// forces, goals and fields: set these before restore().
   const Settings& settings() const;
   const Material& material() const;
 

@@ -37,6 +37,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   p.dragAlong = static_cast<float>(settings.air.alongShare);
   p.strandCount = chunk.strandCount();
   p.stepCount = static_cast<std::uint32_t>(settings.stepsPerFrame);
+  p.fieldCount = static_cast<std::uint32_t>(fields.count());
   return p;
 }
 
@@ -70,6 +71,7 @@ void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
   roots.record(frame.list, frame.slot);
   forces.record(frame.list, frame.slot);
   goals.record(frame.list, frame.slot);
+  fields.record(frame.list, frame.slot);
   frame.list.barrier();
 }
 
@@ -185,7 +187,7 @@ bool Simulation::Implementation::isQuiet(std::span<const HeadPose> stepPoses,
            pose.shift == head.now.shift;
   };
   return isThere(head.oneStepEarlier) && std::ranges::all_of(stepPoses, isThere) &&
-         world.isQuiet(bodyPoses) && roots.areStill(rootPoses);
+         world.isQuiet(bodyPoses) && fields.areQuiet() && roots.areStill(rootPoses);
 }
 
 // What the host does before a frame. Whether the device has something to do: not where the head jumps.
@@ -292,6 +294,7 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
   roots.writeFrame(slot, heads, rootPoses);
   forces.writeFrame(slot);
   goals.writeFrame(slot);
+  fields.writeFrame(slot, std::span(heads).subspan(1), T);
   const auto poses = buffers.poses.of<layout::StepPose>(slot);
   poses[0] = {packed(head.now.rotation), packed(head.turn()), {}, static_cast<float>(head.now.shift)};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
@@ -308,6 +311,7 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
 Status Simulation::Implementation::jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
                                           std::span<const BodyPose> rootPoses) {
   world.endFrame(end, bodyPoses);
+  fields.endFrame();
   roots.endFrame(rootPoses);
   rigidHair.jump(rootPoses);
   if (Status status = carryTo(end); !status) return status;

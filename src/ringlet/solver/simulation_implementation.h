@@ -17,6 +17,7 @@
 #include "ringlet/rest/live_material.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/contact_stage.h"
+#include "ringlet/solver/device_fields.h"
 #include "ringlet/solver/device_forces.h"
 #include "ringlet/solver/device_goals.h"
 #include "ringlet/solver/device_groom.h"
@@ -86,6 +87,7 @@ struct Simulation::Implementation {
   DeviceRoots roots;
   DeviceForces forces;
   DeviceGoals goals;
+  DeviceFields fields;
   RigidHair rigidHair;
   SubmissionPace pace;
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
@@ -131,6 +133,7 @@ struct Simulation::Implementation {
   Status checkChange(const Settings& wanted) const;
   Status change(const Settings& wanted);
   Status change(const Material& wanted);
+  Status change(std::span<const ForceField> from, std::span<const ForceField> to);
   Status change(std::span<const Body> bodies, std::span<const BodyPose> places);
 
   // simulation_frames.cpp

@@ -50,7 +50,7 @@ Status Simulation::Implementation::change(const Settings& wanted) {
   }
   world.setSettings(wanted);
   if (asset->goal && wanted.goal != settings.goal)
-    goals.set(asset->goal->places, strengthsOf(*asset->goal, wanted.goal), wanted.goal.damping);
+    goals.set(asset->goal->places, strengthsOf(*asset->goal, wanted.goal), wanted.goal.damping, {});
   settings = wanted;
   stillness.wake();
   forgetRecordings();
@@ -104,6 +104,7 @@ Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyP
 
 Status Simulation::setMaterial(const Material& material) {
   const Implementation& self = *self_;
+  if (material == self.material) return {};
   if (self.settings.integrator != Integrator::jacobi)
     return Error{"a material changes while hair moves with the integrator jacobi only"};
   if (Status status = checkMaterial(material); !status) return status;
@@ -133,14 +134,41 @@ Status Simulation::setForces(std::span<const Vec3f> forces) {
 }
 
 Status Simulation::setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
-                            double dampingRatio) {
-  RINGLET_ASSERT(places.size() == self_->rest.groomParticleCount && strengths.size() == places.size(),
+                            double dampingRatio, std::span<const Vec3f> from) {
+  RINGLET_ASSERT(places.size() == self_->rest.groomParticleCount && strengths.size() == places.size() &&
+                     (from.empty() || from.size() == places.size()),
                  "every particle has a place and a strength");
   if (!self_->goals.areThere())
     return Error{"the hair's asset was built without goals; build it with KernelChoice::goals"};
-  self_->goals.set(places, strengths, dampingRatio);
+  self_->goals.set(places, strengths, dampingRatio, from);
   self_->stillness.wake();
   return {};
+}
+
+Status Simulation::Implementation::change(std::span<const ForceField> from, std::span<const ForceField> to) {
+  if (!std::ranges::equal(from, fields.now())) stillness.wake();
+  if (!fields.hasRoomFor(to)) {
+    if (Status status = finishFrames(); !status) return status;
+    auto made = DeviceFields::create(device.gpu(), to, asset->settings.stepsPerFrame, kFramesInFlight);
+    if (!made) return made.error();
+    fields = std::move(*made);
+    forgetRecordings();
+    if (Status status = bindKernels(); !status) return status;
+  }
+  fields.set(from, to);
+  return {};
+}
+
+Status Simulation::setFields(std::span<const ForceField> fields, std::span<const ForceField> from) {
+  RINGLET_ASSERT(from.empty() || from.size() == fields.size(), "every field has a start");
+  if (!self_->choice.fields)
+    return Error{"the hair's asset was built without fields; build it with KernelChoice::fields"};
+  for (const std::span<const ForceField> some : {fields, from}) {
+    for (const ForceField& field : some) {
+      if (Status checked = checkForceField(field); !checked) return checked;
+    }
+  }
+  return self_->change(from.empty() ? fields : from, fields);
 }
 
 const Settings& Simulation::settings() const { return self_->settings; }

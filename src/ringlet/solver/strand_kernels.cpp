@@ -37,7 +37,7 @@ using Spirv = std::span<const std::uint32_t>;
 // buffers stay bound.
 Spirv spirvOf(const StrandShape& shape, const StrandKernelOptions& options) {
   const auto either = [&](Spirv plain, Spirv taps) { return options.taps ? taps : plain; };
-  const bool amongOthers = options.bodies || options.air || options.goals;
+  const bool amongOthers = options.bodies || options.air || options.goals || options.fields;
   const bool isBaseline = options.integrator != Integrator::jacobi;
   if (shape.serial()) {
     if (isBaseline) return either(k_strand_step_serial_baselines, k_strand_step_serial_baselines_taps);
@@ -98,7 +98,8 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecBodies, options.bodies ? 1u : 0u},
                            {layout::kSpecAir, options.air ? 1u : 0u},
                            {layout::kSpecTurbulent, options.turbulence ? 1u : 0u},
-                           {layout::kSpecGoals, options.goals ? 1u : 0u}};
+                           {layout::kSpecGoals, options.goals ? 1u : 0u},
+                           {layout::kSpecFields, options.fields ? 1u : 0u}};
   if (options.contacts) {
     description.constants.push_back({layout::kSpecPairs, options.pairs ? 1u : 0u});
     description.constants.push_back({layout::kSpecVolume, options.volume ? 1u : 0u});

@@ -42,6 +42,7 @@ struct StrandKernelOptions {
   bool movingRoots = false;        // strands have poses of their own
   bool forces = false;             // forces from outside act on particles
   bool goals = false;              // particles are pulled to places
+  bool fields = false;             // fields act on them
   std::uint32_t subgroupSize = 0;  // of the lanes form, one the device can be asked for; 0: its default
   std::uint32_t groupSize = kStrandGroupSize;
 };
