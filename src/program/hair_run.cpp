@@ -152,6 +152,7 @@ class HairRun {
   Status openFolder();
   Status makeHair();
   Status makeSink();
+  Status takeNumbersBefore(int frame);
   Status restore();
   Status stepAll();
   Status takeUnderWay();
@@ -258,7 +259,24 @@ Status HairRun::makeSink() {
   return done > 0 ? restore() : Status{};
 }
 
+// What keys did in the frames before, of which a checkpoint knows nothing. A material that was another and
+// came back has other last bits than one that never changed: the first change is made too. The state,
+// restored after this, says whether the hair sleeps; numbers that are set anew would wake it.
+Status HairRun::takeNumbersBefore(int frame) {
+  if (!input_.keys) return {};
+  for (int before = -preRollFrames(input_, options_); before < frame - 1; ++before) {
+    const double end = (before + 1) / input_.settings.framesPerSecond;
+    const auto numbers = input_.keys->at(end, input_.settings.stepsPerFrame);
+    if (!numbers) return numbers.error();
+    if (numbers->material == input_.material) continue;
+    if (Status taken = takeNumbers(*backend_, input_, options_, before, numbersOf_); !taken) return taken;
+    break;
+  }
+  return takeNumbers(*backend_, input_, options_, frame - 1, numbersOf_);
+}
+
 Status HairRun::restore() {
+  if (Status taken = takeNumbersBefore(outcome_.resumedFrom); !taken) return taken;
   Archive computed = Archive::reading(folder_->checkpoint()->computed);
   Archive written = Archive::reading(folder_->checkpoint()->written);
   if (Status restored = stepper_->archive(computed); !restored) return restored;

@@ -187,6 +187,63 @@ TEST_P(Resume, AnInterruptedRunGoesOn) {
   resumeToTheSameBits("interrupted");
 }
 
+// A checkpoint knows nothing of what keys did before it: a material that came back to what it was, hair that
+// sleeps since nothing changes any more.
+TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
+  struct Case {
+    const char* what;
+    const char* scene;
+    int frames, killedAt;
+  };
+  for (const Case& c : {Case{"a material came back",
+                             "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\n"
+                             "[[key]]\ntime = 0.1\nmaterial.dials.weight = 1\n"
+                             "[[key]]\ntime = 0.2\nmaterial.dials.weight = 0.7\n"
+                             "[[key]]\ntime = 0.3\nmaterial.dials.weight = 1\n",
+                             24, 14},
+                        Case{"hair sleeps",
+                             "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"still\"\n"
+                             "[simulation]\npreload = 1\nsleep_speed = 0.1\n[air]\nwind = [0.1, 0, 0]\n"
+                             "[[key]]\ntime = 0.1\nair.wind = [0.1, 0, 0]\n"
+                             "[[key]]\ntime = 0.2\nair.wind = [0, 0, 0]\n",
+                             120, 90}}) {
+    std::ofstream(folder_ / "keys.toml") << c.scene;
+    const auto arguments = [&](const char* out) {
+      return std::vector<std::string>{"simulate",
+                                      "keys.toml",
+                                      "--backend",
+                                      GetParam(),
+                                      "--frames",
+                                      std::to_string(c.frames),
+                                      "--cache",
+                                      "float32",
+                                      "--no-usd",
+                                      "--no-sheet",
+                                      "--checkpoint",
+                                      "5",
+                                      "--resume",
+                                      "--json-progress",
+                                      "--quiet",
+                                      "-o",
+                                      out};
+    };
+    for (const char* out : {"keys_whole", "keys_out"}) fs::remove_all(folder_ / out);
+    ASSERT_EQ(runProgram(folder_, arguments("keys_whole")).exitCode, 0) << c.what;
+    RunningProgram program(folder_, arguments("keys_out"));
+    EXPECT_TRUE(RunningProgram::waitUntil([&] {
+      const std::string lines = readText(folder_ / "stdout.txt");
+      return std::ranges::count(lines, '\n') >= c.killedAt;
+    }));
+    program.send(SIGKILL);
+    EXPECT_EQ(program.wait().exitCode, -1) << c.what << ": it ended before it was killed";
+    const auto resumed = runProgram(folder_, arguments("keys_out"));
+    ASSERT_EQ(resumed.exitCode, 0) << c.what << ": " << resumed.err;
+    EXPECT_EQ(resumed.out.find("\"frame\": 1,"), std::string::npos) << c.what << ": it began anew";
+    EXPECT_TRUE(readText(folder_ / "keys_out/hair.rgc") == readText(folder_ / "keys_whole/hair.rgc"))
+        << c.what;
+  }
+}
+
 TEST_P(Resume, AfterAFullDiskTheRunGoesOn) {
   const auto size = fs::file_size(whole_ / "hair.usda");
   for (const double share : isGpu() ? std::vector{0.6} : std::vector{0.3, 0.6, 0.95}) {
