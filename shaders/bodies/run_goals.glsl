@@ -1,8 +1,8 @@
 // Goals of this lane's particles, or of its edges. Included by bodies/run_pulls.glsl.
 #include "equations/goal_spring.glsl"
 
-// Of edges: what is pulled is how the edge lies, with the mass of its particle. From positions at the step's start; e, in
-// place of p, and force.
+// Of edges: what is pulled is how the edge lies, with the mass of its particle. From edges at the step's start; the
+// pull is added to their forces.
 void feelGoalShape(uint step) {
   float shareBefore = float(step) / float(parameters.stepCount);
   float shareAfter = float(step + 1) / float(parameters.stepCount);

@@ -10,7 +10,7 @@ struct GoalSettings {
   double tipShare = 1;  // at the tip, as a share of that, evenly between; 0 to 100
   double damping = 1;   // ratio about its place; 1 is critical; 0 to 100
   bool shape = false;   // goals are of edges, so that hair keeps how it lies, not where; then strength is in
-                       // the strand's weight, as bend stiffness is
+                        // the strand's weight, as bend stiffness is
   bool operator==(const GoalSettings&) const = default;
 };
 
