@@ -12,8 +12,11 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/setting_options.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/groom/hair_styles.h"
+#include "ringlet/scenes/scene_fields.h"
 
 namespace ringlet::program {
 namespace {
@@ -25,6 +28,7 @@ struct Typed {
   Variation variation;
   SwatchParameters swatch;
   HeadParameters head;
+  TypedSettings cut;
   std::string hand = "right";
   bool quiet = false;
 };
@@ -120,17 +124,35 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
   auto head = std::make_shared<Typed>();
   CLI::App* headCommand =
       make->add_subcommand("head", "A head of curls about the origin, Y up, looking along +Z");
+  // Before the numbers it sets: options are taken in this order.
+  headCommand
+      ->add_option_function<std::string>(
+          "--style",
+          [head](const std::string& name) {
+            head->head = *headOfStyle(name);
+            head->curl = head->head.curl;
+          },
+          fmt::format("Hair style, which sets length, radius, turns, locks and the cut: {}; what stands "
+                      "beside it goes "
+                      "before (default none)",
+                      kHairStyles))
+      ->check(oneOf(namesIn(kHairStyles)))
+      ->type_name("NAME");
   addCurlOptions(headCommand, *head);
   addNumber(headCommand, "--strands", head->head.strandCount, "Strands", "N");
   addNumber(headCommand, "--locks", head->head.lockCount,
             "Locks, of curls that wind alike; 0: every strand is a curl of its own", "N");
   addNumber(headCommand, "--scalp-radius", head->head.scalpRadius, "Radius of the head, metres", "METRES");
   addVariationOptions(headCommand, head->variation);
-  headCommand->footer("Example:\n  ringlet make head --strands 2000 --turns 10 --seed 7 -o head.hair");
+  addSettingOptions(headCommand, cutFields(), "groom.cut", head->cut, "Cut");
+  headCommand->footer(
+      "Examples:\n  ringlet make head --strands 2000 --turns 10 --seed 7 -o head.hair\n"
+      "  ringlet make head --style bob --parting right -o bob.obj");
   headCommand->callback([head, &exitCode] {
     head->curl.handedness = head->hand == "left" ? -1 : 1;
     head->head.curl = head->curl;
     head->head.variation = head->variation;
+    applySettingOptions(cutFields(), head->cut, head->head.cut);
     exitCode = write("ringlet make head", *head, makeHead(head->head));
   });
 }

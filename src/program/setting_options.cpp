@@ -28,7 +28,8 @@ CLI::Validator validatorOf(const SettingField<Owner>& field) {
         using Value = ValueOf<Owner, decltype(member)>;
         if constexpr (std::is_same_v<Value, double>) return between(field.allowed.low, field.allowed.high);
         if constexpr (std::is_same_v<Value, bool>) return oneOf({"on", "off"});
-        if constexpr (std::is_enum_v<Value>) return oneOf(namesIn(field.choices));
+        if constexpr (std::is_enum_v<Value> || std::is_same_v<Value, std::string>)
+          return oneOf(namesIn(field.choices));
         return wholeBetween(static_cast<int>(field.allowed.low), static_cast<int>(field.allowed.high));
       },
       field.member);
@@ -41,7 +42,7 @@ std::string typeNameOf(const SettingField<Owner>& field) {
         using Value = ValueOf<Owner, decltype(member)>;
         if constexpr (std::is_same_v<Value, double>) return field.unit == std::string("m") ? "METRES" : "X";
         if constexpr (std::is_same_v<Value, bool>) return "on|off";
-        if constexpr (std::is_enum_v<Value>) return "NAME";
+        if constexpr (std::is_enum_v<Value> || std::is_same_v<Value, std::string>) return "NAME";
         return "N";
       },
       field.member);
@@ -53,6 +54,8 @@ Value parsed(const std::string& text, const std::string& choices) {
     return std::strtod(text.c_str(), nullptr);
   } else if constexpr (std::is_same_v<Value, bool>) {
     return text == "on";
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    return text;
   } else if constexpr (std::is_enum_v<Value>) {
     const std::vector<std::string> names = namesIn(choices);
     return static_cast<Value>(std::ranges::find(names, text) - names.begin());
@@ -120,5 +123,8 @@ template void addSettingOptions(CLI::App*, std::span<const SettingField<ContactS
                                 TypedSettings&, const char*);
 template void applySettingOptions(std::span<const SettingField<ContactSettings>>, const TypedSettings&,
                                   ContactSettings&);
+template void addSettingOptions(CLI::App*, std::span<const SettingField<HairCut>>, const char*,
+                                TypedSettings&, const char*);
+template void applySettingOptions(std::span<const SettingField<HairCut>>, const TypedSettings&, HairCut&);
 
 }  // namespace ringlet::program

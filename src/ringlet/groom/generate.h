@@ -11,6 +11,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/hair_cut.h"
 
 namespace ringlet {
 
@@ -59,6 +60,7 @@ struct HeadParameters {
   double bendLength =
       0.025;  // how far along a strand it turns from the scalp's normal to hanging [m], in (0, 10]
   double rampShare = 0.2;  // share of its length over which the curl's radius grows from 0, in (0, 1]
+  HairCut cut{};
 };
 
 /// A sentence for the user where a curl is cut too coarsely to hold its shape.
@@ -74,7 +76,8 @@ Result<Groom> makeSwatch(const SwatchParameters& parameters = {});
 /// Guides evenly spread over the scalp. Each starts on it along its normal, bends over to hang down beside or
 /// behind the head, combed away from the face, and stays outside the sphere. With locks a strand belongs to
 /// the nearest of `lockCount` places, evenly spread too: strands of a lock wind the same way, and differ from
-/// each other by a tenth of what locks differ by. Errors as for makeSwatch. Cost: with strands times locks.
+/// each other by a tenth of what locks differ by. `cut` shortens, combs and clumps them. Errors as for
+/// makeSwatch. Cost: with strands times locks.
 Result<Groom> makeHead(const HeadParameters& parameters = {});
 
 }  // namespace ringlet

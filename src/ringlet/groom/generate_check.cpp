@@ -48,6 +48,25 @@ Status checkVariation(const Variation& v) {
   return checkRanges(ranges);
 }
 
+Status checkName(const char* what, const std::string& name, const std::string& names) {
+  if ((", " + names + ",").find(", " + name + ",") != std::string::npos) return {};
+  return Error{fmt::format("the {} is '{}'; it must be one of {}", what, name, names)};
+}
+
+Status checkCut(const HairCut& cut) {
+  if (Status status = checkName("hairline", cut.hairline, kHairlines); !status) return status;
+  if (Status status = checkName("parting", cut.parting, kPartings); !status) return status;
+  const Range ranges[] = {{"the length of the fringe", cut.fringe, 0, 10, " m"},
+                          {"the factor on the length on top", cut.top, 0.05, 10},
+                          {"the factor on the length at the sides", cut.sides, 0.05, 10},
+                          {"the factor on the length behind", cut.back, 0.05, 10},
+                          {"the share of the layers", cut.layers, 0, 0.95},
+                          {"the level of the ends", cut.level.value_or(0), -1, 10, " m"},
+                          {"the share of a straight root", cut.straightRoot, 0, 0.95},
+                          {"the share of clumping", cut.clump, 0, 1}};
+  return checkRanges(ranges);
+}
+
 }  // namespace
 
 Status checkParameters(const CurlParameters& p) {
@@ -86,6 +105,7 @@ Status checkParameters(const HeadParameters& p) {
                           {"the length over which strands bend over", p.bendLength, 0, 10, " m", true},
                           {"the share of the length over which the curl grows", p.rampShare, 0, 1, "", true}};
   if (Status status = checkRanges(ranges); !status) return status;
+  if (Status status = checkCut(p.cut); !status) return status;
   return checkParticleCount(p.strandCount, p.curl.particleCount);
 }
 

@@ -14,6 +14,7 @@
 
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/generate_check.h"
+#include "ringlet/groom/head_regions.h"
 #include "ringlet/groom/vary_curl.h"
 
 namespace ringlet {
@@ -38,13 +39,15 @@ constexpr double kVariationInLock = 0.1;
 
 constexpr double kLongestStep = 5e-4;  // [m], of the core's integration: a 50th of the default bend
 
-double smoothstep(double low, double high, double x) {
-  const double s = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return s * s * (3 - 2 * s);
-}
+// A parting's comb to the side, where it is full; and what of the comb away from the face is left there.
+constexpr double kPartingComb = 1.6, kLeftOfComb = 0.4;
+// A fringe's comb over the face.
+constexpr double kFringeComb = 0.7;
 
-// Directions, evenly spread over the cap above the hairline: Fibonacci's spiral about the cap's axis.
-std::vector<Vec3d> spreadRoots(const HeadParameters& parameters, int count) {
+constexpr double kShortestStrand = 0.005;  // [m], of what a level leaves
+
+// Directions, evenly spread over the cap: Fibonacci's spiral about the cap's axis.
+std::vector<Vec3d> spreadOverCap(const HeadParameters& parameters, int count) {
   // The plane of the hairline meets the sphere at the two elevations: tilted by half their difference.
   const double tilt = (parameters.browElevation - parameters.napeElevation) / 2;
   const double lowest = std::sin((parameters.browElevation + parameters.napeElevation) / 2);
@@ -57,6 +60,19 @@ std::vector<Vec3d> spreadRoots(const HeadParameters& parameters, int count) {
     directions.push_back(axis * height + (side * std::cos(angle) + front * std::sin(angle)) * around);
   }
   return directions;
+}
+
+// Directions, evenly spread above the hairline. What it takes of the cap is made up for by more on the cap,
+// until there are enough; what is too much is left out at the end of the spiral, low at the nape.
+std::vector<Vec3d> spreadRoots(const HeadParameters& parameters, int count) {
+  std::vector<Vec3d> roots;
+  for (int onCap = count; std::ssize(roots) < count && onCap < 100 * (count + 100);
+       onCap += 1 + (count - static_cast<int>(roots.size())) / 2) {
+    roots = spreadOverCap(parameters, onCap);
+    std::erase_if(roots, [&](Vec3d outward) { return !isAboveHairline(parameters, outward); });
+  }
+  if (std::ssize(roots) > count) roots.resize(static_cast<std::size_t>(count));
+  return roots;
 }
 
 // The curl of each strand, varied by its lock and within it; without locks each for itself.
@@ -72,25 +88,55 @@ class VariedCurls {
 
   CurlParameters curlAt(Vec3d rootDirection, std::size_t strand) const {
     if (locks_.empty()) return varyCurl(parameters_.curl, parameters_.variation, strand);
-    const auto nearer = [&](Vec3d a, Vec3d b) { return dot(a, rootDirection) < dot(b, rootDirection); };
-    const auto lock = std::ranges::max_element(locks_, nearer) - locks_.begin();
-    const CurlParameters curl =
-        varyCurl(parameters_.curl, parameters_.variation, static_cast<std::size_t>(lock));
+    const CurlParameters curl = varyCurl(parameters_.curl, parameters_.variation, lockAt(rootDirection));
     return varyCurl(curl, within_, locks_.size() + strand);
   }
 
+  /// Where the middle of the lock there is rooted; without locks the place itself.
+  Vec3d middleOfLock(Vec3d rootDirection) const {
+    return locks_.empty() ? rootDirection : locks_[lockAt(rootDirection)];
+  }
+
  private:
+  std::size_t lockAt(Vec3d rootDirection) const {
+    const auto nearer = [&](Vec3d a, Vec3d b) { return dot(a, rootDirection) < dot(b, rootDirection); };
+    return static_cast<std::size_t>(std::ranges::max_element(locks_, nearer) - locks_.begin());
+  }
+
   const HeadParameters& parameters_;
   std::vector<Vec3d> locks_;
   Variation within_;
 };
 
-// Where hair wants to go at a place on or above the head: down, and in front also away from the face.
-Vec3d fallDirection(Vec3d outward) {
+// How hair from a root is combed.
+struct Comb {
+  int side = 0;           // of the parting: +1 or -1
+  bool isFringe = false;  // over the face
+};
+
+// Where hair wants to go at a place on or above the head: down, and in front also away from the face, or from
+// the parting, or over the brow.
+Vec3d fallDirection(Vec3d outward, const Comb& comb) {
+  if (comb.isFringe) return normalizedOr(kDown + kFace * kFringeComb, kDown);
   const double facing = dot(outward, kFace);
   const Vec3d awayFromFace = normalizedOr(outward * facing - kFace, Vec3d{0, 1, 0});
-  return normalizedOr(kDown + awayFromFace * (kCombStrength * smoothstep(kCombGone, kCombFull, facing)),
-                      kDown);
+  Vec3d fall = kDown;
+  double back = kCombStrength * smoothstep(kCombGone, kCombFull, facing);
+  if (comb.side != 0) {
+    const double parted = smoothstep(0.3, 0.9, outward.y) * smoothstep(-0.7, 0.1, outward.z);
+    fall += Vec3d{double(comb.side), 0, 0} * (kPartingComb * parted);
+    back *= 1 - (1 - kLeftOfComb) * parted;
+  }
+  return normalizedOr(fall + awayFromFace * back, kDown);
+}
+
+Comb combAt(Vec3d rootDirection, const HeadParameters& parameters) {
+  return {sideOfParting(parameters, rootDirection), isFringe(parameters, rootDirection)};
+}
+
+bool areCombedAlike(Vec3d a, Vec3d b, const HeadParameters& parameters) {
+  const Comb x = combAt(a, parameters), y = combAt(b, parameters);
+  return x.side == y.side && x.isFringe == y.isFringe;
 }
 
 // A point of the core with a frame that goes along without twist.
@@ -99,10 +145,10 @@ struct CorePoint {
 };
 
 // One step along the core: it turns towards where hair falls, and slides over the sphere.
-void advance(CorePoint& core, double step, double bendLength, double leastDistance) {
+void advance(CorePoint& core, double step, double bendLength, double leastDistance, const Comb& comb) {
   const Vec3d outward = normalizedOr(core.position, Vec3d{0, 1, 0});
   const double turn = std::min(1.0, step / bendLength);
-  core.direction = normalizedOr(core.direction * (1 - turn) + fallDirection(outward) * turn, kDown);
+  core.direction = normalizedOr(core.direction * (1 - turn) + fallDirection(outward, comb) * turn, kDown);
   core.position += core.direction * step;
 
   const double distance = length(core.position);
@@ -116,29 +162,86 @@ void advance(CorePoint& core, double step, double bendLength, double leastDistan
       normalizedOr(core.normal, normalizedOr(cross(core.direction, Vec3d{1, 0, 0}), Vec3d{0, 0, 1}));
 }
 
-void addStrand(Groom& groom, Vec3d rootDirection, const CurlParameters& curl,
-               const HeadParameters& parameters) {
+// The radius of a curl along its strand, s from 0 to 1.
+double radiusAlong(const CurlParameters& curl, const HeadParameters& parameters, double s) {
+  const double straight = parameters.cut.straightRoot;
+  return curl.radius * smoothstep(straight, straight + parameters.rampShare * (1 - straight), s);
+}
+
+// The core of a strand at its particles.
+std::vector<CorePoint> coreOf(Vec3d rootDirection, const CurlParameters& curl,
+                              const HeadParameters& parameters) {
   const double edge = curl.length / (curl.particleCount - 1);
   const int stepCount = static_cast<int>(std::ceil(edge / kLongestStep));
+  const Comb comb = combAt(rootDirection, parameters);
   CorePoint core{rootDirection * parameters.scalpRadius, rootDirection, cross(rootDirection, kFace)};
   core.normal = normalizedOr(core.normal, Vec3d{1, 0, 0});
-  auto radiusAt = [&](double s) { return curl.radius * smoothstep(0, parameters.rampShare, s); };
-
-  std::vector<Vec3f> strand;
-  strand.reserve(static_cast<std::size_t>(curl.particleCount));
+  std::vector<CorePoint> points;
+  points.reserve(static_cast<std::size_t>(curl.particleCount));
   for (int i = 0; i < curl.particleCount; ++i) {
+    const double s = double(i) / (curl.particleCount - 1);
+    points.push_back(core);
+    for (int k = 1; k <= stepCount; ++k) {
+      const double along = s * curl.length + edge * k / stepCount;
+      const double gap = kGap * radiusAlong(curl, parameters, along / curl.length) +
+                         kLift * std::min(along, parameters.scalpRadius);
+      advance(core, edge / stepCount, parameters.bendLength, parameters.scalpRadius + gap, comb);
+    }
+  }
+  return points;
+}
+
+// A strand of another length has as many turns a metre.
+CurlParameters ofLength(CurlParameters curl, double factor) {
+  curl.length *= factor;
+  curl.turns *= factor;
+  return curl;
+}
+
+// As the cut leaves it.
+CurlParameters cutCurl(Vec3d rootDirection, const CurlParameters& whole, const HeadParameters& parameters) {
+  if (isFringe(parameters, rootDirection)) return ofLength(whole, parameters.cut.fringe / whole.length);
+  const CurlParameters curl = ofLength(whole, lengthFactor(parameters, rootDirection));
+  if (!parameters.cut.level) return curl;
+  const std::vector<CorePoint> core = coreOf(rootDirection, curl, parameters);
+  const auto below = [&](const CorePoint& point) { return point.position.y < -*parameters.cut.level; };
+  const auto cut = std::ranges::find_if(core, below);
+  if (cut == core.end()) return curl;
+  if (cut == core.begin()) return ofLength(curl, kShortestStrand / curl.length);
+  // Between the particle before and this one.
+  const double above = (cut - 1)->position.y + *parameters.cut.level,
+               edge = (cut - 1)->position.y - cut->position.y;
+  const double share =
+      (static_cast<double>(cut - 1 - core.begin()) + above / edge) / (curl.particleCount - 1);
+  return ofLength(curl, std::max(share, kShortestStrand / curl.length));
+}
+
+// Towards the core of the lock, outside the head as before.
+void clump(std::vector<CorePoint>& core, const std::vector<CorePoint>& lock, double share) {
+  for (std::size_t i = 1; i < core.size(); ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(core.size() - 1);
+    const double distance = length(core[i].position);
+    const Vec3d between =
+        core[i].position + (lock[i].position - core[i].position) * (share * smoothstep(0, 0.7, s));
+    const Vec3d outward = normalizedOr(between, Vec3d{0, 1, 0});
+    core[i].position = length(between) < std::min(distance, length(lock[i].position))
+                           ? outward * std::min(distance, length(lock[i].position))
+                           : between;
+  }
+}
+
+void addStrand(Groom& groom, const CurlParameters& curl, const std::vector<CorePoint>& cores,
+               const HeadParameters& parameters) {
+  std::vector<Vec3f> strand;
+  strand.reserve(cores.size());
+  for (int i = 0; i < curl.particleCount; ++i) {
+    const CorePoint& core = cores[static_cast<std::size_t>(i)];
     const double s = double(i) / (curl.particleCount - 1);
     const double angle = curl.phase + 2 * std::numbers::pi * curl.turns * s * curl.handedness;
     const Vec3d binormal = cross(core.direction, core.normal);
-    const Vec3d p =
-        core.position + (core.normal * std::cos(angle) + binormal * std::sin(angle)) * radiusAt(s);
+    const Vec3d p = core.position + (core.normal * std::cos(angle) + binormal * std::sin(angle)) *
+                                        radiusAlong(curl, parameters, s);
     strand.push_back(Vec3f(p / curl.metresPerUnit));
-    for (int k = 1; k <= stepCount; ++k) {
-      const double along = s * curl.length + edge * k / stepCount;
-      const double gap =
-          kGap * radiusAt(along / curl.length) + kLift * std::min(along, parameters.scalpRadius);
-      advance(core, edge / stepCount, parameters.bendLength, parameters.scalpRadius + gap);
-    }
   }
   groom.addStrand(strand);
 }
@@ -149,9 +252,19 @@ Result<Groom> makeHead(const HeadParameters& parameters) {
   if (Status status = checkParameters(parameters); !status) return status.error();
   Groom groom;
   groom.metresPerUnit = parameters.curl.metresPerUnit;
+  const std::vector<Vec3d> roots = spreadRoots(parameters, parameters.strandCount);
+  if (std::ssize(roots) < parameters.strandCount)
+    return Error{
+        "the natural hairline leaves no scalp between the elevations of brow and nape; lower one of them"};
   const VariedCurls curls(parameters);
-  for (const Vec3d& direction : spreadRoots(parameters, parameters.strandCount))
-    addStrand(groom, direction, curls.curlAt(direction, groom.strandCount()), parameters);
+  for (const Vec3d& direction : roots) {
+    const CurlParameters curl = cutCurl(direction, curls.curlAt(direction, groom.strandCount()), parameters);
+    std::vector<CorePoint> core = coreOf(direction, curl, parameters);
+    const Vec3d middle = curls.middleOfLock(direction);
+    if (parameters.cut.clump > 0 && areCombedAlike(middle, direction, parameters))
+      clump(core, coreOf(middle, curl, parameters), parameters.cut.clump);
+    addStrand(groom, curl, core, parameters);
+  }
   return groom;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/groom/hair_styles.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scenes/scene_maps.h"
 
@@ -78,6 +79,14 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        "Frame of the motion, at the run's fps, at which what is bound to the world stands so; 1 is its first "
        "pose.",
        &G::bindFrame, kBindFrames},
+      {"style",
+       "",
+       "none",
+       "Hair style: sets length, radius, turns, locks and [groom.cut], whose keys beside it go before.",
+       &G::style,
+       {},
+       kHairStyles,
+       "head"},
       {"strands", "", "", "Number.", &G::strands, {1, 1e6}, "", "head"},
       {"locks",
        "",
@@ -474,6 +483,66 @@ std::span<const SceneField<SceneMap>> mapFields() {
        "",
        "primvar, texture"},
       {"high", "1", "", "Factor where it is 1.", &M::high, {0, kMostStrandFactor}, "", "primvar, texture"},
+  };
+  return all;
+}
+
+std::span<const SceneField<HairCut>> cutFields() {
+  using C = HairCut;
+  static const SceneField<C> all[] = {
+      SceneField<C>{"hairline",
+                    "",
+                    "",
+                    "Where hair begins: a cap, or with bays at the temples and room for the ears.",
+                    &C::hairline,
+                    {},
+                    kHairlines}
+          .asOption("--hairline"),
+      SceneField<C>{"parting",
+                    "",
+                    "",
+                    "Parting, on the head's own left, middle or right; hair falls to either side.",
+                    &C::parting,
+                    {},
+                    kPartings}
+          .asOption("--parting"),
+      SceneField<C>{"fringe",
+                    "m",
+                    "",
+                    "Length of hair above the brow that is combed over it; 0: no fringe.",
+                    &C::fringe,
+                    {0, 10}}
+          .asOption("--fringe"),
+      SceneField<C>{"top", "1", "", "Factor on the length of hair on top.", &C::top, {0.05, 10}}.asOption(
+          "--top"),
+      SceneField<C>{"sides", "1", "", "Factor on the length of hair at the sides.", &C::sides, {0.05, 10}}
+          .asOption("--sides"),
+      SceneField<C>{"back", "1", "", "Factor on the length of hair behind.", &C::back, {0.05, 10}}.asOption(
+          "--back"),
+      SceneField<C>{"layers",
+                    "1",
+                    "",
+                    "Share by which hair from the crown is shorter than hair from the nape.",
+                    &C::layers,
+                    {0, 0.95}}
+          .asOption("--layers"),
+      SceneField<C>{"level",
+                    "m",
+                    "ends are not cut",
+                    "Height below the head's middle at which ends are cut.",
+                    &C::level,
+                    {-1, 10}}
+          .asOption("--level"),
+      SceneField<C>{
+          "straight_root", "1", "", "Share of the length before a curl begins.", &C::straightRoot, {0, 0.95}}
+          .asOption("--straight-root"),
+      SceneField<C>{"clump",
+                    "1",
+                    "",
+                    "Share by which strands of a lock come together towards their tips.",
+                    &C::clump,
+                    {0, 1}}
+          .asOption("--clump"),
   };
   return all;
 }

@@ -13,6 +13,7 @@ template <class Owner>
 using SceneField = SettingField<Owner>;
 
 std::span<const SceneField<SceneGroom>> groomFields();
+std::span<const SceneField<HairCut>> cutFields();
 std::span<const SceneField<SceneMotion>> motionFields();      // of the head's and of bodies' own
 std::span<const SceneField<SceneMotion>> headMotionFields();  // of the head's only
 std::span<const SceneField<SceneKeyframe>> keyframeFields();

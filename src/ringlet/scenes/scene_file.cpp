@@ -43,6 +43,8 @@ const std::vector<KnownKey>& knownKeys() {
                               "body", "camera", "field", "hold", "group", "map", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
+    keys.push_back({"groom", "cut"});
+    addKeys(keys, "groom.cut", cutFields());
     keys.push_back({"material", "file"});
     std::ranges::copy(knownMaterialKeys("material"), std::back_inserter(keys));
     addKeys(keys, "motion", motionFields());
@@ -444,7 +446,13 @@ class SceneReader {
         missing_.add(1, "found no groom; expected [groom], with file or generate, the name of a generator");
       return;
     }
+    if (const auto style = table->get("style"))
+      groom = groomOfStyle(style->value<std::string>().value_or(""));
     readFields(*table, "groom", groomFields(), groom);
+    const toml::table* cut = tableOf(*table, "groom", "cut");
+    if (cut) readFields(*cut, "groom.cut", cutFields(), groom.cut);
+    if (cut && groom.generate != "head")
+      problems_.add(lineOf(*cut), "found groom.cut; only the groom from head has it");
     const toml::node *path = table->get("file"), *generator = table->get("generate");
     if (path && generator) {
       problems_.add(std::max(lineOf(*path), lineOf(*generator)),

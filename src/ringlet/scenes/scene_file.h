@@ -38,6 +38,8 @@ namespace ringlet {
 struct SceneGroom {
   std::filesystem::path file;
   std::string generate;  // curl, swatch or head, in place of a file
+  std::string
+      style;  // of a head (groom/hair_styles.h); what it sets stands below, unless the file says other
 
   // Generated (groom/generate.h).
   int strands = HeadParameters{}.strandCount, locks = HeadParameters{}.lockCount;
@@ -49,6 +51,7 @@ struct SceneGroom {
   double spacing = SwatchParameters{}.spacing, scalpRadius = HeadParameters{}.scalpRadius;
   double varyRadius = Variation{}.radius, varyLength = Variation{}.length, varyPhase = Variation{}.phase;
   double otherHand = Variation{}.leftHandedShare;
+  HairCut cut{};
   std::uint32_t seed = 1;
 
   std::optional<double> metresPerUnit{};  // unset: the file's, where it states one, else centimetres

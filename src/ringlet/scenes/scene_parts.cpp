@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/groom/hair_styles.h"
 
 namespace ringlet {
 namespace {
@@ -42,6 +43,18 @@ Quatd turnOfDegrees(Vec3d degrees) {
 
 Vec3d upOf(const SceneGroom& groom) { return groom.up == "Z" ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0}; }
 
+SceneGroom groomOfStyle(const std::string& style) {
+  SceneGroom groom;
+  const auto head = headOfStyle(style);
+  if (!head) return groom;
+  groom.length = head->curl.length;
+  groom.radius = head->curl.radius;
+  groom.turns = head->curl.turns;
+  groom.locks = head->lockCount;
+  groom.cut = head->cut;
+  return groom;
+}
+
 Result<Groom> generatedGroom(const SceneGroom& groom) {
   const CurlParameters curl{.radius = groom.radius,
                             .turns = groom.turns,
@@ -63,7 +76,8 @@ Result<Groom> generatedGroom(const SceneGroom& groom) {
                        .rowCount = groom.rows,
                        .spacing = groom.spacing});
   }
-  HeadParameters head;
+  HeadParameters head = headOfStyle(groom.style).value_or(HeadParameters{});
+  head.cut = groom.cut;
   head.curl = curl;
   head.variation = variation;
   head.strandCount = groom.strands;

@@ -21,6 +21,9 @@ Quatd turnOfDegrees(Vec3d degrees);
 
 Vec3d upOf(const SceneGroom& groom);
 
+/// What holds without keys: the defaults, or a style's; its own `style` is empty.
+SceneGroom groomOfStyle(const std::string& style);
+
 /// Of a groom with a generator, in its unit, not yet placed. Errors: as for makeHead.
 Result<Groom> generatedGroom(const SceneGroom& groom);
 

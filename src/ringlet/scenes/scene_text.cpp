@@ -11,6 +11,7 @@
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
 #include "ringlet/scenes/scene_keys.h"
+#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet {
 namespace {
@@ -157,6 +158,7 @@ std::string rangeOf(const NumberRange& allowed, const char* unit) {
 std::vector<SceneKey> sceneKeys() {
   std::vector<SceneKey> keys;
   addKeys(keys, "groom", groomFields());
+  addKeys(keys, "groom.cut", cutFields());
   keys.push_back(
       {"material", "file", "path", "", "", "none", "",
        "A material file to start from; all of a material's own keys, also those of its tables dials, "
@@ -205,7 +207,9 @@ std::vector<SceneKey> sceneKeys() {
 std::string sceneText(const SceneFile& scene, const std::filesystem::path& folder,
                       const std::string& heading) {
   std::string text = heading;
-  text += headed("[groom]", linesOf(groomFields(), scene.groom, SceneGroom{}, folder));
+  const SceneGroom usual = groomOfStyle(scene.groom.style);
+  text += headed("[groom]", linesOf(groomFields(), scene.groom, usual, folder));
+  text += headed("[groom.cut]", linesOf(cutFields(), scene.groom.cut, usual.cut, folder));
   text += materialTableText(scene.material.material, scene.material.dials, "material");
   if (scene.motion.kind != "still" || scene.motion.preRollSeconds > 0 || !(scene.motion.start == Vec3d{}))
     text += motionText(scene.motion, "motion", folder);
