@@ -19,8 +19,8 @@ struct HairCut {
   double sides = 1;              // at the sides
   double back = 1;               // behind
   double layers = 0;  // share by which hair from the crown is shorter than hair from below, in [0, 0.95]
-  std::optional<double> level;  // height below the head's middle at which ends are cut [m], in [-1, 10]
-  double straightRoot = 0;      // share of the length before a curl begins, in [0, 0.95]
+  std::optional<double> level{};  // height below the head's middle at which ends are cut [m], in [-1, 10]
+  double straightRoot = 0;        // share of the length before a curl begins, in [0, 0.95]
   double clump = 0;  // share by which strands of a lock come together towards their tips, in [0, 1]
   bool operator==(const HairCut&) const = default;
 };
