@@ -22,6 +22,7 @@
 #include "ringlet/scenes/scene_fields.h"
 #include "ringlet/scenes/scene_keys.h"
 #include "ringlet/scenes/scene_maps.h"
+#include "ringlet/scenes/scene_parts.h"
 #include "ringlet/scenes/scene_text.h"
 
 namespace ringlet {
