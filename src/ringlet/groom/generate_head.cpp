@@ -42,7 +42,7 @@ constexpr double kLongestStep = 5e-4;  // [m], of the core's integration: a 50th
 // A parting's comb to the side, where it is full; and what of the comb away from the face is left there.
 constexpr double kPartingComb = 1.6, kLeftOfComb = 0.4;
 // A fringe's comb over the face.
-constexpr double kFringeComb = 0.7;
+constexpr double kFringeComb = 0.12;
 
 constexpr double kShortestStrand = 0.005;  // [m], of what a level leaves
 
