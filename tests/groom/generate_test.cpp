@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "ringlet/groom/curl_shape.h"
+#include "ringlet/groom/hair_styles.h"
+#include "ringlet/groom/head_regions.h"
 #include "ringlet/groom/seeded_random.h"
 #include "tests/groom/groom_samples.h"
 
@@ -310,6 +312,188 @@ TEST(MakeHead, SurvivesExtremeParameters) {
       }
     }
   }
+}
+
+// Of every style.
+std::vector<HeadParameters> styledHeads() {
+  std::vector<HeadParameters> heads;
+  std::string names = std::string(kHairStyles) + ", ";
+  for (std::size_t begin = 0, end; (end = names.find(", ", begin)) != std::string::npos; begin = end + 2) {
+    const auto head = headOfStyle(names.substr(begin, end - begin));
+    EXPECT_TRUE(head) << names.substr(begin, end - begin);
+    heads.push_back(*head);
+    heads.back().strandCount = 400;
+    heads.back().curl.particleCount = 64;
+    heads.back().curl.metresPerUnit = 1;
+  }
+  return heads;
+}
+double arcOf(const std::vector<Vec3d>& strand) {
+  double arc = 0;
+  for (std::size_t i = 1; i < strand.size(); ++i) arc += length(strand[i] - strand[i - 1]);
+  return arc;
+}
+
+TEST(MakeHead, StylesGrowOnTheScalpAndStayOutsideTheHead) {
+  EXPECT_FALSE(headOfStyle("mullet"));
+  for (const HeadParameters& head : styledHeads()) {
+    const Result<Groom> groom = makeHead(head);
+    ASSERT_TRUE(groom) << groom.error().message;
+    ASSERT_EQ(groom->strandCount(), 400u);
+    std::size_t left = 0, fringe = 0;
+    for (std::size_t s = 0; s < groom->strandCount(); ++s) {
+      const std::vector<Vec3d> strand = metresOf(*groom, s);
+      EXPECT_NEAR(length(strand[0]), head.scalpRadius, 1e-6);
+      EXPECT_TRUE(isAboveHairline(head, strand[0] / head.scalpRadius));
+      for (const Vec3d p : strand) EXPECT_GT(length(p), head.scalpRadius - 1e-6) << "strand " << s;
+      left += strand[0].x > 0;
+      fringe += isFringe(head, strand[0] / head.scalpRadius);
+    }
+    EXPECT_NEAR(static_cast<double>(left), 200, 10) << "the scalp has two like sides";
+    EXPECT_EQ(fringe > 0, head.cut.fringe > 0);
+  }
+}
+
+TEST(MakeHead, TheNaturalHairlineHasBaysAndRoomForEars) {
+  HeadParameters cap{.strandCount = 3000}, natural = cap;
+  cap.curl.metresPerUnit = natural.curl.metresPerUnit = 1;
+  natural.cut.hairline = "natural";
+  const auto lowest = [](const Groom& groom, double azimuth) {
+    double least = 2;
+    for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+      const Vec3d root = metresOf(groom, s)[0];
+      if (std::abs(std::atan2(std::abs(root.x), root.z) - azimuth) < 0.1)
+        least = std::min(least, std::asin(root.y / length(root)));
+    }
+    return least;
+  };
+  const Groom a = *makeHead(cap), b = *makeHead(natural);
+  EXPECT_NEAR(lowest(b, 0.05), lowest(a, 0.05), 0.05);
+  EXPECT_NEAR(lowest(b, 3.05), lowest(a, 3.05), 0.05);
+  EXPECT_NEAR(lowest(b, 0.62) - lowest(a, 0.62), 0.16, 0.06);
+  EXPECT_NEAR(lowest(b, 1.6) - lowest(a, 1.6), 0.2, 0.06);
+  natural.browElevation = natural.napeElevation = 1.45;
+  expectError(makeHead(natural), "the natural hairline leaves no scalp");
+}
+
+TEST(MakeHead, HairFallsToEitherSideOfAParting) {
+  for (const char* parting : {"left", "middle", "right"}) {
+    HeadParameters head{.strandCount = 600};
+    head.curl.metresPerUnit = 1;
+    head.cut.parting = parting;
+    const Groom groom = *makeHead(head);
+    std::size_t near = 0;
+    for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+      const std::vector<Vec3d> strand = metresOf(groom, s);
+      if (strand[0].y < 0.75 * head.scalpRadius || strand[0].z < 0) continue;  // on top, in front
+      const int side = sideOfParting(head, strand[0] / head.scalpRadius);
+      const double line = parting == std::string("left") ? 0.03 : parting == std::string("right") ? -0.03 : 0;
+      EXPECT_GT((strand.back().x - line) * side, 0.02) << parting << " " << s;
+      ++near;
+    }
+    EXPECT_GT(near, 20u);
+  }
+}
+
+TEST(MakeHead, LengthsFollowTheCut) {
+  HeadParameters head{.variation = {.radius = 0, .length = 0}, .strandCount = 500};
+  head.curl.metresPerUnit = 1;
+  head.curl.turns = 0;
+  head.curl.radius = 1e-4;
+  const auto arcs = [&](const HairCut& cut) {
+    head.cut = cut;
+    const Groom groom = *makeHead(head);
+    std::vector<std::pair<Vec3d, double>> all;
+    for (std::size_t s = 0; s < groom.strandCount(); ++s)
+      all.emplace_back(metresOf(groom, s)[0] / head.scalpRadius,
+                       arcOf(metresOf(groom, s)) / head.curl.length);
+    return all;
+  };
+  for (const auto& [d, arc] : arcs({.top = 2, .sides = 0.5, .back = 0.7})) {
+    if (d.y > 0.86) {
+      EXPECT_NEAR(arc, 2, 0.02);
+    }
+    if (d.y < 0.59 && d.z < -0.61) {
+      EXPECT_NEAR(arc, 0.7, 0.007);
+    }
+    if (d.y < 0.59 && d.z > -0.09) {
+      EXPECT_NEAR(arc, 0.5, 0.005);
+    }
+  }
+  for (const auto& [d, arc] : arcs({.fringe = 0.06}))
+    EXPECT_NEAR(arc, isFringe(head, d) ? 0.06 / head.curl.length : 1, 0.01);
+  double crown = 0, nape = 0;
+  for (const auto& [d, arc] : arcs({.layers = 0.5})) {
+    if (d.y > 0.98) crown = arc;
+    if (d.y < -0.5) nape = arc;
+  }
+  EXPECT_NEAR(crown, 0.5, 0.01);
+  EXPECT_NEAR(nape, 1, 0.02);
+}
+
+TEST(MakeHead, EndsAreLevelAndRootsStraight) {
+  HeadParameters head{.strandCount = 300};
+  head.curl.metresPerUnit = 1;
+  head.curl.length = 0.4;
+  head.curl.particleCount = 256;
+  head.cut.level = 0.12;
+  std::size_t level = 0;
+  Groom groom = *makeHead(head);
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const double tip = metresOf(groom, s).back().y;
+    EXPECT_GT(tip, -0.13);
+    level += std::abs(tip + 0.12) < 0.004;
+  }
+  EXPECT_GT(level, 290u);
+
+  // Half of a strand without its curl is as long as its core, the other half longer.
+  head.cut = {.straightRoot = 0.5};
+  head.curl.turns = 20;
+  groom = *makeHead(head);
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const std::vector<Vec3d> strand = metresOf(groom, s);
+    const double edge = head.curl.length / 255;
+    const double first = arcOf({strand.begin(), strand.begin() + 128}) / (127 * edge);
+    EXPECT_LT(first, 1.15);
+    EXPECT_GT(arcOf({strand.begin() + 170, strand.end()}) / (85 * edge), 1.5 * first);
+  }
+}
+
+TEST(MakeHead, ClumpsComeTogetherAtTheTip) {
+  HeadParameters head{.strandCount = 600, .lockCount = 60};
+  head.curl.metresPerUnit = 1;
+  const auto spread = [&](double share) {
+    head.cut.clump = share;
+    const Groom groom = *makeHead(head);
+    double sum = 0;  // from each tip to the nearest other one
+    for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+      double least = 1;
+      for (std::size_t t = 0; t < groom.strandCount(); ++t)
+        if (t != s) least = std::min(least, length(metresOf(groom, s).back() - metresOf(groom, t).back()));
+      sum += least;
+    }
+    return sum / static_cast<double>(groom.strandCount());
+  };
+  const double apart = spread(0), together = spread(0.8);
+  EXPECT_LT(together, 0.7 * apart);
+}
+
+TEST(MakeHead, RefusesBadCuts) {
+  const auto with = [](auto set) {
+    HeadParameters head{.strandCount = 10};
+    set(head.cut);
+    return makeHead(head);
+  };
+  expectError(with([](HairCut& c) { c.hairline = "low"; }),
+              "the hairline is 'low'; it must be one of cap, natural");
+  expectError(with([](HairCut& c) { c.parting = "centre"; }),
+              "the parting is 'centre'; it must be one of none, left");
+  expectError(with([](HairCut& c) { c.top = 0; }), "the factor on the length on top is 0");
+  expectError(with([](HairCut& c) { c.layers = 1; }), "the share of the layers is 1");
+  expectError(with([](HairCut& c) { c.level = NAN; }), "the level of the ends is nan");
+  expectError(with([](HairCut& c) { c.clump = 1.5; }), "the share of clumping is 1.5");
+  expectError(with([](HairCut& c) { c.straightRoot = -1; }), "the share of a straight root is -1");
+  expectError(with([](HairCut& c) { c.fringe = -1; }), "the length of the fringe is -1");
 }
 
 TEST(SeededRandom, IsSplitMix64) {

@@ -584,6 +584,36 @@ TEST(SceneParts, GeneratorsMakeWhatMakeMakes) {
   EXPECT_EQ(generatedGroom(SceneGroom{.file = {}, .generate = "curl"})->points, makeCurl()->points);
 }
 
+TEST(SceneParts, StylesHoldWhereNothingElseIsSaid) {
+  const std::string styled = "[groom]\ngenerate = \"head\"\nstrands = 40\nparticles = 16\nstyle = \"bob\"\n";
+  HeadParameters bob = *headOfStyle("bob");
+  bob.strandCount = 40;
+  bob.curl.particleCount = 16;
+  EXPECT_EQ(generatedGroom(parsed(styled).groom)->points, makeHead(bob)->points);
+  // Back to the default, which is not the style's; written, it is read back.
+  const SceneFile scene = parsed(styled + "turns = 8\n[groom.cut]\nparting = \"right\"\nclump = 0\n");
+  bob.curl.turns = 8;
+  bob.cut.parting = "right";
+  bob.cut.clump = 0;
+  EXPECT_EQ(generatedGroom(scene.groom)->points, makeHead(bob)->points);
+  EXPECT_EQ(generatedGroom(parsed(sceneText(scene)).groom)->points, makeHead(bob)->points);
+  const struct {
+    std::string text;
+    const char* message;
+  } kCases[] = {
+      {"[groom]\ngenerate = \"head\"\nstyle = \"bop\"\n",
+       "line 3: found the text 'bop' for groom.style; expected one of"},
+      {"[groom]\ngenerate = \"curl\"\nstyle = \"bob\"\n", "line 3: found groom.style with a groom from curl"},
+      {"[groom]\ngenerate = \"swatch\"\n[groom.cut]\nclump = 0.5\n", "line 3: found groom.cut; only"},
+      {"[groom]\ngenerate = \"head\"\n[groom.cut]\nparting = \"midle\"\n", "did you mean middle?"},
+  };
+  for (const auto& c : kCases) {
+    const auto wrong = parseScene(c.text, "scene.toml");
+    ASSERT_FALSE(wrong) << c.text;
+    EXPECT_NE(wrong.error().message.find(c.message), std::string::npos) << wrong.error().message;
+  }
+}
+
 TEST(SceneParts, MotionsAreTheStatedOnes) {
   const Vec3d up{0, 0, 1};
   const Motion spin = motionOf({.kind = "spin"}, up);

@@ -38,8 +38,7 @@ namespace ringlet {
 struct SceneGroom {
   std::filesystem::path file;
   std::string generate;  // curl, swatch or head, in place of a file
-  std::string
-      style;  // of a head (groom/hair_styles.h); what it sets stands below, unless the file says other
+  std::string style{};   // of a head, whose numbers hold where none are given (groom/hair_styles.h)
 
   // Generated (groom/generate.h).
   int strands = HeadParameters{}.strandCount, locks = HeadParameters{}.lockCount;
