@@ -15,6 +15,7 @@
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/groom/hair_styles.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/measure/groom_measure.h"
@@ -362,6 +363,23 @@ void addGrooms(py::module_& module) {
       "hanging within bend_length [m]; its curl grows to its radius over ramp_share of its length. locks: of "
       "curls that wind alike; 0: each for itself. Y is up, "
       "the face looks along +Z. Everything else as in make_swatch.");
+  module.def(
+      "make_styled_head",
+      [](const std::string& style, int strands, int particles, std::uint64_t seed, double metresPerUnit) {
+        auto head = headOfStyle(style);
+        if (!head)
+          throw py::value_error(fmt::format("style must be one of {}, got '{}'", kHairStyles, style));
+        head->strandCount = strands;
+        head->curl.particleCount = particles;
+        head->curl.metresPerUnit = metresPerUnit;
+        head->variation.seed = seed;
+        return withoutGil([&] { return generated(makeHead(*head), head->curl); });
+      },
+      py::arg("style"), py::kw_only(), py::arg("strands") = h.strandCount,
+      py::arg("particles") = c.particleCount, py::arg("seed") = v.seed,
+      py::arg("metres_per_unit") = c.metresPerUnit,
+      "A head of a hair style, cut and combed: a name that `ringlet make head --help` lists. ValueError for "
+      "another one, ringlet.Error for a number out of its range.");
   module.def(
       "write_obj",
       [](const std::filesystem::path& path, const GroomObject& groom, const py::object& points) {

@@ -73,6 +73,15 @@ def test_what_is_written_is_read_with_the_same_bits(tmp_path, name):
     assert again.warnings == []
 
 
+def test_a_style_is_that_of_scene_files(tmp_path):
+    groom = ringlet.make_styled_head("bob", strands=30, particles=16, seed=3)
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[groom]\ngenerate = "head"\nstyle = "bob"\nstrands = 30\nparticles = 16\nseed = 3\n')
+    assert np.array_equal(ringlet.Scene.load(scene).groom.points, groom.points)
+    with pytest.raises(ValueError, match="style must be one of ringlets, .*, got 'bop'"):
+        ringlet.make_styled_head("bop")
+
+
 def test_other_points_of_the_same_strands(tmp_path):
     groom = ringlet.Groom(two_strands(), counts=[5, 3], metres_per_unit=0.25)
     moved = groom.with_points(two_strands() + 1)
