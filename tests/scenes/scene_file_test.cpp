@@ -12,6 +12,7 @@
 #include <random>
 #include <set>
 
+#include "ringlet/groom/hair_styles.h"
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/scenes/scene_parts.h"
 #include "tests/support/test_support.h"
