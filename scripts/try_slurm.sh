@@ -72,7 +72,7 @@ wait_for() {  # SECONDS COMMAND...
   until "${@:2}"; do [ $SECONDS -lt $end ] || return 1; sleep 0.1; done
 }
 is_over() { [ -z "$(squeue -h -j "$1" 2> /dev/null)" ]; }
-frames_in() { grep -c '"frame"' "$1" 2> /dev/null || true; }
+frames_in() { [ ! -e "$1" ] && echo 0 || grep -c '"frame"' "$1" || true; }
 has_frames() { [ "$(frames_in "$1")" -ge "$2" ]; }
 state_of() { scontrol show job "$1" | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | head -1; }
 submit() { sbatch --parsable --output="$work/%x-%A_%a.log" "$@"; }
