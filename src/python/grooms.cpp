@@ -15,8 +15,8 @@
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/generate.h"
-#include "ringlet/groom/hair_styles.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/groom/hair_styles.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/measure/groom_measure.h"
 
