@@ -232,7 +232,8 @@ TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
     RunningProgram program(folder_, arguments("keys_out"));
     EXPECT_TRUE(RunningProgram::waitUntil([&] {
       const std::string lines = readText(folder_ / "stdout.txt");
-      return std::ranges::count(lines, '\n') >= c.killedAt;
+      return std::ranges::count(lines, '\n') >= c.killedAt &&
+             fs::exists(folder_ / "keys_out/checkpoint.rgk");  // which a thread writes, on a slow disk later
     }));
     program.send(SIGKILL);
     EXPECT_EQ(program.wait().exitCode, -1) << c.what << ": it ended before it was killed";

@@ -53,6 +53,25 @@ TEST(ContactParticles, NeverSkipFurtherThanTwoRadii) {
             (Kept{0, 3, 5}));  // 3 before 7; then 8 at 5 mm, not 7 at 4
 }
 
+TEST(ContactParticles, RadiiAreOfEachStrandInGroomOrder) {
+  // The shorter strand, which the device has first, is the groom's second.
+  Groom groom = metres();
+  for (const int count : {22, 19}) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < count; ++i)
+      strand.push_back({1e-3f * static_cast<float>(i), static_cast<float>(count), 0});
+    groom.addStrand(strand);
+  }
+  ContactSettings settings = withRadius(0.003);
+  settings.radiusFactors = std::make_shared<const std::vector<float>>(std::vector<float>{2.0f});
+  const ContactParticles contacts = chooseContactParticles(restOf(groom), settings);
+  EXPECT_FLOAT_EQ(contacts.radii[0], 0.003f);
+  EXPECT_FLOAT_EQ(contacts.radii[1], 0.006f);
+  EXPECT_EQ(contacts.baseRadius, 0.003);
+  // 4.5 mm apart, then 9.
+  EXPECT_EQ(contacts.particles, (Kept{0, 5, 10, 15, 19, 28, 37}));
+}
+
 TEST(ContactParticles, CoarseStrandsHaveLargerRadii) {
   const ContactParticles coarse = chosenAlong(every(10, 4), 3);
   EXPECT_FLOAT_EQ(coarse.radii[0], 0.005f);

@@ -265,7 +265,7 @@ TEST(SceneForces, MistakesAreNamed) {
        "line 14: found a map of goal.strength without [goal]"},
       {"[goal]\n[[map]]\nnumber = \"goal.strength\"\nfile = \"none.csv\"\n", "line 16: "},
       {"[goal]\n[[map]]\nnumber = \"goal.strength\"\nstrands = \"0:2\"\n",
-       "the goal: a map names strand 2; the groom has 2, numbered from 0"},
+       "the goal: a map of goal.strength names strand 2; the groom has 2, numbered from 0"},
       {"[simulation]\nintegrator = \"paper\"\n[[field]]\nkind = \"drag\"",
        "fields, holds and goals of a file need the integrator jacobi"},
   };

@@ -136,6 +136,28 @@ TEST(SceneMaps, GroupsWhoseStrandsDoNotTouchAreBundles) {
   }
 }
 
+TEST(SceneMaps, FactorsOnTheRadiusInContacts) {
+  const std::string kMaps =
+      "[contacts]\nradius = 0.003\n[[map]]\nnumber = \"contacts.radius\"\nstrands = \"1:2\"\nfactor = 2\n"
+      "[[map]]\nnumber = \"contacts.radius\"\nstrands = \"2\"\nfactor = 0.25\n";
+  const auto scene = parsed(kMaps);
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_FALSE(scene->hasMaterial);
+  const auto loaded = loadScene(*scene);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  const ContactSettings& contacts = loaded->settings.contacts;
+  ASSERT_TRUE(contacts.radiusFactors);
+  EXPECT_EQ(*contacts.radiusFactors, (std::vector<float>{1, 2, 0.5, 1, 1, 1}));
+  EXPECT_EQ(contacts.radiusFactor(6), 1);
+  EXPECT_TRUE(loaded->material.factors.empty());
+  EXPECT_FALSE(loadScene(*parsed("[contacts]\n"))->settings.contacts.radiusFactors);
+  const auto wrong =
+      loadScene(*parsed("[contacts]\n[[map]]\nnumber = \"contacts.radius\"\nstrands = \"6\"\nfactor = 2\n"));
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().message,
+            "a map of contacts.radius names strand 6; the groom has 6, numbered from 0");
+}
+
 TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
   const auto folder = test::scratchFolder("scene_maps_wrong");
   std::ofstream(folder / "wrong.csv") << "1;2\n";
@@ -155,6 +177,10 @@ TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
       {"[[map]]\npreset = \"coil\"\nfile = \"wrong.csv\"", "only a number has factors"},
       {"[[map]]\npreset = \"coil\"\nstrands = \"0\"\nfactor = 2",
        "found map.factor with a preset; only a number has it"},
+      {"[[map]]\nnumber = \"contacts.radius\"\nstrands = \"0\"",
+       "line 6: found a map of contacts.radius without [contacts]"},
+      {"[contacts]\n[[map]]\nnumber = \"contacts.radius\"\nfile = \"wrong.csv\"",
+       "wrong.csv: line 1: found '1;2'"},
       {"[material]\ncore_stiffness = 0\n[[map]]\npreset = \"coil\"\nstrands = \"0\"",
        "a map cannot make coil of a material whose core_stiffness is 0"},
       {"[material]\nbend_damping_ratio = 50\n[[map]]\nnumber = \"bend_damping_ratio\"\nstrands = "

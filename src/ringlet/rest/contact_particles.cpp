@@ -94,7 +94,7 @@ ContactParticles chooseContactParticles(const RestState& rest, const ContactSett
   double widestGap = 0;
   for (std::size_t s = 0; s < rest.strands.size(); ++s) {
     const auto points = pointsOf(rest, s);
-    float radius = roundedUp(contacts.baseRadius);
+    float radius = roundedUp(contacts.baseRadius * settings.radiusFactor(rest.strandInGroom[s]));
     Pruned pruned = pruneAlong(points, radius, settings.spacing);
     const bool hasGaps = pruned.widestGap > 2.0 * radius;
     widestGap = std::max(widestGap, pruned.widestGap);

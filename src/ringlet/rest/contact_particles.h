@@ -23,7 +23,7 @@ struct ContactParticles {
   std::vector<std::uint32_t> firstOfStrand;  // strandCount + 1 entries, into the two above
   std::vector<float> radii;                  // of each strand [m]
   std::vector<float> masses;                 // m_c of each strand: its mass over its contact particles [kg]
-  double baseRadius = 0;                     // what strands have that are cut finely enough [m]
+  double baseRadius = 0;                     // what strands of factor 1 have that are cut finely enough [m]
   std::vector<std::string> warnings;         // for the user: gaps, or raised radii, with numbers
 
   std::size_t strandCount() const { return radii.size(); }
@@ -34,7 +34,7 @@ struct ContactParticles {
 double radiusOfRoots(const RestState& rest);
 
 /// The radius of all strands: the setting; else half the mean distance from a root to its nearest other root;
-/// where that is nothing (one strand, or roots in one place) half the mean edge.
+/// where that is nothing (one strand, or roots in one place) half the mean edge. Times the strand's factor.
 ///
 /// Then strand by strand: the root is a contact particle, and from contact particle i the first j > i with
 /// |p_i - p_j| >= s R, or the one before j where j is further than R and not i's neighbour. Hair can slip

@@ -76,6 +76,8 @@ struct ContactSettings {
   // Spheres.
   /// Radius of every sphere [m], 1e-6 to 1; unset: half the mean distance of a root to the nearest root.
   std::optional<double> radius;
+  /// Factors on it by strand in groom order, above 0; strands after its end have 1. null: all have 1.
+  std::shared_ptr<const std::vector<float>> radiusFactors;
   bool fillGaps = false;  // strands whose particles are farther apart than R get a larger radius, so that
                           // nothing passes between; in a dense groom this multiplies the contacts
   double spacing = 0.75;  // distance of contact particles along a strand in R, 0.01 to 1: a smaller one is
@@ -107,6 +109,10 @@ struct ContactSettings {
   double dampingReleaseSeconds = 0.02;    // after that, until damping has faded [s], 0 to 10
   double breakFactor = 1.2;               // a contact ends at this multiple of its rest length, 1 to 10
 
+  /// Of a strand, by its place in the groom.
+  double radiusFactor(std::size_t strand) const {
+    return radiusFactors && strand < radiusFactors->size() ? double{(*radiusFactors)[strand]} : 1.0;
+  }
   /// The multiple of its rest length at which a contact ends.
   double reach() const { return taper == ContactTaper::time ? breakFactor : kContactTaperEnd; }
   /// Lists hold all pairs that are nearer than this multiple of their rest length.

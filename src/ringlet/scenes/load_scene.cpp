@@ -238,6 +238,15 @@ Status addBundles(const SceneFile& scene, std::size_t strandCount, ContactSettin
   return {};
 }
 
+// Maps of the radius.
+Status addRadii(const SceneFile& scene, std::size_t strandCount, ContactSettings& contacts) {
+  auto factors = factorsOf(kContactRadiusMap, scene, strandCount);
+  if (!factors) return factors.error();
+  if (!factors->empty())
+    contacts.radiusFactors = std::make_shared<const std::vector<float>>(std::move(*factors));
+  return {};
+}
+
 }  // namespace
 
 Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims) {
@@ -302,6 +311,8 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());
   loaded.settings = settingsOf(scene);
   if (Status added = addBundles(scene, loaded.groom.strandCount(), loaded.settings.contacts); !added)
+    return added.error();
+  if (Status added = addRadii(scene, loaded.groom.strandCount(), loaded.settings.contacts); !added)
     return added.error();
   auto material = loadMaterialOf(scene, loaded.settings.integrator, loaded.warnings);
   if (!material) return material.error();

@@ -437,13 +437,14 @@ std::span<const SceneField<SceneMap>> mapFields() {
   static const std::string numbers = [] {
     std::string list;
     for (const auto& parameter : mappedParameters()) list += std::string(parameter.key) + ", ";
-    return list + kGoalStrengthMap;
+    return list + kGoalStrengthMap + ", " + kContactRadiusMap;
   }();
   static const SceneField<M> all[] = {
       {"number",
        "",
        "none",
-       "Number of the material that differs from strand to strand; or the strength of [goal].",
+       "Number of the material that differs from strand to strand; or the strength of [goal], or the radius "
+       "in contacts.",
        &M::number,
        {},
        numbers},

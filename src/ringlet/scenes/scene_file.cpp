@@ -347,18 +347,18 @@ class SceneReader {
       if (map.number == kGoalStrengthMap && !scene.goal.on)
         problems_.add(lineOf(*number),
                       "found a map of goal.strength without [goal]; expected a goal it is of");
+      if (map.number == kContactRadiusMap && !scene.contacts.on)
+        problems_.add(lineOf(*number),
+                      "found a map of contacts.radius without [contacts]; expected contacts");
       // By itself first, so that a mistake has its line.
       Material alone = scene.material.material;
       const std::span<const SceneMap> one(&map, 1);
-      Status added = applyMaps(one, scene, alone);
-      if (const auto goal = goalStrengthMaps(one, scene); added && !goal) added = goal.error();
+      const Status added = isOfMaterial(map) ? applyMaps(one, scene, alone) : checkStrands(map, scene);
       if (!added) problems_.add(lineOf(*source), added.error().message);
       scene.maps.push_back(std::move(map));
     }
     if (scene.maps.empty() || !problems_.empty() || !missing_.empty()) return;
-    scene.hasMaterial = scene.hasMaterial || std::ranges::any_of(scene.maps, [](const SceneMap& map) {
-                          return map.number != kGoalStrengthMap;
-                        });
+    scene.hasMaterial = scene.hasMaterial || std::ranges::any_of(scene.maps, isOfMaterial);
     Status whole = applyMaps(scene.maps, scene, scene.material.material);
     if (whole) whole = checkMaterial(scene.material.material);
     if (!whole) problems_.add(lineOf(*file.get("map")), whole.error().message);

@@ -176,18 +176,10 @@ Result<SceneForces> SceneForces::load(const SceneFile& scene, const Groom& groom
 
 Status SceneForces::loadGoal(const SceneFile& scene, const Groom& groom) {
   hasGoalFile_ = !scene.goalFile.empty();
-  const auto maps = goalStrengthMaps(scene.maps, scene);
-  if (!maps) return maps.error();
-  if (!maps->empty()) goalFactors_.assign(groom.points.size(), 1);
-  for (const std::vector<StrandRun>& runs : *maps) {
-    for (const StrandRun& run : runs) {
-      if (run.last >= groom.strandCount())
-        return Error{fmt::format("a map names strand {}; the groom has {}, numbered from 0", run.last,
-                                 groom.strandCount())};
-      for (std::size_t i = groom.firstPoint[run.first]; i < groom.firstPoint[run.last + 1]; ++i)
-        goalFactors_[i] *= run.factor;
-    }
-  }
+  const auto factors = factorsOf(kGoalStrengthMap, scene, groom.strandCount());
+  if (!factors) return factors.error();
+  for (std::size_t s = 0; s < factors->size(); ++s)
+    goalFactors_.insert(goalFactors_.end(), groom.firstPoint[s + 1] - groom.firstPoint[s], (*factors)[s]);
   if (haveGoals()) groom_ = goalOf(groom);
   if (!hasGoalFile_) return {};
   if (holdsAnimation(scene.goalFile)) {

@@ -189,15 +189,27 @@ Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text) {
   return sorted(std::move(runs));
 }
 
-Result<std::vector<std::vector<StrandRun>>> goalStrengthMaps(std::span<const SceneMap> maps,
-                                                             const SceneFile& scene) {
-  std::vector<Runs> factors;
+Status checkStrands(const SceneMap& map, const SceneFile& scene) {
   GroomValues groom(scene.groom);
-  for (const SceneMap& map : maps) {
-    if (map.number != kGoalStrengthMap) continue;
-    auto runs = runsOf(map, map.factor, scene, groom);
+  const auto runs = runsOf(map, map.factor, scene, groom);
+  return runs ? Status{} : Status(runs.error());
+}
+
+Result<std::vector<float>> factorsOf(std::string_view number, const SceneFile& scene,
+                                     std::size_t strandCount) {
+  std::vector<float> factors;
+  GroomValues groom(scene.groom);
+  for (const SceneMap& map : scene.maps) {
+    if (map.number != number) continue;
+    const auto runs = runsOf(map, map.factor, scene, groom);
     if (!runs) return runs.error();
-    factors.push_back(std::move(*runs));
+    factors.resize(strandCount, 1);
+    for (const StrandRun& run : *runs) {
+      if (run.last >= strandCount)
+        return Error{fmt::format("a map of {} names strand {}; the groom has {}, numbered from 0", number,
+                                 run.last, strandCount)};
+      for (std::uint32_t s = run.first; s <= run.last; ++s) factors[s] *= run.factor;
+    }
   }
   return factors;
 }

@@ -28,15 +28,25 @@ Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor
 /// is there twice.
 Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text);
 
-/// In place of a number of the material: the strength of the goal.
+/// In place of a number of the material: the strength of the goal, and the radius in contacts.
 inline constexpr const char* kGoalStrengthMap = "goal.strength";
+inline constexpr const char* kContactRadiusMap = "contacts.radius";
 
-/// Factors on the strength of the goal, one entry a map of it. Errors: those of applyMaps.
-Result<std::vector<std::vector<StrandRun>>> goalStrengthMaps(std::span<const SceneMap> maps,
-                                                             const SceneFile& scene);
+/// Whether a map is of a number of the material, or of a preset.
+inline bool isOfMaterial(const SceneMap& map) {
+  return map.number != kGoalStrengthMap && map.number != kContactRadiusMap;
+}
 
-/// Sets the `factors` of a material to what maps of a scene say; those of the goal are left out. Errors: a
-/// file that cannot be read, that of the groom too where a map is of its primvars; a preset that needs what
+/// Whether the strands and factors of a map can be read. Errors: those of applyMaps.
+Status checkStrands(const SceneMap& map, const SceneFile& scene);
+
+/// Factors of one of the two by strand, groom order; empty: no map is of it. Errors: those of applyMaps, and
+/// a strand that the groom does not have.
+Result<std::vector<float>> factorsOf(std::string_view number, const SceneFile& scene,
+                                     std::size_t strandCount);
+
+/// Sets the `factors` of a material to what maps of a scene say; those of other numbers are left out. Errors:
+/// a file that cannot be read, that of the groom too where a map is of its primvars; a preset that needs what
 /// the material has none of.
 Status applyMaps(std::span<const SceneMap> maps, const SceneFile& scene, Material& material);
 
