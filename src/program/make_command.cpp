@@ -9,10 +9,12 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/setting_options.h"
+#include "ringlet/bodies/mesh_file.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
@@ -29,9 +31,23 @@ struct Typed {
   SwatchParameters swatch;
   HeadParameters head;
   TypedSettings cut;
+  std::filesystem::path scalp;
   std::string hand = "right";
   bool quiet = false;
 };
+
+// On a scalp that is read first, where there is one.
+Result<Groom> makeTypedHead(Typed& typed) {
+  typed.head.curl = typed.curl;
+  typed.head.variation = typed.variation;
+  applySettingOptions(cutFields(), typed.cut, typed.head.cut);
+  if (!typed.scalp.empty()) {
+    auto mesh = readObjMesh(typed.scalp, typed.curl.metresPerUnit);
+    if (!mesh) return mesh.error();
+    typed.head.scalp = std::make_shared<const TriangleMesh>(std::move(*mesh));
+  }
+  return makeHead(typed.head);
+}
 
 int write(const char* command, const Typed& typed, const Result<Groom>& groom) {
   if (!groom) {
@@ -143,6 +159,11 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
   addNumber(headCommand, "--locks", head->head.lockCount,
             "Locks, of curls that wind alike; 0: every strand is a curl of its own", "N");
   addNumber(headCommand, "--scalp-radius", head->head.scalpRadius, "Radius of the head, metres", "METRES");
+  headCommand
+      ->add_option("--scalp", head->scalp,
+                   "Mesh on which hair grows above the hairline, in place of a sphere: .obj in the unit of "
+                   "--unit, about the origin")
+      ->type_name("FILE");
   addVariationOptions(headCommand, head->variation);
   addSettingOptions(headCommand, cutFields(), "groom.cut", head->cut, "Cut");
   headCommand->footer(
@@ -150,10 +171,7 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
       "  ringlet make head --style bob --parting right -o bob.obj");
   headCommand->callback([head, &exitCode] {
     head->curl.handedness = head->hand == "left" ? -1 : 1;
-    head->head.curl = head->curl;
-    head->head.variation = head->variation;
-    applySettingOptions(cutFields(), head->cut, head->head.cut);
-    exitCode = write("ringlet make head", *head, makeHead(head->head));
+    exitCode = write("ringlet make head", *head, makeTypedHead(*head));
   });
 }
 

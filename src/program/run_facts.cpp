@@ -51,12 +51,14 @@ void addLines(std::string_view text, std::string table, std::vector<RunFact>& fa
 }  // namespace
 
 std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene) {
-  std::set<fs::path> files{input, scene.groom.file, scene.motion.file, scene.scalp.file};
+  std::set<fs::path> files{
+      input, scene.groom.file, scene.groom.scalp, scene.motion.file, scene.scalp.file, scene.goalFile};
   for (const SceneBody& body : scene.bodies) {
     files.insert(body.file);
     if (body.motion) files.insert(body.motion->file);
   }
-  for (const SceneMap& map : scene.maps) files.insert(map.file);
+  for (const SceneMap& map : scene.maps) files.insert({map.file, map.texture});
+  for (const SceneForceField& field : scene.fields) files.insert(field.file);
   files.erase(fs::path());
   return {files.begin(), files.end()};
 }

@@ -16,6 +16,7 @@
 #include "ringlet/groom/head_regions.h"
 #include "ringlet/groom/seeded_random.h"
 #include "tests/groom/groom_samples.h"
+#include "tests/groom/style_samples.h"
 
 namespace ringlet {
 namespace {
@@ -317,10 +318,9 @@ TEST(MakeHead, SurvivesExtremeParameters) {
 // Of every style.
 std::vector<HeadParameters> styledHeads() {
   std::vector<HeadParameters> heads;
-  std::string names = std::string(kHairStyles) + ", ";
-  for (std::size_t begin = 0, end; (end = names.find(", ", begin)) != std::string::npos; begin = end + 2) {
-    const auto head = headOfStyle(names.substr(begin, end - begin));
-    EXPECT_TRUE(head) << names.substr(begin, end - begin);
+  for (const std::string& name : test::styleNames()) {
+    const auto head = headOfStyle(name);
+    EXPECT_TRUE(head) << name;
     heads.push_back(*head);
     heads.back().strandCount = 400;
     heads.back().curl.particleCount = 64;

@@ -1,7 +1,7 @@
 // Implements makeHead of groom/generate.h: helices about cores that leave the scalp and bend over to hang.
 //
 //            .-'''-.      core: along the normal at first, then combed back
-//    brow  .'  ___  '.    and down, sliding over the sphere
+//    brow  .'  ___  '.    and down, sliding over the scalp
 //     o---:  .'   '.  :
 //         | hairline '.|
 //    face :      o---' :  below the hairline nothing grows
@@ -15,6 +15,8 @@
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/generate_check.h"
 #include "ringlet/groom/head_regions.h"
+#include "ringlet/groom/sample_elimination.h"
+#include "ringlet/groom/scalp.h"
 #include "ringlet/groom/vary_curl.h"
 
 namespace ringlet {
@@ -44,6 +46,8 @@ constexpr double kPartingComb = 1.6, kLeftOfComb = 0.4;
 // A fringe's comb over the face.
 constexpr double kFringeComb = 0.12;
 
+constexpr int kCandidates = 5;  // for each root on a mesh, as the paper of sample_elimination.h has them
+
 constexpr double kShortestStrand = 0.005;  // [m], of what a level leaves
 
 // Directions, evenly spread over the cap: Fibonacci's spiral about the cap's axis.
@@ -62,49 +66,79 @@ std::vector<Vec3d> spreadOverCap(const HeadParameters& parameters, int count) {
   return directions;
 }
 
-// Directions, evenly spread above the hairline. What it takes of the cap is made up for by more on the cap,
-// until there are enough; what is too much is left out at the end of the spiral, low at the nape.
-std::vector<Vec3d> spreadRoots(const HeadParameters& parameters, int count) {
-  std::vector<Vec3d> roots;
-  for (int onCap = count; std::ssize(roots) < count && onCap < 100 * (count + 100);
-       onCap += 1 + (count - static_cast<int>(roots.size())) / 2) {
-    roots = spreadOverCap(parameters, onCap);
-    std::erase_if(roots, [&](Vec3d outward) { return !isAboveHairline(parameters, outward); });
+// At least so many above the hairline, evenly spread as seen from the origin, if there are any at all. What
+// is not on the scalp is made up for by more on the cap.
+struct Candidates {
+  std::vector<ScalpRoot> roots;
+  double area = 0;  // of the scalp they are on [m^2]
+};
+Candidates spreadCandidates(const HeadParameters& parameters, const Scalp& scalp, int count) {
+  const double lowest = std::sin((parameters.browElevation + parameters.napeElevation) / 2);
+  Candidates candidates;
+  for (int onCap = count; std::ssize(candidates.roots) < count && onCap < 100 * (count + 100);
+       onCap += 1 + (count - static_cast<int>(candidates.roots.size())) / 2) {
+    candidates = {};
+    for (const Vec3d direction : spreadOverCap(parameters, onCap)) {
+      const auto root = scalp.rootAlong(direction);
+      if (!root || !isAboveHairline(parameters, root->direction)) continue;
+      candidates.roots.push_back(*root);
+      const double slant = std::max(0.1, dot(root->direction, root->normal));
+      candidates.area +=
+          2 * std::numbers::pi * (1 - lowest) / onCap * dot(root->position, root->position) / slant;
+    }
   }
-  if (std::ssize(roots) > count) roots.resize(static_cast<std::size_t>(count));
+  return candidates;
+}
+
+// Evenly spread above the hairline. On a sphere what is too much is left out at the end of the spiral, low at
+// the nape.
+std::vector<ScalpRoot> spreadRoots(const HeadParameters& parameters, const Scalp& scalp, int count) {
+  if (!parameters.scalp) {
+    std::vector<ScalpRoot> roots = spreadCandidates(parameters, scalp, count).roots;
+    if (std::ssize(roots) > count) roots.resize(static_cast<std::size_t>(count));
+    return roots;
+  }
+  const auto [all, area] = spreadCandidates(parameters, scalp, kCandidates * count);
+  std::vector<Vec3d> places;
+  for (const ScalpRoot& root : all) places.push_back(root.position);
+  std::vector<ScalpRoot> roots;
+  for (const std::uint32_t i : eliminateSamples(places, static_cast<std::size_t>(count), area))
+    roots.push_back(all[i]);
   return roots;
 }
 
 // The curl of each strand, varied by its lock and within it; without locks each for itself.
 class VariedCurls {
  public:
-  explicit VariedCurls(const HeadParameters& parameters)
+  VariedCurls(const HeadParameters& parameters, const Scalp& scalp)
       : parameters_(parameters),
-        locks_(spreadRoots(parameters, parameters.lockCount)),
+        locks_(spreadRoots(parameters, scalp, parameters.lockCount)),
         within_(parameters.variation) {
     for (double* share : {&within_.radius, &within_.length, &within_.phase}) *share *= kVariationInLock;
     within_.leftHandedShare = 0;
   }
 
-  CurlParameters curlAt(Vec3d rootDirection, std::size_t strand) const {
+  CurlParameters curlAt(const ScalpRoot& root, std::size_t strand) const {
     if (locks_.empty()) return varyCurl(parameters_.curl, parameters_.variation, strand);
-    const CurlParameters curl = varyCurl(parameters_.curl, parameters_.variation, lockAt(rootDirection));
+    const CurlParameters curl = varyCurl(parameters_.curl, parameters_.variation, lockAt(root));
     return varyCurl(curl, within_, locks_.size() + strand);
   }
 
-  /// Where the middle of the lock there is rooted; without locks the place itself.
-  Vec3d middleOfLock(Vec3d rootDirection) const {
-    return locks_.empty() ? rootDirection : locks_[lockAt(rootDirection)];
+  /// The root of the lock's middle there; without locks the root itself.
+  const ScalpRoot& middleOfLock(const ScalpRoot& root) const {
+    return locks_.empty() ? root : locks_[lockAt(root)];
   }
 
  private:
-  std::size_t lockAt(Vec3d rootDirection) const {
-    const auto nearer = [&](Vec3d a, Vec3d b) { return dot(a, rootDirection) < dot(b, rootDirection); };
+  std::size_t lockAt(const ScalpRoot& root) const {
+    const auto nearer = [&](const ScalpRoot& a, const ScalpRoot& b) {
+      return dot(a.direction, root.direction) < dot(b.direction, root.direction);
+    };
     return static_cast<std::size_t>(std::ranges::max_element(locks_, nearer) - locks_.begin());
   }
 
   const HeadParameters& parameters_;
-  std::vector<Vec3d> locks_;
+  std::vector<ScalpRoot> locks_;
   Variation within_;
 };
 
@@ -144,17 +178,16 @@ struct CorePoint {
   Vec3d position, direction, normal;
 };
 
-// One step along the core: it turns towards where hair falls, and slides over the sphere.
-void advance(CorePoint& core, double step, double bendLength, double leastDistance, const Comb& comb) {
+// One step along the core: it turns towards where hair falls, and slides over the scalp.
+void advance(CorePoint& core, double step, double bendLength, double leastHeight, const Comb& comb,
+             const Scalp& scalp) {
   const Vec3d outward = normalizedOr(core.position, Vec3d{0, 1, 0});
   const double turn = std::min(1.0, step / bendLength);
   core.direction = normalizedOr(core.direction * (1 - turn) + fallDirection(outward, comb) * turn, kDown);
   core.position += core.direction * step;
 
-  const double distance = length(core.position);
-  if (distance < leastDistance) {
-    const Vec3d up = normalizedOr(core.position, outward);
-    core.position = up * leastDistance;
+  if (const auto [height, up] = scalp.heightOf(core.position); height < leastHeight) {
+    core.position = scalp.raisedTo(core.position, leastHeight);
     core.direction = normalizedOr(core.direction - up * std::min(0.0, dot(core.direction, up)), kDown);
   }
   core.normal = core.normal - core.direction * dot(core.normal, core.direction);
@@ -169,12 +202,12 @@ double radiusAlong(const CurlParameters& curl, const HeadParameters& parameters,
 }
 
 // The core of a strand at its particles.
-std::vector<CorePoint> coreOf(Vec3d rootDirection, const CurlParameters& curl,
-                              const HeadParameters& parameters) {
+std::vector<CorePoint> coreOf(const ScalpRoot& root, const CurlParameters& curl,
+                              const HeadParameters& parameters, const Scalp& scalp) {
   const double edge = curl.length / (curl.particleCount - 1);
   const int stepCount = static_cast<int>(std::ceil(edge / kLongestStep));
-  const Comb comb = combAt(rootDirection, parameters);
-  CorePoint core{rootDirection * parameters.scalpRadius, rootDirection, cross(rootDirection, kFace)};
+  const Comb comb = combAt(root.direction, parameters);
+  CorePoint core{root.position, root.normal, cross(root.normal, kFace)};
   core.normal = normalizedOr(core.normal, Vec3d{1, 0, 0});
   std::vector<CorePoint> points;
   points.reserve(static_cast<std::size_t>(curl.particleCount));
@@ -185,7 +218,7 @@ std::vector<CorePoint> coreOf(Vec3d rootDirection, const CurlParameters& curl,
       const double along = s * curl.length + edge * k / stepCount;
       const double gap = kGap * radiusAlong(curl, parameters, along / curl.length) +
                          kLift * std::min(along, parameters.scalpRadius);
-      advance(core, edge / stepCount, parameters.bendLength, parameters.scalpRadius + gap, comb);
+      advance(core, edge / stepCount, parameters.bendLength, gap, comb, scalp);
     }
   }
   return points;
@@ -199,11 +232,12 @@ CurlParameters ofLength(CurlParameters curl, double factor) {
 }
 
 // As the cut leaves it.
-CurlParameters cutCurl(Vec3d rootDirection, const CurlParameters& whole, const HeadParameters& parameters) {
-  if (isFringe(parameters, rootDirection)) return ofLength(whole, parameters.cut.fringe / whole.length);
-  const CurlParameters curl = ofLength(whole, lengthFactor(parameters, rootDirection));
+CurlParameters cutCurl(const ScalpRoot& root, const CurlParameters& whole, const HeadParameters& parameters,
+                       const Scalp& scalp) {
+  if (isFringe(parameters, root.direction)) return ofLength(whole, parameters.cut.fringe / whole.length);
+  const CurlParameters curl = ofLength(whole, lengthFactor(parameters, root.direction));
   if (!parameters.cut.level) return curl;
-  const std::vector<CorePoint> core = coreOf(rootDirection, curl, parameters);
+  const std::vector<CorePoint> core = coreOf(root, curl, parameters, scalp);
   const auto below = [&](const CorePoint& point) { return point.position.y < -*parameters.cut.level; };
   const auto cut = std::ranges::find_if(core, below);
   if (cut == core.end()) return curl;
@@ -217,16 +251,15 @@ CurlParameters cutCurl(Vec3d rootDirection, const CurlParameters& whole, const H
 }
 
 // Towards the core of the lock, outside the head as before.
-void clump(std::vector<CorePoint>& core, const std::vector<CorePoint>& lock, double share) {
+void clump(std::vector<CorePoint>& core, const std::vector<CorePoint>& lock, double share,
+           const Scalp& scalp) {
   for (std::size_t i = 1; i < core.size(); ++i) {
     const double s = static_cast<double>(i) / static_cast<double>(core.size() - 1);
-    const double distance = length(core[i].position);
     const Vec3d between =
         core[i].position + (lock[i].position - core[i].position) * (share * smoothstep(0, 0.7, s));
-    const Vec3d outward = normalizedOr(between, Vec3d{0, 1, 0});
-    core[i].position = length(between) < std::min(distance, length(lock[i].position))
-                           ? outward * std::min(distance, length(lock[i].position))
-                           : between;
+    const double least =
+        std::min(scalp.heightOf(core[i].position).height, scalp.heightOf(lock[i].position).height);
+    core[i].position = scalp.heightOf(between).height < least ? scalp.raisedTo(between, least) : between;
   }
 }
 
@@ -250,19 +283,23 @@ void addStrand(Groom& groom, const CurlParameters& curl, const std::vector<CoreP
 
 Result<Groom> makeHead(const HeadParameters& parameters) {
   if (Status status = checkParameters(parameters); !status) return status.error();
-  Groom groom;
-  groom.metresPerUnit = parameters.curl.metresPerUnit;
-  const std::vector<Vec3d> roots = spreadRoots(parameters, parameters.strandCount);
+  auto scalp = parameters.scalp ? Scalp::of(*parameters.scalp) : Scalp(parameters.scalpRadius);
+  if (!scalp) return scalp.error();
+  const std::vector<ScalpRoot> roots = spreadRoots(parameters, *scalp, parameters.strandCount);
   if (std::ssize(roots) < parameters.strandCount)
     return Error{
-        "the natural hairline leaves no scalp between the elevations of brow and nape; lower one of them"};
-  const VariedCurls curls(parameters);
-  for (const Vec3d& direction : roots) {
-    const CurlParameters curl = cutCurl(direction, curls.curlAt(direction, groom.strandCount()), parameters);
-    std::vector<CorePoint> core = coreOf(direction, curl, parameters);
-    const Vec3d middle = curls.middleOfLock(direction);
-    if (parameters.cut.clump > 0 && areCombedAlike(middle, direction, parameters))
-      clump(core, coreOf(middle, curl, parameters), parameters.cut.clump);
+        "no hair grows there: expected a scalp about the origin, Y up and looking along +Z, that reaches "
+        "above "
+        "the hairline"};
+  const VariedCurls curls(parameters, *scalp);
+  Groom groom;
+  groom.metresPerUnit = parameters.curl.metresPerUnit;
+  for (const ScalpRoot& root : roots) {
+    const CurlParameters curl = cutCurl(root, curls.curlAt(root, groom.strandCount()), parameters, *scalp);
+    std::vector<CorePoint> core = coreOf(root, curl, parameters, *scalp);
+    const ScalpRoot& middle = curls.middleOfLock(root);
+    if (parameters.cut.clump > 0 && areCombedAlike(middle.direction, root.direction, parameters))
+      clump(core, coreOf(middle, curl, parameters, *scalp), parameters.cut.clump, *scalp);
     addStrand(groom, curl, core, parameters);
   }
   return groom;

@@ -51,6 +51,7 @@ struct SceneGroom {
   double varyRadius = Variation{}.radius, varyLength = Variation{}.length, varyPhase = Variation{}.phase;
   double otherHand = Variation{}.leftHandedShare;
   HairCut cut{};
+  std::filesystem::path scalp{};
   std::uint32_t seed = 1;
 
   std::optional<double> metresPerUnit{};  // unset: the file's, where it states one, else centimetres

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/bodies/mesh_file.h"
 #include "ringlet/groom/hair_styles.h"
 
 namespace ringlet {
@@ -83,6 +84,11 @@ Result<Groom> generatedGroom(const SceneGroom& groom) {
   head.strandCount = groom.strands;
   head.lockCount = groom.locks;
   head.scalpRadius = groom.scalpRadius;
+  if (!groom.scalp.empty()) {
+    auto mesh = readObjMesh(groom.scalp, curl.metresPerUnit);
+    if (!mesh) return mesh.error();
+    head.scalp = std::make_shared<const TriangleMesh>(std::move(*mesh));
+  }
   return makeHead(head);
 }
 
