@@ -64,7 +64,9 @@ Status PictureFiles::write(int frame, const HairRenderer& renderer) {
   } else {
     const auto pixels = renderer.picture();
     if (!pixels) return pixels.error();
-    written = add(frame, path, imageOf(*pixels, size_));
+    Picture image = imageOf(*pixels, size_);
+    if (target_.legend) drawLegend(*target_.legend, image);
+    written = add(frame, path, image);
   }
   if (!written) return written;
   if (outputs_.size() > (film_ || panels_ ? 0 : 1)) outputs_.pop_back();

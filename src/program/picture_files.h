@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "program/film.h"
+#include "program/picture_legend.h"
 #include "ringlet/base/result.h"
 #include "ringlet/output/picture.h"
 #include "ringlet/render/hair_renderer.h"
@@ -19,7 +20,8 @@ struct PictureTarget {
   std::filesystem::path path;   // one picture's or a film's name; else a folder for frame.0001.png and so on
   bool isExr = false;           // of a folder
   double framesPerSecond = 24;  // of a film
-  int panels = 0;               // above 0: so many pictures are side by side in the one of `path`
+  std::optional<PictureLegend> legend{};  // of all but EXR files
+  int panels = 0;                         // above 0: so many pictures are side by side in the one of `path`
 };
 
 class PictureFiles {

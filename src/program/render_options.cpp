@@ -103,6 +103,8 @@ RenderPlan renderPlanOf(const RenderOptions& options) {
   plan.size = {size.first, size.second, options.samples};
   if (const StrandScale* scale = strandScaleNamed(options.colour)) {
     plan.colours = {scale, options.most.value_or(scale->most), options.against};
+    if (scale->most > 0 && !options.noLegend)
+      plan.target.legend = PictureLegend{scale->name, scale->withUnit(plan.colours->most)};
   } else {
     plan.look = *lookByName(options.colour);
   }
@@ -176,6 +178,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "What the last colour stands for, a share or metres (default: see below)")
       ->check(between(1e-9, 1e6))
       ->type_name("NUMBER");
+  command.add_flag("--no-legend", options.noLegend, "No bar of colours that says what they stand for");
   command.add_option("--melanin", options.melanin, "In place of --colour: from 0, white, to 1, black")
       ->check(between(0, 1))
       ->type_name("SHARE");

@@ -20,7 +20,7 @@ struct RenderOptions {
   std::optional<double> width, melanin, most;
   double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
   int samples = 4, blur = 1;
-  bool noBodies = false, json = false, quiet = false;
+  bool noBodies = false, noLegend = false, json = false, quiet = false;
 };
 
 void addRenderOptions(CLI::App& command, RenderOptions& options);

@@ -89,9 +89,12 @@ Result<Source> distances(const std::filesystem::path& against, const Groom& stra
 
 std::string StrandScale::sentence(double mostShown) const {
   if (most == 0) return effect;
+  return fmt::format("blue 0, red {} and more: {}", withUnit(mostShown), effect);
+}
+
+std::string StrandScale::withUnit(double number) const {
   const bool isLength = std::string_view(unit) == "m";
-  return fmt::format("blue 0, red {:.4g} {} and more: {}", mostShown * (isLength ? 1000 : 100),
-                     isLength ? "mm" : "%", effect);
+  return fmt::format("{:.4g} {}", number * (isLength ? 1000 : 100), isLength ? "mm" : "%");
 }
 
 const StrandScale* strandScaleNamed(std::string_view name) {

@@ -32,8 +32,10 @@ struct StrandScale {
   double most;         // that the last colour stands for, where nothing says it; 0: it is no scale
   const char* unit;    // "1" or "m"
 
-  /// "blue 0 %, red 5 % and more: EFFECT".
+  /// "blue 0, red 5 % and more: EFFECT".
   std::string sentence(double mostShown) const;
+  /// "5 %".
+  std::string withUnit(double number) const;
 };
 /// None for another name.
 const StrandScale* strandScaleNamed(std::string_view name);

@@ -29,8 +29,8 @@ class RenderColours : public test::RenderedRun {
  protected:
   // The strands of frame 4, alone.
   Image coloured(const std::string& colour, std::vector<std::string> more, json* said = nullptr) {
-    std::vector<std::string> arguments = {"out",     "-o", "a.png",       "--frames", "4:4",
-                                          "--hairs", "0",  "--no-bodies", "--colour", colour};
+    std::vector<std::string> arguments = {"out", "-o",          "a.png",       "--frames", "4:4", "--hairs",
+                                          "0",   "--no-bodies", "--no-legend", "--colour", colour};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const json found = render(arguments);
     if (said) *said = found["colours"];
@@ -56,6 +56,26 @@ class RenderColours : public test::RenderedRun {
 TEST_F(RenderColours, StretchAndContactsAreOfTheFrame) {
   expectScale("stretch", {});
   expectScale("contacts", {});
+}
+
+TEST_F(RenderColours, ALegendIsInTheCornerUnlessItIsLeftOut) {
+  const std::vector<std::string> arguments = {"out",    "-o",      "a.png",   "--frames", "4:4",
+                                              "--size", "400x300", "--hairs", "0",        "--colour"};
+  const auto drawn = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), arguments.begin(), arguments.end());
+    render(more);
+    return picture("a.png");
+  };
+  const Image with = drawn({"stretch"}), without = drawn({"stretch", "--no-legend"});
+  int changed = 0;
+  for (std::size_t i = 0; i < with.bytes.size(); ++i) {
+    if (with.bytes[i] == without.bytes[i]) continue;
+    const std::size_t x = i / 3 % 400, y = i / 3 / 400;
+    EXPECT_TRUE(x < 120 && y > 240) << x << " " << y;
+    ++changed;
+  }
+  EXPECT_GT(changed, 1000);
+  EXPECT_EQ(differing(drawn({"strand"}), drawn({"strand", "--no-legend"})), 0);  // is no scale
 }
 
 TEST_F(RenderColours, ErrorIsTheDistanceFromAnotherRun) {

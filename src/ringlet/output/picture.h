@@ -22,9 +22,9 @@ struct Picture {
   Picture(int w, int h, Colour fill) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, fill) {}
   Colour& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
 
-  /// Draws digits, capitals, which stand for small letters too, and . , - + _ = / : of 5 x 7 dots, one apart;
-  /// anything else is a gap. Its top left corner is at (x, y), each dot `dot` pixels wide; parts outside are
-  /// left out.
+  /// Draws digits, capitals, which stand for small letters too, and . , - + _ = / : % of 5 x 7 dots, one
+  /// apart; anything else is a gap. Its top left corner is at (x, y), each dot `dot` pixels wide; parts
+  /// outside are left out.
   void drawText(std::string_view text, int x, int y, int dot, Colour colour);
 
   Status writePng(const std::filesystem::path& path) const;

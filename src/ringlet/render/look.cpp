@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 namespace ringlet {
@@ -61,6 +62,7 @@ std::optional<Look> lookByName(std::string_view name) {
   return std::nullopt;
 }
 
+std::vector<Vec3d> scaleColours() { return {std::begin(kScale), std::end(kScale)}; }
 std::vector<Absorption> scalePigments() { return absorptionsOf(kScale); }
 std::vector<Absorption> rainbowPigments() { return absorptionsOf(kRainbow); }
 

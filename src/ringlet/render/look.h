@@ -43,6 +43,8 @@ std::optional<Look> lookByName(std::string_view colour);
 /// Colours of hair that stand for a number of its strand: blue the first, then green and yellow, red the
 /// last.
 std::vector<Absorption> scalePigments();
+/// What hair of each lets through, linear light: from which scalePigments are.
+std::vector<Vec3d> scaleColours();
 /// The colours of the rainbow, so that strands can be told apart.
 std::vector<Absorption> rainbowPigments();
 
