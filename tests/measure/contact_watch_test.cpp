@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "tests/rest/contact_samples.h"
@@ -61,6 +62,19 @@ TEST(ContactWatch, SumsStepsAndKeepsTheWorstFrame) {
   EXPECT_EQ(watch.numbers().crossings, 2u);
   EXPECT_EQ(watch.numbers().worst.overlapping, 4u);
   EXPECT_EQ(watch.numbers().deepestOverlap, near.deepestOverlap);
+}
+
+TEST(ContactWatch, StrandsOfABundleMayPass) {
+  for (const bool isOne : {true, false}) {
+    Settings bundled = settings();
+    bundled.contacts.on = true;
+    using Bundles = std::vector<ContactBundle>;
+    bundled.contacts.bundles = std::make_shared<const Bundles>(isOne ? Bundles{{1, 0}} : Bundles{{0}, {1}});
+    ContactWatch watch = watchOf(bundled);
+    watch.addStep(crossedLines(0.02).points);
+    watch.addStep(crossedLines(-0.02).points);
+    EXPECT_EQ(watch.numbers().crossings, isOne ? 0u : 1u);
+  }
 }
 
 TEST(ContactWatch, WarnsOfWhatTheSolverWarnsOf) {

@@ -51,6 +51,17 @@ TEST(Crossings, OfOneStrandWithItselfDoNotCount) {
   EXPECT_EQ(crossings(groom, after), 0u);
 }
 
+TEST(Crossings, OfOneBundleDoNotCount) {
+  const auto counted = [](std::vector<std::uint32_t> bundles) {
+    const Groom before = crossed(0.3f);
+    return countCrossings(before.firstPoint, before.points, crossed(-0.3f).points, bundles);
+  };
+  EXPECT_EQ(counted({2, 2}), 0u);
+  EXPECT_EQ(counted({1, 2}), 1u);
+  EXPECT_EQ(counted({0, 0}), 1u);
+  EXPECT_EQ(counted({0, 2}), 1u);
+}
+
 TEST(Crossings, TwiceInAStepIsTwo) {
   // The second edge slides along Z over the first, from its one end to its other, and its ends move so that
   // over the first one's line its height is y0 + (y1 - y0) t = 8 (t - 1/4) (t - 3/4).

@@ -48,11 +48,13 @@ class ContactWatch {
   const std::vector<std::string>& warnings() const { return ruler_.warnings(); }
 
  private:
-  ContactWatch(ContactRuler ruler, std::span<const std::uint32_t> firstPoint);
+  ContactWatch(ContactRuler ruler, std::span<const std::uint32_t> firstPoint,
+               const ContactSettings& settings);
 
   ContactRuler ruler_;
   std::vector<std::uint32_t> firstPoint_;
-  std::vector<Vec3f> positions_;  // of the step before; none at first
+  std::vector<std::uint32_t> bundles_;  // of each strand, from 1; empty: there are none
+  std::vector<Vec3f> positions_;        // of the step before; none at first
   ContactNumbers numbers_;
 };
 

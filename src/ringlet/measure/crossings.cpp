@@ -112,7 +112,7 @@ Box sweptBox(const MovingEdge& edge) {
 }  // namespace
 
 std::uint64_t countCrossings(std::span<const std::uint32_t> firstPoint, std::span<const Vec3f> before,
-                             std::span<const Vec3f> after) {
+                             std::span<const Vec3f> after, std::span<const std::uint32_t> bundles) {
   RINGLET_ASSERT(!firstPoint.empty() && before.size() == firstPoint.back() && after.size() == before.size(),
                  "one position per particle, before and after");
   std::vector<MovingEdge> edges;
@@ -127,13 +127,17 @@ std::uint64_t countCrossings(std::span<const std::uint32_t> firstPoint, std::spa
       boxes.push_back(sweptBox(edges.back()));
     }
   }
+  const auto mayPass = [&](std::size_t a, std::size_t b) {
+    return a == b || (!bundles.empty() && bundles[a] != 0 && bundles[a] == bundles[b]);
+  };
   std::uint64_t count = 0;
   const BoxPairs pairs(boxes);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     pairs.visitPartners(i, [&](std::size_t j) {
       // Always in one order, so that a volume has the same bits at the end of a step and at the start of the
       // next.
-      if (strands[i] != strands[j]) count += crossingsOf(edges[std::min(i, j)], edges[std::max(i, j)]);
+      if (!mayPass(strands[i], strands[j]))
+        count += crossingsOf(edges[std::min(i, j)], edges[std::max(i, j)]);
     });
   }
   return count;

@@ -14,9 +14,10 @@ namespace ringlet {
 /// touch, do not pass. Over the steps of a motion, of which each begins where the last one ended, none is
 /// counted twice or lost.
 ///
-/// firstPoint: Groom::firstPoint; before, after: all particles, in groom order. Edges with a particle that is
+/// firstPoint: Groom::firstPoint; before, after: all particles, in groom order. bundles: of each strand,
+/// those of one pass through each other uncounted, 0 is none; empty: all are. Edges with a particle that is
 /// not finite cross nothing. Cost: linear in edges and overlaps of the boxes they sweep.
 std::uint64_t countCrossings(std::span<const std::uint32_t> firstPoint, std::span<const Vec3f> before,
-                             std::span<const Vec3f> after);
+                             std::span<const Vec3f> after, std::span<const std::uint32_t> bundles = {});
 
 }  // namespace ringlet
