@@ -84,6 +84,8 @@ TEST_F(CInterface, GivesTheSameBits) {
     ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
     options.moving_roots = hair.kernel.movingRoots;
     options.has_forces = hair.kernel.forces;
+    options.has_goals = hair.kernel.goals;
+    options.has_fields = hair.kernel.fields;
     const Material material;
     ASSERT_EQ(ringlet_asset_build(c.device, &groom.groom, c.settings, c.material, &options, &c.asset),
               RINGLET_OK)
@@ -284,6 +286,105 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   EXPECT_EQ(ringlet_frame_is_over(c.hairs[0]), RINGLET_OK);
   ringlet_asset_release(nullptr);
   ringlet_hair_release(nullptr);
+}
+
+TEST_F(CInterface, GoalsAndFieldsGiveTheSameBits) {
+  Handles c;
+  open(c);
+  const Groom groom = randomGroom({12, 9, 12}, 3);
+  const CGroom from(groom);
+  ringlet_asset_options options = RINGLET_INIT(ringlet_asset_options);
+  options.has_goals = options.has_fields = 1;
+  ASSERT_EQ(ringlet_asset_build(c.device, &from.groom, nullptr, nullptr, &options, &c.asset), RINGLET_OK);
+  ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs.emplace_back()), RINGLET_OK);
+  const auto asset =
+      HairAsset::build(device(), groom, Material{}, Settings{}, {.goals = true, .fields = true});
+  Simulation expected = *Simulation::create(*asset, {});
+
+  const VelocityGrid grid{{2, 3, 2}, 0.4, std::vector<Vec3f>(12, Vec3f{1, 0.5f, 0})};
+  ForceField blast{.place = {{0.1, 0, 0}}, .radial = 30, .core = 0.05, .front = 0.1, .thickness = 0.5};
+  ForceField vortex{.place = {{0, 0.2, 0}, normalized(Quatd{1, 0, 0, 1})},
+                    .axis = {1, 2, 0},
+                    .aboutAxis = true,
+                    .axial = 2,
+                    .around = -3,
+                    .reach = 2,
+                    .drag = 7};
+  ForceField wind{.drag = 4, .grid = std::make_shared<const VelocityGrid>(grid), .gridShare = 0.5};
+  const auto fieldOf = [](const ForceField& f) {
+    ringlet_field field = RINGLET_INIT(ringlet_field);
+    field.pose = poseOf(HeadPose{f.place.position, f.place.rotation});
+    field.axis[0] = f.axis.x, field.axis[1] = f.axis.y, field.axis[2] = f.axis.z;
+    field.about_axis = f.aboutAxis;
+    field.axial = f.axial, field.radial = f.radial, field.around = f.around;
+    field.core = f.core == ForceField{}.core ? 0 : f.core;
+    field.reach = f.reach, field.drag = f.drag, field.front = f.front, field.thickness = f.thickness;
+    if (!f.grid) return field;
+    field.velocities = &f.grid->velocities[0].x;
+    std::ranges::copy(f.grid->nodes, field.nodes);
+    field.cell = f.grid->cell, field.grid_share = f.gridShare;
+    return field;
+  };
+  std::vector<Vec3f> places = groom.points, before = groom.points;
+  for (Vec3f& p : places) p = p * static_cast<float>(groom.metresPerUnit) + Vec3f{0.01f, 0, 0.02f};
+  for (Vec3f& p : before) p = p * static_cast<float>(groom.metresPerUnit);
+  std::vector<float> strengths(places.size(), 2);
+  strengths[3] = 50;
+
+  const std::vector<HeadPose> still(static_cast<std::size_t>(expected.settings().stepsPerFrame));
+  const auto step = [&](const char* what) {
+    const ringlet_pose head{};
+    ASSERT_EQ(ringlet_step_to(c.hairs[0], &head), RINGLET_OK) << ringlet_error_message();
+    ASSERT_TRUE(expected.stepFrame(still));
+    EXPECT_TRUE(positionsOf(c.hairs[0], places.size()) == *expected.positions()) << what;
+  };
+  const std::vector<ForceField> first{blast, vortex, wind};
+  std::vector<ForceField> second = first;
+  second[0].radial = -10, second[1].place.position = {0.3, 0, 0}, second[2].gridShare = 2;
+  const std::vector<ringlet_field> cFirst{fieldOf(blast), fieldOf(vortex), fieldOf(wind)};
+  const std::vector<ringlet_field> cSecond{fieldOf(second[0]), fieldOf(second[1]), fieldOf(second[2])};
+  for (const double damping : {1.0, 0.3, 0.0}) {
+    ringlet_goals goals = RINGLET_INIT(ringlet_goals);
+    goals.places = &places[0].x, goals.strengths = strengths.data(), goals.particle_count = places.size();
+    goals.damping_ratio = damping == 1 ? 0 : damping, goals.undamped = damping == 0;
+    goals.from = damping == 0.3 ? &before[0].x : nullptr;
+    ASSERT_EQ(ringlet_hair_set_goals(c.hairs[0], &goals), RINGLET_OK) << ringlet_error_message();
+    ASSERT_TRUE(
+        expected.setGoals(places, strengths, damping,
+                          damping == 0.3 ? std::span<const Vec3f>(before) : std::span<const Vec3f>()));
+    step("goals");
+  }
+  ASSERT_EQ(ringlet_hair_set_fields(c.hairs[0], cFirst.data(), nullptr, 3), RINGLET_OK)
+      << ringlet_error_message();
+  ASSERT_TRUE(expected.setFields(first));
+  step("fields");
+  ASSERT_EQ(ringlet_hair_set_fields(c.hairs[0], cSecond.data(), cFirst.data(), 3), RINGLET_OK);
+  ASSERT_TRUE(expected.setFields(second, first));
+  step("fields that change");
+  ASSERT_EQ(ringlet_hair_set_fields(c.hairs[0], nullptr, nullptr, 0), RINGLET_OK);
+  ASSERT_TRUE(expected.setFields({}));
+  step("no fields");
+
+  ringlet_goals wrong = RINGLET_INIT(ringlet_goals);
+  expectInvalid(ringlet_hair_set_goals(c.hairs[0], &wrong), "places and strengths for its 33 particles");
+  std::vector<float> endless(99);
+  endless[98] = INFINITY;
+  wrong.places = endless.data(), wrong.strengths = strengths.data(), wrong.particle_count = 33;
+  expectInvalid(ringlet_hair_set_goals(c.hairs[0], &wrong), "a place is not finite");
+  wrong.places = &places[0].x, wrong.from = endless.data();
+  expectInvalid(ringlet_hair_set_goals(c.hairs[0], &wrong), "a place is not finite");
+  expectInvalid(ringlet_hair_set_fields(c.hairs[0], nullptr, nullptr, 1), "there are no fields");
+  ringlet_field bad = cFirst[2];
+  bad.pose.position[1] = NAN;
+  expectInvalid(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), "field 0 has a pose");
+  bad = cFirst[2];
+  bad.nodes[0] = bad.nodes[1] = 0xffffffffu;
+  expectInvalid(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), "more nodes");
+  bad = cFirst[0];
+  bad.drag = -1;
+  EXPECT_EQ(ringlet_hair_set_fields(c.hairs[0], &bad, nullptr, 1), RINGLET_ERROR);
+  expectInvalid(ringlet_hair_set_fields(nullptr, nullptr, nullptr, 0), "takes hair");
+  expectInvalid(ringlet_hair_set_goals(nullptr, &wrong), "takes hair");
 }
 
 // A caller's struct may be shorter, of a version before, or longer, of one to come.

@@ -2,37 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <set>
 
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/c/handles.h"
+#include "ringlet/c/poses.h"
 #include "ringlet/solver/hair_frames.h"
 
 namespace ringlet::c {
 namespace {
-
-std::optional<Quatd> rotationOf(const double (&r)[4]) {
-  if (r[0] == 0 && r[1] == 0 && r[2] == 0 && r[3] == 0) return Quatd{};
-  const double length = std::hypot(std::hypot(r[0], r[1]), std::hypot(r[2], r[3]));
-  if (!std::isfinite(length) || length == 0) return std::nullopt;
-  return Quatd{r[0] / length, r[1] / length, r[2] / length, r[3] / length};
-}
-
-template <class Pose>
-std::optional<Pose> poseOf(const ringlet_pose& pose) {
-  const auto rotation = rotationOf(pose.rotation);
-  const Vec3d position{pose.position[0], pose.position[1], pose.position[2]};
-  if (!rotation || !std::isfinite(dot(position, position))) return std::nullopt;
-  Pose made;
-  made.position = position, made.rotation = *rotation;
-  return made;
-}
-
-Outcome notFinite(const char* what) {
-  return Outcome::invalid(fmt::format("{} has a pose that is not finite", what));
-}
 
 // Poses of a frame; nothing to take is fine.
 template <class Pose>
@@ -177,6 +155,8 @@ ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* 
     KernelChoice kernel;
     kernel.movingRoots = chosen.moving_roots != 0;
     kernel.forces = chosen.has_forces != 0;
+    kernel.goals = chosen.has_goals != 0;
+    kernel.fields = chosen.has_fields != 0;
     kernel.heads = std::max(1, chosen.heads);
     auto built = HairAsset::build(device->device, made, material ? material->material : Material{},
                                   settings ? settings->settings : Settings{}, kernel,
@@ -316,22 +296,6 @@ ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* b
     if (Status status = hair->simulation.setBodies(taken); !status) return status;
     hair->bodyCount = body_count;
     return {};
-  });
-}
-
-ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uint64_t particle_count) {
-  return guarded([&]() -> Outcome {
-    if (!hair || !xyz || particle_count != hair->particleCount)
-      return Outcome::invalid(
-          fmt::format("ringlet_hair_set_forces takes hair, and forces for its {} particles",
-                      hair ? hair->particleCount : 0));
-    std::vector<Vec3f> forces(particle_count);
-    for (Vec3f& force : forces) {
-      force = {xyz[0], xyz[1], xyz[2]};
-      xyz += 3;
-      if (!std::isfinite(force.x + force.y + force.z)) return notFinite("a force");
-    }
-    return hair->simulation.setForces(forces);
   });
 }
 

@@ -145,6 +145,8 @@ typedef struct ringlet_asset_options {
   void (*warn)(const char* sentence, void* user);
   void* user;
   int has_forces; /* 1 if ringlet_hair_set_forces will be called */
+  int has_goals;  /* 1 if ringlet_hair_set_goals will be called */
+  int has_fields; /* 1 if ringlet_hair_set_fields will be called */
 } ringlet_asset_options;
 
 /* Prepares hair for any number of heads. `settings`, `material` and `options` may be NULL. The function
@@ -247,6 +249,42 @@ ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* b
 /* Sets external forces: an acceleration x, y, z for every particle in the groom's order [m/s^2], which acts
    until others are set (Simulation::setForces). The asset's options must have has_forces. */
 ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uint64_t particle_count);
+
+/* Places that particles are pulled to (Simulation::setGoals), in the groom's order and axes, carried by the
+   head. A strength of 1 holds a particle's own weight 1 cm away. */
+typedef struct ringlet_goals {
+  size_t struct_size;
+  const float* places;    /* x, y, z of every particle, at the end of the next frame and from then on */
+  const float* strengths; /* of every particle, not negative */
+  uint64_t particle_count;
+  double damping_ratio; /* of the motion about a place, critical at 1; 0 means 1 */
+  int undamped;         /* 1 for a damping ratio of 0 */
+  const float* from;    /* places at the beginning of the next frame; NULL: those set before */
+} ringlet_goals;
+/* Sets goals, which act until others are set. The asset's options must have has_goals. */
+ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* goals);
+
+/* What acts at places in the world: accelerations [m/s^2], or with drag velocities of air [m/s]
+   (scene/force_field.h). */
+typedef struct ringlet_field {
+  size_t struct_size;
+  ringlet_pose pose;            /* in the world; of a grid its first node */
+  double axis[3];               /* in the pose's axes; 0, 0, 0 is Y */
+  int about_axis;               /* 1: distances are from the axis and not from the place */
+  double axial, radial, around; /* along the axis; away from the place or axis; about the axis */
+  double core;                  /* distance within which radial and around fade; 0 means 0.02 */
+  double reach;                 /* distance at which the field ends; 0: it does not */
+  double drag;                  /* how fast air takes hair along [1/s]; 0: there is no air */
+  double front, thickness;      /* of a shell within which the field acts, and half of it; 0: no shell */
+  const float* velocities;      /* of a grid's nodes, x, y, z, x the fastest index; NULL: no grid */
+  uint32_t nodes[3];            /* along x, y and z */
+  double cell;                  /* distance between nodes; 0 means 0.1 */
+  double grid_share;            /* factor on the grid's velocities; 0 means 1 */
+} ringlet_field;
+/* Replaces all fields, until others are set (Simulation::setFields). `from`: as they are at the beginning of
+   the next frame, as many; NULL: they do not change in it. The asset's options must have has_fields. */
+ringlet_result ringlet_hair_set_fields(ringlet_hair* hair, const ringlet_field* fields,
+                                       const ringlet_field* from, uint32_t field_count);
 
 typedef struct ringlet_report {
   size_t struct_size;

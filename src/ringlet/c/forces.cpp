@@ -1,0 +1,118 @@
+// Implements c/ringlet.h: what acts on hair from outside, forces, goals and fields.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "ringlet/c/handles.h"
+#include "ringlet/c/poses.h"
+#include "ringlet/scene/force_field.h"
+
+namespace ringlet::c {
+namespace {
+
+// x, y, z of each; false where one is not finite.
+bool takeVectors(const float* xyz, std::uint64_t count, std::vector<Vec3f>& vectors) {
+  vectors.resize(count);
+  for (Vec3f& v : vectors) {
+    v = {xyz[0], xyz[1], xyz[2]};
+    xyz += 3;
+    if (!std::isfinite(v.x + v.y + v.z)) return false;
+  }
+  return true;
+}
+
+// 0 stands for the default.
+double orElse(double number, double standard) { return number == 0 ? standard : number; }
+
+Outcome takeField(const ringlet_field& from, std::uint32_t index, ForceField& field) {
+  field.name = fmt::format("field {}", index);
+  const auto place = poseOf<BodyPose>(from.pose);
+  if (!place) return notFinite(field.name.c_str());
+  field.place = *place;
+  const Vec3d axis{from.axis[0], from.axis[1], from.axis[2]};
+  if (axis != Vec3d{}) field.axis = axis;
+  field.aboutAxis = from.about_axis != 0;
+  field.axial = from.axial, field.radial = from.radial, field.around = from.around;
+  field.core = orElse(from.core, field.core), field.reach = from.reach, field.drag = from.drag;
+  field.front = from.front, field.thickness = from.thickness;
+  field.gridShare = orElse(from.grid_share, 1);
+  if (!from.velocities) return {};
+  VelocityGrid grid;
+  std::uint64_t count = 1;
+  for (std::size_t axisIndex = 0; axisIndex < 3; ++axisIndex) {
+    grid.nodes[axisIndex] = from.nodes[axisIndex];
+    count *= from.nodes[axisIndex];
+    if (count > 0xffffffffu)
+      return Outcome::invalid(fmt::format("{} has more nodes than 32 bits count", field.name));
+  }
+  grid.cell = orElse(from.cell, grid.cell);
+  if (!takeVectors(from.velocities, count, grid.velocities))
+    return Outcome::invalid(fmt::format("{} has a velocity that is not finite", field.name));
+  field.grid = std::make_shared<const VelocityGrid>(std::move(grid));
+  return {};
+}
+
+// All of an array; an empty one may be null.
+Outcome takeFields(const ringlet_field* from, std::uint32_t count, std::vector<ForceField>& fields) {
+  if (count > 0 && !hasSize(from)) return Outcome::invalid("there are no fields that say their size");
+  fields.resize(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (Outcome outcome = takeField(taken(from, k), k, fields[k]); outcome.result != RINGLET_OK)
+      return outcome;
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace ringlet::c
+
+using namespace ringlet;
+using namespace ringlet::c;
+
+ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uint64_t particle_count) {
+  return guarded([&]() -> Outcome {
+    if (!hair || !xyz || particle_count != hair->particleCount)
+      return Outcome::invalid(
+          fmt::format("ringlet_hair_set_forces takes hair, and forces for its {} particles",
+                      hair ? hair->particleCount : 0));
+    std::vector<Vec3f> forces;
+    if (!takeVectors(xyz, particle_count, forces)) return Outcome::invalid("a force is not finite");
+    return hair->simulation.setForces(forces);
+  });
+}
+
+ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* goals) {
+  return guarded([&]() -> Outcome {
+    const ringlet_goals from = hasSize(goals) ? taken(goals) : ringlet_goals{};
+    if (!hair || !from.places || !from.strengths || from.particle_count != hair->particleCount)
+      return Outcome::invalid(
+          fmt::format("ringlet_hair_set_goals takes hair, and places and strengths for its {} particles in a "
+                      "struct that says its size",
+                      hair ? hair->particleCount : 0));
+    std::vector<Vec3f> places, before;
+    if (!takeVectors(from.places, from.particle_count, places) ||
+        (from.from && !takeVectors(from.from, from.particle_count, before)))
+      return Outcome::invalid("a place is not finite");
+    const std::vector<float> strengths(from.strengths, from.strengths + from.particle_count);
+    return hair->simulation.setGoals(places, strengths,
+                                     from.undamped != 0 ? 0 : orElse(from.damping_ratio, 1), before);
+  });
+}
+
+ringlet_result ringlet_hair_set_fields(ringlet_hair* hair, const ringlet_field* fields,
+                                       const ringlet_field* from, uint32_t field_count) {
+  return guarded([&]() -> Outcome {
+    if (!hair) return Outcome::invalid("ringlet_hair_set_fields takes hair");
+    std::vector<ForceField> after, before;
+    if (Outcome outcome = takeFields(fields, field_count, after); outcome.result != RINGLET_OK)
+      return outcome;
+    if (from) {
+      if (Outcome outcome = takeFields(from, field_count, before); outcome.result != RINGLET_OK)
+        return outcome;
+    }
+    return hair->simulation.setFields(after, before);
+  });
+}
