@@ -64,7 +64,7 @@ TEST(Scalp, OfAMeshIsNearlyTheSphereItIs) {
     ASSERT_TRUE(root && exact);
     EXPECT_LT(length(root->position - exact->position), 1e-4) << i;
     EXPECT_GT(dot(root->normal, exact->normal), 0.999) << i;
-    const Vec3d place = direction * 0.1;
+    const Vec3d place = direction * (i % 2 == 0 ? 0.1 : 0.13);
     EXPECT_NEAR(scalp->heightOf(place).height, sphere.heightOf(place).height, 1e-4) << i;
     EXPECT_NEAR(sphere.heightOf(sphere.raisedTo(place, 0.003)).height, 0.003, 1e-12);
     EXPECT_NEAR(sphere.heightOf(scalp->raisedTo(place, 0.003)).height, 0.003, 1e-4) << i;

@@ -26,8 +26,12 @@ struct Scalp::Mesh {
   }
 };
 
+// Beyond its grid heights are too small, so that hair would be raised too far: a third of a head reaches
+// further than hair is lifted.
+constexpr MeshGridSettings kGrid{.cells = 48, .padding = 16};
+
 Result<Scalp> Scalp::of(const TriangleMesh& mesh) {
-  auto grid = makeDistanceGrid(mesh);
+  auto grid = makeDistanceGrid(mesh, kGrid);
   if (!grid) return grid.error();
   double reach = 0;
   for (const auto& triangle : mesh.triangles)

@@ -26,8 +26,8 @@ struct ScalpHeight {
 class Scalp {
  public:
   explicit Scalp(double sphereRadius) : radius_(sphereRadius) {}
-  /// Heights are those of a distance grid (bodies/mesh_grid.h): exact to a small share of a 64th of the
-  /// mesh. Errors: those of makeDistanceGrid.
+  /// Heights are those of a distance grid (bodies/mesh_grid.h): exact to a small share of a 48th of the
+  /// mesh, up to a third of it away. Errors: those of makeDistanceGrid.
   static Result<Scalp> of(const TriangleMesh& mesh);
 
   /// On the outermost surface along a direction of length 1; none where there is no triangle. The root's own
