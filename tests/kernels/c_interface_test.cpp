@@ -302,7 +302,7 @@ TEST_F(CInterface, GoalsAndFieldsGiveTheSameBits) {
   Simulation expected = *Simulation::create(*asset, {});
 
   const VelocityGrid grid{{2, 3, 2}, 0.4, std::vector<Vec3f>(12, Vec3f{1, 0.5f, 0})};
-  ForceField blast{.place = {{0.1, 0, 0}}, .radial = 30, .core = 0.05, .front = 0.1, .thickness = 0.5};
+  ForceField blast{.place = {{0.1, 0, 0}, {}}, .radial = 30, .core = 0.05, .front = 0.1, .thickness = 0.5};
   ForceField vortex{.place = {{0, 0.2, 0}, normalized(Quatd{1, 0, 0, 1})},
                     .axis = {1, 2, 0},
                     .aboutAxis = true,
