@@ -59,11 +59,12 @@ TEST_F(RenderColours, StretchAndContactsAreOfTheFrame) {
 }
 
 TEST_F(RenderColours, ALegendIsInTheCornerUnlessItIsLeftOut) {
-  const std::vector<std::string> arguments = {"out",    "-o",      "a.png",   "--frames", "4:4",
-                                              "--size", "400x300", "--hairs", "0",        "--colour"};
-  const auto drawn = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), arguments.begin(), arguments.end());
-    render(more);
+  const auto drawn = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"render",  "out",    "-o",      "a.png",     "--frames",
+                                          "4:4",     "--size", "400x300", "--samples", "1",
+                                          "--hairs", "0",      "--colour"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).exitCode, 0);
     return picture("a.png");
   };
   const Image with = drawn({"stretch"}), without = drawn({"stretch", "--no-legend"});
