@@ -96,6 +96,17 @@ TEST(Scalp, HairOfEveryStyleGrowsEvenlyOnAMeshAndStaysOutside) {
   }
 }
 
+// As wide curls as half a head, bent down at once.
+TEST(Scalp, WideCurlsThatBendAtOnceStayOutside) {
+  HeadParameters head{.strandCount = 60, .browElevation = 1.2, .napeElevation = -1.2, .bendLength = 1e-4};
+  head.curl = {.radius = 0.03, .turns = 12, .particleCount = 200, .metresPerUnit = 1};
+  head.rampShare = 0.05;
+  head.scalp = std::make_shared<const TriangleMesh>(ellipsoid());
+  const auto groom = makeHead(head);
+  ASSERT_TRUE(groom) << groom.error().message;
+  for (const Vec3f& p : groom->points) EXPECT_GT(scaledLength(Vec3d(p)), 0.99);
+}
+
 TEST(Scalp, OfAnOpenMeshHairGrowsOnWhatThereIs) {
   HeadParameters head{.strandCount = 300};
   head.curl.metresPerUnit = 1;
