@@ -8,6 +8,7 @@
 #include "layout/strands.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/rest/material_extremes.h"
+#include "ringlet/rest/rest_part.h"
 
 namespace ringlet {
 namespace {
@@ -52,6 +53,10 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
   unloaded.gravityPreload = 0;
   auto base = buildRestState(groom, material, unloaded, order);
   if (!base) return base.error();
+  for (RestState* state : {&*loaded, &*base}) {
+    if (rest.elsewhereCount == 0) break;
+    if (Status status = restrictTo(*state, rest.strandInGroom); !status) return status.error();
+  }
 
   LiveMaterial self;
   self.settings_ = settings;

@@ -327,6 +327,9 @@ RestState assemble(const Groom& groom, const Material& material, const Settings&
   state.groomStrandCount = groom.strandCount();
   state.groomParticleCount = groom.points.size();
   state.longestCalmStep = survey.longestCalmStep;
+  for (const layout::StrandRest& strand : state.strands) state.wholeCounts.push_back(strand.particleCount);
+  state.oneSmoothing = std::ranges::all_of(
+      state.strands, [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   return state;
 }
 

@@ -34,9 +34,13 @@ struct RestState {
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle
   std::vector<RigidStrand> rigid;            // all other strands, in groom order
   std::size_t groomStrandCount = 0, groomParticleCount = 0;
-  double longestCalmStep = 0;            // longest outer step that needs no warning [s]
-  std::vector<std::string> warnings;     // for the user: what the step or the load changed, with numbers
-  std::size_t materialWarningCount = 0;  // the first of them, which another material would not have
+  // Of the whole groom, where only a part of it is here (rest/rest_part.h):
+  std::vector<std::uint32_t> wholeCounts;  // particles of each strand that is simulated anywhere, rising
+  bool oneSmoothing = false;               // bendBeta is coreBeta in all of them
+  std::size_t elsewhereCount = 0;          // of `rigid`, those that are simulated elsewhere
+  double longestCalmStep = 0;              // longest outer step that needs no warning [s]
+  std::vector<std::string> warnings;       // for the user: what the step or the load changed, with numbers
+  std::size_t materialWarningCount = 0;    // the first of them, which another material would not have
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "layout/strands.h"
+#include "ringlet/rest/rest_part.h"
 #include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/dispatch_plan.h"
 #include "ringlet/solver/hair_asset_implementation.h"
@@ -27,14 +28,28 @@ std::uint64_t lanesOf(std::span<const StrandRange> ranges) {
   return lanes;
 }
 
-// All strands may be rigid, and then none is on the device.
-Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts, const DeviceLimits& limits,
-                                          const KernelChoice& choice, StrandWork work) {
+// Planned for the whole groom, so that a strand's bits do not depend on which others are here. All strands
+// may be rigid, and then none is on the device.
+Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
+                                          std::span<const std::uint32_t> wholeCounts,
+                                          const DeviceLimits& limits, const KernelChoice& choice,
+                                          StrandWork work) {
   if (counts.empty()) return std::vector<StrandRange>{};
-  return planRanges(counts, limits, choice, work);
+  auto ranges = planRanges(wholeCounts, limits, choice, work);
+  if (!ranges) return ranges.error();
+  return rangesOfPart(*ranges, counts);
 }
 
 }  // namespace
+
+Status checkPart(const Settings& settings) {
+  if (settings.contacts.on)
+    return Error{"hair with contacts cannot be divided among devices; turn contacts off, or use one device"};
+  if (settings.sleepSpeed > 0)
+    return Error{
+        "hair that may sleep cannot be divided among devices; set sleep_speed to 0, or use one device"};
+  return {};
+}
 
 Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& groom, const Material& material,
                                    const Settings& settings, const KernelChoice& choice, BodyUse bodies) {
@@ -49,6 +64,10 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   if (settings.contacts.on) order = orderAlongCurve(groom);
   auto rest = buildRestState(groom, material, settings, order);
   if (!rest) return rest.error();
+  if (!choice.part.empty()) {
+    if (Status possible = checkPart(settings); !possible) return possible.error();
+    if (Status restricted = restrictTo(*rest, choice.part); !restricted) return restricted.error();
+  }
   const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
   if (!limits) return limits.error();
 
@@ -58,13 +77,15 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   self->choice.goals = choice.goals || settings.goal.on;
   if (self->choice.goals) self->goalUnits = goalUnits(self->rest, settings.goal.shape);
   self->choice.measured = {};
+  self->choice.part = {};
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   if (settings.contacts.on && !counts.empty()) {
     self->contacts = buildRestContacts(self->rest, settings.contacts);
     std::ranges::copy(self->contacts->warnings(), std::back_inserter(self->rest.warnings));
     if (self->kinds().volume) self->volume = buildRestVolume(self->rest, *self->contacts);
   }
-  auto ranges = rangesOf(counts, *limits, choice, strandWork(settings, material, self->kinds(), hasBodies));
+  auto ranges = rangesOf(counts, self->rest.wholeCounts, *limits, choice,
+                         strandWork(settings, material, self->kinds(), hasBodies));
   if (!ranges) return ranges.error();
   self->records = groomRecords(settings, self->choice, self->kinds());
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
@@ -84,7 +105,9 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
 
 std::size_t HairAsset::strandCount() const { return self_->rest.groomStrandCount; }
 std::size_t HairAsset::particleCount() const { return self_->rest.groomParticleCount; }
-std::size_t HairAsset::rigidStrandCount() const { return self_->rest.rigid.size(); }
+std::size_t HairAsset::rigidStrandCount() const {
+  return self_->rest.rigid.size() - self_->rest.elsewhereCount;
+}
 const std::vector<std::string>& HairAsset::warnings() const { return self_->rest.warnings; }
 
 }  // namespace ringlet

@@ -16,6 +16,10 @@
 
 namespace ringlet {
 
+/// Whether hair with these settings may be divided (KernelChoice::part): nothing may couple strands or ask
+/// all of them.
+Status checkPart(const Settings& settings);
+
 struct HairAsset::Implementation {
   ComputeDevice device;
   Material material;

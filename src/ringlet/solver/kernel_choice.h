@@ -30,6 +30,10 @@ struct KernelChoice {
       measured{};            // on this device, read until build or create returns; none: a cost model is used
   bool manyKernels = false;  // the best shape for every strand, however long kernels take to compile
   int heads = 1;  // expected number of heads with this hair; for many heads a long compilation pays
+  // Strands, groom order, that are simulated here, where others are elsewhere: these have the bits they have
+  // in the whole groom, the others are carried rigidly. Without contacts and sleep only. Read until build or
+  // create returns; empty: all
+  std::span<const std::uint32_t> part{};
   CompileObserver* observer = nullptr;  // must live as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have root poses (Simulation::stepFrame)

@@ -331,4 +331,17 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
   return cheapestRanges(particleCounts, costs, limits, choice);
 }
 
+std::vector<StrandRange> rangesOfPart(std::span<const StrandRange> whole,
+                                      std::span<const std::uint32_t> particleCounts) {
+  std::vector<StrandRange> ranges;
+  std::uint32_t begin = 0;
+  for (const StrandRange& range : whole) {
+    const auto end = static_cast<std::uint32_t>(std::ranges::upper_bound(particleCounts, range.longest) -
+                                                particleCounts.begin());
+    if (end > begin) ranges.push_back({range.shape, begin, end, particleCounts[end - 1]});
+    begin = end;
+  }
+  return ranges;
+}
+
 }  // namespace ringlet

@@ -49,4 +49,8 @@ Result<std::vector<StrandRange>> planRanges(std::span<const std::uint32_t> parti
                                             const DeviceLimits& limits, const KernelChoice& choice,
                                             StrandWork work = StrandWork::hairAlone);
 
+/// The same for some of the strands: each has the shape that planRanges gave strands as long.
+std::vector<StrandRange> rangesOfPart(std::span<const StrandRange> whole,
+                                      std::span<const std::uint32_t> particleCounts);
+
 }  // namespace ringlet

@@ -167,15 +167,13 @@ Status Simulation::Implementation::makeKernels() {
   if (ranges.empty()) return {};
   const auto start = std::chrono::steady_clock::now();
   const std::vector<StrandShape> shapes = shapesOf(ranges);
-  const bool oneSmoothing = std::all_of(rest.strands.begin(), rest.strands.end(),
-                                        [](const layout::StrandRest& s) { return s.bendBeta == s.coreBeta; });
   const bool bendVaries =
       !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
                               forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));
   const StrandKernelOptions options{.integrator = settings.integrator,
-                                    .oneSmoothing = oneSmoothing,
+                                    .oneSmoothing = rest.oneSmoothing,
                                     .bendVaries = bendVaries,
                                     .taps = choice.taps,
                                     .contacts = settings.contacts.on,
@@ -477,7 +475,9 @@ Result<std::vector<ListedContact>> Simulation::listedContacts() const {
   return self_->contacts->listed(self_->rest);
 }
 
-std::size_t Simulation::rigidStrandCount() const { return self_->rigidHair.strandCount(); }
+std::size_t Simulation::rigidStrandCount() const {
+  return self_->rigidHair.strandCount() - self_->rest.elsewhereCount;
+}
 const std::vector<std::string>& Simulation::warnings() const { return self_->warnings; }
 std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }
 

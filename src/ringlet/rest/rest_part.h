@@ -1,0 +1,17 @@
+// A part of a groom, for hair that several devices simulate: what is elsewhere is carried rigidly here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "ringlet/base/result.h"
+#include "ringlet/rest/rest_state.h"
+
+namespace ringlet {
+
+/// Leaves of the strands that are simulated those of `part`, groom order; the others join those that are
+/// carried rigidly. Numbers of the whole groom stay as they are. Errors: a strand that the groom does not
+/// have, or that is there twice. Cost: linear.
+Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
+
+}  // namespace ringlet
