@@ -95,6 +95,11 @@ Result<ComputeDevice> openGpu(const std::string& device);
 /// The Vulkan solver.
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu);
 
+/// The same with the groom's strands on several devices, each named as GpuChoice::device is; one may be named
+/// twice. Errors: what HairAsset::build says of hair that cannot be divided; more devices than strands.
+Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, const GpuChoice& gpu,
+                                                  std::span<const std::string> devices);
+
 /// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
 /// warns of.
 Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input);

@@ -69,8 +69,8 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   kernel.fields = input.forces && input.forces->haveFields();
   kernel.goals = input.forces && input.forces->haveGoals();
   kernel.residual = measuresResidual(input, options);
-  return makeGpuBackend(made,
-                        {options.device, options.opened, kernel, options.usesTuned, options.showProgress});
+  const GpuChoice gpu{options.device, options.opened, kernel, options.usesTuned, options.showProgress};
+  return options.devices.empty() ? makeGpuBackend(made, gpu) : makeSplitBackend(made, gpu, options.devices);
 }
 
 // The numbers that keys give the frame, where they are others than those of the time they were last taken of.

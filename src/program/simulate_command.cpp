@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 #include <utility>
 
 #include "program/command_line.h"
@@ -92,6 +93,7 @@ struct Typed {
   ContactChoice contacts;
   OutputChoice outputs;
   std::string backend = "gpu", device, kernel = "auto";
+  std::vector<std::string> devices;
   std::optional<int> checkpoint;
   bool measuresContacts = false, noChebyshev = false, untuned = false, json = false, quiet = false,
        jsonProgress = false, resume = false, overwrite = false;
@@ -184,8 +186,11 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
   checkContactOptions(typed.contacts);
   if (!scene.contacts.on && !typed.measuresContacts)
     refuseContactOptions(typed.contacts, "only with --contacts on or --measure-contacts");
-  if (typed.backend == "reference" && (!typed.device.empty() || typed.kernel != "auto")) {
-    throw CLI::ValidationError(typed.kernel != "auto" ? "--kernel" : "--device",
+  if (typed.backend == "reference" &&
+      (!typed.device.empty() || !typed.devices.empty() || typed.kernel != "auto")) {
+    throw CLI::ValidationError(typed.kernel != "auto"   ? "--kernel"
+                               : !typed.devices.empty() ? "--devices"
+                                                        : "--device",
                                "only --backend gpu has a device and kernels");
   }
   if (typed.untuned && typed.backend == "reference")
@@ -205,7 +210,8 @@ RunOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   RunOptions options = runOptionsOf(scene);
   options.measuresContacts = typed.measuresContacts;
   options.onReference = typed.backend == "reference";
-  options.device = typed.device;
+  options.device = typed.devices.empty() ? typed.device : typed.devices[0];
+  if (typed.devices.size() > 1) options.devices = typed.devices;
   using Form = KernelChoice::Form;
   options.kernel.residual = typed.json;
   options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
@@ -439,7 +445,15 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   // Where it runs.
   const char* machine = "Machine";
   addBackendOption(*command, typed->backend)->group(machine);
-  addDeviceOption(*command, typed->device)->group(machine);
+  CLI::Option* device = addDeviceOption(*command, typed->device)->group(machine);
+  command
+      ->add_option("--devices", typed->devices,
+                   "Vulkan devices among which the strands are divided, as 0,1: of hair without contacts, to "
+                   "the same bits as on one")
+      ->delimiter(',')
+      ->excludes(device)
+      ->type_name("D,D")
+      ->group(machine);
   command
       ->add_option("--kernel", typed->kernel,
                    "Form of the strand kernel: lanes, whose runs are in registers; memory, whose runs are in "

@@ -49,6 +49,7 @@ struct RunOptions {
   const LoadedGroom* origin = nullptr;  // that file, where it is looked at for these
   bool onReference = false;             // rather than on the GPU
   std::string device;
+  std::vector<std::string> devices;     // in its place: on which the strands are divided
   std::optional<ComputeDevice> opened;  // in its place: runs on one device share its compiled kernels
   KernelChoice kernel;                  // its residual: measured where the integrator has one, on the GPU
   bool usesTuned = true;                // strand shapes by what `ringlet tune` measured

@@ -1,0 +1,203 @@
+// `--devices`: the strands of a groom on several devices, behind backend.h. Strands do not meet, so that
+// nothing goes from one device to another; each has the bits that it has on one.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "program/backend.h"
+#include "ringlet/base/archive.h"
+
+namespace ringlet::program {
+namespace {
+
+// Of each device: strands dealt out by rising length, so that all have about as many of every length.
+std::vector<std::vector<std::uint32_t>> dealStrands(const Groom& groom, std::size_t deviceCount) {
+  std::vector<std::uint32_t> order(groom.strandCount());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t s) { return groom.strand(s).size(); });
+  std::vector<std::vector<std::uint32_t>> parts(deviceCount);
+  for (std::size_t k = 0; k < order.size(); ++k) parts[k % deviceCount].push_back(order[k]);
+  return parts;
+}
+
+struct Part {
+  std::unique_ptr<Backend> hair;
+  std::vector<std::uint32_t> strands;
+};
+
+// What all say, each sentence once.
+std::string joined(const std::vector<Part>& parts, std::string (Backend::*says)() const,
+                   const char* between) {
+  std::vector<std::string> all;
+  for (const Part& part : parts) all.push_back((part.hair.get()->*says)());
+  if (std::set(all.begin(), all.end()).size() == 1 && says != &Backend::device) return all[0];
+  return fmt::format("{}", fmt::join(all, between));
+}
+
+class SplitBackend : public Backend {
+ public:
+  SplitBackend(std::vector<Part> parts, const std::vector<std::uint32_t>& firstPoint)
+      : parts_(std::move(parts)), firstPoint_(firstPoint) {}
+
+  Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
+                     std::span<const BodyPose> rootPoses) override {
+    return each([&](Backend& hair) { return hair.submitFrame(stepPoses, bodyPoses, rootPoses); });
+  }
+  Status waitFrame() override {
+    return each([](Backend& hair) { return hair.waitFrame(); });
+  }
+  Status change(const Settings& settings, const Material& material) override {
+    return each([&](Backend& hair) { return hair.change(settings, material); });
+  }
+  Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) override {
+    return each([&](Backend& hair) { return hair.setFields(fields, from); });
+  }
+  Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
+                  std::span<const Vec3f> from) override {
+    return each([&](Backend& hair) { return hair.setGoals(places, strengths, dampingRatio, from); });
+  }
+  std::vector<Vec3f> framePositions() override {
+    std::vector<Vec3f> all = parts_[0].hair->framePositions();
+    for (std::size_t k = 1; k < parts_.size(); ++k) take(parts_[k], parts_[k].hair->framePositions(), all);
+    return all;
+  }
+  Result<std::vector<Vec3f>> positions() override {
+    auto all = parts_[0].hair->positions();
+    for (std::size_t k = 1; k < parts_.size() && all; ++k) {
+      auto own = parts_[k].hair->positions();
+      if (!own) return own.error();
+      take(parts_[k], *own, *all);
+    }
+    return all;
+  }
+  Result<std::vector<std::byte>> checkpoint() override {
+    Archive archive = Archive::writing();
+    for (Part& part : parts_) {
+      auto state = part.hair->checkpoint();
+      if (!state) return state.error();
+      archive.list(*state);
+    }
+    return archive.take();
+  }
+  Status restore(std::span<const std::byte> checkpoint) override {
+    Archive archive = Archive::reading(checkpoint);
+    for (Part& part : parts_) {
+      std::vector<std::byte> state;
+      archive.list(state);
+      if (archive.isShort()) break;
+      if (Status restored = part.hair->restore(state); !restored) return restored;
+    }
+    if (!archive.isWhole()) return Error{"the checkpoint is not one of hair on as many devices"};
+    return {};
+  }
+  Result<SimulationReport> report() override {
+    SimulationReport all;
+    double edges = 0;
+    for (Part& part : parts_) {
+      const auto own = part.hair->report();
+      if (!own) return own.error();
+      all.maxEdgeStretch = std::max(all.maxEdgeStretch, own->maxEdgeStretch);
+      all.velocityResidual = std::max(all.velocityResidual, own->velocityResidual);
+      all.nonfinite += own->nonfinite, all.degenerateEdges += own->degenerateEdges;
+      const double count = edgesOf(part);
+      all.limitedShare += own->limitedShare * count, edges += count;
+      const bool isFirst =
+          all.firstNonfiniteStrand < 0 || own->firstNonfiniteStrand < all.firstNonfiniteStrand;
+      if (own->firstNonfiniteStrand >= 0 && isFirst) {
+        all.firstNonfiniteStrand = own->firstNonfiniteStrand;
+        all.firstNonfiniteParticle = own->firstNonfiniteParticle;
+      }
+    }
+    all.limitedShare /= edges;
+    return all;
+  }
+  // Hair that is divided has no contacts.
+  Result<ContactReport> contactReport() override { return parts_[0].hair->contactReport(); }
+  // They work side by side.
+  std::map<std::string, double> stageMilliseconds() const override {
+    std::map<std::string, double> longest;
+    for (const Part& part : parts_)
+      for (const auto& [stage, ms] : part.hair->stageMilliseconds())
+        longest[stage] = std::max(longest[stage], ms);
+    return longest;
+  }
+  std::size_t rigidStrandCount() const override {
+    return parts_[0].hair->rigidStrandCount();  // of the whole groom
+  }
+  std::vector<std::string> warnings() const override { return parts_[0].hair->warnings(); }
+  std::vector<std::string> deviceMessages() const override {
+    std::vector<std::string> all;
+    for (const Part& part : parts_)
+      for (std::string& message : part.hair->deviceMessages())
+        if (std::ranges::find(all, message) == all.end()) all.push_back(std::move(message));
+    return all;
+  }
+  std::string device() const override { return joined(parts_, &Backend::device, " + "); }
+  std::string driver() const override { return joined(parts_, &Backend::driver, " + "); }
+  std::string kernel() const override { return joined(parts_, &Backend::kernel, " + "); }
+  bool isTuned() const override {
+    return std::ranges::any_of(parts_, [](const Part& part) { return part.hair->isTuned(); });
+  }
+  double compileMilliseconds() const override {
+    double sum = 0;
+    for (const Part& part : parts_) sum += part.hair->compileMilliseconds();
+    return sum;
+  }
+  std::optional<std::uint64_t> deviceBytes() const override {
+    std::uint64_t sum = 0;
+    for (const Part& part : parts_) sum += part.hair->deviceBytes().value_or(0);
+    return sum;
+  }
+
+ private:
+  template <class Do>
+  Status each(const Do& act) {
+    for (Part& part : parts_) {
+      if (Status done = act(*part.hair); !done) return done;
+    }
+    return {};
+  }
+
+  // The part's own strands of `from`; the others are carried rigidly there.
+  void take(const Part& part, const std::vector<Vec3f>& from, std::vector<Vec3f>& to) const {
+    for (const std::uint32_t s : part.strands)
+      std::copy(from.begin() + firstPoint_[s], from.begin() + firstPoint_[s + 1],
+                to.begin() + firstPoint_[s]);
+  }
+  double edgesOf(const Part& part) const {
+    double edges = 0;
+    for (const std::uint32_t s : part.strands) edges += firstPoint_[s + 1] - firstPoint_[s] - 1;
+    return edges;
+  }
+
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> firstPoint_;  // of the groom
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, const GpuChoice& gpu,
+                                                  std::span<const std::string> devices) {
+  if (input.groom.strandCount() < devices.size())
+    return Error{fmt::format("{} devices are more than the groom's {} strands", devices.size(),
+                             input.groom.strandCount())};
+  const auto strands = dealStrands(input.groom, devices.size());
+  std::vector<Part> parts;
+  for (std::size_t k = 0; k < devices.size(); ++k) {
+    GpuChoice own = gpu;
+    own.device = devices[k];
+    own.opened.reset();
+    own.kernel.part = strands[k];
+    auto made = makeGpuBackend(input, own);
+    if (!made) return made.error();
+    parts.push_back({std::move(*made), strands[k]});
+  }
+  return std::unique_ptr<Backend>(std::make_unique<SplitBackend>(std::move(parts), input.groom.firstPoint));
+}
+
+}  // namespace ringlet::program
