@@ -43,4 +43,10 @@ void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> b
   });
 }
 
+std::vector<std::uint32_t> FullHair::strandOf() const {
+  std::vector<std::uint32_t> strands;
+  for (const FollowHair& hair : plan_.hairs()) strands.push_back(hair.guide);
+  return strands;
+}
+
 }  // namespace ringlet::program

@@ -25,6 +25,8 @@ class FullHair {
 
   /// The hairs, in the pose that was followed last, in the strands' unit.
   const Groom& groom() const { return groom_; }
+  /// Of each hair, the strand that it follows.
+  std::vector<std::uint32_t> strandOf() const;
 
  private:
   FullHair(FollowPlan plan, std::span<const Body> bodies)

@@ -141,8 +141,13 @@ Status Rendering::prepare(PictureFiles& files) {
   outcome_.width = hair_->width();
   Look look = plan_.look;
   if (plan_.colours) look.pigments = StrandColours::pigmentsOf(*plan_.colours->scale);
-  auto renderer = HairRenderer::create(device_.gpu(), {hair_->points(), hair_->firstPoint(), hair_->width()},
-                                       solids_.meshes(), plan_.size, look);
+  std::vector<float> widths;
+  if (plan_.scene && plan_.scene->widthFactors.size() == hair_->strandCount()) {
+    for (const std::uint32_t strand : hair_->strandOf()) widths.push_back(plan_.scene->widthFactors[strand]);
+  }
+  auto renderer =
+      HairRenderer::create(device_.gpu(), {hair_->points(), hair_->firstPoint(), hair_->width(), widths},
+                           solids_.meshes(), plan_.size, look);
   if (!renderer) return renderer.error();
   renderer_.emplace(std::move(*renderer));
   if (plan_.colours) {

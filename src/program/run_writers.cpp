@@ -64,6 +64,12 @@ UsdExtras Writers::usdExtras() const {
                    .origin = options_.origin,
                    .originValues = has("groom"),
                    .originPrims = options_.usesGroomPrims};
+  extras.widthFactors.assign(input_.widthFactors.begin(), input_.widthFactors.end());
+  if (hairs_ && !extras.widthFactors.empty()) {
+    extras.widthFactors.clear();
+    for (const std::uint32_t strand : hairs_->strandOf())
+      extras.widthFactors.push_back(input_.widthFactors[strand]);
+  }
   if (options_.tipWidth)
     extras.tipDiameter = static_cast<float>(*options_.tipWidth / input_.groom.metresPerUnit);
   return extras;

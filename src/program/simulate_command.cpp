@@ -13,8 +13,8 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 #include <utility>
+#include <vector>
 
 #include "program/command_line.h"
 #include "program/contact_options.h"

@@ -110,9 +110,10 @@ struct RunInput {
   std::span<const Vec3d>
       rootShifts{};  // of each strand's root beside the head (HeadPose::shift) [m], or none
   std::span<const Body> bodies{};
-  const HeadScalp* scalp = nullptr;     // that roots follow; none: the head carries them
-  const SceneForces* forces = nullptr;  // fields and holds; none: there are none
-  const SceneKeys* keys = nullptr;      // of settings and material, which are then those of the start
+  const HeadScalp* scalp = nullptr;       // that roots follow; none: the head carries them
+  const SceneForces* forces = nullptr;    // fields and holds; none: there are none
+  const SceneKeys* keys = nullptr;        // of settings and material, which are then those of the start
+  std::span<const float> widthFactors{};  // of each strand, in USD files; none: all are as wide
 };
 
 /// Sees every frame, in order, on a thread of its own, the last before runHair returns: points in the groom's

@@ -157,6 +157,30 @@ TEST(UsdValues, IdsRestPositionsAndATaper) {
   }
 }
 
+TEST(UsdValues, EachStrandIsAsWideAsItsFactorSays) {
+  Groom groom;
+  groom.addStrand(std::vector<Vec3f>{{0, 0, 0}, {0, -1, 0.1f}, {0.3f, -2, 0}});
+  groom.addStrand(std::vector<Vec3f>{{1, 0, 0}, {1, -1.5f, 0}});
+  for (const char* ending : {".usda", ".usdc"}) {
+    SCOPED_TRACE(ending);
+    const fs::path path = write(ending, groom, {.widthFactors = {2, 0.5f}});
+    const auto expectWidths = [](const GroomPrim& prim, const char* interpolation,
+                                 std::vector<double> expected) {
+      const GroomValue& widths = valueOf(prim, "widths");
+      EXPECT_EQ(widths.interpolation, interpolation);
+      ASSERT_EQ(widths.numbers.size(), expected.size());
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        EXPECT_NEAR(widths.numbers[i], expected[i], 1e-9) << i;
+    };
+    expectWidths(primOf(path), "uniform", {0.08, 0.02});
+    const auto reader = AnimationReader::open(path);
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_FLOAT_EQ(reader->header().diameter, 0.08f);
+    expectWidths(primOf(write(ending, groom, {.tipDiameter = 0.02f, .widthFactors = {2, 0.5f}})), "vertex",
+                 {0.08, 0.06, 0.04, 0.02, 0.01});
+  }
+}
+
 // Of several prims one: what is of a prim becomes a value of each strand, in the groom's order; widths grow
 // with their prim.
 TEST(UsdValues, WhatTheGroomSaysIsCarriedOver) {

@@ -1,6 +1,7 @@
 // `ringlet render`: pictures of everything that it takes, what it says of them, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,37 @@ TEST_F(Render, EveryFormatGivesTheSamePicture) {
     render({source, "-o", "other.png", "--frames", "3:3"});
     EXPECT_EQ(picture("other.png"), image) << source;
   }
+}
+
+// A map of a scene; hairs are as wide as the strand that they follow.
+TEST_F(Render, StrandsAreAsWideAsAMapSays) {
+  const auto drawn = [&](const char* strands, const char* factor, const char* hairs) {
+    std::ofstream(folder_ / "widths.toml") << "[groom]\nfile = \"head.obj\"\n[[map]]\nnumber = "
+                                              "\"output.width\"\nstrands = \""
+                                           << strands << "\"\nfactor = " << factor << "\n";
+    render({"out", "-o", "widths.png", "--frames", "3:3", "--scene", "widths.toml", "--hairs", hairs});
+    return picture("widths.png");
+  };
+  for (const char* hairs : {"0", "2000"}) {
+    const Image plain = drawn("0:119", "1", hairs), some = drawn("0:39", "8", hairs),
+                all = drawn("0:119", "8", hairs);
+    EXPECT_GT(differing(some, plain), 30) << hairs;
+    EXPECT_GT(differing(all, plain), differing(some, plain) + 30) << hairs;
+  }
+  ASSERT_EQ(run({"simulate", "widths.toml", "--motion", "nod", "--frames", "2", "--no-sheet", "-o", "wide"})
+                .exitCode,
+            0);
+  const std::string text = test::readText(folder_ / "wide/hair.usda");
+  EXPECT_NE(text.find("interpolation = \"uniform\""), std::string::npos);
+  ASSERT_EQ(run({"simulate", "widths.toml", "--motion", "nod", "--frames", "2", "--no-sheet", "--hairs",
+                 "500", "-o", "full"})
+                .exitCode,
+            0);
+  const std::string full = test::readText(folder_ / "full/hair.usda");
+  const std::size_t widths = full.find("float[] widths = ["), end = full.find(']', widths + 18);
+  EXPECT_EQ(std::count(full.begin() + static_cast<std::ptrdiff_t>(widths),
+                       full.begin() + static_cast<std::ptrdiff_t>(end), ','),
+            499);
 }
 
 TEST_F(Render, AGroomIsOnePicture) {

@@ -158,6 +158,16 @@ TEST(SceneMaps, FactorsOnTheRadiusInContacts) {
             "a map of contacts.radius names strand 6; the groom has 6, numbered from 0");
 }
 
+TEST(SceneMaps, FactorsOnTheWidth) {
+  const auto scene = parsed("[[map]]\nnumber = \"output.width\"\nstrands = \"1, 4:5\"\nfactor = 3\n");
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_FALSE(scene->hasMaterial);
+  const auto loaded = loadScene(*scene);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->widthFactors, (std::vector<float>{1, 3, 1, 1, 3, 3}));
+  EXPECT_TRUE(loadScene(*parsed(""))->widthFactors.empty());
+}
+
 TEST(SceneMaps, MistakesAreNamedWithLineAndRemedy) {
   const auto folder = test::scratchFolder("scene_maps_wrong");
   std::ofstream(folder / "wrong.csv") << "1;2\n";

@@ -51,6 +51,7 @@ enum class UsdHead {
 /// What a USD file may say beside points, widths and extents.
 struct UsdExtras {
   std::optional<float> tipDiameter{};  // strands are evenly thinner from root to tip [file unit]
+  std::vector<float> widthFactors{};   // of each strand, on both diameters; empty: all 1
   bool ids = false;                    // int[] primvars:id, a number a strand, from 0
   bool rest = false;                   // point3f[] primvars:rest, the topology's own points
   bool velocities = false;             // vector3f[] [file unit/s], in crates only: see usdc_writer.h

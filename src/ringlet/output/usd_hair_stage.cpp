@@ -24,20 +24,28 @@ Range rangeOf(const Groom& topology, const HairCurves& curves) {
   return {curves.firstStrand, end, topology.firstPoint[curves.firstStrand], topology.firstPoint[end]};
 }
 
-// Evenly from root to tip; without a tip's diameter one number for all.
+// Evenly from root to tip; without a tip's diameter one number a strand, or for all where none differs.
 UsdStageAttribute widthsOf(const Groom& topology, const HairCurves& curves, const AnimationOptions& options) {
   UsdStageAttribute widths{.name = "widths", .type = "float[]", .interpolation = "constant"};
-  if (!options.usd.tipDiameter) {
-    widths.numbers = {static_cast<float>(options.diameter / curves.unit)};
+  const std::vector<float>& factors = options.usd.widthFactors;
+  const double root = options.diameter / curves.unit;
+  if (!options.usd.tipDiameter && factors.empty()) {
+    widths.numbers = {static_cast<float>(root)};
     return widths;
   }
-  widths.interpolation = "vertex";
-  const double root = options.diameter / curves.unit, tip = *options.usd.tipDiameter / curves.unit;
+  widths.interpolation = options.usd.tipDiameter ? "vertex" : "uniform";
   const Range range = rangeOf(topology, curves);
   for (std::uint32_t s = range.firstStrand; s < range.endStrand; ++s) {
+    const double factor = factors.empty() ? 1 : factors[s];
+    if (!options.usd.tipDiameter) {
+      widths.numbers.push_back(static_cast<float>(factor * root));
+      continue;
+    }
+    const double tip = *options.usd.tipDiameter / curves.unit;
     const std::uint32_t count = topology.firstPoint[s + 1] - topology.firstPoint[s];
     for (std::uint32_t i = 0; i < count; ++i)
-      widths.numbers.push_back(static_cast<float>(root + (tip - root) * i / std::max(count - 1, 1u)));
+      widths.numbers.push_back(
+          static_cast<float>(factor * (root + (tip - root) * i / std::max(count - 1, 1u))));
   }
   return widths;
 }

@@ -139,7 +139,8 @@ Status UsdReader::readHeader() {
   for (std::string_view token : {"]", "(", "interpolation", "=", "\""}) {
     if (Status found = expect(token); !found) return found;
   }
-  if (!accept("constant\"") && !accept("vertex\"")) return wanted("'constant' or 'vertex'");
+  if (!accept("constant\"") && !accept("uniform\"") && !accept("vertex\""))
+    return wanted("'constant', 'uniform' or 'vertex'");
   for (std::string_view token : {")", "uniform", "token", "wrap", "=", "\"nonperiodic\""}) {
     if (Status found = expect(token); !found) return found;
   }

@@ -125,7 +125,8 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
   for (std::uint32_t h = 0; h < hairCount_; ++h)
     drawn.push_back({.firstPoint = hairs.firstPoint[h],
                      .pointCount = hairs.firstPoint[h + 1] - hairs.firstPoint[h],
-                     .radius = static_cast<float>(hairs.width / 2),
+                     .radius = static_cast<float>(hairs.width / 2 *
+                                                  (hairs.widthFactors.empty() ? 1 : hairs.widthFactors[h])),
                      .pigment = pigmentOf(h)});
   std::vector<layout::SolidTriangle> triangles;
   std::uint32_t first = 0;

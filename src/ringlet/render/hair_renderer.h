@@ -45,6 +45,7 @@ struct DrawnHairs {
   const gpu::Buffer& points;                  // as FollowStage::points: uvec4[]
   std::span<const std::uint32_t> firstPoint;  // of each hair, and one more
   double width = 0.0002;                      // diameter at the root [m], above 0
+  std::span<const float> widthFactors{};      // of each hair, on it; none: all 1
 };
 
 /// Where a body is: world from body.

@@ -314,6 +314,9 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
     return added.error();
   if (Status added = addRadii(scene, loaded.groom.strandCount(), loaded.settings.contacts); !added)
     return added.error();
+  auto widths = factorsOf(kWidthMap, scene, loaded.groom.strandCount());
+  if (!widths) return widths.error();
+  loaded.widthFactors = std::move(*widths);
   auto material = loadMaterialOf(scene, loaded.settings.integrator, loaded.warnings);
   if (!material) return material.error();
   for (const StrandFactors& factors : material->factors) {

@@ -46,8 +46,9 @@ struct LoadedScene {
   Motion motion;
   std::vector<Vec3d> rootShifts{};  // as InitialState takes them
   std::vector<Body> bodies{};
-  std::optional<HeadScalp> scalp{};  // that roots follow; none: the head carries them
-  SceneForces forces{};              // fields and holds
+  std::optional<HeadScalp> scalp{};   // that roots follow; none: the head carries them
+  SceneForces forces{};               // fields and holds
+  std::vector<float> widthFactors{};  // of each strand, on the width in pictures and USD files; empty: all 1
   double preRollSeconds = 0;
   int frameCount = 48;                  // where the file does not say: the length of keys, or this
   std::optional<SceneKeys> keys{};      // of numbers that change; settings and material are then the start's

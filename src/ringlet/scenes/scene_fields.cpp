@@ -445,14 +445,14 @@ std::span<const SceneField<SceneMap>> mapFields() {
   static const std::string numbers = [] {
     std::string list;
     for (const auto& parameter : mappedParameters()) list += std::string(parameter.key) + ", ";
-    return list + kGoalStrengthMap + ", " + kContactRadiusMap;
+    return list + kGoalStrengthMap + ", " + kContactRadiusMap + ", " + kWidthMap;
   }();
   static const SceneField<M> all[] = {
       {"number",
        "",
        "none",
-       "Number of the material that differs from strand to strand; or the strength of [goal], or the radius "
-       "in contacts.",
+       "Number of the material that differs from strand to strand; or the strength of [goal], the radius in "
+       "contacts, the width in pictures and USD files.",
        &M::number,
        {},
        numbers},

@@ -28,20 +28,22 @@ Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor
 /// is there twice.
 Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text);
 
-/// In place of a number of the material: the strength of the goal, and the radius in contacts.
+/// In place of a number of the material: the strength of the goal, the radius in contacts, and the width of
+/// what is drawn and written.
 inline constexpr const char* kGoalStrengthMap = "goal.strength";
 inline constexpr const char* kContactRadiusMap = "contacts.radius";
+inline constexpr const char* kWidthMap = "output.width";
 
 /// Whether a map is of a number of the material, or of a preset.
 inline bool isOfMaterial(const SceneMap& map) {
-  return map.number != kGoalStrengthMap && map.number != kContactRadiusMap;
+  return map.number != kGoalStrengthMap && map.number != kContactRadiusMap && map.number != kWidthMap;
 }
 
 /// Whether the strands and factors of a map can be read. Errors: those of applyMaps.
 Status checkStrands(const SceneMap& map, const SceneFile& scene);
 
-/// Factors of one of the two by strand, groom order; empty: no map is of it. Errors: those of applyMaps, and
-/// a strand that the groom does not have.
+/// Factors of one of the three by strand, groom order; empty: no map is of it. Errors: those of applyMaps,
+/// and a strand that the groom does not have.
 Result<std::vector<float>> factorsOf(std::string_view number, const SceneFile& scene,
                                      std::size_t strandCount);
 
