@@ -15,6 +15,7 @@
 #include "program/exit_codes.h"
 #include "program/setting_options.h"
 #include "ringlet/bodies/mesh_file.h"
+#include "ringlet/bodies/mesh_scalp.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
@@ -44,7 +45,9 @@ Result<Groom> makeTypedHead(Typed& typed) {
   if (!typed.scalp.empty()) {
     auto mesh = readObjMesh(typed.scalp, typed.curl.metresPerUnit);
     if (!mesh) return mesh.error();
-    typed.head.scalp = std::make_shared<const TriangleMesh>(std::move(*mesh));
+    auto scalp = makeMeshScalp(*mesh);
+    if (!scalp) return Error{fmt::format("{}: {}", typed.scalp.string(), scalp.error().message)};
+    typed.head.scalp = std::move(*scalp);
   }
   return makeHead(typed.head);
 }

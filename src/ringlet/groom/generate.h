@@ -11,9 +11,9 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/bodies/triangle_mesh.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/groom/hair_cut.h"
+#include "ringlet/groom/scalp.h"
 
 namespace ringlet {
 
@@ -63,9 +63,9 @@ struct HeadParameters {
       0.025;  // how far along a strand it turns from the scalp's normal to hanging [m], in (0, 10]
   double rampShare = 0.2;  // share of its length over which the curl's radius grows from 0, in (0, 1]
   HairCut cut{};
-  /// In place of the sphere: a head or the scalp of one, points in metres; hair grows where it is above the
-  /// hairline, as seen from the origin. scalpRadius is then a length among others, for what rises with it.
-  std::shared_ptr<const TriangleMesh> scalp{};
+  /// In place of the sphere (bodies/mesh_scalp.h): hair grows where it is above the hairline, as seen from
+  /// the origin. scalpRadius is then a length among others, for what rises with it.
+  std::shared_ptr<const Scalp> scalp{};
 };
 
 /// A sentence for the user where a curl is cut too coarsely to hold its shape.
@@ -82,8 +82,8 @@ Result<Groom> makeSwatch(const SwatchParameters& parameters = {});
 /// behind the head, combed away from the face, and stays outside the sphere. With locks a strand belongs to
 /// the nearest of `lockCount` places, evenly spread too: strands of a lock wind the same way, and differ from
 /// each other by a tenth of what locks differ by. `cut` shortens, combs and clumps them. Errors as for
-/// makeSwatch; a scalp that is no body or not about the origin. Cost: with strands times locks; of a mesh
-/// that of its distance grid besides, and some microseconds for each particle's half millimetres.
+/// makeSwatch; a scalp that is not about the origin. Cost: with strands times locks; with half a millimetre
+/// of a strand what the scalp takes for a height.
 Result<Groom> makeHead(const HeadParameters& parameters = {});
 
 }  // namespace ringlet

@@ -283,23 +283,23 @@ void addStrand(Groom& groom, const CurlParameters& curl, const std::vector<CoreP
 
 Result<Groom> makeHead(const HeadParameters& parameters) {
   if (Status status = checkParameters(parameters); !status) return status.error();
-  auto scalp = parameters.scalp ? Scalp::of(*parameters.scalp) : Scalp(parameters.scalpRadius);
-  if (!scalp) return scalp.error();
-  const std::vector<ScalpRoot> roots = spreadRoots(parameters, *scalp, parameters.strandCount);
+  const SphereScalp sphere(parameters.scalpRadius);
+  const Scalp& scalp = parameters.scalp ? *parameters.scalp : sphere;
+  const std::vector<ScalpRoot> roots = spreadRoots(parameters, scalp, parameters.strandCount);
   if (std::ssize(roots) < parameters.strandCount)
     return Error{
         "no hair grows there: expected a scalp about the origin, Y up and looking along +Z, that reaches "
         "above "
         "the hairline"};
-  const VariedCurls curls(parameters, *scalp);
+  const VariedCurls curls(parameters, scalp);
   Groom groom;
   groom.metresPerUnit = parameters.curl.metresPerUnit;
   for (const ScalpRoot& root : roots) {
-    const CurlParameters curl = cutCurl(root, curls.curlAt(root, groom.strandCount()), parameters, *scalp);
-    std::vector<CorePoint> core = coreOf(root, curl, parameters, *scalp);
+    const CurlParameters curl = cutCurl(root, curls.curlAt(root, groom.strandCount()), parameters, scalp);
+    std::vector<CorePoint> core = coreOf(root, curl, parameters, scalp);
     const ScalpRoot& middle = curls.middleOfLock(root);
     if (parameters.cut.clump > 0 && areCombedAlike(middle.direction, root.direction, parameters))
-      clump(core, coreOf(middle, curl, parameters, *scalp), parameters.cut.clump, *scalp);
+      clump(core, coreOf(middle, curl, parameters, scalp), parameters.cut.clump, scalp);
     addStrand(groom, curl, core, parameters);
   }
   return groom;

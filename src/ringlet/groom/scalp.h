@@ -1,12 +1,10 @@
-// Scalp: what hair of a generated head grows on and stays outside of; a sphere about the origin, or a mesh.
+// Scalp: what hair of a generated head grows on and stays outside of. A sphere about the origin, or a mesh
+// (bodies/mesh_scalp.h).
 #pragma once
 
-#include <memory>
 #include <optional>
 
-#include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/bodies/triangle_mesh.h"
 
 namespace ringlet {
 
@@ -25,22 +23,32 @@ struct ScalpHeight {
 
 class Scalp {
  public:
-  explicit Scalp(double sphereRadius) : radius_(sphereRadius) {}
-  /// Heights are those of a distance grid (bodies/mesh_grid.h): exact to a small share of a 48th of the
-  /// mesh, up to a third of it away. Errors: those of makeDistanceGrid.
-  static Result<Scalp> of(const TriangleMesh& mesh);
+  virtual ~Scalp() = default;
 
-  /// On the outermost surface along a direction of length 1; none where there is no triangle. The root's own
-  /// direction may differ by less than a cell.
-  std::optional<ScalpRoot> rootAlong(Vec3d direction) const;
-  ScalpHeight heightOf(Vec3d place) const;
+  /// On the outermost surface along a direction of length 1; none where there is none. The root's own
+  /// direction may differ a little.
+  virtual std::optional<ScalpRoot> rootAlong(Vec3d direction) const = 0;
+  virtual ScalpHeight heightOf(Vec3d place) const = 0;
   /// The place that is `height` outside, nearby.
-  Vec3d raisedTo(Vec3d place, double height) const;
+  virtual Vec3d raisedTo(Vec3d place, double height) const = 0;
+};
+
+class SphereScalp final : public Scalp {
+ public:
+  explicit SphereScalp(double radius) : radius_(radius) {}  // [m]
+
+  std::optional<ScalpRoot> rootAlong(Vec3d direction) const override {
+    return ScalpRoot{direction, direction * radius_, direction};
+  }
+  ScalpHeight heightOf(Vec3d place) const override {
+    return {length(place) - radius_, normalizedOr(place, Vec3d{0, 1, 0})};
+  }
+  Vec3d raisedTo(Vec3d place, double height) const override {
+    return normalizedOr(place, Vec3d{0, 1, 0}) * (radius_ + height);
+  }
 
  private:
-  struct Mesh;
-  double radius_ = 0;                 // of the sphere
-  std::shared_ptr<const Mesh> mesh_;  // in its place
+  double radius_;
 };
 
 }  // namespace ringlet

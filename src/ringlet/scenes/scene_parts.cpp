@@ -10,6 +10,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/bodies/mesh_file.h"
+#include "ringlet/bodies/mesh_scalp.h"
 #include "ringlet/groom/hair_styles.h"
 
 namespace ringlet {
@@ -87,7 +88,9 @@ Result<Groom> generatedGroom(const SceneGroom& groom) {
   if (!groom.scalp.empty()) {
     auto mesh = readObjMesh(groom.scalp, curl.metresPerUnit);
     if (!mesh) return mesh.error();
-    head.scalp = std::make_shared<const TriangleMesh>(std::move(*mesh));
+    auto scalp = makeMeshScalp(*mesh);
+    if (!scalp) return Error{fmt::format("{}: {}", groom.scalp.string(), scalp.error().message)};
+    head.scalp = std::move(*scalp);
   }
   return makeHead(head);
 }

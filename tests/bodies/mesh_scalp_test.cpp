@@ -1,5 +1,5 @@
-// groom/scalp.h, and heads of hair on meshes.
-#include "ringlet/groom/scalp.h"
+// bodies/mesh_scalp.h, and heads of hair on meshes.
+#include "ringlet/bodies/mesh_scalp.h"
 
 #include <gtest/gtest.h>
 
@@ -51,34 +51,35 @@ std::vector<double> nearest(const std::vector<Vec3d>& roots) {
   return all;
 }
 
-TEST(Scalp, OfAMeshIsNearlyTheSphereItIs) {
+TEST(MeshScalp, OfAMeshIsNearlyTheSphereItIs) {
   TriangleMesh mesh = makeIcosphere(24);
   for (Vec3d& p : mesh.points) p = p * 0.09;
-  const auto scalp = Scalp::of(mesh);
-  ASSERT_TRUE(scalp) << scalp.error().message;
-  const Scalp sphere(0.09);
+  const auto made = makeMeshScalp(mesh);
+  ASSERT_TRUE(made) << made.error().message;
+  const Scalp& scalp = **made;
+  const SphereScalp sphere(0.09);
   for (int i = 0; i < 200; ++i) {
     const double y = 0.999 - 0.009 * i, a = 2.4 * i, r = std::sqrt(1 - y * y);
     const Vec3d direction{r * std::cos(a), y, r * std::sin(a)};
-    const auto root = scalp->rootAlong(direction), exact = sphere.rootAlong(direction);
+    const auto root = scalp.rootAlong(direction), exact = sphere.rootAlong(direction);
     ASSERT_TRUE(root && exact);
     EXPECT_LT(length(root->position - exact->position), 1e-4) << i;
     EXPECT_GT(dot(root->normal, exact->normal), 0.999) << i;
     const Vec3d place = direction * (i % 2 == 0 ? 0.1 : 0.13);
-    EXPECT_NEAR(scalp->heightOf(place).height, sphere.heightOf(place).height, 1e-4) << i;
+    EXPECT_NEAR(scalp.heightOf(place).height, sphere.heightOf(place).height, 1e-4) << i;
     EXPECT_NEAR(sphere.heightOf(sphere.raisedTo(place, 0.003)).height, 0.003, 1e-12);
-    EXPECT_NEAR(sphere.heightOf(scalp->raisedTo(place, 0.003)).height, 0.003, 1e-4) << i;
+    EXPECT_NEAR(sphere.heightOf(scalp.raisedTo(place, 0.003)).height, 0.003, 1e-4) << i;
   }
 }
 
-TEST(Scalp, HairOfEveryStyleGrowsEvenlyOnAMeshAndStaysOutside) {
-  const auto mesh = std::make_shared<const TriangleMesh>(ellipsoid());
+TEST(MeshScalp, HairOfEveryStyleGrowsEvenlyOnAMeshAndStaysOutside) {
+  const auto scalp = *makeMeshScalp(ellipsoid());
   for (const std::string& name : test::styleNames()) {
     HeadParameters head = *headOfStyle(name);
     head.strandCount = 400;
     head.curl.particleCount = 48;
     head.curl.metresPerUnit = 1;
-    head.scalp = mesh;
+    head.scalp = scalp;
     const auto groom = makeHead(head);
     ASSERT_TRUE(groom) << name << ": " << groom.error().message;
     ASSERT_EQ(groom->strandCount(), 400u) << name;
@@ -97,20 +98,20 @@ TEST(Scalp, HairOfEveryStyleGrowsEvenlyOnAMeshAndStaysOutside) {
 }
 
 // As wide curls as half a head, bent down at once.
-TEST(Scalp, WideCurlsThatBendAtOnceStayOutside) {
+TEST(MeshScalp, WideCurlsThatBendAtOnceStayOutside) {
   HeadParameters head{.strandCount = 60, .browElevation = 1.2, .napeElevation = -1.2, .bendLength = 1e-4};
   head.curl = {.radius = 0.03, .turns = 12, .particleCount = 200, .metresPerUnit = 1};
   head.rampShare = 0.05;
-  head.scalp = std::make_shared<const TriangleMesh>(ellipsoid());
+  head.scalp = *makeMeshScalp(ellipsoid());
   const auto groom = makeHead(head);
   ASSERT_TRUE(groom) << groom.error().message;
   for (const Vec3f& p : groom->points) EXPECT_GT(scaledLength(Vec3d(p)), 0.99);
 }
 
-TEST(Scalp, OfAnOpenMeshHairGrowsOnWhatThereIs) {
+TEST(MeshScalp, OfAnOpenMeshHairGrowsOnWhatThereIs) {
   HeadParameters head{.strandCount = 300};
   head.curl.metresPerUnit = 1;
-  head.scalp = std::make_shared<const TriangleMesh>(ellipsoid(0.03));
+  head.scalp = *makeMeshScalp(ellipsoid(0.03));
   const auto groom = makeHead(head);
   ASSERT_TRUE(groom) << groom.error().message;
   double lowest = 1;
@@ -122,17 +123,16 @@ TEST(Scalp, OfAnOpenMeshHairGrowsOnWhatThereIs) {
   EXPECT_LT(lowest, 0.04);
 }
 
-TEST(Scalp, OneThatIsElsewhereIsRefused) {
+TEST(MeshScalp, OneThatIsElsewhereIsRefused) {
   HeadParameters head{.strandCount = 10};
   TriangleMesh mesh = ellipsoid();
   for (Vec3d& p : mesh.points) p.y -= 0.5;
-  head.scalp = std::make_shared<const TriangleMesh>(mesh);
+  head.scalp = *makeMeshScalp(mesh);
   auto groom = makeHead(head);
   ASSERT_FALSE(groom);
   EXPECT_TRUE(test::contains(groom.error().message, "expected a scalp about the origin"))
       << groom.error().message;
-  head.scalp = std::make_shared<const TriangleMesh>();
-  EXPECT_FALSE(makeHead(head));
+  EXPECT_FALSE(makeMeshScalp({}));
 }
 
 }  // namespace
