@@ -56,7 +56,7 @@ TEST(MeshScalp, OfAMeshIsNearlyTheSphereItIs) {
   for (Vec3d& p : mesh.points) p = p * 0.09;
   const auto made = makeMeshScalp(mesh);
   ASSERT_TRUE(made) << made.error().message;
-  const Scalp& scalp = **made;
+  const ScalpSurface& scalp = **made;
   const SphereScalp sphere(0.09);
   for (int i = 0; i < 200; ++i) {
     const double y = 0.999 - 0.009 * i, a = 2.4 * i, r = std::sqrt(1 - y * y);

@@ -18,7 +18,7 @@ namespace {
 // further than hair is lifted.
 constexpr MeshGridSettings kGrid{.cells = 48, .padding = 16};
 
-class MeshScalp final : public Scalp {
+class MeshScalp final : public ScalpSurface {
  public:
   MeshScalp(const TriangleMesh& mesh, DistanceGrid grid) : mesh_(mesh), tree_(mesh), grid_(std::move(grid)) {
     for (const auto& triangle : mesh.triangles)
@@ -67,10 +67,10 @@ class MeshScalp final : public Scalp {
 
 }  // namespace
 
-Result<std::shared_ptr<const Scalp>> makeMeshScalp(const TriangleMesh& mesh) {
+Result<std::shared_ptr<const ScalpSurface>> makeMeshScalp(const TriangleMesh& mesh) {
   auto grid = makeDistanceGrid(mesh, kGrid);
   if (!grid) return grid.error();
-  return std::shared_ptr<const Scalp>(std::make_shared<MeshScalp>(mesh, std::move(grid->grid)));
+  return std::shared_ptr<const ScalpSurface>(std::make_shared<MeshScalp>(mesh, std::move(grid->grid)));
 }
 
 }  // namespace ringlet

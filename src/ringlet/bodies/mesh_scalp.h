@@ -5,13 +5,13 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/bodies/triangle_mesh.h"
-#include "ringlet/groom/scalp.h"
+#include "ringlet/groom/scalp_surface.h"
 
 namespace ringlet {
 
 /// The mesh, in metres, about the origin. Roots are on its triangles; heights are those of a distance grid
 /// (mesh_grid.h), exact to a small share of a 48th of the mesh, up to a third of it away. Errors: those of
 /// makeDistanceGrid.
-Result<std::shared_ptr<const Scalp>> makeMeshScalp(const TriangleMesh& mesh);
+Result<std::shared_ptr<const ScalpSurface>> makeMeshScalp(const TriangleMesh& mesh);
 
 }  // namespace ringlet

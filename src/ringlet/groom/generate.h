@@ -13,7 +13,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/groom/hair_cut.h"
-#include "ringlet/groom/scalp.h"
+#include "ringlet/groom/scalp_surface.h"
 
 namespace ringlet {
 
@@ -65,7 +65,7 @@ struct HeadParameters {
   HairCut cut{};
   /// In place of the sphere (bodies/mesh_scalp.h): hair grows where it is above the hairline, as seen from
   /// the origin. scalpRadius is then a length among others, for what rises with it.
-  std::shared_ptr<const Scalp> scalp{};
+  std::shared_ptr<const ScalpSurface> scalp{};
 };
 
 /// A sentence for the user where a curl is cut too coarsely to hold its shape.

@@ -16,7 +16,7 @@
 #include "ringlet/groom/generate_check.h"
 #include "ringlet/groom/head_regions.h"
 #include "ringlet/groom/sample_elimination.h"
-#include "ringlet/groom/scalp.h"
+#include "ringlet/groom/scalp_surface.h"
 #include "ringlet/groom/vary_curl.h"
 
 namespace ringlet {
@@ -72,7 +72,7 @@ struct Candidates {
   std::vector<ScalpRoot> roots;
   double area = 0;  // of the scalp they are on [m^2]
 };
-Candidates spreadCandidates(const HeadParameters& parameters, const Scalp& scalp, int count) {
+Candidates spreadCandidates(const HeadParameters& parameters, const ScalpSurface& scalp, int count) {
   const double lowest = std::sin((parameters.browElevation + parameters.napeElevation) / 2);
   Candidates candidates;
   for (int onCap = count; std::ssize(candidates.roots) < count && onCap < 100 * (count + 100);
@@ -92,7 +92,7 @@ Candidates spreadCandidates(const HeadParameters& parameters, const Scalp& scalp
 
 // Evenly spread above the hairline. On a sphere what is too much is left out at the end of the spiral, low at
 // the nape.
-std::vector<ScalpRoot> spreadRoots(const HeadParameters& parameters, const Scalp& scalp, int count) {
+std::vector<ScalpRoot> spreadRoots(const HeadParameters& parameters, const ScalpSurface& scalp, int count) {
   if (!parameters.scalp) {
     std::vector<ScalpRoot> roots = spreadCandidates(parameters, scalp, count).roots;
     if (std::ssize(roots) > count) roots.resize(static_cast<std::size_t>(count));
@@ -110,7 +110,7 @@ std::vector<ScalpRoot> spreadRoots(const HeadParameters& parameters, const Scalp
 // The curl of each strand, varied by its lock and within it; without locks each for itself.
 class VariedCurls {
  public:
-  VariedCurls(const HeadParameters& parameters, const Scalp& scalp)
+  VariedCurls(const HeadParameters& parameters, const ScalpSurface& scalp)
       : parameters_(parameters),
         locks_(spreadRoots(parameters, scalp, parameters.lockCount)),
         within_(parameters.variation) {
@@ -180,7 +180,7 @@ struct CorePoint {
 
 // One step along the core: it turns towards where hair falls, and slides over the scalp.
 void advance(CorePoint& core, double step, double bendLength, double leastHeight, const Comb& comb,
-             const Scalp& scalp) {
+             const ScalpSurface& scalp) {
   const Vec3d outward = normalizedOr(core.position, Vec3d{0, 1, 0});
   const double turn = std::min(1.0, step / bendLength);
   core.direction = normalizedOr(core.direction * (1 - turn) + fallDirection(outward, comb) * turn, kDown);
@@ -203,7 +203,7 @@ double radiusAlong(const CurlParameters& curl, const HeadParameters& parameters,
 
 // The core of a strand at its particles.
 std::vector<CorePoint> coreOf(const ScalpRoot& root, const CurlParameters& curl,
-                              const HeadParameters& parameters, const Scalp& scalp) {
+                              const HeadParameters& parameters, const ScalpSurface& scalp) {
   const double edge = curl.length / (curl.particleCount - 1);
   const int stepCount = static_cast<int>(std::ceil(edge / kLongestStep));
   const Comb comb = combAt(root.direction, parameters);
@@ -233,7 +233,7 @@ CurlParameters ofLength(CurlParameters curl, double factor) {
 
 // As the cut leaves it.
 CurlParameters cutCurl(const ScalpRoot& root, const CurlParameters& whole, const HeadParameters& parameters,
-                       const Scalp& scalp) {
+                       const ScalpSurface& scalp) {
   if (isFringe(parameters, root.direction)) return ofLength(whole, parameters.cut.fringe / whole.length);
   const CurlParameters curl = ofLength(whole, lengthFactor(parameters, root.direction));
   if (!parameters.cut.level) return curl;
@@ -252,7 +252,7 @@ CurlParameters cutCurl(const ScalpRoot& root, const CurlParameters& whole, const
 
 // Towards the core of the lock, outside the head as before.
 void clump(std::vector<CorePoint>& core, const std::vector<CorePoint>& lock, double share,
-           const Scalp& scalp) {
+           const ScalpSurface& scalp) {
   for (std::size_t i = 1; i < core.size(); ++i) {
     const double s = static_cast<double>(i) / static_cast<double>(core.size() - 1);
     const Vec3d between =
@@ -284,7 +284,7 @@ void addStrand(Groom& groom, const CurlParameters& curl, const std::vector<CoreP
 Result<Groom> makeHead(const HeadParameters& parameters) {
   if (Status status = checkParameters(parameters); !status) return status.error();
   const SphereScalp sphere(parameters.scalpRadius);
-  const Scalp& scalp = parameters.scalp ? *parameters.scalp : sphere;
+  const ScalpSurface& scalp = parameters.scalp ? *parameters.scalp : sphere;
   const std::vector<ScalpRoot> roots = spreadRoots(parameters, scalp, parameters.strandCount);
   if (std::ssize(roots) < parameters.strandCount)
     return Error{

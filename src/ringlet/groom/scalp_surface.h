@@ -1,5 +1,5 @@
-// Scalp: what hair of a generated head grows on and stays outside of. A sphere about the origin, or a mesh
-// (bodies/mesh_scalp.h).
+// ScalpSurface: what hair of a generated head grows on and stays outside of. A sphere about the origin, or a
+// mesh (bodies/mesh_scalp.h).
 #pragma once
 
 #include <optional>
@@ -21,9 +21,9 @@ struct ScalpHeight {
   Vec3d outward{};    // of length 1
 };
 
-class Scalp {
+class ScalpSurface {
  public:
-  virtual ~Scalp() = default;
+  virtual ~ScalpSurface() = default;
 
   /// On the outermost surface along a direction of length 1; none where there is none. The root's own
   /// direction may differ a little.
@@ -33,7 +33,7 @@ class Scalp {
   virtual Vec3d raisedTo(Vec3d place, double height) const = 0;
 };
 
-class SphereScalp final : public Scalp {
+class SphereScalp final : public ScalpSurface {
  public:
   explicit SphereScalp(double radius) : radius_(radius) {}  // [m]
 
