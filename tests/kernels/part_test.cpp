@@ -1,8 +1,7 @@
 // KernelChoice::part: strands have the bits that they have in the whole groom, whichever others are there.
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "tests/kernels/sample_hairs.h"
@@ -53,8 +52,11 @@ Groom manyLengths() {
 TEST_F(Part, StrandsHaveTheBitsOfTheWhole) {
   std::vector<Hair> all = hairs();
   all.push_back({"many lengths", manyLengths()});
-  all.push_back({"many lengths, point by point", manyLengths(), {.integrator = Integrator::pointJacobi}});
-  all.push_back({"many lengths, the paper's", manyLengths(), {.integrator = Integrator::paper}});
+  for (const auto& [name, integrator] : {std::pair{"many lengths, point by point", Integrator::pointJacobi},
+                                         std::pair{"many lengths, the paper's", Integrator::paper}}) {
+    all.push_back({name, manyLengths()});
+    all.back().settings.integrator = integrator;
+  }
   for (Hair& hair : all) {
     if (hair.settings.contacts.on) continue;
     SCOPED_TRACE(hair.name);
