@@ -170,7 +170,7 @@ TEST(UsdValues, EachStrandIsAsWideAsItsFactorSays) {
       EXPECT_EQ(widths.interpolation, interpolation);
       ASSERT_EQ(widths.numbers.size(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i)
-        EXPECT_NEAR(widths.numbers[i], expected[i], 1e-9) << i;
+        EXPECT_FLOAT_EQ(static_cast<float>(widths.numbers[i]), static_cast<float>(expected[i])) << i;
     };
     expectWidths(primOf(path), "uniform", {0.08, 0.02});
     const auto reader = AnimationReader::open(path);
