@@ -255,7 +255,7 @@ void moveParticle(int j, vec3 place, vec3 change) {
   v[j] += change;
 }
 
-void keepParticlesOut(uint step, Room room) {
+void keepParticlesOut(uint step, Room room, bool isDone) {
   float T = stepSeconds();
   uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
   if (b < parameters.bodyCount) do {
@@ -270,7 +270,7 @@ void keepParticlesOut(uint step, Room room) {
           vec3 y1 = placeAtEnd(body, RINGLET_LOOK_AT(p, vec3(0), part, j));
           float way = length(y1 - placeAtStart(body, RINGLET_LOOK_AT(pStart, vec3(0), part, j)));
           bool isNear = bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance;
-          if (k < RUN && isFree(k) && isNear) bits |= 1u << (k - begin);
+          if (!isDone && k < RUN && isFree(k) && isNear) bits |= 1u << (k - begin);
         }
       } while (++part < kLookParts && !fillsWord(part));
       if (bits != 0) do {
@@ -299,7 +299,7 @@ void furtherOf(inout vec3 shift, inout vec3 change, vec3 wanted, vec3 wantedChan
 }
 
 // Edges leave at kLeaveSpeed at most; of two edges the one that moves a particle further.
-void keepEdgesOut(uint step, Room room) {
+void keepEdgesOut(uint step, Room room, bool isDone) {
   float T = stepSeconds();
   vec3 pNext = fromTipward(p[0], 1);
   vec3 vNext = fromTipward(v[0], 1);
@@ -325,7 +325,7 @@ void keepEdgesOut(uint step, Room room) {
           vec3 here = RINGLET_LOOK_AT(p, pNext, part, j);
           float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
           bool isNear = distance + distanceBefore <= 1.001 * length(here - placeBefore);
-          if (k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - before - 1);
+          if (!isDone && k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - before - 1);
           distanceBefore = distance;
           placeBefore = here;
         }
@@ -361,18 +361,19 @@ void keepEdgesOut(uint step, Room room) {
     change[0] = rootwardChange;
   }
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    p[k] += shift[k];
-    v[k] += change[k];
+    p[k] = isDone ? p[k] : p[k] + shift[k];
+    v[k] = isDone ? v[k] : v[k] + change[k];
   }
 }
 
-void keepRunOut(uint step) {
+// isDone: nothing is asked of the strand.
+void keepRunOut(uint step, bool isDone) {
   Room room = emptyRoom();
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     if (!isParticle(k)) continue;
     include(room, pStart[k]);
     include(room, p[k]);
   }
-  keepParticlesOut(step, room);
-  keepEdgesOut(step, room);
+  keepParticlesOut(step, room, isDone);
+  keepEdgesOut(step, room, isDone);
 }

@@ -247,9 +247,9 @@ void solveAmongBodies(uint step, vec3 pinned[3]) {
     RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) v[k] = vStart[k];
     solveStrandBlock(pinned);
     if (turn == 0) pushed = findPushes(step);
-    if (turn == 1) addFriction();
-    if (turn == 2) rubRun();
-  } while (++turn < (pushed ? 3 : 1));
+    if (turn == 1 && pushed) addFriction();
+    if (turn == 2 && pushed) rubRun();
+  } while (++turn < (isAnyOfSubgroup(pushed) ? 3 : 1));
 }
 #endif
 
@@ -283,11 +283,11 @@ void solveVelocities(uint step) {
 
 // The stretch limit as a prefix sum along the strand; e is the moved edges, then of no more use. Whether an edge was
 // too long.
-bool limitEdges(bool velocitiesFollow) {
+bool limitEdges(bool velocitiesFollow, bool isDone) {
   vec3 shift = vec3(0);
   uint limited = 0;
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    float share = isPinned(k + 1) ? 0.0 : limitedEdgeShare(e[k], restEdge[k].y);
+    float share = isDone || isPinned(k + 1) ? 0.0 : limitedEdgeShare(e[k], restEdge[k].y);
     limited += share < 0.0 ? 1 : 0;
     vec3 edge = e[k];
     e[k] = shift;  // of particle k
@@ -296,7 +296,7 @@ bool limitEdges(bool velocitiesFollow) {
   vec3 before = sumBeforeRun(shift);
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     vec3 s = isPinned(k) ? vec3(0) : before + e[k];
-    p[k] += s;
+    p[k] = isDone ? p[k] : p[k] + s;
     if (velocitiesFollow) v[k] += (1.0 / stepSeconds()) * s;
   }
   if (velocitiesFollow) limitedEdges += limited;
@@ -306,16 +306,16 @@ bool limitEdges(bool velocitiesFollow) {
 #ifdef RINGLET_SURROUNDINGS
 // Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other.
 void keepAmongBodies(uint step) {
-  bool again;
+  bool isDone = false;
   uint round = 1;
   do {
-    keepRunOut(step);
+    keepRunOut(step, isDone);
     if (round == kKeepOutRounds) break;
     vec3 pNext = fromTipward(p[0], 1);
     RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
-    again = limitEdges(false);
+    isDone = !limitEdges(false, isDone);
     ++round;
-  } while (again);
+  } while (isAnyOfSubgroup(!isDone));
 }
 #endif
 
@@ -331,7 +331,7 @@ void moveAndLimit(uint step) {
     p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
     e[k] += T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
   }
-  limitEdges(true);
+  limitEdges(true, false);
 #ifdef RINGLET_SURROUNDINGS
   if (kBodies) keepAmongBodies(step);
 #endif

@@ -38,6 +38,7 @@ float sumOverStrand(float x) { return x; }
 uint sumOverStrand(uint x) { return x; }
 float maxOverStrand(float x) { return x; }
 uint minOverStrand(uint x) { return x; }
+bool isAnyOfSubgroup(bool x) { return x; }
 
 #else
 
@@ -82,6 +83,14 @@ float maxOverStrand(float x) {
 uint minOverStrand(uint x) {
   [[unroll]] for (uint o = 1; o < kLanes; o *= 2) x = min(x, subgroupShuffle(x, gl_SubgroupInvocationID ^ o));
   return x;
+}
+
+/// For loops in which lanes ask each other: all strands of a subgroup leave them together, and those that were done
+/// before are left as they are. Lanes that had left would answer nothing, or on some drivers disturb the others.
+bool isAnyOfSubgroup(bool x) {
+  uint any = x ? 1 : 0;
+  for (uint o = 1; o < gl_SubgroupSize; o *= 2) any |= subgroupShuffle(any, gl_SubgroupInvocationID ^ o);
+  return any != 0;
 }
 
 #endif
