@@ -48,6 +48,8 @@ constexpr double kFringeComb = 0.12;
 
 constexpr int kCandidates = 5;  // for each root on a mesh, as the paper of sample_elimination.h has them
 
+constexpr int kMostOnCap = 30'000'000;  // places that are tried: 1.5 GB of them
+
 constexpr double kShortestStrand = 0.005;  // [m], of what a level leaves
 
 // Directions, evenly spread over the cap: Fibonacci's spiral about the cap's axis.
@@ -75,8 +77,8 @@ struct Candidates {
 Candidates spreadCandidates(const HeadParameters& parameters, const ScalpSurface& scalp, int count) {
   const double lowest = std::sin((parameters.browElevation + parameters.napeElevation) / 2);
   Candidates candidates;
-  for (int onCap = count; std::ssize(candidates.roots) < count && onCap < 100 * (count + 100);
-       onCap += 1 + (count - static_cast<int>(candidates.roots.size())) / 2) {
+  for (int onCap = count, found = 0; found < count && onCap < std::min(100 * (count + 100), kMostOnCap);
+       onCap += 2 * found < count ? onCap : 1 + (count - found) / 2) {
     candidates = {};
     for (const Vec3d direction : spreadOverCap(parameters, onCap)) {
       const auto root = scalp.rootAlong(direction);
@@ -86,6 +88,7 @@ Candidates spreadCandidates(const HeadParameters& parameters, const ScalpSurface
       candidates.area +=
           2 * std::numbers::pi * (1 - lowest) / onCap * dot(root->position, root->position) / slant;
     }
+    found = static_cast<int>(candidates.roots.size());
   }
   return candidates;
 }
