@@ -26,7 +26,8 @@ RINGLET_CONSTANT uint kBindSeenSolids = 11;   // uvec2[pixels]: those in which b
 RINGLET_CONSTANT uint kBindSolidColours = 12; // uvec2[pixels]: their colour, and the share that it covers, in halves
 RINGLET_CONSTANT uint kBindPixels = 13;       // vec4[pixels]: sum of pictures, linear; w: their number
 RINGLET_CONSTANT uint kBindShown = 14;        // uint[pixels]: red, green, blue, 255, as they are shown
-RINGLET_CONSTANT uint kRenderBindingCount = 15;
+RINGLET_CONSTANT uint kBindLight = 15;        // vec4[pixels]: their light, linear; 1
+RINGLET_CONSTANT uint kRenderBindingCount = 16;
 // Those read as texels, these numbers further:
 RINGLET_CONSTANT uint kRenderTexels = 20;
 

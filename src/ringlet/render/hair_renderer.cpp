@@ -175,8 +175,9 @@ Status HairRenderer::makeBuffers(gpu::Device& device, const DrawnHairs& hairs) {
       add(filled(triangles, "triangles of bodies")),
       add(room(8 * inBand, "pixels of bodies")),
       add(room(8 * inBand, "colours of bodies")),
-      add(room(size_.isPreview ? 0 : 16 * pixels, "light of pixels")),
-      add(room(4 * pixels, "shown pixels"))};
+      add(room(size_.isPreview ? 0 : 16 * pixels, "samples' light")),
+      add(room(4 * pixels, "shown pixels")),
+      add(room(size_.isPreview ? 0 : 16 * pixels, "light of pixels"))};
   for (const Status& status : made)
     if (!status) return status;
   const std::vector<layout::SeenCounts> none{
@@ -339,8 +340,10 @@ void HairRenderer::record(gpu::CommandList& list, bool isFirst) const {
     recordBand(list, row, std::min(bandRows_, height - row));
   if (size_.isPreview) return;
   list.beginStage("tone");
-  dispatch(list, RenderKernel::tone, std::uint64_t{1} * size_.width * size_.height);
-  list.barrier();
+  for (const RenderKernel kernel : {RenderKernel::filter, RenderKernel::tone}) {
+    dispatch(list, kernel, std::uint64_t{1} * size_.width * size_.height);
+    list.barrier();
+  }
   list.endStage();
 }
 
@@ -362,14 +365,11 @@ Result<std::vector<std::uint32_t>> HairRenderer::picture() const {
 
 Result<std::vector<float>> HairRenderer::light() const {
   RINGLET_ASSERT(!size_.isPreview, "a preview keeps no light");
-  const auto pixels = downloadAll<layout::vec4>(buffer(layout::kBindPixels),
+  const auto pixels = downloadAll<layout::vec4>(buffer(layout::kBindLight),
                                                 static_cast<std::size_t>(size_.width) * size_.height);
   if (!pixels) return pixels.error();
   std::vector<float> light;
-  for (const layout::vec4& pixel : *pixels) {
-    const float share = 1 / std::max(pixel.w, 1.0f);
-    light.insert(light.end(), {pixel.x * share, pixel.y * share, pixel.z * share});
-  }
+  for (const layout::vec4& pixel : *pixels) light.insert(light.end(), {pixel.x, pixel.y, pixel.z});
   return light;
 }
 

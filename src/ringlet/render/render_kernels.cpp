@@ -6,6 +6,7 @@
 #include "layout/picture.h"
 #include "ringlet_shaders/render_compact_plain.h"
 #include "ringlet_shaders/render_compact_preview.h"
+#include "ringlet_shaders/render_filter_plain.h"
 #include "ringlet_shaders/render_hairs_atomic64.h"
 #include "ringlet_shaders/render_hairs_plain.h"
 #include "ringlet_shaders/render_openness_plain.h"
@@ -43,6 +44,7 @@ const Compiled kCompiled[kRenderKernelCount] = {
     {"render_shade_hairs", k_render_shade_hairs_plain},
     {"render_shade_solids", k_render_shade_solids_plain},
     {"render_resolve", k_render_resolve_plain},
+    {"render_filter", k_render_filter_plain},
     {"render_tone", k_render_tone_plain},
 };
 

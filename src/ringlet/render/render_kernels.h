@@ -21,12 +21,13 @@ enum class RenderKernel {
   shadeHairs,
   shadeSolids,
   resolve,
+  filter,
   tone,
 };
-inline constexpr std::size_t kRenderKernelCount = 13;
+inline constexpr std::size_t kRenderKernelCount = 14;
 
 /// hasAtomic64: of the device. texels: points and triangles are read as texels. isPreview: as
-/// PictureSize::isPreview; there is no `tone` then.
+/// PictureSize::isPreview; there are no `filter` and `tone` then.
 gpu::KernelDescription describeRenderKernel(RenderKernel which, std::uint32_t groupSize, bool hasAtomic64,
                                             bool texels, bool isPreview);
 
