@@ -139,8 +139,10 @@ TEST_F(RenderFiles, CamerasAreOfTheScene) {
   EXPECT_EQ(away, picture("away/frame.0001.png")) << "there is nothing";
   EXPECT_GT(differing(front, away), 300);
   EXPECT_GT(differing(picture("Shot/frame.0004.png"), away), 300);
-  EXPECT_GT(differing(picture("Shot/frame.0004.png"), picture("Shot/frame.0001.png")), 300) << "it moves";
-  EXPECT_LT(differing(front, picture("front/frame.0001.png")), 300) << "it stands still";
+  const int moved = differing(picture("Shot/frame.0004.png"), picture("Shot/frame.0001.png"));
+  EXPECT_GT(moved, 300);
+  // One that stands still sees hair that swings.
+  EXPECT_LT(differing(front, picture("front/frame.0001.png")), moved / 2);
   expectRefused({"shots", "--scene", "cameras.toml", "-o", "x", "--camera", "fronts"}, 1,
                 {"no camera fronts", "did you mean front?", "away", "Shot"});
   expectRefused({"shots", "-o", "x", "--camera", "front"}, 2, {"--scene"});
