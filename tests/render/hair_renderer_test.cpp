@@ -273,12 +273,12 @@ TEST_F(HairRendererTest, MoreSamplesAreTheSamePictureWithLessNoise) {
   std::vector<double> rms;
   for (const int side : {2, 4}) {
     const std::vector<float> few = draw(gpu(), scene, {kWidth, kHeight, side}, look).light;
-    double squares = 0, sum = 0;
+    double squares = 0, sum = 0, squaresOfBox = 0;
     int count = 0;
-    for (int pixel = 0; pixel < kWidth * kHeight; ++pixel) {
-      const double difference = toned(few[3 * static_cast<std::size_t>(pixel)], look) -
-                                toned(exact[3 * static_cast<std::size_t>(pixel)], look);
+    for (std::size_t pixel = 0; pixel < exact.size(); pixel += 3) {
+      const double shown = toned(few[pixel], look), difference = shown - toned(exact[pixel], look);
       squares += difference * difference;
+      squaresOfBox += std::pow(shown - toned(means[pixel], look), 2);
       sum += difference;
       count += std::abs(difference) > 0.5;  // over the hair
     }
@@ -286,6 +286,7 @@ TEST_F(HairRendererTest, MoreSamplesAreTheSamePictureWithLessNoise) {
     rms.push_back(std::sqrt(squares / std::max(count, 1)));
     RecordProperty(side == 2 ? "rms_2" : "rms_4", std::to_string(rms.back()));
     EXPECT_LT(std::abs(sum) / std::max(count, 1), 1.5) << side;
+    EXPECT_LT(squares, 0.8 * squaresOfBox) << "it is filtered; " << side;
   }
   // Half as much, were samples independent; nearer ones are of the same hair.
   EXPECT_LT(rms[1], 0.6 * rms[0]);
