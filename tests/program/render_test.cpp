@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "tests/program/rendered_run.h"
@@ -76,15 +77,23 @@ TEST_F(Render, StrandsAreAsWideAsAMapSays) {
             0);
   const std::string text = test::readText(folder_ / "wide/hair.usda");
   EXPECT_NE(text.find("interpolation = \"uniform\""), std::string::npos);
+  (void)drawn("0:39", "8", "0");
   ASSERT_EQ(run({"simulate", "widths.toml", "--motion", "nod", "--frames", "2", "--no-sheet", "--hairs",
                  "500", "-o", "full"})
                 .exitCode,
             0);
   const std::string full = test::readText(folder_ / "full/hair.usda");
-  const std::size_t widths = full.find("float[] widths = ["), end = full.find(']', widths + 18);
-  EXPECT_EQ(std::count(full.begin() + static_cast<std::ptrdiff_t>(widths),
-                       full.begin() + static_cast<std::ptrdiff_t>(end), ','),
-            499);
+  std::istringstream widths(full.substr(full.find("float[] widths = [") + 18));
+  int wide = 0, count = 0;
+  for (char comma = ','; comma == ',' && widths; widths >> comma, ++count) {
+    double width = 0;
+    widths >> width;
+    wide += width > 0.1;  // [cm]; 0.05 but for the factor
+  }
+  EXPECT_EQ(count, 500);
+  // Four or five hairs follow each strand.
+  EXPECT_GE(wide, 4 * 40);
+  EXPECT_LE(wide, 5 * 40);
 }
 
 TEST_F(Render, AGroomIsOnePicture) {
