@@ -30,13 +30,12 @@ struct Part {
   std::vector<std::uint32_t> strands;
 };
 
-// What all say, each sentence once.
-std::string joined(const std::vector<Part>& parts, std::string (Backend::*says)() const,
-                   const char* between) {
+// What all say; once, where they say the same.
+std::string joined(const std::vector<Part>& parts, std::string (Backend::*says)() const, bool isOnce) {
   std::vector<std::string> all;
   for (const Part& part : parts) all.push_back((part.hair.get()->*says)());
-  if (std::set(all.begin(), all.end()).size() == 1 && says != &Backend::device) return all[0];
-  return fmt::format("{}", fmt::join(all, between));
+  if (isOnce && std::set(all.begin(), all.end()).size() == 1) return all[0];
+  return fmt::format("{}", fmt::join(all, " + "));
 }
 
 class SplitBackend : public Backend {
@@ -137,9 +136,9 @@ class SplitBackend : public Backend {
         if (std::ranges::find(all, message) == all.end()) all.push_back(std::move(message));
     return all;
   }
-  std::string device() const override { return joined(parts_, &Backend::device, " + "); }
-  std::string driver() const override { return joined(parts_, &Backend::driver, " + "); }
-  std::string kernel() const override { return joined(parts_, &Backend::kernel, " + "); }
+  std::string device() const override { return joined(parts_, &Backend::device, false); }
+  std::string driver() const override { return joined(parts_, &Backend::driver, true); }
+  std::string kernel() const override { return joined(parts_, &Backend::kernel, true); }
   bool isTuned() const override {
     return std::ranges::any_of(parts_, [](const Part& part) { return part.hair->isTuned(); });
   }
