@@ -14,12 +14,11 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/setting_options.h"
-#include "ringlet/bodies/mesh_file.h"
-#include "ringlet/bodies/mesh_scalp.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
 #include "ringlet/scenes/scene_fields.h"
+#include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet::program {
 namespace {
@@ -43,10 +42,8 @@ Result<Groom> makeTypedHead(Typed& typed) {
   typed.head.variation = typed.variation;
   applySettingOptions(cutFields(), typed.cut, typed.head.cut);
   if (!typed.scalp.empty()) {
-    auto mesh = readObjMesh(typed.scalp, typed.curl.metresPerUnit);
-    if (!mesh) return mesh.error();
-    auto scalp = makeMeshScalp(*mesh);
-    if (!scalp) return Error{fmt::format("{}: {}", typed.scalp.string(), scalp.error().message)};
+    auto scalp = readScalp(typed.scalp, typed.curl.metresPerUnit);
+    if (!scalp) return scalp.error();
     typed.head.scalp = std::move(*scalp);
   }
   return makeHead(typed.head);

@@ -57,6 +57,15 @@ SceneGroom groomOfStyle(const std::string& style) {
   return groom;
 }
 
+Result<std::shared_ptr<const ScalpSurface>> readScalp(const std::filesystem::path& path,
+                                                      double metresPerUnit) {
+  const auto mesh = readObjMesh(path, metresPerUnit);
+  if (!mesh) return mesh.error();
+  auto scalp = makeMeshScalp(*mesh);
+  if (!scalp) return Error{fmt::format("{}: {}", path.string(), scalp.error().message)};
+  return scalp;
+}
+
 Result<Groom> generatedGroom(const SceneGroom& groom) {
   const CurlParameters curl{.radius = groom.radius,
                             .turns = groom.turns,
@@ -86,10 +95,8 @@ Result<Groom> generatedGroom(const SceneGroom& groom) {
   head.lockCount = groom.locks;
   head.scalpRadius = groom.scalpRadius;
   if (!groom.scalp.empty()) {
-    auto mesh = readObjMesh(groom.scalp, curl.metresPerUnit);
-    if (!mesh) return mesh.error();
-    auto scalp = makeMeshScalp(*mesh);
-    if (!scalp) return Error{fmt::format("{}: {}", groom.scalp.string(), scalp.error().message)};
+    auto scalp = readScalp(groom.scalp, curl.metresPerUnit);
+    if (!scalp) return scalp.error();
     head.scalp = std::move(*scalp);
   }
   return makeHead(head);

@@ -1,12 +1,14 @@
-// From what a scene file states to what is stepped, as far as no other file is needed; and back, of built-in
-// scenes.
+// From what a scene file states to what is stepped, as far as no other file is needed but a scalp's; and back,
+// of built-in scenes.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/scalp_surface.h"
 #include "ringlet/groom/usd_matrix.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
@@ -24,7 +26,11 @@ Vec3d upOf(const SceneGroom& groom);
 /// What holds without keys: the defaults, or a style's; its own `style` is empty.
 SceneGroom groomOfStyle(const std::string& style);
 
-/// Of a groom with a generator, in its unit, not yet placed. Errors: as for makeHead.
+/// A mesh that generated hair grows on. Errors: those of readObjMesh and, with the path, of makeMeshScalp.
+Result<std::shared_ptr<const ScalpSurface>> readScalp(const std::filesystem::path& path,
+                                                      double metresPerUnit);
+
+/// Of a groom with a generator, in its unit, not yet placed. Errors: as for makeHead and readScalp.
 Result<Groom> generatedGroom(const SceneGroom& groom);
 
 /// Into the head's frame: scaled, turned, moved. One that stays where it is keeps its bits.
