@@ -1,5 +1,5 @@
-// From what a scene file states to what is stepped, as far as no other file is needed but a scalp's; and back,
-// of built-in scenes.
+// From what a scene file states to what is stepped, as far as no other file is needed but a scalp's; and
+// back, of built-in scenes.
 #pragma once
 
 #include <filesystem>
