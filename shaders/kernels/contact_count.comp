@@ -24,8 +24,7 @@ void main() {
   if (kInGroups && !hasOthersNear(cell, groupOf(rest.strand))) {
     grid[gridBucketOf(c)] = kNoBucket;
     lists[listOf(c)] = 0;
-    histories[c].position = vec4(x, 0);
-    histories[c].velocity = vec4(velocityOf(rest.particle), 0);
+    setListed(c, x, velocityOf(rest.particle));
     return;
   }
   uint bucket = bucketOf(cell);

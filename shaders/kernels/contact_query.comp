@@ -38,10 +38,14 @@ void main() {
   if (place >= placedCount()) return;
   uint c = placedVelocity(place).w;
   list = listOf(c);
+  if (isElsewhere(contactOf(c).strand)) {
+    lists[list] = 0;
+    setListed(c, uintBitsToFloat(placedPosition(place).xyz), uintBitsToFloat(placedVelocity(place).xyz));
+    return;
+  }
   if (!search(place, parameters.skin)) control.isHalted = kHaltedByTurns;
   lists[list] = count;
   if (count > control.longestList) atomicMax(control.longestList, count);
-  histories[c].position = vec4(x, 0);
-  histories[c].velocity = vec4(v, 0);
+  setListed(c, x, v);
   atomicAdd(control.listed, count);
 }

@@ -16,8 +16,10 @@ void take(ContactRest other, float R, float r0) { ++found; }
 void main() {
   uint place = gl_GlobalInvocationID.x * parameters.sampleStride + control.steps % parameters.sampleStride;
   if (place >= parameters.contactCount) return;
+  uint c = placedVelocity(place).w;
+  if (isElsewhere(contactOf(c).strand)) return;
   if (!search(place, 0.0)) control.isHalted = kHaltedByTurns;
-  uint list = listOf(placedVelocity(place).w);
+  uint list = listOf(c);
   uint count = lists[list];
   uint listed = 0;
   uint j = 0;

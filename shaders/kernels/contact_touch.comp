@@ -51,6 +51,7 @@ void main() {
   if (c >= parameters.contactCount) return;
   if (kInGroups) emptyCells(c);
   ContactRest rest = contactOf(c);
+  if (isElsewhere(rest.strand)) return;
   particle = rest.particle;
   x = positionOf(particle);
   v = velocityOf(particle);

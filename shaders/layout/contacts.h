@@ -8,8 +8,9 @@
 namespace ringlet::layout {
 #endif
 
-// Specialization constant of the contact kernels.
+// Specialization constants of the contact kernels.
 RINGLET_CONSTANT uint kSpecInGroups = 2;
+RINGLET_CONSTANT uint kSpecDivided = 3;
 
 // Bindings of the contact kernels, all in set 0.
 RINGLET_CONSTANT uint kBindContactPositions = 0;   // vec4[particles]: as above
@@ -55,8 +56,9 @@ RINGLET_CONSTANT uint kBucketBlock = 1024;      // buckets of the grid that are 
 RINGLET_CONSTANT uint kSeveralGroups = 0xffffffffu;
 RINGLET_CONSTANT uint kNoBucket = 0xffffffffu;  // of a contact particle that is not in the grid
 RINGLET_CONSTANT uint kNoStrand = 0xffffffffu;  // a free slot of the table of who may touch whom: that has a record for
-                                                // each strand, (first of its buckets, how many less one, its group, 0),
-                                                // then the buckets of four strands; see solver/neighbour_table.h
+                                                // each strand, (first of its buckets, how many less one, its group, 1
+                                                // where another device steps it), then the buckets of four strands; see
+                                                // solver/neighbour_table.h
 
 // Constant per contact particle; contact particles stand in device order.
 struct ContactRest {

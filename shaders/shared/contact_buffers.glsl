@@ -39,10 +39,13 @@ layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
 layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of a group do not meet here
+layout(constant_id = kSpecDivided) const bool kDivided = false;   // other devices step some of the strands
 
 uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
 /// Strands of one group do not meet pair by pair (rest/volume_strands.h).
 uint groupOf(uint strand) { return kInGroups ? neighbourRecord(strand).z : strand; }
+/// Strands elsewhere are met, and have no lists and no contacts here (solver/divided_hair.h).
+bool isElsewhere(uint strand) { return kDivided && neighbourRecord(strand).w != 0; }
 
 // Records as they were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
@@ -65,6 +68,10 @@ uvec4 placedPosition(uint place) { return kTexels ? recordAt(placeTexels, 2 * pl
 uvec4 placedVelocity(uint place) { return kTexels ? recordAt(placeTexels, 2 * place + 1) : places[place].velocity; }
 vec3 listedPosition(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c).xyz : histories[c].position.xyz; }
 vec3 listedVelocity(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c + 1).xyz : histories[c].velocity.xyz; }
+void setListed(uint c, vec3 x, vec3 v) {
+  histories[c].position = vec4(x, 0);
+  histories[c].velocity = vec4(v, 0);
+}
 vec3 predictedBefore(uint c) {
   return kTexels ? vectorAt(historyTexels, 4 * c + 2 + control.parity).xyz : histories[c].predicted[control.parity].xyz;
 }

@@ -8,9 +8,6 @@
 #include <vector>
 
 namespace ringlet {
-namespace {
-
-// Of each strand of the groom.
 Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::size_t strandCount) {
   std::vector<bool> isIn(strandCount);
   for (const std::uint32_t strand : part) {
@@ -22,8 +19,6 @@ Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::si
   }
   return isIn;
 }
-
-}  // namespace
 
 Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
   const auto isIn = membersOf(part, state.groomStrandCount);

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/rest/rest_state.h"
 
 namespace ringlet {
+
+/// Of each strand of a groom of so many: whether it is among `part`. Errors: as restrictTo. Cost: linear.
+Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::size_t strandCount);
 
 /// Leaves of the strands that are simulated those of `part`, groom order; the others join those that are
 /// carried rigidly. Numbers of the whole groom stay as they are. Errors: a strand that the groom does not

@@ -54,7 +54,7 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 }  // namespace
 
 gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             std::uint32_t groupSize, bool texels) {
+                                             bool divided, std::uint32_t groupSize, bool texels) {
   const Compiled& compiled = compiledOf(which, taper);
   gpu::KernelDescription description;
   description.name = compiled.name;
@@ -63,7 +63,8 @@ gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper t
   description.pushConstantBytes = sizeof(layout::ContactParameters);
   description.constants = {{layout::kSpecGroupSize, groupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u},
-                           {layout::kSpecInGroups, inGroups ? 1u : 0u}};
+                           {layout::kSpecInGroups, inGroups ? 1u : 0u},
+                           {layout::kSpecDivided, divided ? 1u : 0u}};
   description.groupSize = groupSize;
   return description;
 }

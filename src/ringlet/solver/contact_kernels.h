@@ -40,6 +40,6 @@ inline constexpr std::uint32_t kContactGroupSize = 64;
 /// inGroups: some strands do not meet pair by pair, see VolumeStrands; texels: records are read as texels
 /// (gpu::BindingKind).
 gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             std::uint32_t groupSize, bool texels);
+                                             bool divided, std::uint32_t groupSize, bool texels);
 
 }  // namespace ringlet

@@ -20,7 +20,8 @@ Vec3d givenByPairs(const layout::ContactSystem& system, const Vec3d& v) {
 
 }  // namespace
 
-Result<double> contactMomentumError(const DeviceChunk& hair, const RestState& rest, ContactKinds kinds) {
+Result<ContactMomentum> contactMomentum(const DeviceChunk& hair, const RestState& rest, ContactKinds kinds,
+                                        const std::function<bool(std::size_t)>& isHere) {
   const std::size_t count = rest.points.size();
   auto systems = downloadAll<layout::ContactSystem>(hair.contactSystems, kinds.pairs ? count : 0);
   if (!systems) return systems.error();
@@ -28,9 +29,10 @@ Result<double> contactMomentumError(const DeviceChunk& hair, const RestState& re
   if (!added) return added.error();
   auto solved = downloadAll<layout::vec4>(hair.solved, count);
   if (!solved) return solved.error();
-  Vec3d sum{};
-  double sizes = 0;
-  for (const layout::StrandRest& strand : rest.strands) {
+  ContactMomentum all;
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
+    if (!isHere(s)) continue;
+    const layout::StrandRest& strand = rest.strands[s];
     for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
       const Vec3d v{(*solved)[i].x, (*solved)[i].y, (*solved)[i].z};
       Vec3d J{};
@@ -40,11 +42,11 @@ Result<double> contactMomentumError(const DeviceChunk& hair, const RestState& re
         J = J + Vec3d{g.x, g.y, g.z} - v * static_cast<double>(g.w);
       }
       J = J * static_cast<double>(strand.massUnit);
-      sum = sum + J;
-      sizes += length(J);
+      all.sum = all.sum + J;
+      all.sizes += length(J);
     }
   }
-  return sizes > 0 ? length(sum) / sizes : 0;
+  return all;
 }
 
 }  // namespace ringlet

@@ -83,7 +83,7 @@ std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactPa
 
 Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& rest,
                                           const Settings& settings, const RestContacts& contacts,
-                                          DeviceGroom& groom, int room) {
+                                          const std::vector<bool>& isHere, DeviceGroom& groom, int room) {
   const ContactParticles& particles = contacts.particles;
   ContactStage self;
   self.device_ = &device;
@@ -113,14 +113,14 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   }
   for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
     const auto description = describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper,
-                                                   inGroups, kGroupSize, texels);
+                                                   inGroups, !isHere.empty(), kGroupSize, texels);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
   }
 
-  const auto table = neighbourTable(contacts.graph, contacts.volume);
+  const auto table = neighbourTable(contacts.graph, contacts.volume, isHere);
   const std::uint64_t gridWords =
       (inGroups ? 4 : 2) * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
   const std::uint64_t needed =
@@ -284,7 +284,7 @@ void ContactStage::recordNothing(gpu::CommandList& list) const {
   for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void ContactStage::recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+void ContactStage::recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
   pace.beginStage(list, "contact_motion");
   dispatch(list, ContactKernel::motion, step, contactGroups());
   list.barrier();
@@ -304,12 +304,13 @@ void ContactStage::recordLists(gpu::CommandList& list, SubmissionPace& pace, std
 
   pace.beginStage(list, "contact_sample");
   dispatchIndirect(list, ContactKernel::sample, step, kSample);
-  list.barrier();
+  list.endStage();
+}
+
+void ContactStage::recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+  pace.beginStage(list, "contact_query");
   dispatch(list, ContactKernel::judge, step, 1);
   list.barrier();
-  list.endStage();
-
-  pace.beginStage(list, "contact_query");
   dispatchIndirect(list, ContactKernel::query, step, kQuery);
   list.endStage();
 }
@@ -332,6 +333,11 @@ void ContactStage::recordNext(gpu::CommandList& list, SubmissionPace& pace) cons
   pace.beginStage(list, lives_ ? "contact_gather" : "contact_system");
   dispatchIndirect(list, ContactKernel::next, 0, kMeeting);
   list.endStage();
+}
+
+Status ContactStage::setSample(const Sample& sample) {
+  control_.sampled = sample.sampled, control_.missed = sample.missed;
+  return writeControl();
 }
 
 // The step begins anew, from the contacts of the step before, in larger buffers. Lists that had room are
@@ -410,18 +416,18 @@ Status ContactStage::eachBlock(const EachBlock& tell) const {
   return {};
 }
 
-Result<std::uint64_t> ContactStage::contactCount() const {
+Result<std::uint64_t> ContactStage::contactSides() const {
   std::uint64_t sides = 0;
   if (lives_) {
     auto counted = lives_->count(control_.parity);
     if (!counted) return counted.error();
-    return *counted / 2;
+    return *counted;
   }
   const Status status = eachBlock([&](std::size_t, std::uint32_t, std::uint32_t, std::uint32_t bits) {
     sides += static_cast<std::uint64_t>(std::popcount(bits >> layout::kListBlock));
   });
   if (!status) return status.error();
-  return sides / 2;
+  return sides;
 }
 
 Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) const {

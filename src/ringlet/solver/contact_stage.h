@@ -39,8 +39,10 @@ class ContactStage {
  public:
   /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` is of
   /// one chunk, and must live as long, in one place. room: as KernelChoice::contactRoom.
+  /// isHere: of each strand, device order; others have no lists and no contacts here; none: all are here.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                     const RestContacts& contacts, DeviceGroom& groom, int room);
+                                     const RestContacts& contacts, const std::vector<bool>& isHere,
+                                     DeviceGroom& groom, int room);
 
   /// Kernels that this stage was the first on its device to ask for.
   std::size_t newKernelCount() const { return newKernels_.size(); }
@@ -49,6 +51,7 @@ class ContactStage {
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say.
+  void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordFirst(gpu::CommandList& list, SubmissionPace& pace) const;
   void recordNext(gpu::CommandList& list, SubmissionPace& pace) const;
@@ -58,6 +61,13 @@ class ContactStage {
   /// Whether it stopped for want of room, and at which step.
   bool isHalted() const { return control_.isHalted != 0; }
   std::uint32_t haltedStep() const { return control_.step; }
+  /// Of hair in several parts: what a sample says after recordGrid is summed over them before recordLists.
+  struct Sample {
+    std::uint32_t sampled = 0, missed = 0;  // as ContactControl has them
+  };
+  bool samples() const { return sampleStride_ > 0; }
+  Sample sample() const { return {control_.sampled, control_.missed}; }
+  Status setSample(const Sample& sample);
   /// Makes longer lists, keeping what contacts remember; recordings made before are no longer good.
   Status makeRoom();
 
@@ -68,9 +78,9 @@ class ContactStage {
   /// Pairs looked at since the simulation began, in all steps, both sides counted.
   std::uint64_t pairTests() const { return pairTests_; }
   std::uint64_t rebuilds() const { return control_.rebuilds; }
-  /// Pairs in the lists, each once; and how many contacts live.
-  std::uint64_t listedCount() const { return control_.listed / 2; }
-  Result<std::uint64_t> contactCount() const;
+  /// Pairs in the lists, and contacts that live, each on both sides.
+  std::uint64_t listedSides() const { return control_.listed; }
+  Result<std::uint64_t> contactSides() const;
   /// What may change while hair moves; recordings made before are no longer good. Other springs need other
   /// lists.
   Status setSettings(const Settings& settings);

@@ -9,7 +9,9 @@
 #include "ringlet/rest/rest_part.h"
 #include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/divided_hair.h"
 #include "ringlet/solver/hair_asset_implementation.h"
+#include "ringlet/solver/part_link.h"
 #include "ringlet/solver/strand_kernels.h"
 #include "ringlet/solver/subgroup_choice.h"
 
@@ -42,9 +44,11 @@ Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
 
 }  // namespace
 
-Status checkPart(const Settings& settings) {
-  if (settings.contacts.on)
-    return Error{"hair with contacts cannot be divided among devices; turn contacts off, or use one device"};
+Status checkPart(const Settings& settings, const PartLink* link) {
+  if (settings.contacts.on && link == nullptr)
+    return Error{
+        "a part of hair with contacts needs a link to the others (KernelChoice::link); turn contacts off, or "
+        "use one device"};
   if (settings.sleepSpeed > 0)
     return Error{
         "hair that may sleep cannot be divided among devices; set sleep_speed to 0, or use one device"};
@@ -64,15 +68,37 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   if (settings.contacts.on) order = orderAlongCurve(groom);
   auto rest = buildRestState(groom, material, settings, order);
   if (!rest) return rest.error();
-  if (!choice.part.empty()) {
-    if (Status possible = checkPart(settings); !possible) return possible.error();
-    if (Status restricted = restrictTo(*rest, choice.part); !restricted) return restricted.error();
+  const auto part = choice.link ? choice.link->parts()[choice.link->own()] : choice.part;
+  std::vector<bool> isHere;
+  if (choice.link || !part.empty()) {
+    if (Status possible = checkPart(settings, choice.link); !possible) return possible.error();
+    if (settings.contacts.on) {
+      auto found = strandsHere(*rest, part);
+      if (!found) return found.error();
+      isHere = std::move(*found);
+    } else if (Status restricted = restrictTo(*rest, part); !restricted) {
+      return restricted.error();
+    }
   }
   const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
   if (!limits) return limits.error();
 
-  auto self = std::make_shared<Implementation>(Implementation{
-      device, material, settings, choice, bodies, *limits, {}, std::move(*rest), {}, {}, {}, {}, {}, {}, {}});
+  auto self = std::make_shared<Implementation>(Implementation{device,
+                                                              material,
+                                                              settings,
+                                                              choice,
+                                                              bodies,
+                                                              *limits,
+                                                              {},
+                                                              std::move(*rest),
+                                                              std::move(isHere),
+                                                              {},
+                                                              {},
+                                                              {},
+                                                              {},
+                                                              {},
+                                                              {},
+                                                              {}});
   if (settings.goal.on) self->goal = goalOf(groom);
   self->choice.goals = choice.goals || settings.goal.on;
   if (self->choice.goals) self->goalUnits = goalUnits(self->rest, settings.goal.shape);
@@ -91,6 +117,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   self->ranges = cutRanges(*ranges, *chunks);
+  if (!self->isHere.empty()) self->ranges = rangesHere(self->ranges, self->rest, self->isHere);
   self->groupSize = strandGroupSize(*limits, lanesOf(self->ranges));
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
   if (!plan) return plan.error();  // before anything is made for it

@@ -16,9 +16,9 @@
 
 namespace ringlet {
 
-/// Whether hair with these settings may be divided (KernelChoice::part): nothing may couple strands or ask
-/// all of them.
-Status checkPart(const Settings& settings);
+/// Whether hair with these settings may be divided (KernelChoice::part, link): nothing may ask all of its
+/// strands, and what couples them takes a link.
+Status checkPart(const Settings& settings, const PartLink* link);
 
 struct HairAsset::Implementation {
   ComputeDevice device;
@@ -29,6 +29,7 @@ struct HairAsset::Implementation {
   DeviceLimits limits;                   // the device's, with the subgroups that were chosen
   std::uint32_t groupSize = 0;           // of strand kernels
   RestState rest;                        // its particles are on the device
+  std::vector<bool> isHere;              // of strands, device order, where others step some; none: all are
   std::optional<RestContacts> contacts;  // with contacts
   std::optional<RestVolume> volume;      // where strands meet as one
   std::vector<StrandRange> ranges;

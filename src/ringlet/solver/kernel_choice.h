@@ -9,6 +9,8 @@
 
 namespace ringlet {
 
+class PartLink;
+
 /// Is notified when the driver begins to compile a simulation's kernels, which may take seconds, and when it
 /// has finished. Not called where all kernels have been compiled on this device before.
 class CompileObserver {
@@ -31,9 +33,12 @@ struct KernelChoice {
   bool manyKernels = false;  // the best shape for every strand, however long kernels take to compile
   int heads = 1;  // expected number of heads with this hair; for many heads a long compilation pays
   // Strands, groom order, that are simulated here, where others are elsewhere: these have the bits they have
-  // in the whole groom, the others are carried rigidly. Without contacts and sleep only. Read until build or
-  // create returns; empty: all
+  // in the whole groom, the others are carried rigidly. Without sleep only, and with contacts only as `link`
+  // says. Read until build or create returns; empty: all
   std::span<const std::uint32_t> part{};
+  // With contacts, in place of `part`: what this part and the others, each simulated at the same time, hand
+  // each other. One simulation at a time; must live as long.
+  PartLink* link = nullptr;
   CompileObserver* observer = nullptr;  // must live as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have root poses (Simulation::stepFrame)

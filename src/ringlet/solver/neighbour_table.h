@@ -12,12 +12,14 @@
 
 namespace ringlet {
 
-/// A record for each strand: (first of its buckets, their number less one, its group, 0); then the buckets,
-/// each four strands or layout::kNoStrand. A strand s is in the first bucket with room from (s * 2654435761
+/// A record for each strand: (first of its buckets, their number less one, its group, 1 where `isHere` says
+/// that another device steps it; none: all are here); then the buckets, each four strands or
+/// layout::kNoStrand. A strand s is in the first bucket with room from (s * 2654435761
 /// >> 16) on, modulo their number, a power of two; buckets are at most half full on average, so one with room
 /// always comes. No buckets for a graph that allows every pair. Cost: linear in neighbours; 8 to 16 bytes
 /// each.
 std::vector<std::array<std::uint32_t, 4>> neighbourTable(const ContactGraph& graph,
-                                                         const VolumeStrands& volume);
+                                                         const VolumeStrands& volume,
+                                                         const std::vector<bool>& isHere);
 
 }  // namespace ringlet

@@ -252,7 +252,8 @@ Status Simulation::Implementation::addContacts() {
                    .pairs = atRest.graph.pairs,
                    .volumeStrands = atRest.volume.count};
   if (asset->kinds().pairs) {
-    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, choice.contactRoom);
+    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, asset->isHere, buffers,
+                                      choice.contactRoom);
     if (!stage) return stage.error();
     contacts = std::move(*stage);
   }
@@ -260,6 +261,11 @@ Status Simulation::Implementation::addContacts() {
     auto stage = VolumeStage::create(device.gpu(), rest, settings, *asset->volume, buffers);
     if (!stage) return stage.error();
     volume = std::move(*stage);
+  }
+  if (!asset->isHere.empty()) {
+    auto made = DividedHair::create(device.gpu(), rest, *choice.link);
+    if (!made) return made.error();
+    divided.emplace(std::move(*made));
   }
   return {};
 }
@@ -432,6 +438,7 @@ Result<SimulationReport> Simulation::report() const {
   SimulationReport total;
   std::uint64_t edges = 0, limited = 0;
   for (std::size_t s = 0; s < reports->size(); ++s) {
+    if (!self_->isHere(s)) continue;
     const layout::StrandReport& r = (*reports)[s];
     edges += self_->rest.strands[s].particleCount - 1;
     limited += r.limitedEdges;
@@ -456,16 +463,18 @@ Result<ContactReport> Simulation::contactReport() const {
   ContactReport report = self_->contactReport;
   if (!self_->contacts && !self_->volume) return report;
   if (self_->contacts) {
-    report.listed = self_->contacts->listedCount();
-    const auto contacts = self_->contacts->contactCount();
-    if (!contacts) return contacts.error();
-    report.contacts = *contacts;
+    report.listedSides = self_->contacts->listedSides();
+    const auto sides = self_->contacts->contactSides();
+    if (!sides) return sides.error();
+    report.contactSides = *sides;
     report.rebuilds = self_->contacts->rebuilds();
     report.pairTests = self_->contacts->pairTests();
   }
-  auto error = contactMomentumError(self_->buffers.chunks[0], self_->rest, self_->contactKinds());
-  if (!error) return error.error();
-  report.momentumError = *error;
+  const auto isHere = [&](std::size_t s) { return self_->isHere(s); };
+  const auto momentum = contactMomentum(self_->buffers.chunks[0], self_->rest, self_->contactKinds(), isHere);
+  if (!momentum) return momentum.error();
+  report.momentum = *momentum;
+  report.derive();
   return report;
 }
 
@@ -507,6 +516,7 @@ DeviceMemory Simulation::memory() const {
   memory.frames = s.buffers.poses.writtenBytes() + s.world.writtenBytes() + s.roots.writtenBytes() +
                   s.forces.writtenBytes() + s.goals.writtenBytes() + s.fields.writtenBytes();
   for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();
+  if (s.divided) memory.frames += s.divided->bytes();
   return memory;
 }
 

@@ -46,6 +46,13 @@ struct SimulationReport {
   std::uint64_t degenerateEdges = 0;  // edges (times steps) that had no direction
 };
 
+/// What contacts gave to particles in a step [kg m/s]: the sum, which is nothing but for what the iteration
+/// left, and the sum of the sizes.
+struct ContactMomentum {
+  Vec3d sum{};
+  double sizes = 0;
+};
+
 /// Counts of contacts. All are 0 without contacts.
 struct ContactReport {
   std::uint64_t contactParticles = 0;
@@ -58,6 +65,21 @@ struct ContactReport {
   std::uint64_t pairTests = 0;  // pairs of particles tested since the simulation began, over all steps
   std::uint64_t rebuilds = 0;   // of the lists, since the simulation began
   double momentumError = 0;     // of the last step: |sum of contact momenta| over the sum of their sizes
+  // What listed, contacts and momentumError come from, of the strands that are simulated here: each pair has
+  // two sides.
+  std::uint64_t listedSides = 0, contactSides = 0;
+  ContactMomentum momentum{};
+
+  void derive() {
+    listed = listedSides / 2, contacts = contactSides / 2;
+    momentumError = momentum.sizes > 0 ? length(momentum.sum) / momentum.sizes : 0;
+  }
+  /// Another part of the same hair (KernelChoice::link).
+  void add(const ContactReport& part) {
+    listedSides += part.listedSides, contactSides += part.contactSides, pairTests += part.pairTests;
+    momentum = {momentum.sum + part.momentum.sum, momentum.sizes + part.momentum.sizes};
+    derive();
+  }
 };
 
 /// Sizes of a simulation's buffers in bytes (docs/memory.md).

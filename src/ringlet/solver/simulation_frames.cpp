@@ -108,6 +108,11 @@ Status Simulation::Implementation::recordPass(FrameRecording& frame, const Solve
 
 // What strands hear of each other before the first iteration of a step's solve, and before each later one.
 // Contacts come first: they may halt, and then the volume must not go on.
+void Simulation::Implementation::recordGrid(FrameRecording& frame, std::uint32_t step) const {
+  if (!contacts) return;
+  contacts->recordGrid(frame.list, frame.pace, step);
+  frame.list.barrier();
+}
 void Simulation::Implementation::recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const {
   if (contacts) {
     contacts->recordLists(frame.list, frame.pace, step);
@@ -144,6 +149,7 @@ Status Simulation::Implementation::recordContactFrame(FrameRecording& frame, std
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   const int iterations = settings.contacts.iterationCount(contacts.has_value());
   for (std::uint32_t step = firstStep; step < steps; ++step) {
+    recordGrid(frame, step);
     recordFirstMeeting(frame, step);
     for (int iteration = 1; iteration <= iterations; ++iteration) {
       const bool isLast = iteration == iterations;
@@ -216,13 +222,20 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
   if (lostFrame) return *lostFrame;
   RINGLET_ASSERT(submitted - waited < kFramesInFlight, "more frames in flight than there are places");
   // A frame with contacts may not be over when the device stops.
-  if (contacts || isJump(stepPoses)) {
+  if (contacts || divided || isJump(stepPoses)) {
     if (Status status = finishFrames(); !status) return status;
   }
   const auto works = prepareFrame(stepPoses, bodyPoses, rootPoses);
   if (!works) return works.error();
-  if (*works) {
-    const std::size_t slot = submitted % kFramesInFlight;
+  const std::size_t slot = submitted % kFramesInFlight;
+  if (*works && divided) {
+    if (Status status = runParts(slot); !status) {
+      divided->fail(status.error());
+      lostFrame = status.error();
+      return status;
+    }
+    ++finished;
+  } else if (*works) {
     if (slots[slot].recorded != wantedRecording()) {
       if (Status status = recordSlot(slot); !status) return status;
     }
@@ -261,9 +274,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
     }
     if (contacts) contacts->readControl();
     if ((contacts || volume) && buffers.control().isHalted == layout::kHaltedByTurns) {
-      return Error{
-          "more contact particles are near one another than this device can look through; use a smaller "
-          "contact radius or volume cell, or fewer strands in one place"};
+      return Error{kTooManyNear};
     }
     const bool isHalted = contacts && contacts->isHalted();
     // A frame that stopped, or sleeps, says nothing of how long its work takes.

@@ -1,5 +1,6 @@
-// What a Simulation holds, for the files that implement it: simulation_frames.cpp and hair_frames.cpp, its
-// frames; simulation_settings.cpp, what changes between them; simulation.cpp, all else.
+// What a Simulation holds, for the files that implement it: simulation_frames.cpp, divided_frames.cpp
+// and hair_frames.cpp, its frames; simulation_settings.cpp, what changes between them; simulation.cpp, all
+// else.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@
 #include "ringlet/solver/device_roots.h"
 #include "ringlet/solver/device_world.h"
 #include "ringlet/solver/dispatch_plan.h"
+#include "ringlet/solver/divided_hair.h"
 #include "ringlet/solver/frame_slot.h"
 #include "ringlet/solver/hair_asset_implementation.h"
 #include "ringlet/solver/hair_frames.h"
@@ -37,6 +39,10 @@ namespace ringlet {
 
 inline constexpr const char* kBuiltWithoutBodies =
     "the hair's asset was built without bodies; build it with BodyUse::some";
+
+inline constexpr const char* kTooManyNear =
+    "more contact particles are near one another than this device can look through; use a smaller contact "
+    "radius or volume cell, or fewer strands in one place";
 
 // Where the head is and was one outer step before.
 struct HeadHistory {
@@ -96,6 +102,7 @@ struct Simulation::Implementation {
 
   std::optional<ContactStage> contacts{};  // of strands that meet pair by pair
   std::optional<VolumeStage> volume{};     // of strands that meet as a volume
+  std::optional<DividedHair> divided{};    // where other devices step some of these strands
   ContactReport contactReport{};           // what is known of the rest pose
 
   Stillness stillness{};
@@ -120,6 +127,7 @@ struct Simulation::Implementation {
   Status makeKernels();
   Status bindKernels();
   Status dispatchNothing(std::span<const std::size_t> newKernels) const;
+  bool isHere(std::size_t strand) const { return asset->isHere.empty() || asset->isHere[strand]; }
   ContactKinds contactKinds() const { return {contacts.has_value(), volume.has_value()}; }
   Status addContacts();
   Status forgetContacts();
@@ -153,6 +161,7 @@ struct Simulation::Implementation {
   void beginFrame(FrameRecording& frame) const;
   void recordEnd(FrameRecording& frame) const;
   Status recordFrame(FrameRecording& frame) const;
+  void recordGrid(FrameRecording& frame, std::uint32_t step) const;
   void recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const;
   void recordNextMeeting(FrameRecording& frame, std::uint32_t step) const;
   Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
@@ -174,6 +183,15 @@ struct Simulation::Implementation {
                   std::span<const BodyPose> rootPoses);
   Status jumpTo(const HeadPose& end, std::span<const BodyPose> bodyPoses,
                 std::span<const BodyPose> rootPoses);
+
+  // divided_frames.cpp
+  template <class Work>
+  Status submitPart(FrameRecording& frame, gpu::Recorder& recorder, std::optional<DividedHair::Rows> in,
+                    std::optional<DividedHair::Rows> out, const Work& work);
+  template <class Solve>
+  Status meetFirst(FrameRecording& frame, gpu::Recorder& recorder, std::uint32_t step, const Solve& solve,
+                   std::optional<DividedHair::Rows> out);
+  Status runParts(std::size_t slot);
 
   // hair_frames.cpp
   Status checkFree(const HairFrame& frame) const;

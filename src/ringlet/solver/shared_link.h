@@ -1,0 +1,31 @@
+// SharedLink: a PartLink among threads of one process.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/solver/part_link.h"
+
+namespace ringlet {
+
+/// Frames of the parts are stepped at the same time, each on a thread of its own.
+class SharedLink : public PartLink {
+ public:
+  /// One for each part, in order.
+  static std::vector<std::unique_ptr<SharedLink>> connect(std::vector<std::vector<std::uint32_t>> parts);
+
+  Status exchange(std::span<std::byte> all, std::span<const std::size_t> ends) override;
+  void fail(const Error& why) override;
+
+ private:
+  struct Meeting;
+  SharedLink(std::vector<std::vector<std::uint32_t>> parts, std::size_t own, std::shared_ptr<Meeting> meeting)
+      : PartLink(std::move(parts), own), meeting_(std::move(meeting)) {}
+  std::shared_ptr<Meeting> meeting_;
+};
+
+}  // namespace ringlet
