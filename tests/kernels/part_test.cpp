@@ -137,7 +137,7 @@ TEST_F(Part, WhatCannotBeDividedIsRefused) {
     EXPECT_NE(asset.error().message.find(message), std::string::npos) << asset.error().message;
   };
   for (const Hair& hair : hairs())
-    if (hair.settings.contacts.on) refused(hair, {0, 1}, "hair with contacts cannot be divided");
+    if (hair.settings.contacts.on) refused(hair, {0, 1}, "a part of hair with contacts needs a link");
   Hair hair = hairs()[0];
   refused(hair, {0, 7}, "a part names strand 7; the groom has 5, numbered from 0");
   refused(hair, {2, 0, 2}, "strand 2 is in a part twice");

@@ -53,8 +53,7 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 
 }  // namespace
 
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             bool divided, std::uint32_t groupSize, bool texels) {
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups, std::uint32_t groupSize, bool texels, bool divided) {
   const Compiled& compiled = compiledOf(which, taper);
   gpu::KernelDescription description;
   description.name = compiled.name;

@@ -38,8 +38,7 @@ constexpr std::size_t contactKernelCount(ContactTaper taper) {
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
 /// inGroups: some strands do not meet pair by pair, see VolumeStrands; texels: records are read as texels
-/// (gpu::BindingKind).
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             bool divided, std::uint32_t groupSize, bool texels);
+/// (gpu::BindingKind); divided: other devices step some of the strands.
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups, std::uint32_t groupSize, bool texels, bool divided = false);
 
 }  // namespace ringlet

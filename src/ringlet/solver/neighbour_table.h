@@ -20,6 +20,6 @@ namespace ringlet {
 /// each.
 std::vector<std::array<std::uint32_t, 4>> neighbourTable(const ContactGraph& graph,
                                                          const VolumeStrands& volume,
-                                                         const std::vector<bool>& isHere);
+                                                         const std::vector<bool>& isHere = {});
 
 }  // namespace ringlet
