@@ -112,8 +112,7 @@ Hair dense(ContactTaper taper) {
   hair.groom.metresPerUnit = 1;
   for (int s = 0; s < 48; ++s) {
     std::vector<Vec3f> strand;
-    for (int i = 0; i < 16; ++i)
-      strand.push_back(Vec3f(Vec3d{0.006 * (s % 8), -0.01 * i, 0.006 * (s / 8)}));
+    for (int i = 0; i < 16; ++i) strand.push_back(Vec3f(Vec3d{0.006 * (s % 8), -0.01 * i, 0.006 * (s / 8)}));
     hair.groom.addStrand(strand);
   }
   hair.settings.contacts.on = true;
@@ -161,7 +160,8 @@ TEST_F(DividedHair, HasTheBitsOfTheWhole) {
         SCOPED_TRACE(testing::Message() << "part " << k << " of " << parts.size());
         ASSERT_TRUE(outcomes[k]) << outcomes[k].error().message;
         for (int frame = 0; frame < kFrames; ++frame)
-          EXPECT_EQ(differentPoints(hair.groom, parts[k], outcomes[k]->frames[frame], whole->frames[frame]), 0)
+          EXPECT_EQ(differentPoints(hair.groom, parts[k], outcomes[k]->frames[frame], whole->frames[frame]),
+                    0)
               << "frame " << frame;
         EXPECT_EQ(outcomes[k]->contacts.rebuilds, whole->contacts.rebuilds);
         EXPECT_LE(outcomes[k]->report.maxEdgeStretch, whole->report.maxEdgeStretch);

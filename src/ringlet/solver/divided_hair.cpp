@@ -42,9 +42,9 @@ std::vector<StrandRange> rangesHere(std::span<const StrandRange> ranges, const R
 }
 
 Result<DividedHair> DividedHair::create(gpu::Device& device, const RestState& rest, PartLink& link) {
-  const std::size_t rows = rest.points.size() * fieldCount(Rows::step);
-  auto crossing =
-      gpu::Buffer::create(device, rows * kRow, gpu::BufferKind::stream, "rows between parts of hair");
+  const std::size_t fields = fieldCount(Rows::step) + fieldCount(Rows::solve);
+  auto crossing = gpu::Buffer::create(device, rest.points.size() * fields * kRow, gpu::BufferKind::stream,
+                                      "rows between parts of hair");
   if (!crossing) return crossing.error();
   DividedHair self(link, std::move(*crossing));
   std::vector<int> parts(rest.strands.size());  // that a strand is in
@@ -75,10 +75,15 @@ Result<DividedHair> DividedHair::create(gpu::Device& device, const RestState& re
   return self;
 }
 
+// Rows of the step stay as they came until its lists have room.
+std::size_t DividedHair::beginOf(Rows rows) const {
+  return rows == Rows::step ? 0 : countBefore_.back() * fieldCount(Rows::step) * kRow;
+}
+
 // copy(field's buffer, first byte there, first byte in crossing_, bytes) of each run of a part's.
 template <class Copy>
 void DividedHair::eachRun(std::size_t part, const DeviceChunk& hair, Rows rows, const Copy& copy) const {
-  std::size_t at = countBefore_[part] * fieldCount(rows) * kRow;
+  std::size_t at = beginOf(rows) + countBefore_[part] * fieldCount(rows) * kRow;
   const auto each = [&](const gpu::Buffer& field) {
     for (const Run& run : runs_[part]) {
       copy(field, run.firstParticle * kRow, at, run.count * kRow);
@@ -110,7 +115,7 @@ Status DividedHair::exchange(Rows rows) {
   std::vector<std::size_t> ends;
   for (std::size_t part = 0; part < runs_.size(); ++part)
     ends.push_back(countBefore_[part + 1] * fieldCount(rows) * kRow);
-  return link_->exchange(crossing_.mapped().first(ends.back()), ends);
+  return link_->exchange(crossing_.mapped().subspan(beginOf(rows), ends.back()), ends);
 }
 
 Result<ContactStage::Sample> DividedHair::sum(const ContactStage::Sample& own) {

@@ -53,13 +53,14 @@ class DividedHair {
     std::uint32_t firstParticle = 0, count = 0;
   };
   DividedHair(PartLink& link, gpu::Buffer crossing) : link_(&link), crossing_(std::move(crossing)) {}
+  std::size_t beginOf(Rows rows) const;  // in crossing_ [bytes]
   template <class Copy>
   void eachRun(std::size_t part, const DeviceChunk& hair, Rows rows, const Copy& copy) const;
 
   PartLink* link_;
   std::vector<std::vector<Run>> runs_{};    // of each part's particles, device order
   std::vector<std::size_t> countBefore_{};  // particles of the parts before
-  gpu::Buffer crossing_;                    // a section for each part: by field, its runs
+  gpu::Buffer crossing_;                    // of either kind a section for each part: by field, its runs
 };
 
 }  // namespace ringlet
