@@ -45,8 +45,9 @@ class Backend {
   virtual Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                              std::span<const BodyPose> rootPoses) = 0;
   virtual Status waitFrame() = 0;
-  /// As Simulation::setSettings and setMaterial, from the next frame on; no frame is in flight.
-  virtual Status change(const Settings& settings, const Material& material) = 0;
+  /// As Simulation::setSettings and setMaterial, from the next frame on; no frame is in flight. keysAt: the
+  /// time whose keys give these numbers [s]; a process that has the same scene finds them by it.
+  virtual Status change(const Settings& settings, const Material& material, double keysAt) = 0;
   /// As the ones of Simulation, for the next frame.
   virtual Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) = 0;
   virtual Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths,

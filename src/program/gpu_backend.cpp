@@ -27,7 +27,7 @@ class GpuBackend : public Backend {
     return simulation_.submitFrame(stepPoses, bodyPoses, rootPoses);
   }
   Status waitFrame() override { return simulation_.waitFrame(); }
-  Status change(const Settings& settings, const Material& material) override {
+  Status change(const Settings& settings, const Material& material, double /*keysAt*/) override {
     if (Status set = simulation_.setSettings(settings); !set) return set;
     return simulation_.setMaterial(material);
   }

@@ -85,7 +85,7 @@ Status takeNumbers(Backend& backend, const RunInput& input, const RunOptions& op
   if (!numbers) return numbers.error();
   takenOf = end;
   return backend.change(options.measuresContacts ? stepByStep(numbers->settings) : numbers->settings,
-                        numbers->material);
+                        numbers->material, end);
 }
 
 // The motion up to the first frame, so that hair begins it as it moves.

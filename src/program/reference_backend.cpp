@@ -44,7 +44,7 @@ class ReferenceBackend : public Backend {
     inFlight_.pop_front();
     return {};
   }
-  Status change(const Settings& settings, const Material& material) override {
+  Status change(const Settings& settings, const Material& material, double /*keysAt*/) override {
     simulation_.change(*groom_, material, settings);
     return {};
   }

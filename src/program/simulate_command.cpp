@@ -448,8 +448,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   CLI::Option* device = addDeviceOption(*command, typed->device)->group(machine);
   command
       ->add_option("--devices", typed->devices,
-                   "Vulkan devices among which the strands are divided, as 0,1: of hair without contacts, to "
-                   "the same bits as on one")
+                   "Vulkan devices among which the strands are divided, as 0,1, to the same bits as on one")
       ->delimiter(',')
       ->excludes(device)
       ->type_name("D,D")

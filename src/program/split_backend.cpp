@@ -1,19 +1,35 @@
-// `--devices`: the strands of a groom on several devices, behind backend.h. Strands do not meet, so that
-// nothing goes from one device to another; each has the bits that it has on one.
+// `--devices`: the strands of a groom on several devices, behind backend.h; each has the bits that it has on
+// one. Where strands meet, parts are stepped at the same time and hand each other what they do
+// (solver/part_link.h).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <ranges>
 #include <set>
 #include <utility>
 
 #include "program/backend.h"
+#include "program/threaded_backend.h"
 #include "ringlet/base/archive.h"
+#include "ringlet/rest/strand_order.h"
+#include "ringlet/solver/shared_link.h"
 
 namespace ringlet::program {
 namespace {
+
+// Of each device: strands that lie together, of as many particles.
+std::vector<std::vector<std::uint32_t>> cutStrands(const Groom& groom, std::size_t deviceCount) {
+  std::vector<std::vector<std::uint32_t>> parts(deviceCount);
+  std::size_t before = 0;
+  for (const std::uint32_t strand : orderAlongCurve(groom)) {
+    parts[before * deviceCount / groom.points.size()].push_back(strand);
+    before += groom.strand(strand).size();
+  }
+  return parts;
+}
 
 // Of each device: strands dealt out by rising length, so that all have about as many of every length.
 std::vector<std::vector<std::uint32_t>> dealStrands(const Groom& groom, std::size_t deviceCount) {
@@ -40,8 +56,9 @@ std::string joined(const std::vector<Part>& parts, std::string (Backend::*says)(
 
 class SplitBackend : public Backend {
  public:
-  SplitBackend(std::vector<Part> parts, const std::vector<std::uint32_t>& firstPoint)
-      : parts_(std::move(parts)), firstPoint_(firstPoint) {}
+  SplitBackend(std::vector<std::unique_ptr<SharedLink>> links, std::vector<Part> parts,
+               const std::vector<std::uint32_t>& firstPoint)
+      : links_(std::move(links)), parts_(std::move(parts)), firstPoint_(firstPoint) {}
 
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                      std::span<const BodyPose> rootPoses) override {
@@ -50,8 +67,8 @@ class SplitBackend : public Backend {
   Status waitFrame() override {
     return each([](Backend& hair) { return hair.waitFrame(); });
   }
-  Status change(const Settings& settings, const Material& material) override {
-    return each([&](Backend& hair) { return hair.change(settings, material); });
+  Status change(const Settings& settings, const Material& material, double keysAt) override {
+    return each([&](Backend& hair) { return hair.change(settings, material, keysAt); });
   }
   Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) override {
     return each([&](Backend& hair) { return hair.setFields(fields, from); });
@@ -115,8 +132,15 @@ class SplitBackend : public Backend {
     all.limitedShare /= edges;
     return all;
   }
-  // Hair that is divided has no contacts.
-  Result<ContactReport> contactReport() override { return parts_[0].hair->contactReport(); }
+  Result<ContactReport> contactReport() override {
+    auto all = parts_[0].hair->contactReport();
+    for (std::size_t k = 1; k < parts_.size() && all; ++k) {
+      const auto own = parts_[k].hair->contactReport();
+      if (!own) return own.error();
+      all->add(*own);
+    }
+    return all;
+  }
   // They work side by side.
   std::map<std::string, double> stageMilliseconds() const override {
     std::map<std::string, double> longest;
@@ -154,12 +178,15 @@ class SplitBackend : public Backend {
   }
 
  private:
+  // The first comes last: it does at once what it is told, while others are under way. All are told, so that
+  // none waits for one that was not.
   template <class Do>
   Status each(const Do& act) {
-    for (Part& part : parts_) {
-      if (Status done = act(*part.hair); !done) return done;
+    Status all;
+    for (Part& part : std::views::reverse(parts_)) {
+      if (Status done = act(*part.hair); !done && all) all = done;
     }
-    return {};
+    return all;
   }
 
   // The part's own strands of `from`; the others are carried rigidly there.
@@ -174,6 +201,7 @@ class SplitBackend : public Backend {
     return edges;
   }
 
+  std::vector<std::unique_ptr<SharedLink>> links_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> firstPoint_;  // of the groom
 };
@@ -185,18 +213,27 @@ Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, con
   if (input.groom.strandCount() < devices.size())
     return Error{fmt::format("{} devices are more than the groom's {} strands", devices.size(),
                              input.groom.strandCount())};
-  const auto strands = dealStrands(input.groom, devices.size());
+  const bool meet = input.settings.contacts.on;
+  const auto strands =
+      meet ? cutStrands(input.groom, devices.size()) : dealStrands(input.groom, devices.size());
+  std::vector<std::unique_ptr<SharedLink>> links;
+  if (meet) links = SharedLink::connect(strands);
   std::vector<Part> parts;
   for (std::size_t k = 0; k < devices.size(); ++k) {
     GpuChoice own = gpu;
     own.device = devices[k];
     own.opened.reset();
-    own.kernel.part = strands[k];
+    if (meet)
+      own.kernel.link = links[k].get();
+    else
+      own.kernel.part = strands[k];
     auto made = makeGpuBackend(input, own);
     if (!made) return made.error();
+    if (meet && k > 0) made = onThread(std::move(*made));
     parts.push_back({std::move(*made), strands[k]});
   }
-  return std::unique_ptr<Backend>(std::make_unique<SplitBackend>(std::move(parts), input.groom.firstPoint));
+  return std::unique_ptr<Backend>(
+      std::make_unique<SplitBackend>(std::move(links), std::move(parts), input.groom.firstPoint));
 }
 
 }  // namespace ringlet::program

@@ -53,6 +53,9 @@ class Split : public testing::Test {
     return json::parse(result.out, nullptr, false);
   }
 
+  // Checkpoints are there; it ends in the middle.
+  void killAndGoOn(const std::string& contacts);
+
   fs::path folder_;
   std::string device_;
 };
@@ -63,19 +66,33 @@ TEST_F(Split, OnTwoAndFourDevicesHairHasTheBitsOfOne) {
   const struct {
     std::string what;
     std::vector<std::string> options;
-  } kRuns[] = {{"head.obj", {"--motion", "shake", "--frames", "6"}},
-               {"head.obj", {"--motion", "shake", "--frames", "2", "--measure-contacts"}},
-               {"head.obj", {"--motion", "shake", "--frames", "3", "--integrator", "point_jacobi"}},
-               {"examples/directed.toml", {"--frames", "6"}}};
+  } kRuns[] = {
+    {"head.obj", {"--motion", "shake", "--frames", "4", "--contacts", "explicit"}},
+    {"head.obj", {"--motion", "shake", "--frames", "4", "--contacts", "volume"}},
+    {"head.obj", {"--motion", "shake", "--frames", "2", "--contacts", "auto", "--measure-contacts"}},
+    {"examples/directed.toml", {"--frames", "2", "--contacts", "explicit"}},
+    {{"head.obj", {"--motion", "shake", "--frames", "6"}},
+     {"head.obj", {"--motion", "shake", "--frames", "2", "--measure-contacts"}},
+     {"head.obj", {"--motion", "shake", "--frames", "3", "--integrator", "point_jacobi"}},
+     {"examples/directed.toml", {"--frames", "6"}}};
   for (const auto& run : kRuns) {
     const json one = simulate(run.what, 1, run.options, "one");
     for (const int devices : {2, 4}) {
       SCOPED_TRACE(run.what + " " + std::to_string(devices));
       const json split = simulate(run.what, devices, run.options, "split");
       EXPECT_TRUE(readText(folder_ / "one/hair.rgc") == readText(folder_ / "split/hair.rgc"));
-      for (const char* name : {"positions_hash", "max_edge_stretch", "nonfinite", "warnings", "kernel",
-                               "rigid_strands", "contacts"})
+      for (const char* name :
+           {"positions_hash", "max_edge_stretch", "nonfinite", "warnings", "kernel", "rigid_strands"})
         EXPECT_EQ(one[name], split[name]) << name;
+      json contacts = one["contacts"], splitContacts = split["contacts"];
+      EXPECT_EQ(contacts.is_null(), std::ranges::find(run.options, "--contacts") == run.options.end());
+      if (!contacts.is_null()) {
+        // Sums in another order.
+        EXPECT_NEAR(contacts["momentum_error"].get<double>(), splitContacts["momentum_error"].get<double>(),
+                    1e-9);
+        contacts.erase("momentum_error"), splitContacts.erase("momentum_error");
+      }
+      EXPECT_EQ(contacts, splitContacts);
       EXPECT_NEAR(one["limited_share"].get<double>(), split["limited_share"].get<double>(), 1e-9);
       EXPECT_EQ(split["device"].get<std::string>().find(one["device"].get<std::string>() + " + "), 0u);
     }
@@ -83,7 +100,15 @@ TEST_F(Split, OnTwoAndFourDevicesHairHasTheBitsOfOne) {
 }
 
 TEST_F(Split, ARunThatWasKilledGoesOn) {
-  const std::vector<std::string> options = {"--motion", "shake", "--frames", "600", "--checkpoint", "5"};
+  for (const char* contacts : {"off", "auto"}) killAndGoOn(contacts);
+}
+
+void Split::killAndGoOn(const std::string& contacts) {
+  SCOPED_TRACE("contacts " + contacts);
+  const std::string frames = contacts == "off" ? "600" : "150";
+  const std::vector<std::string> options = {"--motion",     "shake", "--frames",   frames,
+                                            "--checkpoint", "5",     "--contacts", contacts};
+  fs::remove_all(folder_ / "killed");
   simulate("head.obj", 2, options, "whole");
   auto arguments = argumentsOf("head.obj", 2, options, "killed");
   std::ranges::replace(arguments, "--json", "--json-progress");
@@ -109,7 +134,6 @@ TEST_F(Split, WhatCannotBeDividedIsRefused) {
     EXPECT_NE(result.exitCode, 0) << message;
     EXPECT_NE(result.err.find(message), std::string::npos) << result.err;
   };
-  refused("head.obj", {"--contacts", "on"}, "hair with contacts cannot be divided among devices");
   refused("head.obj", {"--backend", "reference"}, "only --backend gpu has a device");
   refused("head.obj", {"--device", device_}, "--device");
   ASSERT_EQ(runProgram(folder_, {"make", "curl", "-o", "curl.obj"}).exitCode, 0);
