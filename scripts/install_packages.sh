@@ -18,6 +18,7 @@ packages=(
 extras=(
   libglfw3-dev libimgui-dev xvfb xdotool                             # the window of `ringlet view`, and its test without a screen
   gnuplot-nox                                                        # plots
+  libopenmpi-dev openmpi-bin                                         # runs on several ranks
   ffmpeg                                                             # films of `ringlet render`
 )
 

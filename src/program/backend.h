@@ -101,6 +101,11 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
 Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, const GpuChoice& gpu,
                                                   std::span<const std::string> devices);
 
+/// The same with a part on each rank (ranks.h), which has one of these devices, in turn, or gpu.device. On
+/// rank 0 all of the hair; on another its own part.
+Result<std::unique_ptr<Backend>> makeRankBackend(const BackendInput& input, const GpuChoice& gpu,
+                                                 std::span<const std::string> devices);
+
 /// The reference in double precision, on one thread. Refuses what the solver refuses, and warns of what it
 /// warns of.
 Result<std::unique_ptr<Backend>> makeReferenceBackend(const BackendInput& input);

@@ -4,17 +4,21 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "program/backend.h"
+#include "program/exit_codes.h"
 #include "program/frame_lines.h"
 #include "program/frame_poses.h"
 #include "program/frame_sink.h"
 #include "program/interruption.h"
 #include "program/progress_bar.h"
+#include "program/ranks.h"
+#include "program/remote_backend.h"
 #include "program/run_checkpoints.h"
 #include "program/run_facts.h"
 #include "program/run_folder.h"
@@ -70,6 +74,9 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   kernel.goals = input.forces && input.forces->haveGoals();
   kernel.residual = measuresResidual(input, options);
   const GpuChoice gpu{options.device, options.opened, kernel, options.usesTuned, options.showProgress};
+  static bool wasDivided = false;  // other ranks have left then
+  if (ranks().count > 1 && !std::exchange(wasDivided, true))
+    return makeRankBackend(made, gpu, options.devices);
   return options.devices.empty() ? makeGpuBackend(made, gpu) : makeSplitBackend(made, gpu, options.devices);
 }
 
@@ -434,11 +441,27 @@ void HairRun::tellWarnings() {
   add(backend_->deviceMessages());
 }
 
+// What a rank but 0 does of a run.
+[[noreturn]] void serveRun(const RunInput& input, const RunOptions& options) {
+  RankScene scene;
+  scene.numbersAt = [&](double seconds) -> Result<SceneNumbers> {
+    auto numbers = input.keys->at(seconds, input.settings.stepsPerFrame);
+    if (numbers && options.measuresContacts) numbers->settings = stepByStep(numbers->settings);
+    return numbers;
+  };
+  auto poses = posesOfFrame(input, 0);
+  if (poses) scene.fields = poses->forces.fields;
+  serve(poses ? makeBackend(input, options) : poses.error(), scene);
+  leaveRanks(kExitFine);
+  std::exit(kExitFine);
+}
+
 }  // namespace
 
 Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
                                 const FrameObserver& observer) {
   catchInterruption();
+  if (ranks().own > 0) serveRun(input, options);
   return HairRun(input, options, observer).run();
 }
 

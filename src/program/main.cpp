@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
 
 #include "program/command_line.h"
 #include "program/conform_command.h"
@@ -19,6 +20,7 @@
 #include "program/make_command.h"
 #include "program/material_command.h"
 #include "program/measure_command.h"
+#include "program/ranks.h"
 #include "program/render_command.h"
 #include "program/scene_command.h"
 #include "program/simulate_command.h"
@@ -28,10 +30,16 @@
 #include "program/view_command.h"
 #include "ringlet/version.h"
 
-int main(int argumentCount, char** arguments) {
-  using namespace ringlet::program;
+namespace ringlet::program {
+namespace {
+
+int run(int argumentCount, char** arguments) {
   int exitCode = kExitFine;
   failInsteadOfEnding();
+  if (const std::string wrong = joinRanks(argumentCount, arguments); !wrong.empty()) {
+    say("ringlet: {}\n", wrong);
+    return kExitUsage;
+  }
 
   CLI::App app("Ringlet simulates stylised curly hair on the GPU.", "ringlet");
   app.set_version_flag("--version", "ringlet " RINGLET_VERSION);
@@ -78,5 +86,14 @@ int main(int argumentCount, char** arguments) {
     say("ringlet: cannot write to standard output\n");
     return kExitOutput;
   }
+  return exitCode;
+}
+
+}  // namespace
+}  // namespace ringlet::program
+
+int main(int argumentCount, char** arguments) {
+  const int exitCode = ringlet::program::run(argumentCount, arguments);
+  ringlet::program::leaveRanks(exitCode);
   return exitCode;
 }

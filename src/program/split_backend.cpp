@@ -1,6 +1,6 @@
-// `--devices`: the strands of a groom on several devices, behind backend.h; each has the bits that it has on
-// one. Where strands meet, parts are stepped at the same time and hand each other what they do
-// (solver/part_link.h).
+// `--devices`, and several ranks: the strands of a groom on several devices, behind backend.h; each has the
+// bits that it has on one. Where strands meet, parts are stepped at the same time and hand each other what
+// they do (solver/part_link.h).
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "program/backend.h"
+#include "program/ranks.h"
+#include "program/remote_backend.h"
 #include "program/threaded_backend.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/rest/strand_order.h"
@@ -41,10 +43,15 @@ std::vector<std::vector<std::uint32_t>> dealStrands(const Groom& groom, std::siz
   return parts;
 }
 
+std::vector<std::vector<std::uint32_t>> partsOf(const BackendInput& input, std::size_t count) {
+  return input.settings.contacts.on ? cutStrands(input.groom, count) : dealStrands(input.groom, count);
+}
+
 struct Part {
   std::unique_ptr<Backend> hair;
   std::vector<std::uint32_t> strands;
 };
+using Links = std::vector<std::unique_ptr<PartLink>>;
 
 // What all say; once, where they say the same.
 std::string joined(const std::vector<Part>& parts, std::string (Backend::*says)() const, bool isOnce) {
@@ -56,8 +63,7 @@ std::string joined(const std::vector<Part>& parts, std::string (Backend::*says)(
 
 class SplitBackend : public Backend {
  public:
-  SplitBackend(std::vector<std::unique_ptr<SharedLink>> links, std::vector<Part> parts,
-               const std::vector<std::uint32_t>& firstPoint)
+  SplitBackend(Links links, std::vector<Part> parts, const std::vector<std::uint32_t>& firstPoint)
       : links_(std::move(links)), parts_(std::move(parts)), firstPoint_(firstPoint) {}
 
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
@@ -201,37 +207,66 @@ class SplitBackend : public Backend {
     return edges;
   }
 
-  std::vector<std::unique_ptr<SharedLink>> links_;
+  Links links_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> firstPoint_;  // of the groom
 };
+
+Result<std::unique_ptr<Backend>> makePart(const BackendInput& input, const GpuChoice& gpu,
+                                          const std::string& device, std::span<const std::uint32_t> strands,
+                                          PartLink* link) {
+  GpuChoice own = gpu;
+  own.device = device;
+  own.opened.reset();
+  own.kernel.link = link;
+  if (!link) own.kernel.part = strands;
+  return makeGpuBackend(input, own);
+}
+
+Status checkParts(const BackendInput& input, std::size_t count, const char* what) {
+  const std::size_t strands = input.groom.strandCount();
+  if (count <= strands) return {};
+  return Error{fmt::format("{} {} are more than the groom's {} strands", count, what, strands)};
+}
 
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, const GpuChoice& gpu,
                                                   std::span<const std::string> devices) {
-  if (input.groom.strandCount() < devices.size())
-    return Error{fmt::format("{} devices are more than the groom's {} strands", devices.size(),
-                             input.groom.strandCount())};
-  const bool meet = input.settings.contacts.on;
-  const auto strands =
-      meet ? cutStrands(input.groom, devices.size()) : dealStrands(input.groom, devices.size());
-  std::vector<std::unique_ptr<SharedLink>> links;
-  if (meet) links = SharedLink::connect(strands);
+  if (Status enough = checkParts(input, devices.size(), "devices"); !enough) return enough.error();
+  const auto strands = partsOf(input, devices.size());
+  Links links;
+  if (input.settings.contacts.on)
+    for (auto& link : SharedLink::connect(strands)) links.push_back(std::move(link));
   std::vector<Part> parts;
   for (std::size_t k = 0; k < devices.size(); ++k) {
-    GpuChoice own = gpu;
-    own.device = devices[k];
-    own.opened.reset();
-    if (meet)
-      own.kernel.link = links[k].get();
-    else
-      own.kernel.part = strands[k];
-    auto made = makeGpuBackend(input, own);
+    auto made = makePart(input, gpu, devices[k], strands[k], links.empty() ? nullptr : links[k].get());
     if (!made) return made.error();
-    if (meet && k > 0) made = onThread(std::move(*made));
+    if (!links.empty() && k > 0) made = onThread(std::move(*made));
     parts.push_back({std::move(*made), strands[k]});
   }
+  return std::unique_ptr<Backend>(
+      std::make_unique<SplitBackend>(std::move(links), std::move(parts), input.groom.firstPoint));
+}
+
+Result<std::unique_ptr<Backend>> makeRankBackend(const BackendInput& input, const GpuChoice& gpu,
+                                                 std::span<const std::string> devices) {
+  const auto [own, count] = ranks();
+  const auto rank = static_cast<std::size_t>(own), rankCount = static_cast<std::size_t>(count);
+  if (Status enough = checkParts(input, rankCount, "ranks"); !enough) return enough.error();
+  const auto strands = partsOf(input, rankCount);
+  Links links;
+  if (input.settings.contacts.on) links.push_back(linkRanks(strands));
+  const std::string& device = devices.empty() ? gpu.device : devices[rank % devices.size()];
+  auto hair = makePart(input, gpu, device, strands[rank], links.empty() ? nullptr : links[0].get());
+  std::vector<Part> parts;
+  if (hair) parts.push_back({std::move(*hair), strands[rank]});
+  for (int other = 1; own == 0 && other < count; ++other) {
+    auto made = makeRemoteBackend(other);
+    if (!made && hair) hair = made.error();
+    if (made) parts.push_back({std::move(*made), strands[static_cast<std::size_t>(other)]});
+  }
+  if (!hair) return hair.error();
   return std::unique_ptr<Backend>(
       std::make_unique<SplitBackend>(std::move(links), std::move(parts), input.groom.firstPoint));
 }
