@@ -106,7 +106,7 @@ class RemoteBackend : public Backend {
  public:
   explicit RemoteBackend(int rank) : rank_(rank) {}
   ~RemoteBackend() override {
-    settle();
+    (void)settle();
     std::uint32_t leave = kLeave;
     sendTo(rank_, std::as_bytes(std::span(&leave, 1)));
   }
