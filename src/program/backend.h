@@ -96,6 +96,11 @@ Result<ComputeDevice> openGpu(const std::string& device);
 /// The Vulkan solver.
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu);
 
+/// Strands of each of so many parts of hair, in groom order: where they meet, those that lie together, else
+/// dealt out by length.
+std::vector<std::vector<std::uint32_t>> partsOf(const Groom& groom, const Settings& settings,
+                                                std::size_t count);
+
 /// The same with the groom's strands on several devices, each named as GpuChoice::device is; one may be named
 /// twice. Errors: what HairAsset::build says of hair that cannot be divided; more devices than strands.
 Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, const GpuChoice& gpu,

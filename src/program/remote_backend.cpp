@@ -104,7 +104,8 @@ struct Facts {
 
 class RemoteBackend : public Backend {
  public:
-  explicit RemoteBackend(int rank) : rank_(rank) {}
+  RemoteBackend(int rank, std::size_t pointCount, std::vector<std::uint32_t> points)
+      : rank_(rank), pointCount_(pointCount), points_(std::move(points)) {}
   ~RemoteBackend() override {
     (void)settle();
     std::uint32_t leave = kLeave;
@@ -143,10 +144,10 @@ class RemoteBackend : public Backend {
     return ask(std::move(call));
   }
   std::vector<Vec3f> framePositions() override {
-    auto points = askFor<Vec3f>(begin(Call::framePositions));
-    return points ? std::move(*points) : std::vector<Vec3f>{};
+    auto points = pointsOf(Call::framePositions);
+    return points ? std::move(*points) : std::vector<Vec3f>(pointCount_);
   }
-  Result<std::vector<Vec3f>> positions() override { return askFor<Vec3f>(begin(Call::positions)); }
+  Result<std::vector<Vec3f>> positions() override { return pointsOf(Call::positions); }
   Result<std::vector<std::byte>> checkpoint() override { return askFor<std::byte>(begin(Call::checkpoint)); }
   Status restore(std::span<const std::byte> checkpoint) override {
     Archive call = begin(Call::restore);
@@ -213,6 +214,13 @@ class RemoteBackend : public Backend {
     archive.list(values);
     return values;
   }
+  Result<std::vector<Vec3f>> pointsOf(Call call) const {
+    const auto own = askFor<Vec3f>(begin(call));
+    if (!own) return own.error();
+    std::vector<Vec3f> all(pointCount_);
+    for (std::size_t k = 0; k < points_.size(); ++k) all[points_[k]] = (*own)[k];
+    return all;
+  }
   Result<std::pair<SimulationReport, ContactReport>> reports() const {
     std::vector<std::byte> bytes;
     if (Status asked = ask(begin(Call::reports), &bytes); !asked) return asked.error();
@@ -231,6 +239,8 @@ class RemoteBackend : public Backend {
   }
 
   int rank_;
+  std::size_t pointCount_;             // of the groom
+  std::vector<std::uint32_t> points_;  // of the part, in the groom
   mutable Status lost_{};
   mutable bool isUnderWay_ = false;  // a frame whose answer is still to come
 };
@@ -267,9 +277,9 @@ class Server {
         return hair_.setGoals(places, strengths, dampingRatio, from);
       }
       case Call::framePositions:
-        return give(Result(hair_.framePositions()), given);
+        return give(ownOf(hair_.framePositions()), given);
       case Call::positions:
-        return give(hair_.positions(), given);
+        return give(ownOf(hair_.positions()), given);
       case Call::checkpoint:
         return give(hair_.checkpoint(), given);
       case Call::restore: {
@@ -295,6 +305,12 @@ class Server {
     const auto numbers = scene_.numbersAt(keysAt);
     if (!numbers) return numbers.error();
     return hair_.change(numbers->settings, numbers->material, keysAt);
+  }
+  Result<std::vector<Vec3f>> ownOf(const Result<std::vector<Vec3f>>& all) const {
+    if (!all) return all.error();
+    std::vector<Vec3f> own;
+    for (const std::uint32_t point : scene_.points) own.push_back((*all)[point]);
+    return own;
   }
   template <class T>
   static Status give(Result<std::vector<T>> values, Archive& given) {
@@ -326,8 +342,16 @@ void sendAnswer(const Status& done, Archive given) {
 
 }  // namespace
 
-Result<std::unique_ptr<Backend>> makeRemoteBackend(int rank) {
-  auto made = std::make_unique<RemoteBackend>(rank);
+std::vector<std::uint32_t> pointsOf(const Groom& groom, std::span<const std::uint32_t> strands) {
+  std::vector<std::uint32_t> points;
+  for (const std::uint32_t s : strands)
+    for (std::uint32_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i) points.push_back(i);
+  return points;
+}
+
+Result<std::unique_ptr<Backend>> makeRemoteBackend(int rank, const Groom& groom,
+                                                   std::span<const std::uint32_t> strands) {
+  auto made = std::make_unique<RemoteBackend>(rank, groom.points.size(), pointsOf(groom, strands));
   std::vector<std::byte> nothing;
   if (Status ready = made->answer(nothing); !ready)
     return Error{fmt::format("rank {}: {}", rank, ready.error().message)};

@@ -13,14 +13,19 @@
 
 namespace ringlet::program {
 
-/// submitFrame comes back at once; every other call waits for the rank. Fails where that could not make its
-/// part.
-Result<std::unique_ptr<Backend>> makeRemoteBackend(int rank);
+/// submitFrame comes back at once; every other call waits for the rank. `strands` are the part's: positions
+/// of others are 0. Fails where the rank could not make its part.
+Result<std::unique_ptr<Backend>> makeRemoteBackend(int rank, const Groom& groom,
+                                                   std::span<const std::uint32_t> strands);
+
+/// Of these strands, in the groom.
+std::vector<std::uint32_t> pointsOf(const Groom& groom, std::span<const std::uint32_t> strands);
 
 /// What this rank knows of the run besides, as rank 0 does.
 struct RankScene {
   std::function<Result<SceneNumbers>(double seconds)> numbersAt;  // as keys give them
   std::span<const ForceField> fields{};                           // whose grids those of a frame have
+  std::vector<std::uint32_t> points{};                            // of the part, in the groom
 };
 
 /// Of a rank but 0: says whether it has hair, and does what rank 0 tells it to until that tells it to leave.

@@ -43,10 +43,6 @@ std::vector<std::vector<std::uint32_t>> dealStrands(const Groom& groom, std::siz
   return parts;
 }
 
-std::vector<std::vector<std::uint32_t>> partsOf(const BackendInput& input, std::size_t count) {
-  return input.settings.contacts.on ? cutStrands(input.groom, count) : dealStrands(input.groom, count);
-}
-
 struct Part {
   std::unique_ptr<Backend> hair;
   std::vector<std::uint32_t> strands;
@@ -195,7 +191,7 @@ class SplitBackend : public Backend {
     return all;
   }
 
-  // The part's own strands of `from`; the others are carried rigidly there.
+  // The part's own strands of `from`; of others nothing is known there.
   void take(const Part& part, const std::vector<Vec3f>& from, std::vector<Vec3f>& to) const {
     for (const std::uint32_t s : part.strands)
       std::copy(from.begin() + firstPoint_[s], from.begin() + firstPoint_[s + 1],
@@ -211,6 +207,15 @@ class SplitBackend : public Backend {
   std::vector<Part> parts_;
   std::vector<std::uint32_t> firstPoint_;  // of the groom
 };
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> partsOf(const Groom& groom, const Settings& settings,
+                                                std::size_t count) {
+  return settings.contacts.on ? cutStrands(groom, count) : dealStrands(groom, count);
+}
+
+namespace {
 
 Result<std::unique_ptr<Backend>> makePart(const BackendInput& input, const GpuChoice& gpu,
                                           const std::string& device, std::span<const std::uint32_t> strands,
@@ -234,7 +239,7 @@ Status checkParts(const BackendInput& input, std::size_t count, const char* what
 Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, const GpuChoice& gpu,
                                                   std::span<const std::string> devices) {
   if (Status enough = checkParts(input, devices.size(), "devices"); !enough) return enough.error();
-  const auto strands = partsOf(input, devices.size());
+  const auto strands = partsOf(input.groom, input.settings, devices.size());
   Links links;
   if (input.settings.contacts.on)
     for (auto& link : SharedLink::connect(strands)) links.push_back(std::move(link));
@@ -254,7 +259,7 @@ Result<std::unique_ptr<Backend>> makeRankBackend(const BackendInput& input, cons
   const auto [own, count] = ranks();
   const auto rank = static_cast<std::size_t>(own), rankCount = static_cast<std::size_t>(count);
   if (Status enough = checkParts(input, rankCount, "ranks"); !enough) return enough.error();
-  const auto strands = partsOf(input, rankCount);
+  const auto strands = partsOf(input.groom, input.settings, rankCount);
   Links links;
   if (input.settings.contacts.on) links.push_back(linkRanks(strands));
   const std::string& device = devices.empty() ? gpu.device : devices[rank % devices.size()];
@@ -262,9 +267,10 @@ Result<std::unique_ptr<Backend>> makeRankBackend(const BackendInput& input, cons
   std::vector<Part> parts;
   if (hair) parts.push_back({std::move(*hair), strands[rank]});
   for (int other = 1; own == 0 && other < count; ++other) {
-    auto made = makeRemoteBackend(other);
+    const std::vector<std::uint32_t>& its = strands[static_cast<std::size_t>(other)];
+    auto made = makeRemoteBackend(other, input.groom, its);
     if (!made && hair) hair = made.error();
-    if (made) parts.push_back({std::move(*made), strands[static_cast<std::size_t>(other)]});
+    if (made) parts.push_back({std::move(*made), its});
   }
   if (!hair) return hair.error();
   return std::unique_ptr<Backend>(

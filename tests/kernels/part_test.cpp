@@ -80,19 +80,15 @@ TEST_F(Part, StrandsHaveTheBitsOfTheWhole) {
       EXPECT_LT(some->memory().total(), whole->memory().total());
       const HairState state = stateAfter(*some, own, kHeads[1]);
       ASSERT_EQ(state.positions.size(), expected.positions.size());
-      int different = 0, elsewhereAlike = 0;
+      int different = 0;
       for (std::uint32_t s = 0; s < hair.groom.strandCount(); ++s) {
         const std::uint32_t tip = hair.groom.firstPoint[s + 1] - 1;
-        if (s % 3 != first) {
-          elsewhereAlike += state.positions[tip] == expected.positions[tip];
-          continue;
-        }
+        if (s % 3 != first) continue;
         for (std::uint32_t i = hair.groom.firstPoint[s]; i <= tip; ++i)
           different += !(state.positions[i] == expected.positions[i]) ||
                        !(state.velocities[i] == expected.velocities[i]);
       }
       EXPECT_EQ(different, 0) << "part " << first;
-      EXPECT_EQ(elsewhereAlike, 0) << "strands elsewhere are carried rigidly";
     }
   }
 }

@@ -16,7 +16,8 @@ namespace {
 // All strands in the order of a rest state's, those that are rigid among the others of their length.
 std::vector<std::uint32_t> orderOf(const RestState& rest, const Groom& groom) {
   std::vector<std::uint32_t> order = rest.strandInGroom;
-  for (const RigidStrand& strand : rest.rigid) order.push_back(strand.strandInGroom);
+  for (const auto* others : {&rest.rigid, &rest.elsewhere})
+    for (const RigidStrand& strand : *others) order.push_back(strand.strandInGroom);
   std::ranges::stable_sort(order, {}, [&](std::uint32_t s) { return groom.strand(s).size(); });
   return order;
 }
@@ -54,7 +55,7 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
   auto base = buildRestState(groom, material, unloaded, order);
   if (!base) return base.error();
   for (RestState* state : {&*loaded, &*base}) {
-    if (rest.elsewhereCount == 0) break;
+    if (rest.elsewhere.empty()) break;
     if (Status status = restrictTo(*state, rest.strandInGroom); !status) return status.error();
   }
 

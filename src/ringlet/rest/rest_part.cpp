@@ -30,15 +30,13 @@ Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
   state.groomStrandCount = whole.groomStrandCount, state.groomParticleCount = whole.groomParticleCount;
   state.longestCalmStep = whole.longestCalmStep;
   state.oneSmoothing = whole.oneSmoothing;
-  state.elsewhereCount = whole.elsewhereCount;
   std::swap(state.wholeCounts, whole.wholeCounts);
   for (std::size_t s = 0; s < whole.strands.size(); ++s) {
     layout::StrandRest strand = whole.strands[s];
     const auto first = whole.points.begin() + strand.firstParticle;
     if (!(*isIn)[whole.strandInGroom[s]]) {
-      state.rigid.push_back(
+      state.elsewhere.push_back(
           {whole.strandInGroom[s], whole.firstInGroom[s], {first, first + strand.particleCount}});
-      ++state.elsewhereCount;
       continue;
     }
     const auto particles = whole.particles.begin() + strand.firstParticle;
@@ -49,7 +47,7 @@ Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
     state.points.insert(state.points.end(), first, first + strand.particleCount);
     state.particles.insert(state.particles.end(), particles, particles + strand.particleCount);
   }
-  std::ranges::sort(state.rigid, {}, &RigidStrand::strandInGroom);
+  std::ranges::sort(state.elsewhere, {}, &RigidStrand::strandInGroom);
   return {};
 }
 

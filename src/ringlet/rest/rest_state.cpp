@@ -359,7 +359,8 @@ Groom groomOf(const RestState& state) {
     put(state.strandInGroom[s], state.firstInGroom[s],
         std::span(state.points).subspan(strand.firstParticle, strand.particleCount));
   }
-  for (const RigidStrand& strand : state.rigid) put(strand.strandInGroom, strand.firstInGroom, strand.points);
+  for (const auto* others : {&state.rigid, &state.elsewhere})
+    for (const RigidStrand& strand : *others) put(strand.strandInGroom, strand.firstInGroom, strand.points);
   groom.firstPoint.assign(1, 0);
   for (const std::uint32_t count : counts) groom.firstPoint.push_back(groom.firstPoint.back() + count);
   return groom;

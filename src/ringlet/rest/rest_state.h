@@ -32,12 +32,12 @@ struct RestState {
   std::vector<Vec3f> points;                 // rest positions [m]
   std::vector<std::uint32_t> strandInGroom;  // groom's index of each strand
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle
-  std::vector<RigidStrand> rigid;            // all other strands, in groom order
+  std::vector<RigidStrand> rigid;            // those carried rigidly, in groom order
   std::size_t groomStrandCount = 0, groomParticleCount = 0;
   // Of the whole groom, where only a part of it is here (rest/rest_part.h):
   std::vector<std::uint32_t> wholeCounts;  // particles of each strand that is simulated anywhere, rising
   bool oneSmoothing = false;               // bendBeta is coreBeta in all of them
-  std::size_t elsewhereCount = 0;          // of `rigid`, those that are simulated elsewhere
+  std::vector<RigidStrand> elsewhere;      // strands that are simulated elsewhere, in groom order
   double longestCalmStep = 0;              // longest outer step that needs no warning [s]
   std::vector<std::string> warnings;       // for the user: what the step or the load changed, with numbers
   std::size_t materialWarningCount = 0;    // the first of them, which another material would not have

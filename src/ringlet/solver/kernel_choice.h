@@ -33,8 +33,8 @@ struct KernelChoice {
   bool manyKernels = false;  // the best shape for every strand, however long kernels take to compile
   int heads = 1;  // expected number of heads with this hair; for many heads a long compilation pays
   // Strands, groom order, that are simulated here, where others are elsewhere: these have the bits they have
-  // in the whole groom, the others are carried rigidly. Without sleep only, and with contacts only as `link`
-  // says. Read until build or create returns; empty: all
+  // in the whole groom, and of the others no position is known here. Without sleep only, and with contacts
+  // only as `link` says. Read until build or create returns; empty: all
   std::span<const std::uint32_t> part{};
   // With contacts, in place of `part`: what this part and the others, each simulated at the same time, hand
   // each other. One simulation at a time; must live as long.

@@ -485,7 +485,7 @@ Result<std::vector<ListedContact>> Simulation::listedContacts() const {
 }
 
 std::size_t Simulation::rigidStrandCount() const {
-  return self_->rigidHair.strandCount() - self_->rest.elsewhereCount;
+  return self_->rigidHair.strandCount();
 }
 const std::vector<std::string>& Simulation::warnings() const { return self_->warnings; }
 std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }

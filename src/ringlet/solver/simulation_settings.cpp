@@ -16,7 +16,7 @@ constexpr double kRounding = 1 + 1e-9;  // of two ways to say one step
 
 Status Simulation::Implementation::checkChange(const Settings& wanted) const {
   if (Status status = checkSettings(wanted, material); !status) return status;
-  if (rest.elsewhereCount > 0 || divided) {
+  if (!rest.elsewhere.empty() || divided) {
     if (Status status = checkPart(wanted, choice.link); !status) return status;
   }
   const Settings& built = asset->settings;
