@@ -130,14 +130,14 @@ TEST_F(Ranks, ARankThatDiesEndsTheRun) {
       "simulate head.obj --motion shake --frames 400 --contacts auto --checkpoint 5 --cache float32 --no-usd "
       "--no-sheet --quiet";
   ASSERT_EQ(runProgram(folder_, words(run + " -o whole")).exitCode, 0);
-  const auto died = shell(commandOf(3, run + " --json-progress -o died") + R"( &
+  const auto died = shell(commandOf(3, run + " --json-progress -o died") + R"sh( &
     launcher=$!
     for _ in $(seq 3000); do
       [ -f died/checkpoint.rgk ] && [ "$(wc -l < stdout.txt)" -ge 20 ] && break
       sleep 0.01
     done
     pkill -KILL -n -P $launcher
-    wait $launcher)");
+    wait $launcher)sh");
   EXPECT_NE(died.exitCode, 0) << "it ended before it was killed";
   EXPECT_NE(died.err.find("signal 9"), std::string::npos) << died.err;
   const auto resumed = launch(3, run + " --json-progress -o died --resume");
