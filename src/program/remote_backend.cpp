@@ -174,14 +174,12 @@ class RemoteBackend : public Backend {
   double compileMilliseconds() const override { return facts().compileMilliseconds; }
   std::optional<std::uint64_t> deviceBytes() const override { return facts().deviceBytes; }
 
-  /// Its next answer; `bytes` are what it gives.
+  /// Its next answer.
   Status answer(std::vector<std::byte>& bytes) const {
     bytes = receiveFrom(rank_);
     Archive archive = Archive::reading(bytes);
     std::string why;
     archive.text(why);
-    bytes.erase(bytes.begin(),
-                bytes.begin() + static_cast<std::ptrdiff_t>(sizeof(std::uint64_t) + why.size()));
     return why.empty() ? Status{} : Status{Error{why}};
   }
 
@@ -190,6 +188,10 @@ class RemoteBackend : public Backend {
     Archive archive = Archive::writing();
     archive.value(call);
     return archive;
+  }
+  // After the empty text of an answer that is fine.
+  static Archive givenIn(std::span<const std::byte> answer) {
+    return Archive::reading(answer.subspan(sizeof(std::uint64_t)));
   }
   // The frame under way is over; how it ended.
   Status settle() const {
@@ -209,7 +211,7 @@ class RemoteBackend : public Backend {
   Result<std::vector<T>> askFor(Archive call) const {
     std::vector<std::byte> bytes;
     if (Status asked = ask(std::move(call), &bytes); !asked) return asked.error();
-    Archive archive = Archive::reading(bytes);
+    Archive archive = givenIn(bytes);
     std::vector<T> values;
     archive.list(values);
     return values;
@@ -224,7 +226,7 @@ class RemoteBackend : public Backend {
   Result<std::pair<SimulationReport, ContactReport>> reports() const {
     std::vector<std::byte> bytes;
     if (Status asked = ask(begin(Call::reports), &bytes); !asked) return asked.error();
-    Archive archive = Archive::reading(bytes);
+    Archive archive = givenIn(bytes);
     std::pair<SimulationReport, ContactReport> both;
     archive.value(both.first), archive.value(both.second);
     return both;
@@ -233,7 +235,7 @@ class RemoteBackend : public Backend {
     std::vector<std::byte> bytes;
     Facts facts;
     if (!ask(begin(Call::facts), &bytes)) return facts;
-    Archive archive = Archive::reading(bytes);
+    Archive archive = givenIn(bytes);
     facts.archive(archive);
     return facts;
   }
@@ -308,8 +310,8 @@ class Server {
   }
   Result<std::vector<Vec3f>> ownOf(const Result<std::vector<Vec3f>>& all) const {
     if (!all) return all.error();
-    std::vector<Vec3f> own;
-    for (const std::uint32_t point : scene_.points) own.push_back((*all)[point]);
+    std::vector<Vec3f> own(scene_.points.size());
+    for (std::size_t k = 0; k < own.size(); ++k) own[k] = (*all)[scene_.points[k]];
     return own;
   }
   template <class T>
@@ -331,13 +333,11 @@ class Server {
   const RankScene& scene_;
 };
 
-void sendAnswer(const Status& done, Archive given) {
+// What is given comes after this.
+Archive beginAnswer(std::string why = "") {
   Archive answer = Archive::writing();
-  std::string why = done ? "" : done.error().message;
   answer.text(why);
-  const std::vector<std::byte> bytes = given.take();
-  std::ranges::copy(bytes, answer.room(bytes.size()).begin());
-  sendTo(0, answer.take());
+  return answer;
 }
 
 }  // namespace
@@ -359,14 +359,14 @@ Result<std::unique_ptr<Backend>> makeRemoteBackend(int rank, const Groom& groom,
 }
 
 void serve(Result<std::unique_ptr<Backend>> hair, const RankScene& scene) {
-  sendAnswer(hair ? Status{} : Status{hair.error()}, Archive::writing());
+  sendTo(0, beginAnswer(hair ? "" : hair.error().message).take());
   try {
     for (;;) {
       const std::vector<std::byte> bytes = receiveFrom(0);
       if (saysLeave(bytes) || !hair) return;
-      Archive call = Archive::reading(bytes), given = Archive::writing();
-      const Status done = Server(**hair, scene).answer(call, given);
-      sendAnswer(done, std::move(given));
+      Archive call = Archive::reading(bytes), answer = beginAnswer();
+      const Status done = Server(**hair, scene).answer(call, answer);
+      sendTo(0, done ? answer.take() : beginAnswer(done.error().message).take());
     }
   } catch (const std::exception& failure) {
     endRanks(failure.what());
