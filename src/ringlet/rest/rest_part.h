@@ -14,8 +14,8 @@ namespace ringlet {
 Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::size_t strandCount);
 
 /// Leaves of the strands that are simulated those of `part`, groom order; of the others the rest points stay
-/// (RestState::elsewhere). Numbers of the whole groom stay as they are. Errors: a strand that the groom does not
-/// have, or that is there twice. Cost: linear.
+/// (RestState::elsewhere). Numbers of the whole groom stay as they are. Errors: a strand that the groom does
+/// not have, or that is there twice. Cost: linear.
 Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
 
 }  // namespace ringlet

@@ -53,7 +53,8 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 
 }  // namespace
 
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups, std::uint32_t groupSize, bool texels, bool divided) {
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
+                                             std::uint32_t groupSize, bool texels, bool divided) {
   const Compiled& compiled = compiledOf(which, taper);
   gpu::KernelDescription description;
   description.name = compiled.name;

@@ -39,6 +39,7 @@ inline constexpr std::uint32_t kContactGroupSize = 64;
 
 /// inGroups: some strands do not meet pair by pair, see VolumeStrands; texels: records are read as texels
 /// (gpu::BindingKind); divided: other devices step some of the strands.
-gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups, std::uint32_t groupSize, bool texels, bool divided = false);
+gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
+                                             std::uint32_t groupSize, bool texels, bool divided = false);
 
 }  // namespace ringlet

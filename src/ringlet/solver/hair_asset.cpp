@@ -132,9 +132,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
 
 std::size_t HairAsset::strandCount() const { return self_->rest.groomStrandCount; }
 std::size_t HairAsset::particleCount() const { return self_->rest.groomParticleCount; }
-std::size_t HairAsset::rigidStrandCount() const {
-  return self_->rest.rigid.size();
-}
+std::size_t HairAsset::rigidStrandCount() const { return self_->rest.rigid.size(); }
 const std::vector<std::string>& HairAsset::warnings() const { return self_->rest.warnings; }
 
 }  // namespace ringlet

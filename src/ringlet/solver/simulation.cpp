@@ -484,9 +484,7 @@ Result<std::vector<ListedContact>> Simulation::listedContacts() const {
   return self_->contacts->listed(self_->rest);
 }
 
-std::size_t Simulation::rigidStrandCount() const {
-  return self_->rigidHair.strandCount();
-}
+std::size_t Simulation::rigidStrandCount() const { return self_->rigidHair.strandCount(); }
 const std::vector<std::string>& Simulation::warnings() const { return self_->warnings; }
 std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }
 
