@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The main job on the embedded default: a generated head of curls, shaken for two seconds, on the best Vulkan device there is.
+# The main job on the embedded default: a head of ringlets (examples/demo.toml) on the best Vulkan device there is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,8 +9,7 @@ cmake --build --preset release --target ringlet_program
 
 out=${1:-out/demo}
 mkdir -p "$out"
-build/release/ringlet make head -o "$out/head.obj"
-build/release/ringlet simulate "$out/head.obj" --motion shake --amplitude 0.04 --frames 48 -o "$out"
+build/release/ringlet simulate examples/demo.toml --sheet rendered -o "$out"
 echo
 echo "Results are in $(realpath "$out"):"
 echo "  sheet.png   six frames side by side"
