@@ -6,16 +6,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
 
-void reach(int axis, int cell) {
-  // Most are no record, and a look is cheaper than an atomic.
-  if (cell < control.least[axis]) atomicMin(control.least[axis], cell);
-  if (cell > control.greatest[axis]) atomicMax(control.greatest[axis], cell);
-}
-
 void main() {
-  if (halt.isHalted != 0) return;
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= parameters.count) return;
+  uint i;
+  if (!findParticleHere(i)) return;
   VolumeParticle self = volumeParticle(i);
   vec4 memory = memoryOf(i);
   vec4 predicted = predictedOf(i);
@@ -28,11 +21,11 @@ void main() {
   float mass = self.mass * othersShare(self.ownDensity, memory.w);
   vec4 rate = rateFrom(mass, v + parameters.warmth * change, x, s);
   states[i] = VolumeState(vec4(s, memory.w), vec4(place, mass), vec4(v, 1));
-  if (control.untilSort > 0) {
+  bool sorts = control.untilSort == 0;
+  if (kDivided) brought[parameters.count + i] = vec4(place, mass);
+  if (kDivided || sorts) brought[i] = rate;
+  if (sorts)
+    reachTo(place);
+  else
     parcels[locatedAt(i).w].rate = rate;
-    return;
-  }
-  brought[i] = rate;
-  ivec3 cell = cellAt(place, 1.0 / parameters.cell);
-  for (int axis = 0; axis < 3; ++axis) reach(axis, cell[axis]);
 }

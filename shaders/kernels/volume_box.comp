@@ -15,6 +15,7 @@ void main() {
     return;
   }
   control.untilSort = parameters.sortSteps - 1;
+  ++control.sorts;
   ivec3 least = ivec3(control.least[0], control.least[1], control.least[2]);
   ivec3 greatest = ivec3(control.greatest[0], control.greatest[1], control.greatest[2]);
   float cell = parameters.cell;

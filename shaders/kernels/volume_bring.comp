@@ -5,9 +5,10 @@
 #include "shared/volume_buffers.glsl"
 
 void main() {
-  if (halt.isHalted != 0) return;
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= parameters.count) return;
+  uint i;
+  if (!findParticleHere(i)) return;
   uint particle = volumeParticle(i).particle;
-  parcels[locatedAt(i).w].rate = rateFrom(placeOf(i).w, velocityOf(particle), positionOf(particle), memoryOf(i).xyz);
+  vec4 rate = rateFrom(placeOf(i).w, velocityOf(particle), positionOf(particle), memoryOf(i).xyz);
+  if (kDivided) brought[i] = rate;
+  parcels[locatedAt(i).w].rate = rate;
 }

@@ -7,7 +7,7 @@ void main() {
   if (halt.isHalted != 0) return;
   uint i = gl_GlobalInvocationID.x;
   if (i >= parameters.count) return;
-  uint cell = cellIndex(cellInBox(placeInCells(placeOf(i).xyz)));
+  uint cell = cellIndex(cellInBox(placeInCells(placeBroughtBy(i))));
   cells[cellOf(i)] = cell;
   cells[cellRank(i)] = atomicAdd(cells[cellCount(cell)], 1);
 }

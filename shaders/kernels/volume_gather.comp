@@ -10,6 +10,7 @@ uint quotient(uint a, uint b) { return uint((float(a) + 0.5) / float(b)); }
 void main() {
   uint node = gl_GlobalInvocationID.x;
   if (halt.isHalted != 0 || node >= control.cellCount) return;
+  if (kDivided && cellNumber(nodeAsked(node)) == 0) return;
   uvec3 size = boxSize();
   uint row = quotient(node, size.x);
   uint z = quotient(row, size.y);

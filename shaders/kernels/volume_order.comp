@@ -22,7 +22,7 @@ void main() {
     }
   } while (4 * ++k < end);
   if (4 * k < end) halt.isHalted = kHaltedByTurns;
-  vec3 inCells = placeInCells(placeOf(i).xyz);
+  vec3 inCells = placeInCells(placeBroughtBy(i));
   parcels[start + before] = VolumeParcel(broughtBy(i), vec4(inCells, volumeParticle(i).mass));
   located[i] = uvec4(floatBitsToUint(inCells), start + before);
 }

@@ -6,9 +6,8 @@
 #include "shared/volume_buffers.glsl"
 
 void main() {
-  if (halt.isHalted != 0) return;
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= parameters.count) return;
+  uint i;
+  if (!findParticleHere(i)) return;
   VolumeParticle self = volumeParticle(i);
   vec3 s = memoryOf(i).xyz;
   float mass = placeOf(i).w;
@@ -17,7 +16,7 @@ void main() {
   uvec3 cell = cellInBox(inCells);
   vec4 mean = vec4(0);
   [[unroll]] for (uint corner = 0; corner < 8; ++corner) {
-    uvec3 node = cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    uvec3 node = cornerOf(cell, corner);
     mean += nodeWeight(inCells - vec3(node)) * nodeAt(cellIndex(node));
   }
   states[i].memory = vec4(s, mean.w);

@@ -15,7 +15,9 @@ RINGLET_CONSTANT uint kBindVolumeSolved = 2;      // vec4[particles]: v^k
 RINGLET_CONSTANT uint kBindVolumePoses = 3;       // uniform: StepPose[kMaxStepPoses]
 RINGLET_CONSTANT uint kBindVolumeParticles = 4;   // VolumeParticle[volume particles]
 RINGLET_CONSTANT uint kBindVolumeStates = 5;      // VolumeState[volume particles]
-RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, first iterate
+RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, first iterate;
+                                                  // where strands are divided, every iterate, and then
+                                                  // vec4[volume particles]: as VolumeState's place
 RINGLET_CONSTANT uint kBindVolumeCells = 7;       // uint: see cellCount and its like in shared/volume_buffers.glsl
 RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], in cell order
 RINGLET_CONSTANT uint kBindVolumeNodes = 9;       // vec4[nodes]: xyz: mean of a [m/s]; w: density [kg/m^3]
@@ -24,18 +26,20 @@ RINGLET_CONSTANT uint kBindVolumeControl = 11;    // VolumeControl
 RINGLET_CONSTANT uint kBindVolumeHalt = 12;       // ContactControl
 RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xyz: place in cells, bits of floats; w:
                                                   // which parcel
-RINGLET_CONSTANT uint kVolumeBindingCount = 14;
+RINGLET_CONSTANT uint kBindVolumeHere = 14;       // uint[volume particles], where strands are divided: those here, the
+                                                  // others after them
+RINGLET_CONSTANT uint kVolumeBindingCount = 15;
 // And as texels (shared/texels.glsl):
-RINGLET_CONSTANT uint kBindVolumePositionTexels = 14;
-RINGLET_CONSTANT uint kBindVolumeVelocityTexels = 15;
-RINGLET_CONSTANT uint kBindVolumeSolvedTexels = 16;
-RINGLET_CONSTANT uint kBindVolumeParticleTexels = 17;
-RINGLET_CONSTANT uint kBindVolumeStateTexels = 18;  // 3 a volume particle
-RINGLET_CONSTANT uint kBindVolumeBroughtTexels = 19;
-RINGLET_CONSTANT uint kBindVolumeParcelTexels = 20;  // 2 a volume particle
-RINGLET_CONSTANT uint kBindVolumeNodeTexels = 21;
-RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 22;
-RINGLET_CONSTANT uint kBindVolumeCellTexels = 23;  // four numbers each
+RINGLET_CONSTANT uint kBindVolumePositionTexels = 15;
+RINGLET_CONSTANT uint kBindVolumeVelocityTexels = 16;
+RINGLET_CONSTANT uint kBindVolumeSolvedTexels = 17;
+RINGLET_CONSTANT uint kBindVolumeParticleTexels = 18;
+RINGLET_CONSTANT uint kBindVolumeStateTexels = 19;  // 3 a volume particle
+RINGLET_CONSTANT uint kBindVolumeBroughtTexels = 20;
+RINGLET_CONSTANT uint kBindVolumeParcelTexels = 21;  // 2 a volume particle
+RINGLET_CONSTANT uint kBindVolumeNodeTexels = 22;
+RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 23;
+RINGLET_CONSTANT uint kBindVolumeCellTexels = 24;  // four numbers each
 RINGLET_CONSTANT uint kVolumeTexelBindingCount = 10;
 
 // Constant per volume particle, in device order: one in so many of a strand that meets others as a volume, for as many.
@@ -66,7 +70,7 @@ struct VolumeControl {
   uint indirectBlocks[3];     // over blocks of cells of a sort, or none
   uint cellCount;             // of the box, which has as many nodes
   uint indirectNodes[3];      // over nodes
-  uint unused;
+  uint sorts;                 // how often particles were put into cells
   int least[3];               // of the cells particles are in, as found so far in this step
   float cellsPerMetre;
   int greatest[3];
@@ -87,6 +91,8 @@ struct VolumeParameters {
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
   float warmth;       // as in ContactParameters
+  uint hereCount;     // particles that are stepped here
+  uint isFirst;       // iteration of the step
   uint sortSteps;     // particles are put into cells every so many steps; between they stay where they were
 };
 

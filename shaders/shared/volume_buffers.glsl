@@ -35,7 +35,18 @@ layout(set = 0, binding = kBindVolumeParcelTexels) uniform usamplerBuffer parcel
 layout(set = 0, binding = kBindVolumeNodeTexels) uniform usamplerBuffer nodeTexels;
 layout(set = 0, binding = kBindVolumeLocatedTexels) uniform usamplerBuffer locatedTexels;
 layout(set = 0, binding = kBindVolumeCellTexels) uniform usamplerBuffer cellTexels;
+layout(set = 0, binding = kBindVolumeHere) readonly buffer Here { uint here[]; };
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
+
+layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
+
+/// The volume particle of this invocation, of those that are stepped here; false where there is none.
+bool findParticleHere(out uint i) {
+  i = gl_GlobalInvocationID.x;
+  if (halt.isHalted != 0 || i >= parameters.hereCount) return false;
+  if (kDivided) i = here[i];
+  return true;
+}
 
 // Records as they were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
@@ -57,6 +68,8 @@ VolumeParcel parcelAt(uint place) {
 }
 vec4 memoryOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i) : states[i].memory; }
 vec4 placeOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1) : states[i].place; }
+/// Seen from the head, where this step put it.
+vec3 placeBroughtBy(uint i) { return kDivided ? broughtBy(parameters.count + i).xyz : placeOf(i).xyz; }
 vec4 predictedOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 2) : states[i].predicted; }
 
 // The head: pose 0 is the frame's start.
@@ -72,6 +85,9 @@ uint cellSum(uint block) { return 2 * parameters.cellCapacity + block; }  // bef
 uint cellOf(uint i) { return cellSum(parameters.cellCapacity / kBucketBlock) + i; }
 uint cellRank(uint i) { return cellOf(parameters.count) + i; }  // among its cell's, in any order
 uint cellEntry(uint place) { return cellRank(parameters.count) + place; }  // in any order inside a cell
+// Where strands are divided:
+uint cellMark(uint cell) { return cellEntry(parameters.count) + cell; }  // the last sort with a particle stepped here
+uint nodeAsked(uint node) { return cellMark(parameters.cellCapacity) + node; }  // 1 where such a particle asks it
 
 // As they were when the dispatch began: one number, and four that stand together, from 4 k on.
 uint cellNumber(uint at) { return kTexels ? recordAt(cellTexels, at / 4)[at % 4] : cells[at]; }
@@ -85,12 +101,22 @@ const float kFarthestCell = 1e6;  // from the head; what is further, or no numbe
 ivec3 cellAt(vec3 place, float cellsPerMetre) {
   return ivec3(clamp(floor(place * cellsPerMetre), vec3(-kFarthestCell), vec3(kFarthestCell)));
 }
+/// The step's box of cells has the one of this place.
+void reachTo(vec3 place) {
+  ivec3 cell = cellAt(place, 1.0 / parameters.cell);
+  for (int axis = 0; axis < 3; ++axis) {
+    // Most are no record, and a look is cheaper than an atomic.
+    if (cell[axis] < control.least[axis]) atomicMin(control.least[axis], cell[axis]);
+    if (cell[axis] > control.greatest[axis]) atomicMax(control.greatest[axis], cell[axis]);
+  }
+}
 uvec3 boxSize() { return uvec3(control.size[0], control.size[1], control.size[2]); }
 vec3 placeInCells(vec3 place) {
   return place * control.cellsPerMetre - vec3(control.low[0], control.low[1], control.low[2]);
 }
 /// The cell of a place in cells; the last along each axis has nodes only.
 uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(boxSize()) - 2.0)); }
+uvec3 cornerOf(uvec3 cell, uint corner) { return cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2); }
 uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
 
 /// kappa; of a mass m o it makes g.

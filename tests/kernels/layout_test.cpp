@@ -195,19 +195,19 @@ const std::vector<CppStruct> kCppStructs = {
           "VolumeControl",
           sizeof(S),
           {RINGLET_MEMBER(indirectParticles), RINGLET_MEMBER(untilSort), RINGLET_MEMBER(indirectBlocks),
-           RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectNodes), RINGLET_MEMBER(unused),
+           RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectNodes), RINGLET_MEMBER(sorts),
            RINGLET_MEMBER(least), RINGLET_MEMBER(cellsPerMetre), RINGLET_MEMBER(greatest),
            RINGLET_MEMBER(cell), RINGLET_MEMBER(low), RINGLET_MEMBER(unused2), RINGLET_MEMBER(size),
            RINGLET_MEMBER(unused3)}};
     }(),
     [] {
       using S = layout::VolumeParameters;
-      return CppStruct{
-          "VolumeParameters",
-          sizeof(S),
-          {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step), RINGLET_MEMBER(seconds),
-           RINGLET_MEMBER(cell), RINGLET_MEMBER(drag), RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept),
-           RINGLET_MEMBER(warmth), RINGLET_MEMBER(sortSteps)}};
+      return CppStruct{"VolumeParameters",
+                       sizeof(S),
+                       {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step),
+                        RINGLET_MEMBER(seconds), RINGLET_MEMBER(cell), RINGLET_MEMBER(drag),
+                        RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept), RINGLET_MEMBER(warmth),
+                        RINGLET_MEMBER(hereCount), RINGLET_MEMBER(isFirst), RINGLET_MEMBER(sortSteps)}};
     }(),
     [] {
       using S = layout::ContactPlace;

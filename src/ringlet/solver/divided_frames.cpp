@@ -12,16 +12,15 @@ template <class Work>
 Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Recorder& recorder,
                                               std::optional<DividedHair::Rows> in,
                                               std::optional<DividedHair::Rows> out, const Work& work) {
-  const DeviceChunk& hair = buffers.chunks[0];
   if (Status status = recorder.begin(); !status) return status;
   frame.pace.beginRecording();
   if (in) {
-    divided->recordIn(recorder, hair, *in);
+    divided->recordIn(recorder, *in);
     recorder.barrier();
   }
   if (Status status = work(); !status) return status;
   recorder.barrier();
-  if (out) divided->recordOut(recorder, hair, *out);
+  if (out) divided->recordOut(recorder, *out);
   buffers.recordControl(recorder);
   if (Status status = recorder.submitAndWait(); !status) return status;
   for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
@@ -73,7 +72,9 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
   FrameRecording frame{recorder, pace, slot};
   const auto begin = [&]() -> Status {
     beginFrame(frame);
-    return recordPass(frame, {.step = 0});
+    if (Status status = recordPass(frame, {.step = 0}); !status) return status;
+    if (volume) recordBrought(frame, 0, true);
+    return {};
   };
   if (Status status = submitPart(frame, recorder, {}, Rows::step, begin); !status) return status;
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
@@ -87,6 +88,7 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
       const std::optional out = ends ? std::optional<Rows>{} : isLast ? Rows::step : Rows::solve;
       const auto solve = [&]() -> Status {
         if (Status status = recordPass(frame, pass); !status) return status;
+        if (volume && !ends) recordBrought(frame, isLast ? step + 1 : step, isLast);
         if (ends) slots[slot].recordPositions(recorder, buffers);
         return {};
       };

@@ -15,7 +15,25 @@ namespace {
 
 constexpr std::size_t kRow = sizeof(layout::vec4);
 
-std::size_t fieldCount(DividedHair::Rows rows) { return rows == DividedHair::Rows::step ? 3 : 1; }
+// Each strand's part.
+Result<std::vector<std::size_t>> partOfEach(const RestState& rest,
+                                            const std::vector<std::vector<std::uint32_t>>& parts) {
+  std::vector<std::size_t> partOf(rest.strands.size());
+  std::vector<int> counts(rest.strands.size());
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const auto isIn = strandsHere(rest, parts[part]);
+    if (!isIn) return isIn.error();
+    for (std::size_t s = 0; s < partOf.size(); ++s) {
+      if ((*isIn)[s]) partOf[s] = part, ++counts[s];
+    }
+  }
+  for (std::size_t s = 0; s < counts.size(); ++s) {
+    if (counts[s] != 1)
+      return Error{fmt::format("strand {} is in {} parts of the hair; every strand is in one",
+                               rest.strandInGroom[s], counts[s])};
+  }
+  return partOf;
+}
 
 }  // namespace
 
@@ -41,85 +59,74 @@ std::vector<StrandRange> rangesHere(std::span<const StrandRange> ranges, const R
   return runs;
 }
 
-Result<DividedHair> DividedHair::create(gpu::Device& device, const RestState& rest, PartLink& link) {
-  const std::size_t fields = fieldCount(Rows::step) + fieldCount(Rows::solve);
-  auto crossing = gpu::Buffer::create(device, rest.points.size() * fields * kRow, gpu::BufferKind::stream,
-                                      "rows between parts of hair");
+Result<DividedHair> DividedHair::create(gpu::Device& device, const RestState& rest, PartLink& link,
+                                        const Fields& ofHair, const std::optional<RestVolume>& volume,
+                                        const Fields& ofVolume) {
+  const auto partOf = partOfEach(rest, link.parts());
+  if (!partOf) return partOf.error();
+  const auto add = [](std::vector<Run>& runs, std::size_t first, std::size_t count) {
+    if (runs.empty() || runs.back().end != first) runs.push_back({first, first});
+    runs.back().end += count;
+  };
+  std::vector<std::vector<Run>> hair(link.parts().size()), inVolume(link.parts().size());
+  for (std::size_t s = 0; s < rest.strands.size(); ++s)
+    add(hair[(*partOf)[s]], rest.strands[s].firstParticle, rest.strands[s].particleCount);
+  if (volume) {
+    for (std::size_t i = 0; i < volume->strands.size(); ++i)
+      add(inVolume[(*partOf)[volume->strands[i]]], i, 1);
+  }
+  DividedHair self(link);
+  for (std::size_t part = 0; part < hair.size(); ++part)
+    self.step_.addPart(hair[part], ofHair.step, inVolume[part], ofVolume.step);
+  self.solve_.begin = self.step_.bytes();
+  for (std::size_t part = 0; part < hair.size(); ++part)
+    self.solve_.addPart(hair[part], ofHair.solve, inVolume[part], ofVolume.solve);
+  auto crossing = gpu::Buffer::create(device, self.step_.bytes() + self.solve_.bytes(),
+                                      gpu::BufferKind::stream, "rows between parts of hair");
   if (!crossing) return crossing.error();
-  DividedHair self(link, std::move(*crossing));
-  std::vector<int> parts(rest.strands.size());  // that a strand is in
-  self.countBefore_.push_back(0);
-  for (const std::vector<std::uint32_t>& part : link.parts()) {
-    const auto isIn = strandsHere(rest, part);
-    if (!isIn) return isIn.error();
-    std::vector<Run> runs;
-    std::size_t count = 0;
-    for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-      if (!(*isIn)[s]) continue;
-      ++parts[s];
-      const layout::StrandRest& strand = rest.strands[s];
-      const bool goesOn =
-          !runs.empty() && runs.back().firstParticle + runs.back().count == strand.firstParticle;
-      if (!goesOn) runs.push_back({strand.firstParticle, 0});
-      runs.back().count += strand.particleCount;
-      count += strand.particleCount;
-    }
-    self.runs_.push_back(std::move(runs));
-    self.countBefore_.push_back(self.countBefore_.back() + count);
-  }
-  for (std::size_t s = 0; s < parts.size(); ++s) {
-    if (parts[s] != 1)
-      return Error{fmt::format("strand {} is in {} parts of the hair; every strand is in one",
-                               rest.strandInGroom[s], parts[s])};
-  }
+  self.crossing_.emplace(std::move(*crossing));
   return self;
 }
 
-// Rows of the step stay as they came until its lists have room.
-std::size_t DividedHair::beginOf(Rows rows) const {
-  return rows == Rows::step ? 0 : countBefore_.back() * fieldCount(Rows::step) * kRow;
-}
-
-// copy(field's buffer, first byte there, first byte in crossing_, bytes) of each run of a part's.
-template <class Copy>
-void DividedHair::eachRun(std::size_t part, const DeviceChunk& hair, Rows rows, const Copy& copy) const {
-  std::size_t at = beginOf(rows) + countBefore_[part] * fieldCount(rows) * kRow;
-  const auto each = [&](const gpu::Buffer& field) {
-    for (const Run& run : runs_[part]) {
-      copy(field, run.firstParticle * kRow, at, run.count * kRow);
-      at += run.count * kRow;
+void DividedHair::Crossing::addPart(std::span<const Run> hair, std::span<const Field> ofHair,
+                                    std::span<const Run> volume, std::span<const Field> ofVolume) {
+  std::size_t end = ends.empty() ? 0 : ends.back();
+  std::vector<Piece>& own = pieces.emplace_back();
+  const auto addFields = [&](std::span<const Field> fields, std::span<const Run> runs) {
+    for (const Field& field : fields) {
+      for (const Run& run : runs) {
+        const std::size_t bytes = (run.end - run.first) * kRow;
+        own.push_back({field.buffer, (field.firstRow + run.first) * kRow, begin + end, bytes});
+        end += bytes;
+      }
     }
   };
-  if (rows == Rows::step) each(hair.positions), each(hair.velocities);
-  each(hair.solved);
+  addFields(ofHair, hair);
+  addFields(ofVolume, volume);
+  ends.push_back(end);
 }
 
-void DividedHair::recordOut(gpu::CommandList& list, const DeviceChunk& hair, Rows rows) const {
-  eachRun(link_->own(), hair, rows,
-          [&](const gpu::Buffer& field, std::size_t inField, std::size_t at, std::size_t bytes) {
-            list.copyBuffer(field, crossing_, bytes, inField, at);
-          });
+void DividedHair::recordOut(gpu::CommandList& list, Rows rows) const {
+  for (const Piece& piece : of(rows).pieces[link_->own()])
+    list.copyBuffer(*piece.buffer, *crossing_, piece.bytes, piece.inBuffer, piece.inCrossing);
 }
 
-void DividedHair::recordIn(gpu::CommandList& list, const DeviceChunk& hair, Rows rows) const {
-  for (std::size_t part = 0; part < runs_.size(); ++part) {
+void DividedHair::recordIn(gpu::CommandList& list, Rows rows) const {
+  const Crossing& crossing = of(rows);
+  for (std::size_t part = 0; part < crossing.pieces.size(); ++part) {
     if (part == link_->own()) continue;
-    eachRun(part, hair, rows,
-            [&](const gpu::Buffer& field, std::size_t inField, std::size_t at, std::size_t bytes) {
-              list.copyBuffer(crossing_, field, bytes, at, inField);
-            });
+    for (const Piece& piece : crossing.pieces[part])
+      list.copyBuffer(*crossing_, *piece.buffer, piece.bytes, piece.inCrossing, piece.inBuffer);
   }
 }
 
 Status DividedHair::exchange(Rows rows) {
-  std::vector<std::size_t> ends;
-  for (std::size_t part = 0; part < runs_.size(); ++part)
-    ends.push_back(countBefore_[part + 1] * fieldCount(rows) * kRow);
-  return link_->exchange(crossing_.mapped().subspan(beginOf(rows), ends.back()), ends);
+  const Crossing& crossing = of(rows);
+  return link_->exchange(crossing_->mapped().subspan(crossing.begin, crossing.bytes()), crossing.ends);
 }
 
 Result<ContactStage::Sample> DividedHair::sum(const ContactStage::Sample& own) {
-  std::vector<ContactStage::Sample> all(runs_.size());
+  std::vector<ContactStage::Sample> all(link_->parts().size());
   all[link_->own()] = own;
   std::vector<std::size_t> ends;
   for (std::size_t part = 1; part <= all.size(); ++part) ends.push_back(part * sizeof(own));

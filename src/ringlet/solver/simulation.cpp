@@ -258,12 +258,18 @@ Status Simulation::Implementation::addContacts() {
     contacts = std::move(*stage);
   }
   if (asset->volume) {
-    auto stage = VolumeStage::create(device.gpu(), rest, settings, *asset->volume, buffers);
+    auto stage = VolumeStage::create(device.gpu(), rest, settings, *asset->volume, asset->isHere, buffers);
     if (!stage) return stage.error();
     volume = std::move(*stage);
   }
   if (!asset->isHere.empty()) {
-    auto made = DividedHair::create(device.gpu(), rest, *choice.link);
+    const DeviceChunk& hair = buffers.chunks[0];
+    DividedHair::Fields ofHair, ofVolume;
+    if (contacts) ofHair = {{{&hair.positions}, {&hair.velocities}, {&hair.solved}}, {{&hair.solved}}};
+    if (volume)
+      ofVolume = {{{&volume->brought()}, {&volume->brought(), asset->volume->particles.size()}},
+                  {{&volume->brought()}}};
+    auto made = DividedHair::create(device.gpu(), rest, *choice.link, ofHair, asset->volume, ofVolume);
     if (!made) return made.error();
     divided.emplace(std::move(*made));
   }

@@ -121,10 +121,8 @@ void Simulation::Implementation::recordFirstMeeting(FrameRecording& frame, std::
     frame.list.barrier();
   }
   if (volume) {
-    volume->recordBegin(frame.list, frame.pace, step);
-    frame.list.barrier();
-    volume->recordMeans(frame.list, frame.pace, step, true);
-    frame.list.barrier();
+    if (!divided) recordBrought(frame, step, true);
+    recordVolume(frame, step, true);
   }
 }
 void Simulation::Implementation::recordNextMeeting(FrameRecording& frame, std::uint32_t step) const {
@@ -133,9 +131,28 @@ void Simulation::Implementation::recordNextMeeting(FrameRecording& frame, std::u
     frame.list.barrier();
   }
   if (volume) {
-    volume->recordMeans(frame.list, frame.pace, step, false);
+    if (!divided) recordBrought(frame, step, false);
+    recordVolume(frame, step, false);
+  }
+}
+
+// Of parts, each brings its own before the others hear of it (divided_frames.cpp).
+void Simulation::Implementation::recordBrought(FrameRecording& frame, std::uint32_t step,
+                                               bool isFirst) const {
+  volume->recordBrought(frame.list, frame.pace, step, isFirst);
+  frame.list.barrier();
+}
+void Simulation::Implementation::recordVolume(FrameRecording& frame, std::uint32_t step, bool isFirst) const {
+  if (divided) {
+    volume->recordTake(frame.list, frame.pace, step, isFirst);
     frame.list.barrier();
   }
+  if (isFirst) {
+    volume->recordSort(frame.list, frame.pace, step);
+    frame.list.barrier();
+  }
+  volume->recordMeans(frame.list, frame.pace, step);
+  frame.list.barrier();
 }
 
 // The frame from a step on. Between the solves of a step stand its contacts (contact_stage.h,

@@ -163,6 +163,8 @@ struct Simulation::Implementation {
   Status recordFrame(FrameRecording& frame) const;
   void recordGrid(FrameRecording& frame, std::uint32_t step) const;
   void recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const;
+  void recordBrought(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
+  void recordVolume(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
   void recordNextMeeting(FrameRecording& frame, std::uint32_t step) const;
   Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
   Status recordPass(FrameRecording& frame, const SolvePass& pass) const;

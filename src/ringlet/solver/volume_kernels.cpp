@@ -3,18 +3,22 @@
 
 #include <span>
 
+#include "layout/contacts.h"
 #include "layout/volume.h"
+#include "ringlet_shaders/volume_ask_plain.h"
 #include "ringlet_shaders/volume_begin_plain.h"
 #include "ringlet_shaders/volume_box_plain.h"
 #include "ringlet_shaders/volume_bring_plain.h"
 #include "ringlet_shaders/volume_count_plain.h"
 #include "ringlet_shaders/volume_gather_plain.h"
+#include "ringlet_shaders/volume_mark_plain.h"
 #include "ringlet_shaders/volume_order_plain.h"
 #include "ringlet_shaders/volume_scan_plain.h"
 #include "ringlet_shaders/volume_scatter_plain.h"
 #include "ringlet_shaders/volume_spread_plain.h"
 #include "ringlet_shaders/volume_start_plain.h"
 #include "ringlet_shaders/volume_sum_plain.h"
+#include "ringlet_shaders/volume_take_plain.h"
 
 namespace ringlet {
 namespace {
@@ -31,12 +35,13 @@ const Compiled kCompiled[kVolumeKernelCount] = {
     {"volume_sum", k_volume_sum_plain},         {"volume_start", k_volume_start_plain},
     {"volume_scatter", k_volume_scatter_plain}, {"volume_order", k_volume_order_plain},
     {"volume_bring", k_volume_bring_plain},     {"volume_gather", k_volume_gather_plain},
-    {"volume_spread", k_volume_spread_plain},
+    {"volume_spread", k_volume_spread_plain},   {"volume_take", k_volume_take_plain},
+    {"volume_mark", k_volume_mark_plain},       {"volume_ask", k_volume_ask_plain},
 };
 
 }  // namespace
 
-gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels) {
+gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, bool divided) {
   const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
   gpu::KernelDescription description;
   description.name = compiled.name;
@@ -44,7 +49,8 @@ gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels) {
   description.remedy = "take another device, or contacts by pairs (--contacts explicit)";
   description.pushConstantBytes = sizeof(layout::VolumeParameters);
   description.constants = {{layout::kSpecGroupSize, kVolumeGroupSize},
-                           {layout::kSpecTexels, texels ? 1u : 0u}};
+                           {layout::kSpecTexels, texels ? 1u : 0u},
+                           {layout::kSpecDivided, divided ? 1u : 0u}};
   description.groupSize = kVolumeGroupSize;
   return description;
 }

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "layout/contacts.h"
@@ -57,27 +59,45 @@ layout::VolumeControl emptyControl() {
   return control;
 }
 
+// Volume particles, those of strands that are here before the others; and how many those are.
+std::pair<std::vector<std::uint32_t>, std::uint32_t> hereFirst(const RestVolume& volume,
+                                                               const std::vector<bool>& isHere) {
+  std::vector<std::uint32_t> particles(volume.strands.size());
+  std::iota(particles.begin(), particles.end(), 0u);
+  const auto end =
+      std::ranges::stable_partition(particles, [&](std::uint32_t i) { return isHere[volume.strands[i]]; });
+  return {particles, static_cast<std::uint32_t>(end.begin() - particles.begin())};
+}
+
+std::uint32_t groupsOf(std::uint64_t particles) {
+  return static_cast<std::uint32_t>((particles + kVolumeGroupSize - 1) / kVolumeGroupSize);
+}
+
 }  // namespace
 
 Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        const RestVolume& volume, DeviceGroom& groom) {
+                                        const RestVolume& volume, const std::vector<bool>& isHere,
+                                        DeviceGroom& groom) {
   VolumeStage self;
+  const bool divided = !isHere.empty();
   self.groom_ = &groom;
   self.densities_ = volume.densities;
   const std::uint64_t count = volume.particles.size();
   const std::uint32_t capacity = cellCapacity(volume.cells);
   self.parameters_.count = static_cast<std::uint32_t>(count);
+  self.parameters_.hereCount = static_cast<std::uint32_t>(count);
   self.parameters_.cellCapacity = capacity;
   self.parameters_.cell = static_cast<float>(volume.cell);
   self.parameters_.warmth = static_cast<float>(kContactWarmth);
   self.setSettings(settings);
-  if (self.particleGroups() > device.properties().maxGroupCount) {
+  if (groupsOf(count) > device.properties().maxGroupCount) {
     return Error{
         fmt::format("{} particles that meet as a volume are more than the {} this device takes at once; "
                     "use --contacts off, or a smaller groom",
                     count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
   }
-  const std::uint64_t cellWords = 2 * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 3 * count;
+  const std::uint64_t cellWords =
+      (divided ? 4 : 2) * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 3 * count;
   const std::uint64_t perParticle = sizeof(layout::VolumeParticle) + sizeof(layout::VolumeState) +
                                     2 * sizeof(layout::vec4) + sizeof(layout::VolumeParcel);
   const std::uint64_t needed =
@@ -91,8 +111,8 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
       std::max({groom.largestTexels(), count * sizeof(layout::VolumeState), capacity * sizeof(layout::vec4),
                 cellWords * sizeof(std::uint32_t)});
   const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
-  for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
-    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels);
+  for (std::size_t k = 0; k < kVolumeKernelCount - (divided ? 0 : kVolumeDividedKernelCount); ++k) {
+    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels, divided);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
@@ -103,8 +123,12 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (!particles) return particles.error();
   auto states = createFilled(device, unknownStates(volume.densities), "volume states");
   if (!states) return states.error();
-  auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
+  auto brought = createZero(device, (divided ? 2 : 1) * count * sizeof(layout::vec4), "volume brought");
   if (!brought) return brought.error();
+  std::vector<std::uint32_t> particlesHere{0};  // not asked for where all are
+  if (divided) std::tie(particlesHere, self.parameters_.hereCount) = hereFirst(volume, isHere);
+  auto here = createFilled(device, particlesHere, "volume particles here");
+  if (!here) return here.error();
   auto located = createZero(device, count * sizeof(layout::vec4), "volume located");
   if (!located) return located.error();
   auto cells = createZero(device, cellWords * sizeof(std::uint32_t), "volume cells");
@@ -117,7 +141,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (!control) return control.error();
   self.buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought),
                                 std::move(*cells), std::move(*parcels), std::move(*nodes),
-                                std::move(*control), std::move(*located)});
+                                std::move(*control), std::move(*located), std::move(*here)});
   for (const auto& kernel : self.kernels_) {
     auto bindings = gpu::Bindings::create(*kernel, self.bufferTable());
     if (!bindings) return bindings.error();
@@ -129,16 +153,12 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
 std::uint64_t VolumeStage::bytes() const {
   const Buffers& b = *buffers_;
   return b.particles.bytes() + b.states.bytes() + b.brought.bytes() + b.located.bytes() + b.cells.bytes() +
-         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes();
-}
-
-std::uint32_t VolumeStage::particleGroups() const {
-  return (parameters_.count + kVolumeGroupSize - 1) / kVolumeGroupSize;
+         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.here.bytes();
 }
 
 gpu::BufferTable VolumeStage::bufferTable() const {
   using namespace layout;
-  const auto& [particles, states, brought, cells, parcels, nodes, control, located] = *buffers_;
+  const auto& [particles, states, brought, cells, parcels, nodes, control, located, here] = *buffers_;
   const DeviceChunk& hair = groom_->chunks[0];
   return {{kBindVolumePositions, hair.positions},
           {kBindVolumeVelocities, hair.velocities},
@@ -154,6 +174,7 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeControl, control},
           {kBindVolumeHalt, groom_->contactControl},
           {kBindVolumeLocated, located},
+          {kBindVolumeHere, here},
           {kBindVolumeLocatedTexels, located},
           {kBindVolumeCellTexels, cells},
           {kBindVolumePositionTexels, hair.positions},
@@ -195,13 +216,31 @@ void VolumeStage::recordNothing(gpu::CommandList& list) const {
   for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void VolumeStage::recordBegin(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
-  using enum VolumeKernel;
-  pace.beginStage(list, "volume_begin");
-  dispatch(list, begin, step, particleGroups());
-  list.barrier();
-  list.endStage();
+void VolumeStage::dispatchHere(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const {
+  const std::uint32_t groups = groupsOf(parameters_.hereCount);
+  if (groups > 0) dispatch(list, kernel, step, groups);
+}
 
+void VolumeStage::recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
+                                bool isFirst) const {
+  pace.beginStage(list, isFirst ? "volume_begin" : "volume_bring");
+  dispatchHere(list, isFirst ? VolumeKernel::begin : VolumeKernel::bring, step);
+  list.endStage();
+}
+
+void VolumeStage::recordTake(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
+                             bool isFirst) const {
+  const auto at = static_cast<std::size_t>(VolumeKernel::take);
+  layout::VolumeParameters all = parameters(step);
+  all.isFirst = isFirst ? 1 : 0;
+  pace.beginStage(list, "volume_take");
+  const std::uint32_t groups = groupsOf(parameters_.count - parameters_.hereCount);
+  if (groups > 0) list.dispatch(*kernels_[at], bindings_[at], all, groups);
+  list.endStage();
+}
+
+void VolumeStage::recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+  using enum VolumeKernel;
   pace.beginStage(list, "volume_sort");
   dispatch(list, box, step, 1);
   list.barrier();
@@ -217,19 +256,20 @@ void VolumeStage::recordBegin(gpu::CommandList& list, SubmissionPace& pace, std:
   list.barrier();
   dispatchIndirect(list, order, step, kPerParticle);
   list.endStage();
+  if (!isDivided()) return;
+  list.barrier();
+  pace.beginStage(list, "volume_mark");
+  dispatchHere(list, mark, step);
+  list.barrier();
+  dispatchIndirect(list, ask, step, kPerBlock);
+  list.endStage();
 }
 
-void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
-                              bool isFirst) const {
-  using enum VolumeKernel;
+void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
   pace.beginStage(list, "volume_mean");
-  if (!isFirst) {
-    dispatch(list, bring, step, particleGroups());
-    list.barrier();
-  }
-  dispatchIndirect(list, gather, step, kPerNode);
+  dispatchIndirect(list, VolumeKernel::gather, step, kPerNode);
   list.barrier();
-  dispatch(list, spread, step, particleGroups());
+  dispatchHere(list, VolumeKernel::spread, step);
   list.endStage();
 }
 

@@ -2,9 +2,9 @@
 // (shaders/equations/volume.glsl). Which strands those are is decided in rest/volume_strands.h. Mirrored by
 // reference/kernels/volume_step.h.
 //
-//   v^0 of all strands ->  begin: displacements, guesses; particles by cell
-//                      ->  means: to the grid's nodes and back               -> solve -> v^1
-//                      ->  means of v^1                                      -> solve -> v^2 ... -> move
+//   v^0 of all strands ->  brought: displacements, guesses; particles by cell
+//                      ->  means: to the grid's nodes and back                 -> solve -> v^1
+//                      ->  brought by v^1, means                               -> solve -> v^2 ... -> move
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,10 @@ class VolumeStage {
  public:
   /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk, and must
   /// live as long, in one place.
+  /// isHere: of each strand, device order; what others bring comes from elsewhere; none: all are here.
   static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    const RestVolume& volume, DeviceGroom& groom);
+                                    const RestVolume& volume, const std::vector<bool>& isHere,
+                                    DeviceGroom& groom);
 
   /// Kernels that this stage was the first on its device to ask for.
   std::size_t newKernelCount() const { return newKernels_.size(); }
@@ -41,8 +43,16 @@ class VolumeStage {
 
   /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
   /// say. Nothing happens where contacts of pairs have halted.
-  void recordBegin(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
-  void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
+  /// What the particles here bring in an iteration, the first of a step or a later one.
+  void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
+  /// Where strands are divided, after it: what all bring, once `brought` has it.
+  void recordTake(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
+  /// Once a step, then the means of what was brought.
+  void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+
+  /// What the particles bring, and after it where they are: a vec4 each (layout::kBindVolumeBrought).
+  const gpu::Buffer& brought() const { return buffers_->brought; }
 
   /// What may change while hair moves; recordings made before are no longer good.
   void setSettings(const Settings& settings);
@@ -55,15 +65,16 @@ class VolumeStage {
 
  private:
   struct Buffers {
-    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located;
+    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, here;
   };
   VolumeStage() = default;
   gpu::BufferTable bufferTable() const;
   layout::VolumeParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
+  void dispatchHere(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;
   void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
-  std::uint32_t particleGroups() const;
+  bool isDivided() const { return kernels_.size() == kVolumeKernelCount; }
 
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by VolumeKernel
   std::vector<std::size_t> newKernels_;
