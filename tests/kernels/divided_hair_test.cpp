@@ -181,5 +181,33 @@ TEST_F(DividedHair, HasTheBitsOfTheWhole) {
   }
 }
 
+// Whether lists stay is asked of a sample of all strands, not of those of a part.
+TEST_F(DividedHair, SumsWhatAllPartsSampled) {
+  const Hair hair = dense(ContactTaper::distance);
+  const auto rest = buildRestState(hair.groom, varyingMaterial(), hair.settings);
+  ASSERT_TRUE(rest) << rest.error().message;
+  const auto rows =
+      gpu::Buffer::create(device().gpu(), 16 * rest->points.size(), gpu::BufferKind::storage, "rows");
+  ASSERT_TRUE(rows) << rows.error().message;
+  const ringlet::DividedHair::Fields fields{{{&*rows}}, {{&*rows}}};
+  const auto links = SharedLink::connect(partsBy(hair.groom, 3, [](std::uint32_t s) { return s % 3; }));
+  std::vector<ringlet::DividedHair> parts;
+  for (const auto& link : links) {
+    auto made = ringlet::DividedHair::create(device().gpu(), *rest, *link, fields, {}, {});
+    ASSERT_TRUE(made) << made.error().message;
+    parts.push_back(std::move(*made));
+  }
+  std::vector<Result<ContactStage::Sample>> sums(3, Error{"did not run"});
+  std::vector<std::jthread> threads;
+  for (std::uint32_t k = 0; k < 3; ++k)
+    threads.emplace_back([&, k] { sums[k] = parts[k].sum({.sampled = 10 + k, .missed = 2 * k}); });
+  threads.clear();
+  for (const auto& sum : sums) {
+    ASSERT_TRUE(sum) << sum.error().message;
+    EXPECT_EQ(sum->sampled, 33u);
+    EXPECT_EQ(sum->missed, 6u);
+  }
+}
+
 }  // namespace
 }  // namespace ringlet::test

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -96,6 +97,36 @@ TEST_F(Ranks, HaveTheBitsOfOne) {
       EXPECT_EQ(std::ranges::count(together["device"].get<std::string>(), '+'), ranks - 1);
     }
   }
+}
+
+// Keys, fields and goals change between frames.
+TEST_F(Ranks, WhatChangesWhileItRunsToo) {
+  std::ofstream(folder_ / "keyed.toml") << R"([groom]
+file = "head.obj"
+[[field]]
+name = "blow"
+kind = "uniform"
+[goal]
+strength = 5
+[[key]]
+time = 0
+simulation.gravity = -9.81
+material.dials.weight = 1
+field.blow.strength = 0
+goal.strength = 0
+[[key]]
+time = 0.1
+simulation.gravity = -3
+material.dials.weight = 0.7
+field.blow.strength = 8
+goal.strength = 5
+)";
+  const std::string what = "keyed.toml --frames 4";
+  const auto one = runProgram(folder_, words(simulate(what, "one")));
+  ASSERT_EQ(one.exitCode, 0) << one.err;
+  const auto divided = launch(2, simulate(what, "divided"));
+  ASSERT_EQ(divided.exitCode, 0) << divided.err;
+  EXPECT_TRUE(readText(folder_ / "one/hair.rgc") == readText(folder_ / "divided/hair.rgc"));
 }
 
 TEST_F(Ranks, ABuiltInSceneToo) {
