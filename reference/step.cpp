@@ -292,6 +292,9 @@ template <class Real>
 void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose& next,
                                 std::span<const BodyPose> bodyPoses, const std::vector<BodyPose>& roots) {
   const std::vector<BodyStep<Real>> bodies = bodySteps(next, bodyPoses);
+  // Where hair meets as a volume the first solve, by which strands hear of each other, knows no bodies.
+  const bool meetsAsOne = settings_.contacts.on && !contacts_.pairByPair;
+  const std::vector<BodyStep<Real>> inFirstSolve = meetsAsOne ? std::vector<BodyStep<Real>>{} : bodies;
   const AirStep<Real> air = airStep(next);
   const std::vector<ForceField> inStep = fieldsAtStep(k, steps);
   const FieldStep fields{inStep, toEigen<double>(head_.position),
@@ -305,8 +308,8 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
                         : OutsideForces(forces_).subspan(firstPoint_[s], rest_[s].particleCount());
     prepareStrand(rest_[s], settings_, head, air, forces, goalStep(s, k, steps), fields, positions,
                   velocities, scratch_, taps_[s], systems_[s]);
-    solveVelocities(rest_[s], settings_, head, forces, bodies, systems_[s], scratch_, taps_[s], positions,
-                    velocities);
+    solveVelocities(rest_[s], settings_, head, forces, inFirstSolve, systems_[s], scratch_, taps_[s],
+                    positions, velocities);
   }
   if (settings_.contacts.on) {
     updateContacts(settings_.contacts, static_cast<Real>(settings_.stepSeconds()), positions_, velocities_,

@@ -20,7 +20,8 @@ inline constexpr double kContactSeenAhead = 2;
 inline constexpr double kContactMargin = 0.15;
 
 /// Warm start: a step's solve starts from its contact-free velocities and this share of the velocity change
-/// that contacts and the stretch limit caused in the last step. 0 is a cold start, 1 may oscillate.
+/// that contacts, the stretch limit and, of hair as a volume, bodies caused in the last step. 0 is a cold
+/// start, 1 may oscillate.
 inline constexpr double kContactWarmth = 0.8;
 
 /// How a contact fades in and out.

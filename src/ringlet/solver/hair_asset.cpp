@@ -98,6 +98,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
                                                               {},
                                                               {},
                                                               {},
+                                                              {},
                                                               {}});
   if (settings.goal.on) self->goal = goalOf(groom);
   self->choice.goals = choice.goals || settings.goal.on;
@@ -110,14 +111,24 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     std::ranges::copy(self->contacts->warnings(), std::back_inserter(self->rest.warnings));
     if (self->kinds().volume) self->volume = buildRestVolume(self->rest, *self->contacts);
   }
-  auto ranges = rangesOf(counts, self->rest.wholeCounts, *limits, choice,
-                         strandWork(settings, material, self->kinds(), hasBodies));
-  if (!ranges) return ranges.error();
   self->records = groomRecords(settings, self->choice, self->kinds());
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
-  self->ranges = cutRanges(*ranges, *chunks);
-  if (!self->isHere.empty()) self->ranges = rangesHere(self->ranges, self->rest, self->isHere);
+  const auto rangesFor = [&](bool amongBodies) -> Result<std::vector<StrandRange>> {
+    const auto ranges = rangesOf(counts, self->rest.wholeCounts, *limits, choice,
+                                 strandWork(settings, material, self->kinds(), amongBodies));
+    if (!ranges) return ranges.error();
+    std::vector<StrandRange> cut = cutRanges(*ranges, *chunks);
+    return self->isHere.empty() ? cut : rangesHere(cut, self->rest, self->isHere);
+  };
+  auto ranges = rangesFor(hasBodies);
+  if (!ranges) return ranges.error();
+  self->ranges = std::move(*ranges);
+  if (hasBodies && self->kinds().volume && !self->kinds().pairs) {
+    auto first = rangesFor(false);
+    if (!first) return first.error();
+    self->firstRanges = std::move(*first);
+  }
   self->groupSize = strandGroupSize(*limits, lanesOf(self->ranges));
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
   if (!plan) return plan.error();  // before anything is made for it

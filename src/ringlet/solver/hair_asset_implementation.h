@@ -33,6 +33,8 @@ struct HairAsset::Implementation {
   std::optional<RestContacts> contacts;  // with contacts
   std::optional<RestVolume> volume;      // where strands meet as one
   std::vector<StrandRange> ranges;
+  std::vector<StrandRange>
+      firstRanges;  // as a step's first solve has them, where that has kernels of its own
   GroomRecords records;
   std::vector<ConstantChunk> constants;
   std::optional<GroomGoal> goal;                   // where Settings::goal is on

@@ -1,11 +1,8 @@
-// Implements solver/simulation.h, less its frames (simulation_frames.cpp): what is made at creation, and the
-// ways to and from the hair's state.
+// Implements solver/simulation.h, less its frames (simulation_frames.cpp) and kernels
+// (simulation_kernels.cpp): what is made at creation, and the ways to and from the hair's state.
 #include "ringlet/solver/simulation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -18,37 +15,15 @@
 #include "ringlet/solver/contact_momentum.h"
 #include "ringlet/solver/groom_chunks.h"
 #include "ringlet/solver/simulation_implementation.h"
-#include "ringlet/solver/strand_kernels.h"
 
 namespace ringlet {
 namespace {
-
-// Ranges of one shape stand together.
-std::vector<StrandShape> shapesOf(std::span<const StrandRange> ranges) {
-  std::vector<StrandShape> shapes;
-  for (const StrandRange& range : ranges) {
-    if (shapes.empty() || shapes.back() != range.shape) shapes.push_back(range.shape);
-  }
-  return shapes;
-}
 
 // A CPU's driver has nobody who watches it. [s]
 double longestSubmission(const KernelChoice& choice, const DeviceLimits& limits) {
   constexpr double kOnGpus = 0.3;
   if (choice.longestSubmissionSeconds > 0) return choice.longestSubmissionSeconds;
   return limits.isCpu ? 0 : kOnGpus;
-}
-
-std::string describe(std::span<const StrandShape> shapes, std::uint32_t subgroupSize) {
-  std::string text;
-  for (const StrandShape& shape : shapes) text += (text.empty() ? "" : ", ") + shape.describe();
-  return fmt::format("{} (subgroup {})", text, subgroupSize);
-}
-
-// The width kernels are to ask the driver for; 0 where that is the device's default, or nothing can be asked.
-std::uint32_t askedWidth(const gpu::DeviceProperties& device, const KernelChoice& choice) {
-  const auto width = static_cast<std::uint32_t>(choice.subgroupSize);
-  return device.canChooseSubgroupSize && width != device.subgroupSize ? width : 0;
 }
 
 // The strands of a head whose roots move beside it.
@@ -62,23 +37,6 @@ std::vector<layout::StrandRest> shiftedStrands(const RestState& rest, std::span<
   }
   return strands;
 }
-
-// Tells the observer, where there is one and something to compile, of a beginning and, whatever happens, of
-// an end.
-class CompileNotice {
- public:
-  CompileNotice(CompileObserver* observer, std::size_t kernelCount)
-      : observer_(kernelCount > 0 ? observer : nullptr) {
-    if (observer_) observer_->begin(kernelCount);
-  }
-  ~CompileNotice() {
-    if (observer_) observer_->end();
-  }
-  CompileNotice(const CompileNotice&) = delete;
-
- private:
-  CompileObserver* observer_;
-};
 
 }  // namespace
 
@@ -148,7 +106,9 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
                          .goals = std::move(*goals),
                          .fields = std::move(*fields),
                          .rigidHair = std::move(rigidHair),
-                         .pace = SubmissionPace(longestSubmission(constant.choice, limits))});
+                         .pace = SubmissionPace(longestSubmission(constant.choice, limits)),
+                         .strandKernels = {constant.ranges},
+                         .firstSolveKernels = {constant.firstRanges}});
   if (Status status = self->placeAtRest(); !status) return status.error();
   if (Status status = self->addContacts(); !status) return status.error();
   if (Status status = self->makeKernels(); !status) return status.error();
@@ -159,89 +119,6 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
     if (Status status = self->recordSlot(slot); !status) return status.error();
   }
   return Simulation(std::move(self));
-}
-
-// Made, several at a time, and compiled by a dispatch of nothing: some drivers compile only then. Kernels
-// that a simulation before has made on this device are ready.
-Status Simulation::Implementation::makeKernels() {
-  if (ranges.empty()) return {};
-  const auto start = std::chrono::steady_clock::now();
-  const std::vector<StrandShape> shapes = shapesOf(ranges);
-  const bool bendVaries =
-      !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
-  const bool fitsTexels = isSeenAsTexels(
-      device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
-                              forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));
-  const StrandKernelOptions options{.integrator = settings.integrator,
-                                    .oneSmoothing = rest.oneSmoothing,
-                                    .bendVaries = bendVaries,
-                                    .taps = choice.taps,
-                                    .contacts = settings.contacts.on,
-                                    .pairs = contacts.has_value(),
-                                    .volume = volume.has_value(),
-                                    .texels = fitsTexels,
-                                    .residual = choice.residual,
-                                    .bodies = asset->bodies == BodyUse::some,
-                                    .air = settings.air.on,
-                                    .turbulence = world.isTurbulent(),
-                                    .movingRoots = choice.movingRoots,
-                                    .forces = choice.forces,
-                                    .goals = choice.goals,
-                                    .goalShape = settings.goal.shape,
-                                    .fields = choice.fields,
-                                    .subgroupSize = askedWidth(device.gpu().properties(), choice),
-                                    .groupSize = asset->groupSize};
-  std::vector<std::size_t> newKernels;
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    if (!gpu::Kernel::isCompiled(device.gpu(), describeStrandKernel(shapes[k], options)))
-      newKernels.push_back(k);
-  }
-  const std::size_t newCount = newKernels.size() + (contacts ? contacts->newKernelCount() : 0) +
-                               (volume ? volume->newKernelCount() : 0);
-  const CompileNotice notice(choice.observer, newCount);
-  auto made = createStrandKernels(device.gpu(), shapes, options);
-  if (!made) return made.error();
-  kernels = std::move(*made);
-  for (const StrandRange& range : ranges)
-    kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
-  if (Status status = bindKernels(); !status) return status;
-
-  if (newCount > 0) {
-    if (Status status = dispatchNothing(newKernels); !status) return status;
-  }
-  compileMilliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return {};
-}
-
-Status Simulation::Implementation::bindKernels() {
-  bindings.clear();
-  for (std::size_t r = 0; r < ranges.size(); ++r) {
-    gpu::BufferTable table = buffers.bufferTable(ranges[r].chunk);
-    table.merge(world.bufferTable());
-    table.merge(roots.bufferTable(ranges[r].chunk));
-    table.merge(forces.bufferTable(ranges[r].chunk));
-    table.merge(goals.bufferTable(ranges[r].chunk));
-    table.merge(fields.bufferTable());
-    auto bound = gpu::Bindings::create(*kernels[kernelOf[r]], table);
-    if (!bound) return bound.error();
-    bindings.push_back(std::move(*bound));
-  }
-  return {};
-}
-
-// With the strand kernels `newKernels`, and what is new of the contacts'.
-Status Simulation::Implementation::dispatchNothing(std::span<const std::size_t> newKernels) const {
-  auto recorder = gpu::Recorder::create(device.gpu(), "compile");
-  if (!recorder) return recorder.error();
-  if (Status status = recorder->begin(); !status) return status;
-  for (const std::size_t k : newKernels) {
-    const auto range = static_cast<std::size_t>(std::ranges::find(kernelOf, k) - kernelOf.begin());
-    recorder->dispatchNothing(*kernels[k], bindings[range]);
-  }
-  if (contacts) contacts->recordNothing(*recorder);
-  if (volume) volume->recordNothing(*recorder);
-  return recorder->submitAndWait();
 }
 
 Status Simulation::Implementation::addContacts() {
@@ -526,14 +403,6 @@ DeviceMemory Simulation::memory() const {
 
 std::vector<std::string> Simulation::recordedFrame() const {
   return self_->slotOf(std::max<std::uint64_t>(self_->submitted, 1) - 1).recorder.recorded();
-}
-
-double Simulation::compileMilliseconds() const { return self_->compileMilliseconds; }
-
-std::string Simulation::kernelDescription() const {
-  if (self_->ranges.empty()) return "none: all strands are carried rigidly";
-  const auto width = static_cast<std::uint32_t>(self_->choice.subgroupSize);
-  return describe(shapesOf(self_->ranges), width ? width : self_->device.gpu().properties().subgroupSize);
 }
 
 }  // namespace ringlet

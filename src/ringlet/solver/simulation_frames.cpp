@@ -12,7 +12,8 @@
 
 namespace ringlet {
 
-layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDispatch& dispatch) const {
+layout::StepParameters Simulation::Implementation::parametersOf(const StrandKernels& of,
+                                                                const PlannedDispatch& dispatch) const {
   layout::StepParameters p{};
   p.gravity = packed3(settings.gravity * material.gravityFactor);
   p.seconds = static_cast<float>(settings.stepSeconds());
@@ -29,7 +30,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
   p.chebyshev = settings.chebyshev ? 1 : 0;
   p.forceLoops = static_cast<std::uint32_t>(settings.forceLoops);
   p.dampingLoops = static_cast<std::uint32_t>(settings.dampingLoops);
-  const GroomChunk& chunk = buffers.chunks[ranges[dispatch.range].chunk].part;
+  const GroomChunk& chunk = buffers.chunks[of.ranges[dispatch.range].chunk].part;
   p.particleCount = chunk.particleCount();
   p.phases = dispatch.phases;
   p.bodyCount = static_cast<std::uint32_t>(world.bodyCount());
@@ -42,12 +43,12 @@ layout::StepParameters Simulation::Implementation::parametersOf(const PlannedDis
 }
 
 // One stage, or in several submissions one in each.
-void Simulation::Implementation::dispatchAll(FrameRecording& frame,
+void Simulation::Implementation::dispatchAll(FrameRecording& frame, const StrandKernels& of,
                                              std::span<const PlannedDispatch> dispatches) const {
   if (dispatches.empty()) return;  // all strands are rigid
   for (std::size_t d = 0; d < dispatches.size(); ++d) {
     const PlannedDispatch& now = dispatches[d];
-    const auto particleSteps = static_cast<double>(particleStepsOf(now, ranges));
+    const auto particleSteps = static_cast<double>(particleStepsOf(now, of.ranges));
     frame.particleSteps += particleSteps;
     const bool cuts = frame.pace.cutsBeforeStrands(particleSteps);
     if (cuts && d > 0) frame.list.endStage();
@@ -57,7 +58,7 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame,
     // for hazards.
     const bool isValidated = device.gpu().validationLog() != nullptr;
     if (d > 0 && !cuts && (isValidated || sharesStrands(dispatches[d - 1], now))) frame.list.barrier();
-    frame.list.dispatch(*kernels[kernelOf[now.range]], bindings[now.range], parametersOf(now),
+    frame.list.dispatch(*of.kernels[of.kernelOf[now.range]], of.bindings[now.range], parametersOf(of, now),
                         now.groupCount);
   }
   frame.list.endStage();
@@ -92,16 +93,26 @@ Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
                               frame.pace.mostParticleSteps());
   if (!plan) return plan.error();
   beginFrame(frame);
-  dispatchAll(frame, *plan);
+  dispatchAll(frame, strandKernels, *plan);
   recordEnd(frame);
   return {};
 }
 
+// Of hair as a volume among bodies the first solve of a step, by which strands hear of each other, knows no
+// bodies: others hear of what those do a step later (kContactWarmth). It has kernels and dispatches of its
+// own.
 Status Simulation::Implementation::recordPass(FrameRecording& frame, const SolvePass& pass) const {
-  const auto dispatches = planPass(ranges, asset->limits, settings, world.bodyCount(), asset->groupSize, pass,
-                                   frame.pace.mostParticleSteps());
+  if (pass.goesOn && firstSolveKernels.areThere()) {
+    const SolvePass now{pass.step, pass.withContacts, pass.moves, false};
+    if (Status status = recordPass(frame, now); !status) return status;
+    return recordPass(frame, {.step = pass.step + 1});
+  }
+  const bool isFirstSolve = !pass.withContacts && firstSolveKernels.areThere();
+  const StrandKernels& of = isFirstSolve ? firstSolveKernels : strandKernels;
+  const auto dispatches = planPass(of.ranges, asset->limits, settings, isFirstSolve ? 0 : world.bodyCount(),
+                                   asset->groupSize, pass, frame.pace.mostParticleSteps());
   if (!dispatches) return dispatches.error();
-  dispatchAll(frame, *dispatches);
+  dispatchAll(frame, of, *dispatches);
   frame.list.barrier();
   return {};
 }

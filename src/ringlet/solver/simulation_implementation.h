@@ -32,6 +32,7 @@
 #include "ringlet/solver/rigid_hair.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/stillness.h"
+#include "ringlet/solver/strand_kernels.h"
 #include "ringlet/solver/submission_pace.h"
 #include "ringlet/solver/volume_stage.h"
 
@@ -71,6 +72,16 @@ struct FrameRecording {
   double particleSteps = 0;  // of strands
 };
 
+// Kernels of strands, in the shapes of these ranges.
+struct StrandKernels {
+  const std::vector<StrandRange>& ranges;
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
+  std::vector<std::size_t> kernelOf{};                        // each range's
+  std::vector<gpu::Bindings> bindings{};                      // one a range
+
+  bool areThere() const { return !kernels.empty(); }
+};
+
 struct Simulation::Implementation {
   std::shared_ptr<const HairAsset::Implementation> asset;
   // Of the asset:
@@ -96,9 +107,8 @@ struct Simulation::Implementation {
   DeviceFields fields;
   RigidHair rigidHair;
   SubmissionPace pace;
-  std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
-  std::vector<std::size_t> kernelOf{};                        // each range's
-  std::vector<gpu::Bindings> bindings{};                      // one a range
+  StrandKernels strandKernels;
+  StrandKernels firstSolveKernels;  // of a step's first solve; none: the same
 
   std::optional<ContactStage> contacts{};  // of strands that meet pair by pair
   std::optional<VolumeStage> volume{};     // of strands that meet as a volume
@@ -123,10 +133,17 @@ struct Simulation::Implementation {
   std::optional<Error> lostFrame{};  // after which nothing can be told of any
   std::vector<FrameSlot> slots{};    // go first, waiting for what still uses the rest
 
-  // simulation.cpp
+  // simulation_kernels.cpp
   Status makeKernels();
+  StrandKernelOptions kernelOptions() const;
+  std::vector<std::size_t> newKernels(const StrandKernels& of, const StrandKernelOptions& options) const;
+  Status create(StrandKernels& of, const StrandKernelOptions& options) const;
   Status bindKernels();
-  Status dispatchNothing(std::span<const std::size_t> newKernels) const;
+  Status bindKernels(StrandKernels& of);
+  void dispatchNothing(gpu::CommandList& list, const StrandKernels& of,
+                       std::span<const std::size_t> newKernels) const;
+
+  // simulation.cpp
   bool isHere(std::size_t strand) const { return asset->isHere.empty() || asset->isHere[strand]; }
   ContactKinds contactKinds() const { return {contacts.has_value(), volume.has_value()}; }
   Status addContacts();
@@ -145,7 +162,7 @@ struct Simulation::Implementation {
   Status change(std::span<const Body> bodies, std::span<const BodyPose> places);
 
   // simulation_frames.cpp
-  layout::StepParameters parametersOf(const PlannedDispatch& dispatch) const;
+  layout::StepParameters parametersOf(const StrandKernels& of, const PlannedDispatch& dispatch) const;
   bool isJump(std::span<const HeadPose> stepPoses) const {
     RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(settings.stepsPerFrame),
                    "a frame takes one pose per outer step");
@@ -168,7 +185,8 @@ struct Simulation::Implementation {
   void recordNextMeeting(FrameRecording& frame, std::uint32_t step) const;
   Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
   Status recordPass(FrameRecording& frame, const SolvePass& pass) const;
-  void dispatchAll(FrameRecording& frame, std::span<const PlannedDispatch> dispatches) const;
+  void dispatchAll(FrameRecording& frame, const StrandKernels& of,
+                   std::span<const PlannedDispatch> dispatches) const;
   FrameSlot::Recorded wantedRecording() const {
     return stillness.sleeps() ? FrameSlot::Recorded::sleep : FrameSlot::Recorded::frame;
   }
