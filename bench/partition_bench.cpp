@@ -1,0 +1,255 @@
+// What it would take to send only a halo between the parts of one groom: strands over parts by ranges of the
+// curve that orders them in memory, by the paper's greedy swaps from there (Iben et al. 2012, section 4), and
+// by METIS where it is installed. Halo: strands of other parts that own ones may touch, over own ones.
+// Verified before it is told: every strand is in one part, and the cut is the sum of its edges'. Run:
+// build/release/bench/partition_bench [STRANDS [SCALP_RADIUS_M]]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <string>
+#include <vector>
+
+#ifdef RINGLET_HAS_METIS
+#include <metis.h>
+#endif
+
+#include "bench/clocks.h"
+#include "ringlet/groom/generate.h"
+#include "ringlet/rest/rest_contacts.h"
+#include "ringlet/rest/strand_order.h"
+
+namespace {
+
+using namespace ringlet;
+
+constexpr double kMostImbalance = 1.03;
+
+// Strands that may touch, weighted by what they take: of a step [ns], and by overlaps at rest.
+struct Graph {
+  std::vector<std::int32_t> first, neighbours, overlaps;  // by strand; and of each neighbour
+  std::vector<std::int32_t> weights;                      // of strands
+  std::size_t contactParticles = 0;
+
+  std::size_t strandCount() const { return weights.size(); }
+  std::span<const std::int32_t> neighboursOf(std::size_t s) const {
+    return std::span(neighbours).subspan(std::size_t(first[s]), std::size_t(first[s + 1] - first[s]));
+  }
+};
+
+// Times of a lavapipe step: a particle, a contact particle, either side of a pair that overlaps [ns].
+constexpr double kPerParticle = 80, kPerContactParticle = 82, kPerSide = 60;
+
+Graph graphOf(const RestState& rest, const RestContacts& contacts, const ContactSettings& settings) {
+  Graph graph;
+  const auto found = countOverlaps(rest, contacts.allParticles(), settings.enlargement);
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> of(rest.strands.size());
+  for (const StrandOverlap& pair : found) {
+    if (!contacts.graph.allows(pair.a, pair.b)) continue;
+    of[pair.a].push_back({pair.b, pair.count});
+    of[pair.b].push_back({pair.a, pair.count});
+  }
+  graph.first.push_back(0);
+  const auto& starts = contacts.particles.firstOfStrand;
+  for (std::size_t s = 0; s < of.size(); ++s) {
+    double weight =
+        kPerParticle * rest.strands[s].particleCount + kPerContactParticle * (starts[s + 1] - starts[s]);
+    for (const auto& [other, count] : of[s]) {
+      graph.neighbours.push_back(std::int32_t(other));
+      graph.overlaps.push_back(std::int32_t(count));
+      weight += kPerSide * count;
+    }
+    graph.first.push_back(std::int32_t(graph.neighbours.size()));
+    graph.weights.push_back(std::int32_t(weight / 100));
+  }
+  graph.contactParticles = contacts.particles.particles.size();
+  return graph;
+}
+
+using Parts = std::vector<std::int32_t>;  // of each strand
+
+Parts curveRanges(const Graph& graph, int count) {
+  const double whole = std::accumulate(graph.weights.begin(), graph.weights.end(), 0.0);
+  Parts parts;
+  double before = 0;
+  for (const std::int32_t weight : graph.weights) {
+    parts.push_back(std::min(count - 1, int(before / whole * count)));
+    before += weight;
+  }
+  return parts;
+}
+
+// Pairs of strands in two parts change places as long as that cuts less and no part becomes too heavy.
+Parts swapped(const Graph& graph, int count) {
+  constexpr int kPasses = 60;
+  constexpr std::size_t kPartners = 12;
+  Parts parts = curveRanges(graph, count);
+  std::vector<double> weights(std::size_t(count), 0.0);
+  for (std::size_t s = 0; s < parts.size(); ++s) weights[std::size_t(parts[s])] += graph.weights[s];
+  const double most = kMostImbalance * std::accumulate(weights.begin(), weights.end(), 0.0) / count;
+  // Overlaps of a strand with those of a part.
+  const auto with = [&](std::size_t s, std::int32_t part) {
+    std::int64_t sum = 0;
+    for (std::int32_t k = graph.first[s]; k < graph.first[s + 1]; ++k)
+      if (parts[std::size_t(graph.neighbours[std::size_t(k)])] == part) sum += graph.overlaps[std::size_t(k)];
+    return sum;
+  };
+  const auto gainOf = [&](std::size_t s, std::int32_t to) { return with(s, to) - with(s, parts[s]); };
+  const auto tryPair = [&](std::size_t s, std::size_t t, std::int64_t gainOfS) {
+    const auto here = graph.neighboursOf(s);
+    const auto at = std::ranges::find(here, std::int32_t(t));
+    const std::int64_t between =
+        at == here.end() ? 0 : graph.overlaps[std::size_t(graph.first[s] + (at - here.begin()))];
+    if (gainOfS + gainOf(t, parts[s]) - 2 * between <= 0) return false;
+    const double moved = graph.weights[t] - graph.weights[s];
+    double& mine = weights[std::size_t(parts[s])];
+    double& others = weights[std::size_t(parts[t])];
+    if (mine + moved > most || others - moved > most) return false;
+    mine += moved, others -= moved;
+    std::swap(parts[s], parts[t]);
+    return true;
+  };
+  for (int pass = 0; pass < kPasses; ++pass) {
+    std::size_t swaps = 0;
+    for (std::size_t s = 0; s < parts.size(); ++s) {
+      std::int32_t best = -1;
+      std::int64_t gain = 0;
+      for (const std::int32_t t : graph.neighboursOf(s)) {
+        const std::int32_t part = parts[std::size_t(t)];
+        if (part == parts[s] || part == best) continue;
+        if (const std::int64_t wanted = gainOf(s, part); best < 0 || wanted > gain)
+          best = part, gain = wanted;
+      }
+      if (best < 0) continue;
+      std::size_t tried = 0;
+      for (const std::int32_t t : graph.neighboursOf(s)) {
+        if (parts[std::size_t(t)] != best) continue;
+        if (tryPair(s, std::size_t(t), gain)) {
+          ++swaps;
+          break;
+        }
+        if (++tried == kPartners) break;
+      }
+    }
+    if (swaps * 5000 < parts.size()) break;
+  }
+  return parts;
+}
+
+#ifdef RINGLET_HAS_METIS
+Parts byMetis(const Graph& graph, int count, bool byWays) {
+  auto first = graph.first, neighbours = graph.neighbours, overlaps = graph.overlaps, weights = graph.weights;
+  idx_t strands = idx_t(graph.strandCount()), constraints = 1, parts = count, cut = 0;
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  Parts of(graph.strandCount());
+  (byWays ? METIS_PartGraphKway : METIS_PartGraphRecursive)(
+      &strands, &constraints, first.data(), neighbours.data(), weights.data(), nullptr, overlaps.data(),
+      &parts, nullptr, nullptr, options, &cut, of.data());
+  return of;
+}
+#endif
+
+struct Measures {
+  double cut = 0, halo = 0, imbalance = 0;  // shares
+};
+Result<Measures> measure(const Graph& graph, const Parts& parts, int count) {
+  std::vector<double> weights(std::size_t(count), 0.0);
+  double all = 0, cut = 0, halo = 0;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    if (parts[s] < 0 || parts[s] >= count) return Error{fmt::format("strand {} is in part {}", s, parts[s])};
+    weights[std::size_t(parts[s])] += graph.weights[s];
+    std::vector<bool> isIn(std::size_t(count), false);
+    for (std::int32_t k = graph.first[s]; k < graph.first[s + 1]; ++k) {
+      const std::int32_t other = parts[std::size_t(graph.neighbours[std::size_t(k)])];
+      all += graph.overlaps[std::size_t(k)];
+      if (other == parts[s]) continue;
+      cut += graph.overlaps[std::size_t(k)];
+      halo += isIn[std::size_t(other)] ? 0 : 1;
+      isIn[std::size_t(other)] = true;
+    }
+  }
+  const double whole = std::accumulate(weights.begin(), weights.end(), 0.0);
+  return Measures{all > 0 ? cut / all : 0, halo / double(parts.size()),
+                  *std::ranges::max_element(weights) * count / whole};
+}
+
+struct Way {
+  std::string name;
+  std::function<Parts(const Graph&, int)> divide;
+};
+std::vector<Way> ways() {
+  std::vector<Way> all{{"curve", curveRanges}, {"swaps", swapped}};
+#ifdef RINGLET_HAS_METIS
+  all.push_back({"METIS", [](const Graph& graph, int count) { return byMetis(graph, count, false); }});
+  all.push_back({"METIS k-way", [](const Graph& graph, int count) { return byMetis(graph, count, true); }});
+#else
+  fmt::print("METIS is not installed (Debian: libmetis-dev): without it.\n");
+#endif
+  return all;
+}
+
+Status tell(const Graph& graph, const std::vector<Way>& all) {
+  fmt::print("| parts | way | cut | halo | imbalance | ms |\n|---|---|---|---|---|---|\n");
+  for (const int count : {2, 4, 8, 16, 64}) {
+    if (std::size_t(count) * 4 > graph.strandCount()) break;
+    for (const Way& way : all) {
+      const double start = bench::wallSeconds();
+      const Parts parts = way.divide(graph, count);
+      const double seconds = bench::wallSeconds() - start;
+      const auto measured = measure(graph, parts, count);
+      if (!measured) return measured.error();
+      fmt::print("| {} | {} | {:.1f} % | {:.2f} | {:.2f} | {:.0f} |\n", count, way.name, 100 * measured->cut,
+                 measured->halo, measured->imbalance, 1e3 * seconds);
+    }
+  }
+  return {};
+}
+
+Status run(int strands, double scalpRadius) {
+  HeadParameters head{.strandCount = strands};
+  head.scalpRadius = scalpRadius;
+  const auto groom = makeHead(head);
+  if (!groom) return groom.error();
+  Settings settings;
+  settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
+  const auto rest = buildRestState(*groom, {}, settings, orderAlongCurve(*groom));
+  if (!rest) return rest.error();
+  const std::vector<Way> all = ways();
+  struct Pruning {
+    const char* name;
+    int minOverlaps, maxNeighbours;
+  };
+  const ContactSettings usual;
+  for (const Pruning& pruning :
+       {Pruning{"all that overlap", 1, usual.maxNeighbours},
+        Pruning{"as by default", usual.minOverlaps, usual.maxNeighbours},
+        Pruning{"32 neighbours", usual.minOverlaps, 32}, Pruning{"8 neighbours", usual.minOverlaps, 8}}) {
+    settings.contacts.prunePairs = true;
+    settings.contacts.minOverlaps = pruning.minOverlaps;
+    settings.contacts.maxNeighbours = pruning.maxNeighbours;
+    const RestContacts contacts = buildRestContacts(*rest, settings.contacts);
+    const Graph graph = graphOf(*rest, contacts, settings.contacts);
+    fmt::print("\n{} strands, {}: {} pairs, {:.1f} neighbours a strand, {} contact particles\n", strands,
+               pruning.name, contacts.graph.pairs, double(graph.neighbours.size()) / strands,
+               graph.contactParticles);
+    if (Status status = tell(graph, all); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int strands = argc > 1 ? std::atoi(argv[1]) : 1500;
+  const double radius = argc > 2 ? std::atof(argv[2]) : HeadParameters{}.scalpRadius;
+  if (const Status status = run(strands, radius); !status) {
+    fmt::print(stderr, "partition_bench: {}\n", status.error().message);
+    return 1;
+  }
+}
