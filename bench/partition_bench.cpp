@@ -11,6 +11,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #ifdef RINGLET_HAS_METIS
@@ -89,7 +90,7 @@ Parts swapped(const Graph& graph, int count) {
   Parts parts = curveRanges(graph, count);
   std::vector<double> weights(std::size_t(count), 0.0);
   for (std::size_t s = 0; s < parts.size(); ++s) weights[std::size_t(parts[s])] += graph.weights[s];
-  const double most = kMostImbalance * std::accumulate(weights.begin(), weights.end(), 0.0) / count;
+  const double heaviest = kMostImbalance * std::accumulate(weights.begin(), weights.end(), 0.0) / count;
   // Overlaps of a strand with those of a part.
   const auto with = [&](std::size_t s, std::int32_t part) {
     std::int64_t sum = 0;
@@ -107,7 +108,7 @@ Parts swapped(const Graph& graph, int count) {
     const double moved = graph.weights[t] - graph.weights[s];
     double& mine = weights[std::size_t(parts[s])];
     double& others = weights[std::size_t(parts[t])];
-    if (mine + moved > most || others - moved > most) return false;
+    if (mine + moved > heaviest || others - moved > heaviest) return false;
     mine += moved, others -= moved;
     std::swap(parts[s], parts[t]);
     return true;
@@ -115,15 +116,15 @@ Parts swapped(const Graph& graph, int count) {
   for (int pass = 0; pass < kPasses; ++pass) {
     std::size_t swaps = 0;
     for (std::size_t s = 0; s < parts.size(); ++s) {
-      std::int32_t best = -1;
-      std::int64_t gain = 0;
-      for (const std::int32_t t : graph.neighboursOf(s)) {
-        const std::int32_t part = parts[std::size_t(t)];
-        if (part == parts[s] || part == best) continue;
-        if (const std::int64_t wanted = gainOf(s, part); best < 0 || wanted > gain)
-          best = part, gain = wanted;
-      }
-      if (best < 0) continue;
+      std::vector<std::int64_t> withPart(std::size_t(count), 0);
+      for (std::int32_t k = graph.first[s]; k < graph.first[s + 1]; ++k)
+        withPart[std::size_t(parts[std::size_t(graph.neighbours[std::size_t(k)])])] +=
+            graph.overlaps[std::size_t(k)];
+      const std::int64_t mine = std::exchange(withPart[std::size_t(parts[s])], 0);
+      const auto most = std::ranges::max_element(withPart);
+      const auto best = std::int32_t(most - withPart.begin());
+      const std::int64_t gain = *most - mine;
+      if (*most == 0) continue;
       std::size_t tried = 0;
       for (const std::int32_t t : graph.neighboursOf(s)) {
         if (parts[std::size_t(t)] != best) continue;
