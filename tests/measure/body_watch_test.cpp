@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "ringlet/bodies/body_distance.h"
 #include "tests/support/sample_bodies.h"
 
@@ -43,6 +45,52 @@ TEST(BodyWatch, CountsWhatWasOutside) {
   watch.look(std::vector<Vec3f>{{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, head, poses);
   EXPECT_NEAR(watch.numbers().deepest, 0.1, 1e-12);
   EXPECT_EQ(watch.numbers().particle, 1);
+}
+
+// Against a look at every particle by itself, in all shapes, along strands that wander out of bodies and in.
+TEST(BodyWatch, LeavesOutNothingThatIsInside) {
+  constexpr int kStrands = 200, kParticles = 12, kLooks = 4;
+  const auto bodies = sampleBodies();
+  const std::vector<BodyPose> poses(bodies.size(), BodyPose{{0.02, 0, 0}, {}});
+  std::mt19937 random(1);
+  std::normal_distribution<float> step(0, 0.02f);
+  std::vector<Groom> looks(kLooks);
+  for (Groom& groom : looks) {
+    groom.metresPerUnit = 1;
+    for (int s = 0; s < kStrands; ++s) {
+      std::vector<Vec3f> points{{0.2f, 0.1f * float(s % 5), 0}};
+      while (points.size() < kParticles)
+        points.push_back(points.back() + Vec3f{step(random), step(random), step(random)});
+      groom.addStrand(points);
+    }
+  }
+  BodyWatch watch(looks[0], bodies, 1);
+  BodyNumbers expected;
+  std::vector<bool> wasOutside(bodies.size() * kStrands * kParticles, false);
+  for (int look = 0; look < kLooks; ++look) {
+    const std::vector<Vec3f>& points = looks[std::size_t(look)].points;
+    watch.look(points, HeadPose{}, poses);
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i % kParticles == 0) continue;
+        const double distance = distanceTo(bodies[b], poses[b], Vec3d(points[i]));
+        const std::size_t place = b * points.size() + i;
+        if (distance >= 0) wasOutside[place] = true;
+        if (!wasOutside[place] || -distance <= expected.deepest) continue;
+        expected = {-distance, std::int64_t(i / kParticles), std::int64_t(i % kParticles), look, 0};
+      }
+    }
+  }
+  for (std::size_t place = 0; place < wasOutside.size(); ++place)
+    expected.inside += place % kParticles != 0 && !wasOutside[place] ? 1 : 0;
+  EXPECT_GT(expected.deepest, 0.05);
+  EXPECT_GT(expected.inside, 10u);
+  const BodyNumbers seen = watch.numbers();
+  EXPECT_EQ(seen.deepest, expected.deepest);
+  EXPECT_EQ(seen.strand, expected.strand);
+  EXPECT_EQ(seen.particle, expected.particle);
+  EXPECT_EQ(seen.frame, expected.frame);
+  EXPECT_EQ(seen.inside, expected.inside);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ class BodyWatch {
   BodyWatch(const Groom& groom, std::span<const Body> bodies, int rootCount);
 
   /// Positions relative to the head's origin, groom order [m]; the bodies' poses in the world. Cost: some 20
-  /// ns a particle and body, 100 of a distance grid.
+  /// ns a particle and body, 100 of a distance grid; less where the particle before it is far from the body.
   void look(std::span<const Vec3f> positions, const HeadPose& head, std::span<const BodyPose> poses);
 
   BodyNumbers numbers() const;
