@@ -21,6 +21,7 @@ vec4 nextBody;
 float nextTarget;
 
 vec3 pStart[RUN];  // where particles were before the move
+bool isClear;      // nothing of the strand touches a body on its way, at the velocities without bodies
 
 // Looks are over some particles at a time, a part of the run; the next lane's first is looked at too. What is noted
 // fills a word after ten parts; a run in memory may have more, and is gone through word by word.
@@ -135,24 +136,62 @@ float massAt(int k, float next) {
 }
 bool isPinnedAt(int k) { return first + k < parameters.rootCount; }
 
+struct NextParticle {  // the next lane's first
+  vec3 p;
+  vec3 v;
+  float mass;
+};
+
+// What a body asks of the edge from particle k to l, in the end that touches first or between them; or of particle k,
+// which is an edge to itself.
+void askOf(BodyStep body, int k, int l, NextParticle next, vec3 edgeBefore, inout uint touched, inout uint asked) {
+  float T = stepSeconds();
+  bool isOne = k == l;
+  vec3 a = RINGLET_PICK(p, next.p, k);
+  vec3 c = RINGLET_PICK(p, next.p, l);
+  vec3 va = RINGLET_PICK(v, next.v, k);
+  vec3 vc = RINGLET_PICK(v, next.v, l);
+  Touch touch = traceEdge(body.rest, placeAtStart(body, a), placeAtEnd(body, a + T * va), placeAtStart(body, c),
+                          placeAtEnd(body, c + T * vc));
+  touched |= touch.passes ? 0 : 1;
+  bool isDeep = isOne && touch.surface.distance < -kDeep;
+  vec3 n = outward(body, touch.surface.normal);
+  if (isDeep) n = wayOutOfDepth(n, tangentAt(k, edgeBefore));
+  vec2 shares = isOne ? vec2(1, 0) : vec2(1.0 - touch.along, touch.along);
+  vec3 u = bodyVelocityAt(body, shares.x * a + shares.y * c, T);
+  float least = dot(n, u) + leastParting(touch, T);
+  float deficit = least - dot(n, shares.x * va + shares.y * vc);
+  if (!(isOne ? !touch.passes : touch.found) || !(deficit > 0.0)) return;
+  vec2 parting = shares * (deficit / dot(shares, shares));
+  int end = 0;
+  do {
+    int m = end == 0 ? k : l;
+    float share = end == 0 ? shares.x : shares.y;
+    float weight = share * (isDeep ? kDeepShare : 1.0) * bodyWeight(massAt(m, next.mass), deficit);
+    float target = isOne ? least : dot(n, end == 0 ? va : vc) + (end == 0 ? parting.x : parting.y);
+    push(m, isPinnedAt(m) || share < kLeastShare ? 0.0 : weight, n, target, u, body.rest.friction);
+  } while (++end < (isOne ? 1 : 2));
+  asked = 1;
+}
+
 // Everything that bodies ask, from positions and v, the velocities without them. Whether they ask anything of the
-// strand.
+// strand; sets isClear.
 bool findPushes(uint step) {
   float T = stepSeconds();
-  vec3 pNext = fromTipward(p[0], 1);
-  vec3 vNext = fromTipward(v[0], 1);
-  float massNext = fromTipward(vec3(restEdge[0].x), 1).x;
+  NextParticle next =
+      NextParticle(fromTipward(p[0], 1), fromTipward(v[0], 1), fromTipward(vec3(restEdge[0].x), 1).x);
   vec3 edgeBefore = fromRootward(eHat[RUN - 1], 1);
   Room room = emptyRoom();
   float fastest = 0.0;
   RINGLET_OVER_RUN for (int k = 0; k <= RUN; ++k) {
     if (k < RUN ? !isParticle(k) : !isEdge(RUN - 1)) continue;
-    include(room, k < RUN ? p[min(k, RUN - 1)] : pNext);
-    vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : vNext;
+    include(room, k < RUN ? p[min(k, RUN - 1)] : next.p);
+    vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : next.v;
     fastest = max(fastest, dot(velocity, velocity));
   }
   float reach = T * sqrt(fastest) + kTouchDistance;
   uint asked = 0;
+  uint touched = 0;
   uint b = nextNear(room, reach, step, parameters.bodyCount, 0);
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
@@ -167,8 +206,8 @@ bool findPushes(uint step) {
       [[dont_unroll]] do {
         [[unroll]] for (int j = 0; j < kPart; ++j) {
           int k = int(part) * kPart + j;
-          vec3 position = RINGLET_LOOK_AT(p, pNext, part, j);
-          vec3 velocity = RINGLET_LOOK_AT(v, vNext, part, j);
+          vec3 position = RINGLET_LOOK_AT(p, next.p, part, j);
+          vec3 velocity = RINGLET_LOOK_AT(v, next.v, part, j);
           float way = T * length(velocity - bodyVelocityAt(body, position, T));
           float distance = bodyDistance(body.rest, placeAtStart(body, position)).distance;
           float left = distance - 1.001 * way - 2.0 * kTouchDistance;
@@ -180,49 +219,18 @@ bool findPushes(uint step) {
           placeBefore = position;
         }
       } while (++part < kLookParts && !fillsWord(part));
-      if (particleBits != 0) do {
-        int k = before + 1 + findLSB(particleBits);
+      if ((particleBits | edgeBits) != 0) do {
+        bool isOne = particleBits != 0;
+        int k = before + findLSB(isOne ? particleBits : edgeBits) + (isOne ? 1 : 0);
+        edgeBits &= isOne ? ~0u : edgeBits - 1;
         particleBits &= particleBits - 1;
-        vec3 position = RINGLET_PICK(p, pNext, k);
-        vec3 velocity = RINGLET_PICK(v, vNext, k);
-        Touch touch = traceParticle(body.rest, placeAtStart(body, position), placeAtEnd(body, position + T * velocity));
-        bool isDeep = touch.surface.distance < -kDeep;
-        vec3 n = outward(body, touch.surface.normal);
-        if (isDeep) n = wayOutOfDepth(n, tangentAt(k, edgeBefore));
-        vec3 u = bodyVelocityAt(body, position, T);
-        float target = dot(n, u) + leastParting(touch, T);
-        float deficit = target - dot(n, velocity);
-        if (!touch.found || !(deficit > 0.0)) continue;
-        float weight = (isDeep ? kDeepShare : 1.0) * bodyWeight(massAt(k, massNext), deficit);
-        push(k, weight, n, target, u, body.rest.friction);
-        asked = 1;
-      } while (particleBits != 0);
-      if (edgeBits != 0) do {
-        int k = before + findLSB(edgeBits);
-        edgeBits &= edgeBits - 1;
-        vec3 a = RINGLET_PICK(p, pNext, k);
-        vec3 c = RINGLET_PICK(p, pNext, k + 1);
-        vec3 va = RINGLET_PICK(v, vNext, k);
-        vec3 vc = RINGLET_PICK(v, vNext, k + 1);
-        Touch touch = traceEdge(body.rest, placeAtStart(body, a), placeAtEnd(body, a + T * va), placeAtStart(body, c),
-                                placeAtEnd(body, c + T * vc));
-        vec3 n = outward(body, touch.surface.normal);
-        vec2 shares = vec2(1.0 - touch.along, touch.along);
-        vec3 u = bodyVelocityAt(body, shares.x * a + shares.y * c, T);
-        float deficit = dot(n, u) + leastParting(touch, T) - dot(n, shares.x * va + shares.y * vc);
-        if (!touch.found || !(deficit > 0.0)) continue;
-        vec2 part = shares * (deficit / dot(shares, shares));
-        if (!isPinnedAt(k) && shares.x >= kLeastShare)
-          push(k, shares.x * bodyWeight(massAt(k, massNext), deficit), n, dot(n, va) + part.x, u, body.rest.friction);
-        if (!isPinnedAt(k + 1) && shares.y >= kLeastShare)
-          push(k + 1, shares.y * bodyWeight(massAt(k + 1, massNext), deficit), n, dot(n, vc) + part.y, u,
-              body.rest.friction);
-        asked = 1;
-      } while (edgeBits != 0);
+        askOf(body, k, isOne ? k : k + 1, next, edgeBefore, touched, asked);
+      } while ((particleBits | edgeBits) != 0);
     } while (isAnotherWord(part));
     b = nextNear(room, reach, step, parameters.bodyCount, b + 1);
   } while (b < parameters.bodyCount);
   passPushesOn();
+  isClear = sumOverStrand(touched) == 0;
   return sumOverStrand(asked) > 0;
 }
 
@@ -257,7 +265,7 @@ void moveParticle(int j, vec3 place, vec3 change) {
 
 void keepParticlesOut(uint step, Room room, bool isDone) {
   float T = stepSeconds();
-  uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
+  uint b = isDone ? parameters.bodyCount : nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     uint part = 0;
@@ -270,7 +278,7 @@ void keepParticlesOut(uint step, Room room, bool isDone) {
           vec3 y1 = placeAtEnd(body, RINGLET_LOOK_AT(p, vec3(0), part, j));
           float way = length(y1 - placeAtStart(body, RINGLET_LOOK_AT(pStart, vec3(0), part, j)));
           bool isNear = bodyDistance(body.rest, y1).distance <= 1.001 * way + 2.0 * kTouchDistance;
-          if (!isDone && k < RUN && isFree(k) && isNear) bits |= 1u << (k - begin);
+          if (k < RUN && isFree(k) && isNear) bits |= 1u << (k - begin);
         }
       } while (++part < kLookParts && !fillsWord(part));
       if (bits != 0) do {
@@ -310,7 +318,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
   vec3 nextShift = vec3(0);
   vec3 nextChange = vec3(0);
   if (isEdge(RUN - 1)) include(room, pNext);
-  uint b = nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
+  uint b = isDone ? parameters.bodyCount : nextNear(room, kTouchDistance, step, parameters.bodyCount, 0);
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     float distanceBefore = 0.0;
@@ -325,7 +333,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
           vec3 here = RINGLET_LOOK_AT(p, pNext, part, j);
           float distance = bodyDistance(body.rest, placeAtEnd(body, here)).distance;
           bool isNear = distance + distanceBefore <= 1.001 * length(here - placeBefore);
-          if (!isDone && k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - before - 1);
+          if (k > 0 && k <= RUN && isEdge(k - 1) && isNear) bits |= 1u << (k - before - 1);
           distanceBefore = distance;
           placeBefore = here;
         }
@@ -344,12 +352,13 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
             shares.x * RINGLET_PICK(pStart, startNext, k) + shares.y * RINGLET_PICK(pStart, startNext, k + 1);
         vec3 velocity = shares.x * RINGLET_PICK(v, vNext, k) + shares.y * RINGLET_PICK(v, vNext, k + 1);
         vec3 slowed = slowedInward(velocity - bodyVelocityAt(body, start, T), n, outBy, T);
-        [[unroll]] for (int side = 0; side < 2; ++side) {
-          vec3 wanted = (part[side] * outBy) * n;
-          if (isPinnedAt(k + side)) continue;
-          RINGLET_AT(j, k + side, furtherOf(shift[j], change[j], wanted, part[side] * slowed))
-          if (k + side == RUN) furtherOf(nextShift, nextChange, wanted, part[side] * slowed);
-        }
+        int end = 0;
+        do {
+          float share = isPinnedAt(k + end) ? 0.0 : end == 0 ? part.x : part.y;
+          vec3 wanted = (share * outBy) * n;
+          RINGLET_AT(j, k + end, furtherOf(shift[j], change[j], wanted, share * slowed))
+          if (k + end == RUN) furtherOf(nextShift, nextChange, wanted, share * slowed);
+        } while (++end < 2);
       } while (bits != 0);
     } while (isAnotherWord(part));
     b = nextNear(room, kTouchDistance, step, parameters.bodyCount, b + 1);

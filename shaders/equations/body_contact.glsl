@@ -28,6 +28,7 @@ const float kLeastShare = 0.2;      // an edge touched nearer its other end does
 /// Where a way first touches.
 struct Touch {
   bool found;
+  bool passes;      // goes the whole way; neither, where an edge's end touches and the edge does not
   Surface surface;  // there
   vec3 place;       // in the body's frame [m]
   vec3 from;        // what was there at the step's start [m]
@@ -38,7 +39,7 @@ struct Touch {
 Touch traceParticle(BodyRest body, vec3 y0, vec3 y1) {
   vec3 way = y1 - y0;
   float wayLength = length(way);
-  Touch touch = Touch(true, Surface(0.0, vec3(0)), y0, y0, 0.0, 0.0);
+  Touch touch = Touch(true, false, Surface(0.0, vec3(0)), y0, y0, 0.0, 0.0);
   float gone = 0.0;
   int turn = 0;
   do {
@@ -53,6 +54,7 @@ Touch traceParticle(BodyRest body, vec3 y0, vec3 y1) {
     gone = surface.distance > kTouchDistance && touch.found && turn < kTraceTurns ? gone + surface.distance : kDone;
     ++turn;
   } while (gone < kDone);
+  touch.passes = !touch.found;
   return touch;
 }
 
@@ -114,9 +116,8 @@ Touch traceEdge(BodyRest body, vec3 a0, vec3 a1, vec3 b0, vec3 b1) {
     gone = touches || passes ? kDone : gone + here.nearest;
     ++turn;
   } while (gone < kDone);
-  return Touch(!passes && deepest.isWithin && deepest.surface.distance <= kTouchDistance, deepest.surface,
-      deepest.place,
-               a0 + deepest.along * (b0 - a0), deepest.along, 0.0);
+  return Touch(!passes && deepest.isWithin && deepest.surface.distance <= kTouchDistance, passes, deepest.surface,
+               deepest.place, a0 + deepest.along * (b0 - a0), deepest.along, 0.0);
 }
 
 /// How fast what touches must at least part from the body along n [m/s]; negative: how fast it may near it.

@@ -304,9 +304,9 @@ bool limitEdges(bool velocitiesFollow, bool isDone) {
 }
 
 #ifdef RINGLET_SURROUNDINGS
-// Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other.
-void keepAmongBodies(uint step) {
-  bool isDone = false;
+// Out of bodies, and edges no longer than allowed, in turn: what the one does may undo the other. isDone: the strand
+// is both.
+void keepAmongBodies(uint step, bool isDone) {
   uint round = 1;
   do {
     keepRunOut(step, isDone);
@@ -331,9 +331,9 @@ void moveAndLimit(uint step) {
     p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
     e[k] += T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
   }
-  limitEdges(true, false);
+  bool isLimited = limitEdges(true, false);
 #ifdef RINGLET_SURROUNDINGS
-  if (kBodies) keepAmongBodies(step);
+  if (kBodies) keepAmongBodies(step, isClear && !isLimited);
 #endif
 }
 

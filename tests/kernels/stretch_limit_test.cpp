@@ -1,5 +1,5 @@
 // The stretch limit in the strand kernels: one step of hair most of whose edges are too long, against the
-// float reference, in every kernel form. Mirrors shaders/equations/stretch_limit.glsl and
+// float reference, in every kernel form and among bodies. Mirrors shaders/equations/stretch_limit.glsl and
 // shaders/scan/prefix_sum.glsl.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 
 #include "tests/support/gpu_test.h"
 #include "tests/support/parity.h"
+#include "tests/support/sample_bodies.h"
 #include "tests/support/tolerances.h"
 
 namespace ringlet::test {
@@ -53,6 +54,23 @@ TEST_F(StretchLimit, AStepOfThePaperAgrees) {
   const KernelChoice lanes{.form = KernelChoice::Form::lanes, .particlesPerLane = 8, .lanes = 4};
   expectLimited(Integrator::paper, lanes, {32, 29, 31}, "paper, 4 lanes of 8");
   expectLimited(Integrator::paper, {.form = KernelChoice::Form::serial}, {2, 31, 64}, "paper, serial");
+}
+
+// What the limit moves may be moved into a body, also where nothing of the strand touched one on its way.
+TEST_F(StretchLimit, AStepAmongBodiesAgrees) {
+  ParityCase c{randomGroom(std::vector<int>(200, 32), 53), {}, {}, {}, 8};
+  for (int k = 0; k < 64; ++k) {
+    const Vec3d place{0.06 * (k % 4) - 0.09, -0.1 - 0.05 * (k / 4 % 4), 0.06 * (k / 16) - 0.09};
+    c.bodies.push_back({.radius = 0.006, .place = {place, {}}});
+  }
+  c.settings.stepsPerFrame = 1;
+  c.settings.maxStretch = 1.001;
+  c.material.stretchStiffness = 0.1;  // so that the limit shortens much
+  SimulationReport report;
+  const auto errors = oneStepErrors(device(), c, &report);
+  fmt::print("among bodies {:.2f} of the edges limited; {}\n", report.limitedShare, toText(errors));
+  EXPECT_GT(report.limitedShare, 0.2);
+  for (const FieldError& e : errors) EXPECT_LE(e.error, kOneStepAmongBodies) << e.field << "\n" << e.where;
 }
 
 }  // namespace
