@@ -73,8 +73,8 @@ TEST(ShapePlan, RoundLengthsHaveRoundShapes) {
   EXPECT_EQ(shapeOf(64, kLavapipe), (StrandShape{2, 32}));
   EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::volume), (StrandShape{2, 32}));
   EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::plain), (StrandShape{4, 16}));
-  EXPECT_EQ(shapeOf(16, kLavapipe, {}, StrandWork::bodies), (StrandShape{2, 8}));
-  EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::bodies), (StrandShape{8, 8}));
+  EXPECT_EQ(shapeOf(16, kLavapipe, {}, StrandWork::bodies), (StrandShape{1, 16}));
+  EXPECT_EQ(shapeOf(64, kLavapipe, {}, StrandWork::bodies), (StrandShape{4, 16}));
   EXPECT_EQ(shapeOf(256, kLavapipe, {}, StrandWork::plain), (StrandShape{8, 32}));
   EXPECT_EQ(shapeOf(256, kLavapipe, {}, StrandWork::bodies), (StrandShape{8, 32, true}));
   EXPECT_EQ(shapeOf(1000, kLavapipe), (StrandShape{8, 128, true}));

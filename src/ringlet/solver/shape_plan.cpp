@@ -30,9 +30,9 @@ struct CostModel {
 };
 
 // CPU devices: fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
-// particles), within a fifth of each; bodies to a head with a sphere in it. A long run costs it nothing. Only
-// among bodies, where every particle is picked from its run, runs of 8 are as fast as longer ones and compile
-// twice as fast.
+// particles), within a fifth of each. A long run costs it nothing. Among bodies fitted to a head on a mesh,
+// 16 to 128 particles, within a tenth. There a join is dear, as lavapipe goes once through the code for
+// contacts whether or not a lane has any, and the fewer strands a subgroup has, the more often.
 //
 // GPUs: not measured. Fitted to what RADV 25 compiles for navi21 in subgroups of 32
 // (scripts/count_instructions.sh), within a fifth for hair alone up to runs of 8. One vector instruction of
@@ -52,7 +52,7 @@ struct CostModel {
 // In the order of WorkModel: particle, ofTwo, alone, round, doubling, longRun, longerRun, inMemory.
 constexpr CostModel kCpu{.hairAlone = {10.5, 8.2, 7.3, 2.7, 4, 0, 0, 45},
                          .plain = {10.5, 10.5, 8, 2.7, 4, 0, 0, 45},
-                         .bodies = {60, 60, 60, 13.3, 20, 0.02, 0, 100},
+                         .bodies = {37.5, 58, 63, 75, 0, 0, 0, 140},
                          .perKernel = 5'000,
                          .perRun = 3'000};
 constexpr CostModel kGpu{.hairAlone = {0.5, 0.38, 0.36, 0.26, 0.62, 0.15, 0.12, 6.5},
