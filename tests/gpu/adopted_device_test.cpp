@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "ringlet/c/ringlet.h"
+#include "ringlet/follow/followers.h"
+#include "ringlet/follow/level_of_detail.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/solver/hair_frames.h"
@@ -169,6 +171,41 @@ TEST(AdoptedDevice, AHostReadsAFrameInTheSameCommands) {
       ASSERT_TRUE(hair->frameIsOver());
       ASSERT_TRUE(expected->stepFrame(poses));
       expectPositions(found, chunk, *expected->positions());
+    }
+  }
+  EXPECT_EQ(*host.messages(), std::vector<std::string>{});
+}
+
+// Hairs that follow are moved and read in the submission that steps their strands.
+TEST(AdoptedDevice, AHostRecordsHairsThatFollow) {
+  Host host(true);
+  {
+    const auto device = ComputeDevice::adopt(host.handles()), own = ComputeDevice::open();
+    const Groom groom = *makeHead({.curl = {.turns = 4, .particleCount = 32}, .strandCount = 60});
+    const auto level = levelOfDetail(groom, 0.3);
+    ASSERT_TRUE(level);
+    const std::vector<Body> bodies{{.name = "ball", .radius = 0.07}};
+    auto hair =
+        *Simulation::create(*device, level->groom, {}, {}, {.head = headAt(0, 0), .readsBack = false});
+    auto expected = *Simulation::create(*own, level->groom, {}, {}, {.head = headAt(0, 0)});
+    auto followers = Followers::create(*device, hair, level->groom, level->hairs, bodies);
+    auto wanted = Followers::create(*own, expected, level->groom, level->hairs, bodies);
+    ASSERT_TRUE(followers) << followers.error().message;
+    const FollowedPoints points = followers->points();
+    for (int frame = 1; frame <= 5; ++frame) {
+      const std::vector<HeadPose> poses = posesOf(0, frame);
+      const std::vector<BodyPose> places{{poses.back().position + Vec3d{0, 0, 0.08}, {}}};
+      const auto found = host.read(static_cast<VkBuffer>(points.buffer), points.bytes, [&](auto commands) {
+        ASSERT_TRUE(recordFrames(std::vector<HairFrame>{{&hair, poses}}, commands));
+        followers->record(commands, poses.back(), places);
+      });
+      ASSERT_TRUE(hair.frameIsOver());
+      ASSERT_TRUE(expected.stepFrame(poses));
+      ASSERT_TRUE(wanted->follow(places));
+      const std::vector<Vec3f> right = *wanted->positions();
+      ASSERT_EQ(right.size(), 60u * 32u);
+      for (std::size_t i = 0; i < right.size(); ++i)
+        ASSERT_EQ(std::memcmp(&found[4 * i], &right[i], sizeof(right[i])), 0) << "point " << i;
     }
   }
   EXPECT_EQ(*host.messages(), std::vector<std::string>{});
