@@ -54,6 +54,7 @@ void addBodies(py::module_& module);
 void addFields(py::module_& module);
 void addDevices(py::module_& module);
 void addHair(py::module_& module);
+void addFollowers(py::module_& module);
 void addScenes(py::module_& module);
 void addMeasures(py::module_& module);
 void addAnimations(py::module_& module);

@@ -96,6 +96,7 @@ PYBIND11_MODULE(ringlet, module) {
   addFields(module);
   addDevices(module);
   addHair(module);
+  addFollowers(module);
   addScenes(module);
   addMeasures(module);
   addAnimations(module);
