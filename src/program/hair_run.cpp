@@ -332,7 +332,7 @@ Status HairRun::stepAll() {
   if (frame < options_.frameCount && checkpoints_.areWanted()) {
     if (Status saved = saveAt(frame); !saved) return saved;
   }
-  const Status written = finishWriting();
+  Status written = finishWriting();
   progress.show(sink_->frameCount());
   lastFrame_ = Clock::now();
   return written;
