@@ -1,7 +1,8 @@
-// Bodies: what they ask of this lane's particles, in the velocity solve and after the move. Included
-// by kernels/strand_step.comp. Mirrored by reference/kernels/body_step.h. First all particles are looked at, and those
-// that may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one.
-// Looks are a loop too, over some at a time: written out for every particle they were half of the kernel's code.
+// Bodies: what they ask of this lane's particles, in the velocity solve and after the move. Included by
+// kernels/strand_step.comp and integrators/jacobi.glsl. Mirrored by reference/kernels/body_step.h. A first loop tests
+// all particles against a body and notes as bits those that may touch it; a second loop picks these from the run, one
+// by one, and does the work. The first loop takes a few particles a turn: unrolled over the run, it would double the
+// kernel's code.
 #ifndef RINGLET_RUN_BODIES
 #define RINGLET_RUN_BODIES
 

@@ -30,8 +30,9 @@ vec3 rightHandSide(int k, vec3 velocity, vec3 forceBefore) {
   return m * (velocity + stepSeconds() * pullOnRun(k)) + stepSeconds() * (force[k] - forceBefore);
 }
 
-// What is added to particle k's mass, and to its right-hand side: by contacts, 2 D + g and a momentum, read where they
-// are used and not kept in registers; by the air; by bodies; by goals and fields.
+// Extra terms of particle k's block. Contacts add 2 D to the matrix and a momentum to the right-hand side, a volume g
+// and a momentum; they are loaded where they are used, which saves registers. Air, bodies, goals and fields add theirs
+// from the run's state.
 #ifdef RINGLET_CONTACTS
 bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
 #endif
@@ -61,8 +62,9 @@ vec3 addedMomentum(int k) {
   return momentum;
 }
 
-// The same without the springs of the boundary edges: their pull belongs to f, the force across the boundary. Left in,
-// it would make both sides' free ends race apart and be cancelled again by the join, which costs float32 its digits.
+// The right-hand side without the springs of the boundary edges: their pull belongs to f, the force across the boundary.
+// If it stayed in, both sides' free ends would race apart and the join would cancel that again, which costs float32
+// its digits.
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;

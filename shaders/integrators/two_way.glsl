@@ -1,9 +1,9 @@
 // `jacobi` for one or two lanes and hair by itself or as a volume: the same exact solve, in two lanes from both ends
 // of the strand at once, lane 0 from the root and lane 1 from the tip, met at the edge between them; in one lane from
 // the root to the tip and back. No lane waits for what lies beyond its run, so no transfers and no compliances of
-// whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). Four lanes,
-// the inner two a turn after the outer, were tried: what is done twice costs what the star does. Mirrored by
-// reference/strand_solve.h. Included by kernels/strand_step.comp.
+// whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). With four
+// lanes, the inner two a turn after the outer, the work that is done twice would cost as much as the star join.
+// Mirrored by reference/strand_solve.h. Included by kernels/strand_step.comp.
 //
 //   root  o-o-o-o   o-o-o-o  tip
 //         lane 0 -> <- lane 1

@@ -379,7 +379,7 @@ Error HairRun::afterWritten(const Error& cause) {
   return afterFrames(sink_->frameCount(), cause, options_);
 }
 
-// What there is becomes files, unless another run goes on with it.
+// Finishes the files with the frames written so far, unless another run resumes this one.
 Status HairRun::finishFiles() {
   outcome_.frameCount = sink_->frameCount();
   outcome_.interrupted = wasInterrupted() && outcome_.frameCount < options_.frameCount;
