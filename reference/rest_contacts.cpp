@@ -121,11 +121,12 @@ namespace {
 
 // One contact particle of a strand in q: larger, and as heavy as the q^2 of before.
 void thin(RestContacts& rest, std::size_t s, const ContactSettings& settings) {
-  const double count = static_cast<double>(rest.particles[s].size());
-  const double q = std::max(1.0, std::min(std::round(1 / settings.detail), std::floor(count / 2)));
+  const std::size_t count = rest.particles[s].size();
+  const double q =
+      std::max(1.0, std::min(std::round(1 / settings.detail), std::floor(static_cast<double>(count) / 2)));
   std::vector<std::uint32_t> kept;
-  for (double c = std::floor(q * SeededRandom(settings.seed, s).uniform()); c < count; c += q)
-    kept.push_back(rest.particles[s][static_cast<std::size_t>(c)]);
+  auto c = static_cast<std::size_t>(q * SeededRandom(settings.seed, s).uniform());
+  for (; c < count; c += static_cast<std::size_t>(q)) kept.push_back(rest.particles[s][c]);
   rest.particles[s] = kept;
   rest.radii[s] *= std::pow(q, kThinnedRadiusPower);
   rest.masses[s] *= q * q;

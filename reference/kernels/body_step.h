@@ -54,7 +54,7 @@ struct BodyPush {
     return relative - normal.dot(relative) * normal;
   }
   void add(Real w, const Vector3<Real>& n, Real speed, const Vector3<Real>& u, Real coefficient) {
-    const Vector3<double> direction = n.template cast<double>();
+    const Vector3<double>& direction = n.template cast<double>();
     weight += double(w) * direction * direction.transpose();
     momentum += double(w) * double(speed) * direction;
     if (w <= heaviest) return;

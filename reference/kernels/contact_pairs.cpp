@@ -56,8 +56,9 @@ NearPairs nearPairs(const RestContacts& rest, const std::vector<ContactParticle>
     const std::size_t firstOfA = pairs.size();
     const Cell centre = cellOf(a);
     for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      const int layer = neighbour / 9;
       const auto found = grid.find(
-          {centre[0] + neighbour % 3 - 1, centre[1] + neighbour / 3 % 3 - 1, centre[2] + neighbour / 9 - 1});
+          {centre[0] + neighbour % 3 - 1, centre[1] + neighbour / 3 % 3 - 1, centre[2] + layer - 1});
       if (found == grid.end()) continue;
       near.tests += found->second.size();
       for (const std::uint32_t b : found->second) {

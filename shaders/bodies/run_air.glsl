@@ -1,6 +1,12 @@
 // The air: drag on this lane's particles. Included by kernels/strand_step.comp.
+#ifndef RINGLET_RUN_AIR
+#define RINGLET_RUN_AIR
+
 #include "equations/air_drag.glsl"
+#include "equations/frame.glsl"
 #include "equations/turbulence.glsl"
+#include "shared/air_buffers.glsl"
+#include "shared/strand_run.glsl"
 
 AirDrag drag[RUN];
 vec3 tangent[RUN];  // of length 1, or zero
@@ -26,3 +32,5 @@ void feelAir(uint step) {
     drag[k] = airDrag(v[k] - wind[k], tangent[k], parameters.dragStrength, parameters.dragAlong, stepSeconds());
   }
 }
+
+#endif

@@ -1,9 +1,17 @@
-// Bodies: what they ask of this lane's particles, in the velocity solve and after the move. Included
-// by kernels/strand_step.comp. Mirrored by reference/kernels/body_step.h. First all particles are looked at, and those
-// that may touch noted as bits; the work is a loop over these, whose particles are picked from the run one by one.
-// Looks are a loop too, over some at a time: written out for every particle they were half of the kernel's code.
+// Bodies: what they ask of this lane's particles, in the velocity solve and after the move. Included by
+// kernels/strand_step.comp and integrators/jacobi.glsl. Mirrored by reference/kernels/body_step.h. A first loop tests
+// all particles against a body and notes as bits those that may touch it; a second loop picks these from the run, one
+// by one, and does the work. The first loop takes a few particles a turn: unrolled over the run, it would double the
+// kernel's code.
+#ifndef RINGLET_RUN_BODIES
+#define RINGLET_RUN_BODIES
+
 #include "bodies/near_bodies.glsl"
 #include "equations/body_contact.glsl"
+#include "equations/frame.glsl"
+#include "maths/symmetric.glsl"
+#include "shared/body_buffers.glsl"
+#include "shared/strand_run.glsl"
 
 // What all bodies together ask of particle k: weight v = momentum, in the solve; and of the heaviest of what they ask,
 // which rubs: xyz normal, w weight; xyz the body's velocity, w its friction; the speed asked for along the normal.
@@ -386,3 +394,5 @@ void keepRunOut(uint step, bool isDone) {
   keepParticlesOut(step, room, isDone);
   keepEdgesOut(step, room, isDone);
 }
+
+#endif

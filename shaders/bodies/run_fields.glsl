@@ -1,6 +1,12 @@
 // Fields that act on this lane's particles. Included by bodies/run_pulls.glsl.
+#ifndef RINGLET_RUN_FIELDS
+#define RINGLET_RUN_FIELDS
+
+#include "bodies/run_pulled.glsl"
 #include "equations/force_field.glsl"
 #include "maths/quaternion.glsl"
+#include "shared/field_buffers.glsl"
+#include "shared/strand_run.glsl"
 
 // Trilinear between nodes; nothing outside them.
 vec3 fieldGrid(StepField field, vec3 x) {
@@ -30,7 +36,9 @@ void feelFields(uint step) {
       vec3 F = fieldStrength(field, q);
       if (field.nodes[0] > 0) F += fieldGrid(field, p[k]);
       float m = isParticle(k) ? restEdge[k].x : 0.0;
-      pull[k] += m * fieldPull(field, F, fieldWeight(field, length(q)), stepSeconds());
+      pulled[k] += m * fieldPull(field, F, fieldWeight(field, length(q)), stepSeconds());
     }
   } while (++f < parameters.fieldCount);
 }
+
+#endif

@@ -1,5 +1,11 @@
 // Goals of this lane's particles, or of its edges. Included by bodies/run_pulls.glsl.
+#ifndef RINGLET_RUN_GOALS
+#define RINGLET_RUN_GOALS
+
+#include "bodies/run_pulled.glsl"
 #include "equations/goal_spring.glsl"
+#include "maths/quaternion.glsl"
+#include "shared/strand_run.glsl"
 
 // Of edges: what is pulled is how the edge lies, with the mass of its particle. From edges at the step's start; the
 // pull is added to their forces.
@@ -42,6 +48,8 @@ void feelGoals(uint step) {
       there += rootPosition(step + 1);
     }
     float m = isParticle(k) ? restEdge[k].x : 0.0;
-    pull[k] += m * goalPull(end.w, begin.w, p[k], there, move, stepSeconds());
+    pulled[k] += m * goalPull(end.w, begin.w, p[k], there, move, stepSeconds());
   }
 }
+
+#endif

@@ -1,14 +1,18 @@
-// What pulls on this lane's particles beside gravity, implicit in their velocity systems: goals, and fields. Included
-// by kernels/strand_step.comp.
-vec4 pull[RUN];  // xyz: to the right-hand side [mass unit m/s]; w: to the mass [mass unit]
-float goalAcross[RUN];  // to the edge's matrix, where goals are of edges [mass unit]
+// What pulls on the run's particles beside gravity, implicit in their velocity systems: goals, and fields. Included by
+// kernels/strand_step.comp and its integrators.
+#ifndef RINGLET_RUN_PULLS
+#define RINGLET_RUN_PULLS
 
-#include "bodies/run_goals.glsl"
 #include "bodies/run_fields.glsl"
+#include "bodies/run_goals.glsl"
+#include "bodies/run_pulled.glsl"
+#include "shared/strand_run.glsl"
 
 void feelPulls(uint step) {
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) pull[k] = vec4(0);
+  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) pulled[k] = vec4(0);
   if (kGoals && !kGoalShape) feelGoals(step);
   if (kGoals && kGoalShape) feelGoalShape(step);
   if (kFields) feelFields(step);
 }
+
+#endif

@@ -6,9 +6,9 @@
 
 #include "shared/body_buffers.glsl"
 
-const float kDone = 1e30;           // [m] gone: this way's loop is over. Found things are carried round it until then,
-                                    // since lavapipe computes on for lanes that are done, and is sure to keep only what
-                                    // is carried
+const float kDone = 1e30;           // [m] along the way: tracing has ended. Results are carried by the loop, since
+                                    // lavapipe keeps executing lanes that have left it and preserves only what the loop
+                                    // carries
 const float kTouchDistance = 1e-5;  // [m]: nearer counts as touching; a tenth of a hair
 const float kOutside = 1e-4;        // [m]: no deeper counts as outside, and is put outside at once
 const int kTraceTurns = 16;         // looks along a way; grazing ones give up and count as touching

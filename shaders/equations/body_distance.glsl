@@ -3,6 +3,8 @@
 #ifndef RINGLET_BODY_DISTANCE
 #define RINGLET_BODY_DISTANCE
 
+#include "layout/bodies.h"
+
 /// Negative inside [m]; the way out has length 1.
 struct Surface {
   float distance;
@@ -21,7 +23,13 @@ Surface boxDistance(vec3 halfExtents, float rounding, vec3 y) {
                                                                 y.z < 0.0 ? -way.z : way.z));
 }
 
-Surface planeDistance(vec3 y) { return Surface(y.y, vec3(0, 1, 0)); }
+Surface planeDistance(float rounding, vec3 y) { return Surface(y.y - rounding, vec3(0, 1, 0)); }
+
+/// Of a shape other than a grid.
+Surface solidDistance(uint shape, vec3 halfExtents, float rounding, vec3 y) {
+  if (shape == kShapeBox) return boxDistance(halfExtents, rounding, y);
+  return planeDistance(rounding, y);
+}
 
 /// From the distances of a cell's corners (halves, two along x a word: y z, Y z, y Z, Y Z) [cells], the place f in it
 /// [cells] and how far beyond the grid that is [cells]. The surface lies within the grid, so a place a from the grid's

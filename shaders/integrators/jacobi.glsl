@@ -1,7 +1,18 @@
 // `jacobi`, the strand as block: every strand's implicit system is block tridiagonal and solved exactly, by elimination
 // from the tip within a lane and a star join across lanes. Included by kernels/strand_step.comp.
+#ifndef RINGLET_JACOBI
+#define RINGLET_JACOBI
+
 #include "equations/eliminate_edge.glsl"
+#include "equations/implicit_edge.glsl"
+#include "maths/symmetric.glsl"
 #include "scan/star_join.glsl"
+#include "shared/strand_run.glsl"
+#ifdef RINGLET_SURROUNDINGS
+#include "bodies/run_air.glsl"
+#include "bodies/run_bodies.glsl"
+#include "bodies/run_pulls.glsl"
+#endif
 
 ImplicitEdge implicitEdgeOf(int k) {
   float s = restEdge[k].w;
@@ -13,15 +24,15 @@ ImplicitEdge implicitEdgeOf(int k) {
   return edge;
 }
 
-// M v + T (springs + gravity + forces from outside) of particle k.
-vec3 rightHandSide(int k, vec3 forceBefore) {
+// M v + T (springs + gravity + forces from outside) of particle k, from its velocity at the step's start.
+vec3 rightHandSide(int k, vec3 velocity, vec3 forceBefore) {
   float m = restEdge[k].x;
-  return m * (v[k] + stepSeconds() * pullOnRun(k)) + stepSeconds() * (force[k] - forceBefore);
+  return m * (velocity + stepSeconds() * pullOnRun(k)) + stepSeconds() * (force[k] - forceBefore);
 }
 
-// What is added to particle k's mass, and to its right-hand side: by contacts, 2 D + g and a momentum, read where they
-// are used and not kept in registers; by the air; by bodies; by goals and fields.
-bool withContacts = false;
+// Extra terms of particle k's block. Contacts add 2 D to the matrix and a momentum to the right-hand side, a volume g
+// and a momentum; they are loaded where they are used, which saves registers. Air, bodies, goals and fields add theirs
+// from the run's state.
 #ifdef RINGLET_CONTACTS
 bool meetsContacts(int k) { return kContacts && withContacts && isParticle(k); }
 #endif
@@ -31,7 +42,7 @@ Symmetric massOf(int k) {
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) mass = add(mass, airDragMatrix(drag[k], tangent[k], restEdge[k].x));
   if (kBodies) mass = add(mass, pushWeight[k]);
-  if (kPulls) mass = addDiagonal(mass, pull[k].w);
+  if (kPulls) mass = addDiagonal(mass, pulled[k].w);
 #endif
 #ifdef RINGLET_CONTACTS
   if (meetsContacts(k)) mass = add(mass, contactMass(strand.firstParticle + first + k));
@@ -46,13 +57,14 @@ vec3 addedMomentum(int k) {
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) momentum += restEdge[k].x * multiply(drag[k], tangent[k], wind[k]);
   if (kBodies) momentum += pushMomentum[k];
-  if (kPulls) momentum += pull[k].xyz;
+  if (kPulls) momentum += pulled[k].xyz;
 #endif
   return momentum;
 }
 
-// The same without the springs of the boundary edges: their pull belongs to f, the force across the boundary. Left in,
-// it would make both sides' free ends race apart and be cancelled again by the join, which costs float32 its digits.
+// The right-hand side without the springs of the boundary edges: their pull belongs to f, the force across the boundary.
+// If it stayed in, both sides' free ends would race apart and the join would cancel that again, which costs float32
+// its digits.
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;
@@ -114,3 +126,5 @@ void solveStrandBlock(vec3 pinned[3]) {
     if (kLanes > 1) v[k + 1] += pull[k] * f;
   }
 }
+
+#endif

@@ -1,6 +1,14 @@
 // `paper`: Iben et al. 2012, section 5, its explicit loops and its springs as printed: forces n_f times a step, damping
 // n_d times a force loop, each followed by the velocity limit of section 3.1. Stable while 4 c_max T / (n_f n_d m)
 // stays below about 1.1. Included by kernels/strand_step.comp.
+#ifndef RINGLET_PAPER
+#define RINGLET_PAPER
+
+#include "equations/frame.glsl"
+#include "equations/stretch_limit.glsl"
+#include "scan/filter_scan.glsl"
+#include "scan/prefix_sum.glsl"
+#include "shared/strand_run.glsl"
 
 vec3 coreDirection[RUN];  // of the core's smoothed edges
 
@@ -56,15 +64,16 @@ void dampOnce(float dt) {
 
 void limitRates() {
   vec3 vNext = fromTipward(v[0], 1);
-  vec3 shift = vec3(0);
+  vec3 changeInRun[RUN];  // of particle k, by the edges of this lane
+  vec3 change = vec3(0);
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     float fastest = max(0.0, (restEdge[k].y - eLength[k]) / stepSeconds());
-    dv[k] = shift;  // of particle k
-    shift += isPinned(k + 1) ? vec3(0) : limitedRateChange(rateOfEdge(k, vNext), eHat[k], fastest);
+    changeInRun[k] = change;
+    change += isPinned(k + 1) ? vec3(0) : limitedRateChange(rateOfEdge(k, vNext), eHat[k], fastest);
   }
-  vec3 before = sumBeforeRun(shift);
+  vec3 before = sumBeforeRun(change);
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    if (isFree(k)) v[k] += before + dv[k];
+    if (isFree(k)) v[k] += before + changeInRun[k];
   }
 }
 
@@ -89,3 +98,5 @@ void loopAsThePaper(vec3 pinned[3]) {
     } while (++inner < parameters.dampingLoops);
   } while (++loop < parameters.forceLoops);
 }
+
+#endif

@@ -2,8 +2,14 @@
 // Chebyshev-accelerated. By residuals and changes: the error of an inverse in float32 then slows the iteration instead
 // of moving its end, and Chebyshev's recurrence adds up rounding of the change, not of the velocity. The baseline, and
 // a check of the strand block. Included by kernels/strand_step.comp.
+#ifndef RINGLET_POINT_JACOBI
+#define RINGLET_POINT_JACOBI
 
 #include "equations/chebyshev_weight.glsl"
+#include "equations/implicit_edge.glsl"
+#include "integrators/jacobi.glsl"
+#include "maths/symmetric.glsl"
+#include "shared/strand_run.glsl"
 
 void iteratePointJacobi(vec3 pinned[3]) {
   ImplicitEdge edge[RUN];
@@ -14,7 +20,7 @@ void iteratePointJacobi(vec3 pinned[3]) {
   vec3 forceBefore = forceFromRootward();
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     edge[k] = implicitEdgeOf(k);
-    rhs[k] = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
+    rhs[k] = rightHandSide(k, v[k], k > 0 ? force[max(k - 1, 0)] : forceBefore);
   }
   ImplicitEdge edgeBefore = ImplicitEdge(fromRootward(edge[RUN - 1].direction, 1), fromRootward(edge[RUN - 1].along, 1),
                                          fromRootward(edge[RUN - 1].across, 1));
@@ -48,3 +54,5 @@ void iteratePointJacobi(vec3 pinned[3]) {
     }
   }
 }
+
+#endif

@@ -1,10 +1,14 @@
 // The residual of the velocity solve over the strand's free particles. Included by kernels/strand_step.comp; compiled
 // in only where asked for.
+#ifndef RINGLET_RESIDUAL
+#define RINGLET_RESIDUAL
+
+#include "equations/implicit_edge.glsl"
 #include "equations/velocity_residual.glsl"
+#include "integrators/jacobi.glsl"
+#include "shared/strand_run.glsl"
 
 void measureResidual() {
-  vec3 after[RUN];
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) after[k] = v[k];
   vec3 forceBefore = forceFromRootward();
   vec3 vBefore = fromRootward(v[RUN - 1], 1);
   vec3 vNext = fromTipward(v[0], 1);
@@ -15,9 +19,7 @@ void measureResidual() {
   float residualSquared = 0.0;
   float scaleSquared = 0.0;
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    v[k] = vStart[k];
-    vec3 rhs = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
-    v[k] = after[k];
+    vec3 rhs = rightHandSide(k, vStart[k], k > 0 ? force[max(k - 1, 0)] : forceBefore);
     ImplicitEdge edge = implicitEdgeOf(k);
     vec3 residual = rhs - restEdge[k].x * v[k];
     residual += multiply(edge, (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
@@ -29,3 +31,5 @@ void measureResidual() {
   velocityResidual =
       max(velocityResidual, velocityResidualShare(sumOverStrand(residualSquared), sumOverStrand(scaleSquared)));
 }
+
+#endif

@@ -1,9 +1,9 @@
 // `jacobi` for one or two lanes and hair by itself or as a volume: the same exact solve, in two lanes from both ends
 // of the strand at once, lane 0 from the root and lane 1 from the tip, met at the edge between them; in one lane from
 // the root to the tip and back. No lane waits for what lies beyond its run, so no transfers and no compliances of
-// whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). Four lanes,
-// the inner two a turn after the outer, were tried: what is done twice costs what the star does. Mirrored by
-// reference/strand_solve.h. Included by kernels/strand_step.comp.
+// whole runs are needed: 2/5 of the work of the elimination with a star join (integrators/jacobi.glsl). With four
+// lanes, the inner two a turn after the outer, the work that is done twice would cost as much as the star join.
+// Mirrored by reference/strand_solve.h. Included by kernels/strand_step.comp.
 //
 //   root  o-o-o-o   o-o-o-o  tip
 //         lane 0 -> <- lane 1
@@ -13,6 +13,16 @@
 //   v = c + C f.   Over an edge of compliance A⁻¹ to a particle of mass m and right-hand side r:
 //   S = C + A⁻¹,  E = (1 + m S)⁻¹,  C' = E S,  c' = E (c + S r);     back:  f = r + f' - m v'
 // All sums of positive matrices: stiff edges cost no digits.
+#ifndef RINGLET_TWO_WAY
+#define RINGLET_TWO_WAY
+
+#include "equations/implicit_edge.glsl"
+#include "integrators/jacobi.glsl"
+#include "maths/symmetric.glsl"
+#include "shared/strand_run.glsl"
+#ifdef RINGLET_SURROUNDINGS
+#include "bodies/run_pulls.glsl"
+#endif
 
 // What a volume adds to a mass is a number, as the mass is, and so is what a goal or a field adds.
 const bool kAddsMatrix = kContacts && kPairs || kAir || kBodies;
@@ -29,7 +39,7 @@ vec4 volumeAddedToRun(int k) {
 // What goals and fields add, likewise, to particle j where lanes go from the root, or k; each in registers.
 vec4 pullAddedToRun(int j, int k) {
 #ifdef RINGLET_SURROUNDINGS
-  if (kPulls) return lane == 0 ? pull[j] : pull[k];
+  if (kPulls) return lane == 0 ? pulled[j] : pulled[k];
 #endif
   return vec4(0);
 }
@@ -75,8 +85,8 @@ void solveFromEnds(vec3 pinned[3]) {
   vec3 forceBefore = forceFromRootward();
   RINGLET_OVER_RUN for (int j = 0; j < RUN; ++j) {
     int k = RUN - 1 - j;
-    vec3 rootSide = rightHandSide(j, j > 0 ? force[max(j - 1, 0)] : forceBefore);
-    vec3 tipSide = rightHandSide(k, k > 0 ? force[max(k - 1, 0)] : forceBefore);
+    vec3 rootSide = rightHandSide(j, v[j], j > 0 ? force[max(j - 1, 0)] : forceBefore);
+    vec3 tipSide = rightHandSide(k, v[k], k > 0 ? force[max(k - 1, 0)] : forceBefore);
     vec4 added = volumeAddedToRun(fromRoot ? j : k);
     if (kPulls) added += pullAddedToRun(j, k);
     r[j] = (fromRoot ? rootSide : tipSide) + added.xyz;
@@ -107,3 +117,5 @@ void solveFromEnds(vec3 pinned[3]) {
   }
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) v[k] = fromRoot ? solved[k] : solved[RUN - 1 - k];
 }
+
+#endif

@@ -25,7 +25,7 @@ void main() {
   vec3 v = velocityOf(particle);
   float motion = length(x - listedPosition(c)) + parameters.seconds * length(v - listedVelocity(c));
   float speed = length(v);
-  // Numbers that are lost must not pass for small ones.
+  // NaN counts as large.
   if (!(motion < 1e30)) motion = 1e30;
   if (!(speed < 1e30)) speed = 1e30;
   // Of numbers >= 0 the bits compare as the numbers do. Most are no record, and a look is cheaper than an atomic.

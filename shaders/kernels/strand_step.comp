@@ -14,53 +14,36 @@
 #ifdef RINGLET_BASELINES
 #define RINGLET_EXACT_SMOOTHING
 #endif
-#include "shared/strand_buffers.glsl"
 #include "equations/bend_spring.glsl"
 #include "equations/core_spring.glsl"
 #include "equations/frame.glsl"
-#include "equations/implicit_edge.glsl"
 #include "equations/stretch_limit.glsl"
 #include "equations/stretch_spring.glsl"
+#include "integrators/jacobi.glsl"
+#include "integrators/two_way.glsl"
+#include "integrators/residual.glsl"
 #include "scan/filter_scan.glsl"
 #include "scan/frame_scan.glsl"
-#include "scan/lanes.glsl"
 #include "scan/prefix_sum.glsl"
+#include "shared/strand_run.glsl"
+#ifdef RINGLET_SURROUNDINGS
+#include "bodies/run_air.glsl"
+#include "bodies/run_bodies.glsl"
+#include "bodies/run_pulls.glsl"
+#endif
+#ifdef RINGLET_BASELINES
+#include "integrators/paper.glsl"
+#include "integrators/point_jacobi.glsl"
+#endif
 
-// This lane's run: particle k and its edge to k + 1. Every loop over a run says RINGLET_OVER_RUN. No function takes a
-// whole run: in memory it would be copied, element by element and unrolled.
-vec3 p[RUN];
-vec3 v[RUN];
-vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest
-                       // length
-vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
-float inverseLength[RUN];  // 1 / the groom's edge length
-vec2 bendVariation[RUN];   // factors of bend stiffness and damping, where they vary along the strand
-uint first;            // place along the strand of this lane's particle 0
+vec3 movedEdge[RUN];  // after the move
 
-// Of the step at hand:
-vec3 e[RUN];        // edge
-vec3 dv[RUN];       // velocity difference along it
-vec3 eHat[RUN];     // its direction
-float eLength[RUN];
-vec3 h[RUN];        // core spring on the smoothed curve, then back on the real edges
-vec3 force[RUN];    // all elastic forces of the edge
+// The curves that the forces are taken on, of the step at hand.
+vec3 curveForce[RUN];       // core spring on the smoothed curve
 vec3 directionBefore[RUN];  // of the frame before the edge; its normal, but for an angle that the whole run shares
 vec3 normalBefore[RUN];
-vec3 directionAfter;        // of the frame after the run
+vec3 directionAfter;  // of the frame after the run
 vec3 normalAfter;
-vec3 vStart[RUN];   // velocities before the solve
-float coreScale;    // blend of the core's constants
-
-// What the report will say:
-float maxStretch = 0.0;
-uint limitedEdges = 0;
-uint degenerateEdges = 0;
-float velocityResidual = 0.0;
-
-bool isParticle(int k) { return first + k < strand.particleCount; }
-bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
-bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
-bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 
 // Of the strand's first edge; frames are the rest pose's there.
 vec3 restDirection() { return directionOf(strand.firstEdge); }
@@ -85,13 +68,6 @@ void loadStrand() {
     inverseLength[k] = edge ? 1.0 / rest.edgeLength : 0.0;
     if (kBendVaries) bendVariation[k] = vec2(rest.bendFactor, sqrt(rest.bendFactor));
   }
-}
-
-float edgeLengthOf(int k) { return restEdge[k].y / parameters.maxStretch; }
-float bendStiffnessOf(int k) { return strand.bendStiffness * restEdge[k].w * (kBendVaries ? bendVariation[k].x : 1.0); }
-float bendDampingOf(int k) {
-  float damping = strand.bendDamping * restEdge[k].w * (kBendVaries ? bendVariation[k].y : 1.0);
-  return compensatedBendDamping(damping, bendStiffnessOf(k), stepSeconds());
 }
 
 // Edges, velocity differences, lengths and directions; an edge of no length has direction zero.
@@ -146,8 +122,8 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
     vec3 b = kOneSmoothing ? bend.d : core.d;
     vec3 bDirection = kOneSmoothing ? next : directionOf(b);
     float bLength = share * dot(b, bDirection);
-    h[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, bDirection, bLength, restEdge[k].z,
-                     velocity.d);
+    curveForce[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, bDirection, bLength,
+                              restEdge[k].z, velocity.d);
     coreLength += isEdge(k) ? bLength : 0.0;
     if (next == vec3(0)) next = direction;  // without direction: on as before
     normal = carriedNormal(normal, direction, next);
@@ -194,47 +170,20 @@ void shapeForces() {
 // The core's forces back on the real edges: the transpose of the smoothing, from the tip, so that they stay a gradient
 // ("transposed core"). The paper puts them on the edges as they are.
 void coreForces() {
-  float scale = coreScale;
-  if (kIntegrator != kIntegratorPaper) {
-    FilterState state = emptyFilter();
-    if (kLanes > 1) {
-      RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) smoothNext(state, h[k], strand.coreBeta);
-      state = filterBeyondRun(state, strand.coreBeta);
-    }
-    RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
-      smoothNext(state, h[k], strand.coreBeta);
-      h[k] = state.d;
-    }
-    scale *= smoothedShare(strand.coreBeta);
+  bool isTransposed = kIntegrator != kIntegratorPaper;
+  float scale = isTransposed ? coreScale * smoothedShare(strand.coreBeta) : coreScale;
+  FilterState state = emptyFilter();
+  if (isTransposed && kLanes > 1) {
+    RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) smoothNext(state, curveForce[k], strand.coreBeta);
+    state = filterBeyondRun(state, strand.coreBeta);
   }
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    h[k] *= scale;
-    if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(h[k], 0));
-    force[k] += h[k];
+  RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
+    if (isTransposed) smoothNext(state, curveForce[k], strand.coreBeta);
+    vec3 core = scale * (isTransposed ? state.d : curveForce[k]);
+    if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(core, 0));
+    force[k] += core;
   }
 }
-
-// What pulls on a kilogram of particle k [m/s^2]; beyond the tip gravity.
-vec3 pullOnRun(int k) {
-  if (!kForces) return parameters.gravity;  // first, so that no branch on a particle is left
-  return !isParticle(k) ? parameters.gravity : pullOn(strand.firstParticle + first + k);
-}
-
-// Elastic force on particle k: its edge pulls it on, the edge before pulls it back.
-vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
-
-#ifdef RINGLET_SURROUNDINGS
-#include "bodies/run_air.glsl"
-#include "bodies/run_bodies.glsl"
-#include "bodies/run_pulls.glsl"
-#endif
-#include "integrators/jacobi.glsl"
-#include "integrators/two_way.glsl"
-#include "integrators/residual.glsl"
-#ifdef RINGLET_BASELINES
-#include "integrators/paper.glsl"
-#include "integrators/point_jacobi.glsl"
-#endif
 
 #ifdef RINGLET_SURROUNDINGS
 // The strand as block; where that would go into a body once more, and again with friction. One loop, so that there is
@@ -281,21 +230,20 @@ void solveVelocities(uint step) {
   }
 }
 
-// The stretch limit as a prefix sum along the strand; e is the moved edges, then of no more use. Whether an edge was
-// too long.
+// The stretch limit on the moved edges, as a prefix sum along the strand. Whether an edge was too long.
 bool limitEdges(bool velocitiesFollow, bool isDone) {
+  vec3 shiftInRun[RUN];  // of particle k, by the edges of this lane
   vec3 shift = vec3(0);
   uint limited = 0;
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    float share = isDone || isPinned(k + 1) ? 0.0 : limitedEdgeShare(e[k], restEdge[k].y);
+    float share = isDone || isPinned(k + 1) ? 0.0 : limitedEdgeShare(movedEdge[k], restEdge[k].y);
     limited += share < 0.0 ? 1 : 0;
-    vec3 edge = e[k];
-    e[k] = shift;  // of particle k
-    shift += share * edge;
+    shiftInRun[k] = shift;
+    shift += share * movedEdge[k];
   }
   vec3 before = sumBeforeRun(shift);
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    vec3 s = isPinned(k) ? vec3(0) : before + e[k];
+    vec3 s = isPinned(k) ? vec3(0) : before + shiftInRun[k];
     p[k] = isDone ? p[k] : p[k] + s;
     if (velocitiesFollow) v[k] += (1.0 / stepSeconds()) * s;
   }
@@ -312,7 +260,8 @@ void keepAmongBodies(uint step, bool isDone) {
     keepRunOut(step, isDone);
     if (round == kKeepOutRounds) break;
     vec3 pNext = fromTipward(p[0], 1);
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
+    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k)
+      movedEdge[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
     isDone = !limitEdges(false, isDone);
     ++round;
   } while (isAnyOfSubgroup(!isDone));
@@ -329,7 +278,7 @@ void moveAndLimit(uint step) {
   vec3 vNext = fromTipward(v[0], 1);
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
-    e[k] += T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
+    movedEdge[k] = e[k] + T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
   }
   bool isLimited = limitEdges(true, false);
 #ifdef RINGLET_SURROUNDINGS

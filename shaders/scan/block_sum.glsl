@@ -2,6 +2,8 @@
 #ifndef RINGLET_BLOCK_SUM
 #define RINGLET_BLOCK_SUM
 
+#include "shared/workgroup.glsl"
+
 const uint kMostInvocations = 128;  // of a workgroup that every device runs
 shared uint blockSums[kMostInvocations];
 

@@ -8,6 +8,9 @@
 #ifndef RINGLET_LANES
 #define RINGLET_LANES
 
+#include "layout/strands.h"
+#include "shared/workgroup.glsl"
+
 // 4 to 64, in memory 1,024; arrays of such a size GLSL copies only element by element.
 layout(constant_id = kSpecRun) const int RUN = 16;
 // Before every loop over a run. In registers it must be unrolled: an array that is indexed by a variable anywhere lives

@@ -33,12 +33,7 @@ BodyPose bodyPose(uint i) {
 
 /// y in the body's frame.
 Surface bodyDistance(BodyRest body, vec3 y) {
-  if (body.shape == kShapeBox) return boxDistance(body.halfExtents, body.rounding, y);
-  if (body.shape == kShapePlane) {
-    Surface plane = planeDistance(y);
-    plane.distance -= body.rounding;
-    return plane;
-  }
+  if (body.shape != kShapeGrid) return solidDistance(body.shape, body.halfExtents, body.rounding, y);
   vec3 counts = vec3(body.cells[0], body.cells[1], body.cells[2]);
   vec3 wanted = (y - body.gridOrigin) / body.cell;
   vec3 nearest = clamp(wanted, vec3(0), counts);

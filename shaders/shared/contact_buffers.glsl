@@ -4,8 +4,8 @@
 
 #include "layout/contacts.h"
 #include "shared/texels.glsl"
+#include "shared/workgroup.glsl"
 
-layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(set = 0, binding = kBindContactPositions) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindContactVelocities) readonly buffer Velocities { vec4 velocities[]; };

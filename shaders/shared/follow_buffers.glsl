@@ -5,8 +5,8 @@
 #include "maths/quaternion.glsl"
 #include "layout/follow.h"
 #include "shared/texels.glsl"
+#include "shared/workgroup.glsl"
 
-layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(set = 0, binding = kBindGuidePoints) readonly buffer GuidePoints { vec4 guidePoints[]; };
 layout(set = 0, binding = kBindCoreRows) readonly buffer CoreRows { CoreRow coreRows[]; };

@@ -4,8 +4,8 @@
 
 #include "layout/picture.h"
 #include "shared/texels.glsl"
+#include "shared/workgroup.glsl"
 
-layout(local_size_x_id = kSpecGroupSize) in;
 layout(set = 0, binding = kBindPicture) uniform Pictures { Picture picture; };
 layout(push_constant) uniform Bands { PictureBand band; };
 

@@ -1,10 +1,11 @@
-// What carries the strand: the head, and where strands have poses of their own those as well. Part of
-// strand_buffers.glsl, whose `strand` and `strandAt` say which.
+// What carries the strand: the head, and where strands have poses of their own those as well. Which
+// strand: `strand` and `strandAt` of strand_buffers.glsl.
 #ifndef RINGLET_ROOT_BUFFERS
 #define RINGLET_ROOT_BUFFERS
 
 #include "maths/quaternion.glsl"
 #include "layout/strands.h"
+#include "shared/strand_buffers.glsl"
 #include "shared/texels.glsl"
 
 layout(set = 0, binding = kBindRootPoses) readonly buffer RootPoses { RootPose rootPoses[]; };

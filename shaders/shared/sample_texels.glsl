@@ -2,6 +2,9 @@
 #ifndef RINGLET_SAMPLE_TEXELS
 #define RINGLET_SAMPLE_TEXELS
 
+#include "layout/picture.h"
+#include "shared/texels.glsl"
+
 layout(set = 0, binding = kBindSamples) readonly buffer Samples { uvec2 samples[]; };
 layout(set = 0, binding = kRenderTexels + kBindSamples) uniform usamplerBuffer sampleTexels;
 

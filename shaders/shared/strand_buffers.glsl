@@ -13,8 +13,8 @@
 #include "layout/contacts.h"
 #include "layout/strands.h"
 #include "shared/texels.glsl"
+#include "shared/workgroup.glsl"
 
-layout(local_size_x_id = kSpecGroupSize) in;
 layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorJacobi;
 layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
 layout(constant_id = kSpecResidual) const bool kMeasureResidual = false;
@@ -127,8 +127,6 @@ StrandRest strand;  // this invocation's
 uint strandAt;      // and which it is, device order
 
 float stepSeconds() { return parameters.seconds; }
-
-#include "shared/root_buffers.glsl"
 
 // The strand's constants times this are the edge's.
 float edgeScaleOf(float edgeLength) { return kIntegrator == kIntegratorPaper ? 1.0 : 1.0 / edgeLength; }

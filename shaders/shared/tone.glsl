@@ -1,7 +1,9 @@
 // From linear light to what a screen shows: a filmic curve (Narkowicz 2016, a fit of ACES), sRGB, and noise of one
-// step, so that smooth shades have no bands. After picture.glsl.
+// step, so that smooth shades have no bands.
 #ifndef RINGLET_TONE
 #define RINGLET_TONE
+
+#include "shared/picture.glsl"
 
 #ifdef RINGLET_PREVIEW
 // Square roots in place of powers: within a step of 255.

@@ -8,8 +8,8 @@
 #include "layout/strands.h"
 #include "layout/volume.h"
 #include "shared/texels.glsl"
+#include "shared/workgroup.glsl"
 
-layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(set = 0, binding = kBindVolumePositions) readonly buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVolumeVelocities) readonly buffer Velocities { vec4 velocities[]; };

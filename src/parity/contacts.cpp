@@ -30,8 +30,8 @@ Groom farApart(std::size_t strandCount) {
   groom.metresPerUnit = 1;
   const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(double(strandCount))));
   for (std::size_t s = 0; s < strandCount; ++s) {
-    const Vec3f root(
-        Vec3d{0.1 * double(s % side), 0.1 * double(s / side % side), 0.1 * double(s / side / side)});
+    const std::size_t layer = s / side / side;
+    const Vec3f root(Vec3d{0.1 * double(s % side), 0.1 * double(s / side % side), 0.1 * double(layer)});
     groom.addStrand(std::vector<Vec3f>{root, root + Vec3f{0, -0.02f, 0}});
   }
   return groom;
@@ -112,7 +112,10 @@ Groom bunchAndStrands() {
     }
     groom.addStrand(strand);
   };
-  for (int s = 0; s < 60; ++s) add(0.0012 * (s % 8), 0.0012 * (s / 8), s);
+  for (int s = 0; s < 60; ++s) {
+    const int row = s / 8;
+    add(0.0012 * (s % 8), 0.0012 * row, s);
+  }
   for (int s = 0; s < 4; ++s) add(-0.022, 0.006 * s - 0.006, s);
   return groom;
 }

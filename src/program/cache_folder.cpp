@@ -16,7 +16,7 @@ std::filesystem::path folderIn(const char* variable) {
 }  // namespace
 
 std::filesystem::path cacheFolder() {
-  if (const auto own = folderIn("RINGLET_CACHE_DIR"); !own.empty()) return own;
+  if (auto own = folderIn("RINGLET_CACHE_DIR"); !own.empty()) return own;
   if (const auto cache = folderIn("XDG_CACHE_HOME"); !cache.empty()) return cache / "ringlet";
   const auto home = folderIn("HOME");
   return home.empty() ? home : home / ".cache" / "ringlet";

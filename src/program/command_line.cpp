@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "ringlet/base/nearest_name.h"
 
@@ -40,7 +41,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& na
 
 CLI::Validator oneOf(std::vector<std::string> names) {
   return CLI::Validator(
-      [names](std::string& word) {
+      [names = std::move(names)](std::string& word) {
         if (std::find(names.begin(), names.end(), word) != names.end()) return std::string();
         return fmt::format("there is no '{}' (only {}){}", word, fmt::join(names, ", "),
                            suggestion(word, names));
@@ -74,7 +75,7 @@ CLI::Validator wholeBetween(int low, int high) {
 
 CLI::Validator endsIn(std::vector<std::string> extensions) {
   return CLI::Validator(
-      [extensions](std::string& path) {
+      [extensions = std::move(extensions)](std::string& path) {
         std::string extension = std::filesystem::path(path).extension().string();
         for (char& c : extension) {
           if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

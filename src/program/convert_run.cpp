@@ -33,7 +33,7 @@ Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
     progress.show(frame - plan.firstFrame);
     if (Status read = source.readFrame(frame); !read) return read;
     if (plan.hair) {
-      const Status checked = frame == plan.firstFrame ? plan.hair->checkPose(source.groom()) : Status();
+      Status checked = frame == plan.firstFrame ? plan.hair->checkPose(source.groom()) : Status();
       if (!checked) return checked;
       plan.hair->follow(source.groom().points,
                         plan.scene ? bodiesAtFrame(*plan.scene, frame) : std::vector<BodyPose>());

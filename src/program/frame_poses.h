@@ -31,8 +31,7 @@ struct FramePoses {
       return static_cast<double>(step) / static_cast<double>(heads.size());
     };
     const bool isWhole = count == heads.size();
-    const Status set =
-        isWhole ? forces.set(backend) : forces.part(share(first), share(first + count)).set(backend);
+    Status set = isWhole ? forces.set(backend) : forces.part(share(first), share(first + count)).set(backend);
     if (!set) return set;
     return backend.submitFrame(std::span(heads).subspan(first, count), ofSteps(bodies), ofSteps(roots));
   }

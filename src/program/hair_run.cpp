@@ -332,7 +332,7 @@ Status HairRun::stepAll() {
   if (frame < options_.frameCount && checkpoints_.areWanted()) {
     if (Status saved = saveAt(frame); !saved) return saved;
   }
-  const Status written = finishWriting();
+  Status written = finishWriting();
   progress.show(sink_->frameCount());
   lastFrame_ = Clock::now();
   return written;
@@ -379,7 +379,7 @@ Error HairRun::afterWritten(const Error& cause) {
   return afterFrames(sink_->frameCount(), cause, options_);
 }
 
-// What there is becomes files, unless another run goes on with it.
+// Finishes the files with the frames written so far, unless another run resumes this one.
 Status HairRun::finishFiles() {
   outcome_.frameCount = sink_->frameCount();
   outcome_.interrupted = wasInterrupted() && outcome_.frameCount < options_.frameCount;

@@ -198,7 +198,7 @@ std::filesystem::path animationIn(const std::filesystem::path& folder) {
   std::error_code code;
   for (const char* suffix : {"", ".partial"}) {
     for (const AnimationFormat& format : animationFormats()) {
-      const std::filesystem::path path = folder / fmt::format("hair{}{}", format.extension, suffix);
+      std::filesystem::path path = folder / fmt::format("hair{}{}", format.extension, suffix);
       if (std::filesystem::exists(path, code)) return path;
     }
   }

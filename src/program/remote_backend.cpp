@@ -203,7 +203,7 @@ class RemoteBackend : public Backend {
     if (Status before = settle(); !before) return before;
     sendTo(rank_, call.take());
     std::vector<std::byte> bytes;
-    const Status done = answer(bytes);
+    Status done = answer(bytes);
     if (given) *given = std::move(bytes);
     return done;
   }

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -185,8 +184,8 @@ class SplitBackend : public Backend {
   template <class Do>
   Status each(const Do& act) {
     Status all;
-    for (Part& part : std::views::reverse(parts_)) {
-      if (Status done = act(*part.hair); !done && all) all = done;
+    for (auto part = parts_.rbegin(); part != parts_.rend(); ++part) {
+      if (Status done = act(*part->hair); !done && all) all = done;
     }
     return all;
   }

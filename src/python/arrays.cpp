@@ -39,7 +39,7 @@ py::array_t<T> owning(std::vector<Element> list, std::vector<py::ssize_t> shape)
   auto owned = std::make_unique<std::vector<Element>>(std::move(list));
   const T* data = reinterpret_cast<const T*>(owned->data());
   const py::capsule owner(owned.get(), [](void* p) { delete static_cast<std::vector<Element>*>(p); });
-  owned.release();
+  static_cast<void>(owned.release());  // the capsule deletes it
   return py::array_t<T>(std::move(shape), data, owner);
 }
 

@@ -16,6 +16,7 @@
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/scene/body_forms.h"
 
 namespace ringlet::python {
 namespace {
@@ -102,22 +103,6 @@ py::array_t<double> distances(const BodyObject& self, const py::object& points, 
   }));
 }
 
-const char* nameOf(BodyShape shape) {
-  switch (shape) {
-    case BodyShape::sphere:
-      return "sphere";
-    case BodyShape::capsule:
-      return "capsule";
-    case BodyShape::plane:
-      return "plane";
-    case BodyShape::box:
-      return "box";
-    case BodyShape::grid:
-      break;
-  }
-  return "mesh";
-}
-
 #define RINGLET_COMMON_ARGUMENTS                                                                   \
   py::arg("name") = "", py::arg("thickness") = 0.0, py::arg("friction") = 0.2,                     \
   py::arg("position") = py::make_tuple(0, 0, 0), py::arg("rotation") = py::make_tuple(0, 0, 0, 1), \
@@ -181,7 +166,7 @@ void addBody(py::module_& module) {
       .def_property_readonly(
           "name", [](const BodyObject& self) { return self.body.name; }, "For messages.")
       .def_property_readonly(
-          "shape", [](const BodyObject& self) { return nameOf(self.body.shape); },
+          "shape", [](const BodyObject& self) { return formOf(self.body.shape).name; },
           "\"sphere\", \"capsule\", \"plane\", \"box\" or \"mesh\".")
       .def_readonly("warnings", &BodyObject::warnings,
                     "What was odd about its mesh, as holes that were closed: a list of sentences.");

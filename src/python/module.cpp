@@ -62,6 +62,7 @@ void addError(py::module_& module) {
   if (!errorType) throw py::error_already_set();
   py::setattr(errorType, "fault", py::str(nameOf(Fault::other)));
   module.add_object("Error", errorType);
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): by value is pybind11's signature
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -179,7 +179,7 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
   if (count < 0) throw py::value_error(fmt::format("frames must be 0 or more, got {}", count));
   if (!callback.is_none() && !PyCallable_Check(callback.ptr()))
     throw py::type_error("callback must be callable, got " + describe(callback));
-  const HairHandle hair = startHair(self, device, kernel);
+  HairHandle hair = startHair(self, device, kernel);
   std::optional<HeadPose> underWay;
   bool goesOn = true;
   for (int frame = 0; frame < count && goesOn; ++frame) {

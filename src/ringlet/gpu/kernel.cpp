@@ -55,8 +55,7 @@ Result<std::shared_ptr<const Kernel>> Kernel::create(Device& device, const Kerne
     device.options().changeCode(asked.name, changed);
     description.spirv = changed;
   }
-  const auto kernel =
-      device.kernels().findOrCompile(description, [&] { return compile(device, description); });
+  auto kernel = device.kernels().findOrCompile(description, [&] { return compile(device, description); });
   if (!kernel) return kernel;
   return std::shared_ptr<const Kernel>(device.shared_from_this(), kernel->get());
 }

@@ -287,7 +287,7 @@ class PlyReader {
         values[p] = *value;
         if (!property.listCount) continue;
         if (!(*value >= 0 && *value <= static_cast<double>(text_.size() - at_))) return ended();
-        for (double k = 0; k < *value; ++k) {
+        for (auto left = static_cast<std::size_t>(std::ceil(*value)); left > 0; --left) {
           if (!takeValue(property.kind)) return noValue(element, i);
         }
       }

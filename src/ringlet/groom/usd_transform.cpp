@@ -124,7 +124,7 @@ Result<UsdTransform> opOf(const UsdPrim& prim, std::string_view entry) {
     if (!std::isfinite(number))
       return Error{fmt::format("{} has {}; expected finite numbers", shown, number)};
   }
-  const auto transform = transformOf(kind, numbers);
+  auto transform = transformOf(kind, numbers);
   if (!transform) return Error{fmt::format("{}: {}", shown, transform.error().message)};
   if (!isInverse) return transform;
   const auto inverse = inverseOf(*transform);

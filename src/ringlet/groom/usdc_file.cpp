@@ -180,7 +180,7 @@ class CrateReader {
   }
 
   Status readPrim(std::uint32_t path, UsdPrim& prim) {
-    const Status read = crate_.forEachField(path, [&](const NamedField& field) -> Status {
+    Status read = crate_.forEachField(path, [&](const NamedField& field) -> Status {
       if (meaningOf(field) == Field::specifier) {
         const std::uint32_t number = field.rep.low();
         if (field.rep.type() != kSpecifierType || number > 2)

@@ -10,6 +10,7 @@
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/measure/groom_inspection.h"
 #include "ringlet/measure/length_text.h"
+#include "ringlet/scene/body_forms.h"
 
 namespace ringlet {
 namespace {
@@ -59,22 +60,8 @@ std::optional<std::string> doubtOfLength(double meanLength, double metresPerUnit
 
 // Across [m]; 0 for a plane.
 double sizeOf(const Body& body) {
-  switch (body.shape) {
-    case BodyShape::sphere:
-      return 2 * body.radius;
-    case BodyShape::capsule:
-      return body.length + 2 * body.radius;
-    case BodyShape::box:
-      return 2 * length(body.halfExtents);
-    case BodyShape::grid: {
-      const DistanceGrid& grid = *body.grid;
-      return length(Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])}) *
-             grid.cell;
-    }
-    case BodyShape::plane:
-      break;
-  }
-  return 0;
+  const double reach = formOf(body.shape).reach(body);
+  return std::isfinite(reach) ? 2 * reach : 0;
 }
 
 std::optional<std::string> doubtOfBody(const Body& body, const Stand& stand, const HeadPose& head) {

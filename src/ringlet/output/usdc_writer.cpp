@@ -206,7 +206,8 @@ Status UsdcWriter::writeVelocities(int frame, std::span<const Vec3f> before, std
   for (const HairCurves& curves : curves_) {
     const std::uint32_t first = firstPoint_[curves.firstStrand],
                         end = firstPoint_[curves.firstStrand + curves.strandCount];
-    putArray(std::span(velocities).subspan(first, end - first), *movingOf(curves).velocities, bytes);
+    const UsdcSamples* samples = movingOf(curves).velocities;
+    if (samples) putArray(std::span(velocities).subspan(first, end - first), *samples, bytes);
   }
   return file_.writeAt(endOf(frame), std::string_view(bytes).substr(head_.earlyBytes));
 }

@@ -2,57 +2,45 @@
 #include "ringlet/rest/packed_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "ringlet/base/half.h"
 #include "ringlet/base/packed.h"
+#include "ringlet/scene/body_forms.h"
 
 namespace ringlet {
 namespace {
 
 constexpr double kEndless = 1e15;  // [m]: a plane's bounds; its square is still a float
 
+static_assert(std::uint32_t(DeviceForm::box) == layout::kShapeBox &&
+              std::uint32_t(DeviceForm::plane) == layout::kShapePlane &&
+              std::uint32_t(DeviceForm::grid) == layout::kShapeGrid);
+
+void setGrid(layout::BodyRest& rest, const DistanceGrid& grid, std::uint32_t firstCell) {
+  rest.gridOrigin = packed3(grid.origin);
+  rest.cell = static_cast<float>(grid.cell);
+  std::copy(grid.counts.begin(), grid.counts.end(), rest.cells);
+  rest.firstCell = firstCell;
+}
+
+Vec3d middleOf(const DistanceGrid& grid) {
+  const Vec3d size =
+      Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell;
+  return grid.origin + size * 0.5;
+}
+
 layout::BodyRest restOf(const Body& body, std::uint32_t firstCell) {
+  const BodyForm& form = formOf(body.shape);
+  const double reach = form.reach(body);
   layout::BodyRest rest{};
   rest.friction = static_cast<float>(body.friction);
-  rest.shape = layout::kShapeBox;
-  const double kept = body.thickness;
-  switch (body.shape) {
-    case BodyShape::sphere:
-      rest.halfExtents = packed3({});
-      rest.rounding = static_cast<float>(body.radius + kept);
-      rest.bounds = packed({}, body.radius + kept);
-      break;
-    case BodyShape::capsule:
-      rest.halfExtents = packed3({0, body.length / 2, 0});
-      rest.rounding = static_cast<float>(body.radius + kept);
-      rest.bounds = packed({}, body.length / 2 + body.radius + kept);
-      break;
-    case BodyShape::box:
-      rest.halfExtents = packed3(body.halfExtents);
-      rest.rounding = static_cast<float>(kept);
-      rest.bounds = packed({}, length(body.halfExtents) + kept);
-      break;
-    case BodyShape::plane:
-      rest.shape = layout::kShapePlane;
-      rest.halfExtents = packed3({});
-      rest.rounding = static_cast<float>(kept);
-      rest.bounds = packed({}, kEndless);
-      break;
-    case BodyShape::grid: {
-      const DistanceGrid& grid = *body.grid;
-      const Vec3d size =
-          Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell;
-      rest.shape = layout::kShapeGrid;
-      rest.halfExtents = packed3({});
-      rest.rounding = static_cast<float>(kept);
-      rest.bounds = packed(grid.origin + size * 0.5, length(size) / 2 + kept);
-      rest.gridOrigin = packed3(grid.origin);
-      rest.cell = static_cast<float>(grid.cell);
-      std::copy(grid.counts.begin(), grid.counts.end(), rest.cells);
-      rest.firstCell = firstCell;
-      break;
-    }
-  }
+  rest.shape = static_cast<std::uint32_t>(form.onDevice);
+  rest.halfExtents = packed3(form.halfExtents(body));
+  rest.rounding = static_cast<float>(form.rounding(body) + body.thickness);
+  rest.bounds = packed(body.shape == BodyShape::grid ? middleOf(*body.grid) : Vec3d{},
+                       std::isfinite(reach) ? reach + body.thickness : kEndless);
+  if (body.shape == BodyShape::grid) setGrid(rest, *body.grid, firstCell);
   return rest;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/scene/body_forms.h"
 
 namespace ringlet {
 
@@ -13,14 +14,14 @@ Status checkBody(const Body& body) {
   const auto fail = [&](const std::string& what) {
     return Error{fmt::format("the body {} {}", body.name.empty() ? "without a name" : body.name, what)};
   };
-  const bool isRound = body.shape == BodyShape::sphere || body.shape == BodyShape::capsule;
-  if (isRound && !(body.radius > 0 && body.radius <= 1000))
+  const BodyForm& form = formOf(body.shape);
+  if (form.hasRadius && !(body.radius > 0 && body.radius <= 1000))
     return fail(fmt::format("has a radius of {} m; it takes more than 0 and at most 1000", body.radius));
-  if (body.shape == BodyShape::capsule && !(body.length >= 0 && body.length <= 1000))
+  if (form.hasLength && !(body.length >= 0 && body.length <= 1000))
     return fail(fmt::format("has a length of {} m; it takes 0 to 1000", body.length));
   const Vec3d& half = body.halfExtents;
   const auto isExtent = [](double x) { return x > 0 && x <= 1000; };
-  if (body.shape == BodyShape::box && !(isExtent(half.x) && isExtent(half.y) && isExtent(half.z)))
+  if (form.hasHalfExtents && !(isExtent(half.x) && isExtent(half.y) && isExtent(half.z)))
     return fail(fmt::format("has half extents of {} x {} x {} m; each takes more than 0, and at most 1000",
                             half.x, half.y, half.z));
   if (!(body.thickness >= 0 && body.thickness <= 1))

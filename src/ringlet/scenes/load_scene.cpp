@@ -189,7 +189,7 @@ Result<int> stepsOf(const LoadedScene& loaded) {
     if (!steps) return steps;
     const auto numbers = loaded.keys->at(time, 1);
     if (!numbers) return numbers.error();
-    const auto now = chooseStepsPerFrame(loaded.groom, numbers->material, numbers->settings);
+    auto now = chooseStepsPerFrame(loaded.groom, numbers->material, numbers->settings);
     if (!now) return now;
     steps = std::max(*steps, *now);
   }

@@ -6,6 +6,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/groom/hair_styles.h"
+#include "ringlet/scene/body_forms.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scenes/scene_maps.h"
 
@@ -365,7 +366,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        "Shape of the solid. A plane is the half space below Y = 0; the axis of a capsule is along Y.",
        &B::shape,
        {},
-       "sphere, capsule, plane, box, mesh"},
+       shapesWith(nullptr)},
       {"radius",
        "m",
        "",
@@ -373,7 +374,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        &B::radius,
        {1e-6, 1000},
        "",
-       "sphere, capsule"},
+       shapesWith(&BodyForm::hasRadius)},
       {"length",
        "m",
        "",
@@ -381,7 +382,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        &B::length,
        {0, 1000},
        "",
-       "capsule"},
+       shapesWith(&BodyForm::hasLength)},
       {"half_extents",
        "m",
        "",
@@ -389,7 +390,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        &B::halfExtents,
        {1e-6, 1000},
        "",
-       "box"},
+       shapesWith(&BodyForm::hasHalfExtents)},
       {"file",
        "",
        "none",

@@ -131,7 +131,7 @@ struct SceneSimulation {
 
 struct SceneBody {
   std::string name;
-  std::string shape;  // sphere, capsule, plane, box, mesh
+  std::string shape;  // a name of scene/body_forms.h
   double radius = 0.1, length = 0.1;
   Vec3d halfExtents{0.1, 0.1, 0.1};
 

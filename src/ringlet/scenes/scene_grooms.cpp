@@ -23,8 +23,8 @@ Groom sideBySide(const Groom& groom, int count) {
   copies.metresPerUnit = groom.metresPerUnit;
   const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
   for (int k = 0; k < count; ++k) {
-    const Vec3f shift =
-        Vec3f(Vec3d{double(k % columns), 0, double(k / columns)} * (kSpacing / groom.metresPerUnit));
+    const int row = k / columns;
+    const Vec3f shift = Vec3f(Vec3d{double(k % columns), 0, double(row)} * (kSpacing / groom.metresPerUnit));
     std::vector<Vec3f> strand;
     for (Vec3f p : groom.strand(0)) strand.push_back(p + shift);
     copies.addStrand(strand);

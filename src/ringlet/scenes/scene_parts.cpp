@@ -12,6 +12,7 @@
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_scalp.h"
 #include "ringlet/groom/hair_styles.h"
+#include "ringlet/scene/body_forms.h"
 
 namespace ringlet {
 namespace {
@@ -168,11 +169,8 @@ Settings settingsOf(const SceneFile& scene) {
 Body bodyOf(const SceneBody& body, std::size_t index, Vec3d up) {
   Body result;
   result.name = body.name.empty() ? fmt::format("{} {}", body.shape, index + 1) : body.name;
-  result.shape = body.shape == "capsule" ? BodyShape::capsule
-                 : body.shape == "plane" ? BodyShape::plane
-                 : body.shape == "box"   ? BodyShape::box
-                 : body.shape == "mesh"  ? BodyShape::grid
-                                         : BodyShape::sphere;
+  for (const BodyForm& form : bodyForms())
+    if (form.name == body.shape) result.shape = form.shape;
   result.radius = body.radius;
   result.length = body.length;
   result.halfExtents = body.halfExtents;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ringlet/base/assert.h"
+
 namespace ringlet {
 namespace {
 
@@ -181,7 +183,9 @@ struct Cut {
 // Of so many strands in one shape, on every step. A subgroup is as slow with idle lanes.
 double rangeCost(const ShapeCost& cost, std::size_t strands, const DeviceLimits& limits) {
   const std::size_t each = limits.subgroupSize / cost.shape.lanes;
-  return static_cast<double>((strands + each - 1) / each * each) * cost.nanoseconds;
+  RINGLET_ASSERT(each > 0, "more lanes than a subgroup has");
+  const std::size_t withIdle = (strands + each - 1) / each * each;
+  return static_cast<double>(withIdle) * cost.nanoseconds;
 }
 
 std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,

@@ -33,7 +33,8 @@ struct SharedLink::Meeting {
   std::vector<std::span<const std::byte>> sections;  // each part's own
 };
 
-std::vector<std::unique_ptr<SharedLink>> SharedLink::connect(std::vector<std::vector<std::uint32_t>> parts) {
+std::vector<std::unique_ptr<SharedLink>> SharedLink::connect(
+    const std::vector<std::vector<std::uint32_t>>& parts) {
   const auto meeting = std::make_shared<Meeting>(parts.size());
   std::vector<std::unique_ptr<SharedLink>> links;
   for (std::size_t k = 0; k < parts.size(); ++k)

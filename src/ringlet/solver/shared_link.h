@@ -16,7 +16,8 @@ namespace ringlet {
 class SharedLink : public PartLink {
  public:
   /// One for each part, in order.
-  static std::vector<std::unique_ptr<SharedLink>> connect(std::vector<std::vector<std::uint32_t>> parts);
+  static std::vector<std::unique_ptr<SharedLink>> connect(
+      const std::vector<std::vector<std::uint32_t>>& parts);
 
   Status exchange(std::span<std::byte> all, std::span<const std::size_t> ends) override;
   void fail(const Error& why) override;

@@ -161,7 +161,7 @@ Status Simulation::Implementation::forgetContacts() {
   return volume ? volume->forget() : Status{};
 }
 
-// To be changed by other than a frame: what was read back is then no longer so.
+// Access for changes outside a frame. It makes what was read back invalid.
 DeviceGroom& Simulation::Implementation::changed() {
   isReadBack = false;
   return buffers;

@@ -64,9 +64,9 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> hereFirst(const RestVolume&
                                                                const std::vector<bool>& isHere) {
   std::vector<std::uint32_t> particles(volume.strands.size());
   std::iota(particles.begin(), particles.end(), 0u);
-  const auto end =
-      std::ranges::stable_partition(particles, [&](std::uint32_t i) { return isHere[volume.strands[i]]; });
-  return {particles, static_cast<std::uint32_t>(end.begin() - particles.begin())};
+  const auto end = std::stable_partition(particles.begin(), particles.end(),
+                                         [&](std::uint32_t i) { return isHere[volume.strands[i]]; });
+  return {particles, static_cast<std::uint32_t>(end - particles.begin())};
 }
 
 std::uint32_t groupsOf(std::uint64_t particles) {

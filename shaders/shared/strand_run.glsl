@@ -1,0 +1,61 @@
+// The state of the run that a lane of the strand kernel steps, and what is asked of its particles and edges. Included
+// by kernels/strand_step.comp and by each of the fragments it is made of. Every loop over a run says RINGLET_OVER_RUN.
+// No function takes a whole run: in memory it would be copied, element by element and unrolled.
+#ifndef RINGLET_STRAND_RUN
+#define RINGLET_STRAND_RUN
+
+#include "equations/implicit_edge.glsl"
+#include "scan/lanes.glsl"
+#include "shared/root_buffers.glsl"
+#include "shared/strand_buffers.glsl"
+
+// Particle k of the run and its edge to k + 1.
+vec3 p[RUN];  // [m], from the carried origin of the groom
+vec3 v[RUN];  // [m/s]
+// What does not change:
+uint first;            // place along the strand of particle 0 of the run
+vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest
+                       // length
+vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
+float inverseLength[RUN];  // 1 / the groom's edge length
+vec2 bendVariation[RUN];   // factors of bend stiffness and damping, where they vary along the strand
+// Of the step's start:
+vec3 e[RUN];       // edge
+vec3 dv[RUN];      // velocity difference along it
+vec3 eHat[RUN];    // its direction
+float eLength[RUN];
+vec3 force[RUN];   // all elastic forces of the edge
+float coreScale;   // blend of the core's constants
+vec3 vStart[RUN];  // velocities before the solve
+#ifdef RINGLET_CONTACTS
+bool withContacts = false;  // this solve has the contacts' systems
+#endif
+
+// What the report will say:
+float maxStretch = 0.0;
+uint limitedEdges = 0;
+uint degenerateEdges = 0;
+float velocityResidual = 0.0;
+
+bool isParticle(int k) { return first + k < strand.particleCount; }
+bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
+bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
+bool isFree(int k) { return isParticle(k) && !isPinned(k); }
+
+float edgeLengthOf(int k) { return restEdge[k].y / parameters.maxStretch; }
+float bendStiffnessOf(int k) { return strand.bendStiffness * restEdge[k].w * (kBendVaries ? bendVariation[k].x : 1.0); }
+float bendDampingOf(int k) {
+  float damping = strand.bendDamping * restEdge[k].w * (kBendVaries ? bendVariation[k].y : 1.0);
+  return compensatedBendDamping(damping, bendStiffnessOf(k), stepSeconds());
+}
+
+// What pulls on a kilogram of particle k [m/s^2]; beyond the tip gravity.
+vec3 pullOnRun(int k) {
+  if (!kForces) return parameters.gravity;  // first, so that no branch on a particle is left
+  return !isParticle(k) ? parameters.gravity : pullOn(strand.firstParticle + first + k);
+}
+
+// The elastic force of the edge that ends at the run's first particle.
+vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
+
+#endif

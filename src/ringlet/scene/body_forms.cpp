@@ -1,0 +1,108 @@
+// Implements scene/body_forms.h.
+#include "ringlet/scene/body_forms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ringlet/base/assert.h"
+
+namespace ringlet {
+namespace {
+
+Vec3d noExtents(const Body&) { return {}; }
+double radiusOf(const Body& body) { return body.radius; }
+double noRounding(const Body&) { return 0; }
+
+double distanceToCapsule(const Body& body, Vec3d y) {
+  return length(y - Vec3d{0, std::clamp(y.y, -body.length / 2, body.length / 2), 0}) - body.radius;
+}
+
+double distanceToBox(const Body& body, Vec3d y) {
+  const Vec3d half = body.halfExtents;
+  const Vec3d beyond{std::abs(y.x) - half.x, std::abs(y.y) - half.y, std::abs(y.z) - half.z};
+  const Vec3d outside{std::max(beyond.x, 0.0), std::max(beyond.y, 0.0), std::max(beyond.z, 0.0)};
+  return length(outside) + std::min(std::max({beyond.x, beyond.y, beyond.z}), 0.0);
+}
+
+double reachOfGrid(const Body& body) {
+  const DistanceGrid& grid = *body.grid;
+  return length(Vec3d{double(grid.counts[0]), double(grid.counts[1]), double(grid.counts[2])} * grid.cell) /
+         2;
+}
+
+constexpr BodyForm kForms[] = {
+    {.shape = BodyShape::sphere,
+     .name = "sphere",
+     .onDevice = DeviceForm::box,
+     .hasRadius = true,
+     .hasLength = false,
+     .hasHalfExtents = false,
+     .halfExtents = noExtents,
+     .rounding = radiusOf,
+     .reach = radiusOf,
+     .distance = [](const Body& body, Vec3d y) { return length(y) - body.radius; }},
+    {.shape = BodyShape::capsule,
+     .name = "capsule",
+     .onDevice = DeviceForm::box,
+     .hasRadius = true,
+     .hasLength = true,
+     .hasHalfExtents = false,
+     .halfExtents =
+         [](const Body& body) {
+           return Vec3d{0, body.length / 2, 0};
+         },
+     .rounding = radiusOf,
+     .reach = [](const Body& body) { return body.length / 2 + body.radius; },
+     .distance = distanceToCapsule},
+    {.shape = BodyShape::plane,
+     .name = "plane",
+     .onDevice = DeviceForm::plane,
+     .hasRadius = false,
+     .hasLength = false,
+     .hasHalfExtents = false,
+     .halfExtents = noExtents,
+     .rounding = noRounding,
+     .reach = [](const Body&) { return std::numeric_limits<double>::infinity(); },
+     .distance = [](const Body&, Vec3d y) { return y.y; }},
+    {.shape = BodyShape::box,
+     .name = "box",
+     .onDevice = DeviceForm::box,
+     .hasRadius = false,
+     .hasLength = false,
+     .hasHalfExtents = true,
+     .halfExtents = [](const Body& body) { return body.halfExtents; },
+     .rounding = noRounding,
+     .reach = [](const Body& body) { return length(body.halfExtents); },
+     .distance = distanceToBox},
+    {.shape = BodyShape::grid,
+     .name = "mesh",
+     .onDevice = DeviceForm::grid,
+     .hasRadius = false,
+     .hasLength = false,
+     .hasHalfExtents = false,
+     .halfExtents = noExtents,
+     .rounding = noRounding,
+     .reach = reachOfGrid,
+     .distance = nullptr},
+};
+
+}  // namespace
+
+std::span<const BodyForm> bodyForms() { return kForms; }
+
+const BodyForm& formOf(BodyShape shape) {
+  const auto form = std::ranges::find(kForms, shape, &BodyForm::shape);
+  RINGLET_ASSERT(form != std::end(kForms), "a shape of a body without a form");
+  return *form;
+}
+
+std::string shapesWith(bool BodyForm::*size) {
+  std::string names;
+  for (const BodyForm& form : kForms) {
+    if (!size || form.*size) names += (names.empty() ? "" : ", ") + std::string(form.name);
+  }
+  return names;
+}
+
+}  // namespace ringlet
