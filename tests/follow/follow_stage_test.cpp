@@ -256,8 +256,10 @@ TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
     EXPECT_GT(countOther(found, followOn(gpu(), plan, pose, kTurned, met)), found.size() / 20);
     EXPECT_EQ(followOn(**few, plan, pose, kTurned, met, roots), found) << "storage in place of texels";
     if (!met.bodies.empty()) continue;
+    double farthest = 0;
     for (std::size_t h = 0; h < roots.size(); ++h)
-      EXPECT_LT(length(found[h * pose.front().size()] - roots[h]), 1e-6) << h;
+      farthest = std::max(farthest, length(found[h * pose.front().size()] - roots[h]));
+    EXPECT_LT(farthest, 1e-6);
   }
 }
 
