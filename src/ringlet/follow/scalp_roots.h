@@ -20,7 +20,7 @@ struct ScalpRoots {
 
 /// `count` places on the scalp, evenly spread (groom/sample_elimination.h) where guides stand and three
 /// quarters of their distance further: not on parts of the mesh that face another way than where the nearest
-/// guide stands, as the inside of a shell. Errors: the mesh's (checkMesh); no guide is on it. Cost: some 10
+/// guide stands, as the inside of a shell. Errors: the mesh's (checkMesh); no guide is on it. Cost: some 20
 /// us a root.
 Result<ScalpRoots> scatterRoots(const TriangleMesh& scalp, std::span<const GuideRest> guides, int count,
                                 std::uint64_t seed);
