@@ -59,9 +59,13 @@ GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Qua
 }
 
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, std::span<const Body> bodies,
-                               std::span<const BodyPose> poses) {
+                               std::span<const BodyPose> poses, std::optional<Vec3d> rootOnScalp) {
   const std::size_t last = guide.places.size() - 1;
-  const Vector3<double> root = pointOf(guide.places.front()) + guide.rootFrame * toEigen<double>(hair.offset);
+  const Vector3<double> guideRoot = pointOf(guide.places.front());
+  const Vector3<double> rootOffset = rootOnScalp
+                                         ? Vector3<double>(toEigen<double>(*rootOnScalp) - guideRoot)
+                                         : Vector3<double>(guide.rootFrame * toEigen<double>(hair.offset));
+  const Vector3<double> root = guideRoot + rootOffset;
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i <= last; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(last);
@@ -72,7 +76,7 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, s
     const GuidePlace<double>&before = guide.places[k], &after = guide.places[k + 1];
     const double between = along - static_cast<double>(k);
     const Vector3<double> alone =
-        followedPoint(hair, placeBetween(before, after, between), guide.rootFrame, share);
+        followedPoint(hair, placeBetween(before, after, between), rootOffset, share);
     const Vector3<double> x =
         outOfBodies({alone, root, pointOf(before), pointOf(after), between, share}, bodies, poses);
     points.push_back({x.x(), x.y(), x.z()});

@@ -1,6 +1,7 @@
 // Hairs that follow a guide through a pose: the guide's core, frames and curl, then each hair's points.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct GuidePose {
 /// has turned since the rest pose.
 GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Quatd head);
 
-/// The points of a hair, as many as its guide's [m], out of bodies at `poses`, one a body.
+/// The points of a hair, as many as its guide's [m], out of bodies at `poses`, one a body. `rootOnScalp`:
+/// where its root is in this pose [m]; none: where the head carries it.
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide,
-                               std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {});
+                               std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {},
+                               std::optional<Vec3d> rootOnScalp = std::nullopt);
 
 }  // namespace ringlet::reference

@@ -3,11 +3,11 @@
 // a core of its own, the guide's shifted by its offset d. With s the share of the way from root to tip,
 //
 //     r = smoothstep(0, 1/5, s),   k = 1 + (spread - 1) smoothstep(0, 2/5, s)
-//     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) F_root d + r F d)
+//     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) e + r F d)
 //
-// At the root x is the guide's root + F_root d, with F_root the frame at rest carried by the head: a hair's
-// root stays where it is on the scalp, however its guide bends there. The idea is Choe and Ko's (2005, wisps:
-// a master strand and variation about it).
+// At the root x is the guide's root + e: a hair's root stays where it is on the scalp, however its guide
+// bends there. e is F_root d, with F_root the frame at rest carried by the head, or what a scalp that bends
+// makes of it. The idea is Choe and Ko's (2005, wisps: a master strand and variation about it).
 //
 // Bodies hold guides out, and hairs are beside them. With d_x, D, D_root the distances of the body's surface
 // from the point, from the guide beside it (between two particles, what is between theirs, since particles
@@ -55,10 +55,10 @@ GuidePlace<Real> placeBetween(const GuidePlace<Real>& a, const GuidePlace<Real>&
           frame.normalized()};
 }
 
-/// `share`: of the way from root to tip. `rootFrame`: F_root. [m]
+/// `share`: of the way from root to tip. `rootOffset`: e [m]. [m]
 template <class Real>
 Vector3<Real> followedPoint(const FollowHair& hair, const GuidePlace<Real>& place,
-                            const Rotation<Real>& rootFrame, Real share) {
+                            const Vector3<Real>& rootOffset, Real share) {
   const Real r = risesOver(Real(1) / 5, share);
   const Real angle = r * static_cast<Real>(hair.phase);
   const Real scale = 1 + (static_cast<Real>(hair.radius) - 1) * r;
@@ -68,7 +68,7 @@ Vector3<Real> followedPoint(const FollowHair& hair, const GuidePlace<Real>& plac
                               std::sin(angle) * z.x() + std::cos(angle) * z.y(), z.z()};
   const Vector3<Real> offset = toEigen<Real>(hair.offset);
   return place.core + place.frame * (scale * curl) +
-         spread * ((1 - r) * (rootFrame * offset) + r * (place.frame * offset));
+         spread * ((1 - r) * rootOffset + r * (place.frame * offset));
 }
 
 /// Distances [m] from the surface of a body, negative inside: of the point, its guide beside it and its root.

@@ -1,10 +1,11 @@
 // Where a point of a hair is that follows a guide. With s the share of the way from root to tip,
 //
 //     r = smoothstep(0, 1/5, s),   k = 1 + (spread - 1) smoothstep(0, 2/5, s)
-//     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) F_root d + r F d)
+//     x = c + F Rz(r phase) z (1 + (radius - 1) r) + k ((1 - r) e + r F d)
 //
-// c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, F_root: the
-// frame at rest carried by the head. Choe and Ko 2005 (wisps). Out of a body it is pushed by
+// c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, e: from the
+// guide's root to the hair's; F_root d with the frame at rest carried by the head, or what a scalp that bends makes of
+// it. Choe and Ko 2005 (wisps). Out of a body it is pushed by
 //
 //     max(min(0, D, (1 - r) D_root) - d_x, 0)
 //
@@ -38,8 +39,8 @@ GuidePlace placeBetween(GuidePlace a, GuidePlace b, float share) {
                     normalize(frame));
 }
 
-/// phase [rad], radius, spread: of the hair; offset, along the frames [m]; rootFrame: F_root; share: s. [m]
-vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePlace place, vec4 rootFrame,
+/// phase [rad], radius, spread: of the hair; offset, along the frames [m]; rootOffset: e [m]; share: s. [m]
+vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePlace place, vec3 rootOffset,
                    float share) {
   float r = risesOver(0.2, share);
   float angle = r * phase;
@@ -49,7 +50,7 @@ vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePl
   vec3 curl = (1.0 + (radius - 1.0) * r) * vec3(cosine * z.x - sine * z.y, sine * z.x + cosine * z.y, z.z);
   float k = 1.0 + (spread - 1.0) * risesOver(0.4, share);
   return place.core + rotate(place.frame, curl) +
-         k * ((1.0 - r) * rotate(rootFrame, offset) + r * rotate(place.frame, offset));
+         k * ((1.0 - r) * rootOffset + r * rotate(place.frame, offset));
 }
 
 /// How far a point is pushed out of a body [m]: no further than its guide and its own root let it. Distances from the

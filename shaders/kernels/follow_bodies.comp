@@ -21,7 +21,7 @@ void main() {
   FollowHair hair = followHair(h);
   FollowGuide guide = followGuide(hair.guide);
   HairOnGuide point = hairOnGuide(h, i, hair, guide);
-  vec3 root = pointOf(placeAt(guide.firstParticle)) + rotate(point.rootFrame, hair.offset);
+  vec3 root = pointOf(placeAt(guide.firstParticle)) + point.rootOffset;
   vec3 before = pointOf(point.before);
   vec3 after = pointOf(point.after);
   vec3 x = followed(point);

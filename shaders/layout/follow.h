@@ -23,6 +23,8 @@ RINGLET_CONSTANT uint kBindHairPoints = 8;    // uvec4[points of hairs]: hair_po
 RINGLET_CONSTANT uint kBindBodySpheres = 9;   // vec4[bodies]: xyz: middle of a sphere about it [m]; w: radius [m]
 RINGLET_CONSTANT uint kBindNearCount = 10;    // NearCount
 RINGLET_CONSTANT uint kBindNearPoints = 11;   // uint[points near bodies]: the invocation of follow_hairs that found it
+// Whether roots are where FollowHair::rootOffset says, on a scalp that bends, and not where the head carries them.
+RINGLET_CONSTANT uint kSpecOnScalp = 2;
 // The same as texels, these numbers further:
 RINGLET_CONSTANT uint kFollowTexels = 40;
 
@@ -51,7 +53,7 @@ struct FollowHair {
   float lengthShare;  // of the guide that it follows
   float spread;  // what becomes of the offset beyond the root
   uint firstPoint;
-  uint unused[3];
+  float rootOffset[3];  // with kSpecOnScalp: in this pose from the guide's root to the hair's [m]
 };
 
 // Points of hairs near bodies, as groups of invocations and as a number.

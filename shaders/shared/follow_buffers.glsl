@@ -7,6 +7,7 @@
 #include "shared/texels.glsl"
 #include "shared/workgroup.glsl"
 
+layout(constant_id = kSpecOnScalp) const bool kOnScalp = false;
 
 layout(set = 0, binding = kBindGuidePoints) readonly buffer GuidePoints { vec4 guidePoints[]; };
 layout(set = 0, binding = kBindCoreRows) readonly buffer CoreRows { CoreRow coreRows[]; };
@@ -40,8 +41,9 @@ FollowHair followHair(uint i) {
   uvec4 place = recordAt(followHairTexels, 3 * i);
   vec4 differs = vectorAt(followHairTexels, 3 * i + 1);
   uvec4 points = recordAt(followHairTexels, 3 * i + 2);
+  vec3 root = uintBitsToFloat(points.yzw);
   return FollowHair(uintBitsToFloat(place.xyz), place.w, differs.x, differs.y, differs.z, differs.w, points.x,
-                    uint[3](points.y, points.z, points.w));
+                    float[3](root.x, root.y, root.z));
 }
 
 #endif

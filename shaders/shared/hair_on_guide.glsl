@@ -19,7 +19,7 @@ vec3 pointOf(GuidePlace place) { return place.core + rotate(place.frame, place.c
 struct HairOnGuide {
   FollowHair hair;
   FollowGuide guide;
-  vec4 rootFrame;
+  vec3 rootOffset;           // in this pose from the guide's root to the hair's [m]
   float share;               // of the way from root to tip
   GuidePlace before, after;  // the guide's particles beside the point,
   float between;             // and where between them it is
@@ -34,14 +34,16 @@ HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
   float along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
   uint k = min(uint(along), last - 1);
   uint at = guide.firstParticle + k;
-  return HairOnGuide(hair, guide, multiply(parameters.head, guide.restFrame), share, placeAt(at), placeAt(at + 1),
-                     along - float(k), i == last ? h | kHairEnd : h);
+  vec3 rootOffset = kOnScalp ? vec3(hair.rootOffset[0], hair.rootOffset[1], hair.rootOffset[2])
+                             : rotate(multiply(parameters.head, guide.restFrame), hair.offset);
+  return HairOnGuide(hair, guide, rootOffset, share, placeAt(at), placeAt(at + 1), along - float(k),
+                     i == last ? h | kHairEnd : h);
 }
 
 /// Where it is, were there no bodies [m].
 vec3 followed(HairOnGuide point) {
   return followedPoint(point.hair.phase, point.hair.radius, point.hair.spread, point.hair.offset,
-                       placeBetween(point.before, point.after, point.between), point.rootFrame, point.share);
+                       placeBetween(point.before, point.after, point.between), point.rootOffset, point.share);
 }
 
 #endif

@@ -126,9 +126,12 @@ Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
 
 // Hair that follows the strands of IN, where it is asked for.
 Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit,
-                                           std::span<const Body> bodies = {}) {
+                                           const LoadedScene* scene = nullptr) {
   if (!typed.hairs) return std::optional<FullHair>();
-  auto hair = FullHair::make(rest, metresPerUnit, typed.look.of({.hairCount = *typed.hairs}), bodies);
+  const auto ground = scene ? hairGroundOf(*scene, typed.look) : hairGroundOf(typed.look, metresPerUnit);
+  if (!ground) return ground.error();
+  auto hair = FullHair::make(rest, metresPerUnit, typed.look.of({.hairCount = *typed.hairs}),
+                             scene ? scene->bodies : std::vector<Body>(), *ground);
   if (!hair) return hair.error();
   return std::optional(std::move(*hair));
 }
@@ -137,7 +140,7 @@ Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest
 Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit,
                                            const std::optional<LoadedScene>& scene) {
   if (!typed.hairs) return std::optional<FullHair>();
-  if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, scene->bodies);
+  if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, &*scene);
   const auto rest = readGroom(typed.groom);
   if (!rest) return rest.error();
   return fullHairOf(typed, rest->groom, metresPerUnit);

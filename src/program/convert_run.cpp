@@ -35,8 +35,12 @@ Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
     if (plan.hair) {
       Status checked = frame == plan.firstFrame ? plan.hair->checkPose(source.groom()) : Status();
       if (!checked) return checked;
-      plan.hair->follow(source.groom().points,
-                        plan.scene ? bodiesAtFrame(*plan.scene, frame) : std::vector<BodyPose>());
+      if (plan.scene) {
+        plan.hair->follow(source.groom().points, bodiesAtFrame(*plan.scene, frame),
+                          hairRootsAtFrame(*plan.scene, *plan.hair, frame));
+      } else {
+        plan.hair->follow(source.groom().points);
+      }
     }
     if (Status visited = visit(frame); !visited) return visited;
   }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "ringlet/measure/head_fit.h"
 
@@ -30,7 +31,41 @@ std::vector<Vec3d> FollowPlan::strandOf(std::span<const Vec3f> points, std::size
   return metres;
 }
 
-Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, const FollowOptions& options) {
+Status FollowPlan::plant(const FollowOptions& options, const HairGround& ground) {
+  const FollowMaps maps{ground.densities, ground.clumps};
+  if (!ground.mesh) {
+    auto hairs = planHairs(guides_, options, maps);
+    if (!hairs) return hairs.error();
+    hairs_ = std::move(*hairs);
+    return {};
+  }
+  const auto roots = scatterRoots(*ground.mesh, guides_, options.hairCount, options.seed);
+  if (!roots) return roots.error();
+  std::vector<std::uint32_t> rootOf;
+  auto hairs = planHairs(guides_, *roots, options, maps, &rootOf);
+  if (!hairs) return hairs.error();
+  hairs_ = std::move(*hairs);
+  if (!ground.scalp) return {};
+  for (const std::uint32_t root : rootOf) roots_.push_back(roots->places[root]);
+  auto bound = ground.scalp->bindOthers(roots_);
+  if (!bound) return bound.error();
+  scalp_.emplace(std::move(*bound));
+  return {};
+}
+
+std::vector<Vec3d> FollowPlan::rootsAt(double t, const HeadPose& head) const {
+  std::vector<Vec3d> roots;
+  if (!scalp_) return roots;
+  roots.reserve(roots_.size());
+  const std::vector<BodyPose> poses = scalp_->rootPosesAt(t);
+  for (std::size_t h = 0; h < roots_.size(); ++h)
+    roots.push_back(head.position +
+                    rotate(head.rotation, poses[h].position + rotate(poses[h].rotation, roots_[h])));
+  return roots;
+}
+
+Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
+                                    const HairGround& ground) {
   FollowPlan plan;
   plan.metresPerUnit_ = metresPerUnit;
   plan.firstPoint_ = rest.firstPoint;
@@ -43,9 +78,7 @@ Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, con
                       s + 1)};
     plan.guides_.push_back(restOfGuide(strand));
   }
-  auto hairs = planHairs(plan.guides_, options);
-  if (!hairs) return hairs.error();
-  plan.hairs_ = std::move(*hairs);
+  if (Status planted = plan.plant(options, ground); !planted) return planted.error();
 
   std::uint64_t points = 0;
   for (const FollowHair& each : plan.hairs_) points += plan.guides_[each.guide].arcs.size();

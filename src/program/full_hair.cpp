@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <thread>
 
 #include "reference/follow_guide.h"
@@ -12,8 +13,8 @@
 namespace ringlet::program {
 
 Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
-                                std::span<const Body> bodies) {
-  auto plan = FollowPlan::make(rest, metresPerUnit, options);
+                                std::span<const Body> bodies, const HairGround& ground) {
+  auto plan = FollowPlan::make(rest, metresPerUnit, options, ground);
   if (!plan) return plan.error();
   FullHair hair(std::move(*plan), bodies);
   hair.groom_.metresPerUnit = rest.metresPerUnit;
@@ -22,11 +23,12 @@ Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const F
   hair.firstHair_.assign(rest.strandCount() + 1, 0);
   for (const FollowHair& each : hair.plan_.hairs()) ++hair.firstHair_[each.guide + 1];
   for (std::size_t s = 0; s < rest.strandCount(); ++s) hair.firstHair_[s + 1] += hair.firstHair_[s];
-  hair.follow(rest.points);
+  hair.follow(rest.points, {}, hair.plan_.restRoots());
   return hair;
 }
 
-void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> bodies) {
+void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> bodies,
+                      std::span<const Vec3d> roots) {
   const Quatd head = plan_.headOf(points);
   const std::span<const Body> met = bodies.empty() ? std::span<const Body>() : bodies_;
   std::atomic<std::size_t> next = 0;
@@ -36,7 +38,8 @@ void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> b
           reference::poseGuide(plan_.guides()[s], plan_.strandOf(points, s), head);
       for (std::size_t h = firstHair_[s]; h < firstHair_[s + 1]; ++h) {
         std::uint32_t at = groom_.firstPoint[h];
-        for (const Vec3d& p : reference::followGuide(plan_.hairs()[h], pose, met, bodies))
+        const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
+        for (const Vec3d& p : reference::followGuide(plan_.hairs()[h], pose, met, bodies, root))
           groom_.points[at++] = Vec3f(p / plan_.metresPerUnit());
       }
     }

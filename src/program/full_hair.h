@@ -15,13 +15,16 @@ class FullHair {
  public:
   /// As FollowPlan::make. `bodies`: that hairs stay out of where their strands do.
   static Result<FullHair> make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
-                               std::span<const Body> bodies = {});
+                               std::span<const Body> bodies = {}, const HairGround& ground = {});
 
   Status checkPose(const Groom& groom) const { return plan_.checkPose(groom); }
 
   /// Moves the hairs to a pose of the strands, in their unit and order; `bodies`: one pose a body, or none,
-  /// as if there were no bodies. Cost: with hairs; all cores are used.
-  void follow(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {});
+  /// as if there were no bodies; `roots`: of rootsAt. Cost: with hairs; all cores are used.
+  void follow(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {},
+              std::span<const Vec3d> roots = {});
+  /// As FollowPlan::rootsAt.
+  std::vector<Vec3d> rootsAt(double t, const HeadPose& head) const { return plan_.rootsAt(t, head); }
 
   /// The hairs, in the pose that was followed last, in the strands' unit.
   const Groom& groom() const { return groom_; }

@@ -23,6 +23,12 @@ void addHairLookOptions(CLI::App& command, HairLook& look, const std::string& gr
       ->check(between(0, 1))
       ->type_name("S")
       ->group(group);
+  command
+      .add_option("--hair-scalp", look.scalp,
+                  "An OBJ file in the groom's axes and unit: hairs' roots are on this mesh, evenly spread "
+                  "where strands stand (default: the mesh of the scene's scalp, else around strands' roots)")
+      ->type_name("FILE")
+      ->group(group);
 }
 
 }  // namespace ringlet::program

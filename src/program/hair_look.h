@@ -1,6 +1,7 @@
 // HairLook: how hairs that follow strands differ from them, as commands that make such hairs ask.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -11,8 +12,10 @@ namespace ringlet::program {
 
 struct HairLook {
   std::optional<double> frizz, clump;
+  std::filesystem::path
+      scalp;  // an OBJ file of the mesh that their roots are on, in the groom's axes and unit
 
-  bool isAsked() const { return frizz || clump; }
+  bool isAsked() const { return frizz || clump || !scalp.empty(); }
   FollowOptions of(FollowOptions options) const {
     options.frizz = frizz.value_or(options.frizz);
     options.gather = clump.value_or(options.gather);
@@ -20,7 +23,7 @@ struct HairLook {
   }
 };
 
-/// Adds --frizz and --clump. `look` must outlive the command.
+/// Adds --frizz, --clump and --hair-scalp. `look` must outlive the command.
 void addHairLookOptions(CLI::App& command, HairLook& look, const std::string& group = "Options");
 
 }  // namespace ringlet::program

@@ -236,8 +236,12 @@ Status HairRun::makeSink() {
   if (folder_) {
     std::optional<FullHair> hairs;
     if (options_.hairs > 0) {
+      const HeadScalp* scalp = input_.rootShifts.empty() ? input_.scalp : nullptr;
+      const auto ground = hairGroundOf(input_.hairs ? *input_.hairs : SceneHairs(), scalp, options_.look,
+                                       input_.groom.metresPerUnit);
+      if (!ground) return ground.error();
       auto made = FullHair::make(input_.groom, input_.groom.metresPerUnit,
-                                 options_.look.of({.hairCount = options_.hairs}), input_.bodies);
+                                 options_.look.of({.hairCount = options_.hairs}), input_.bodies, *ground);
       if (!made) return made.error();
       hairs.emplace(std::move(*made));
     }

@@ -99,6 +99,7 @@ void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
   if (choice.hairs) output.hairs = choice.hairs;
   output.frizz = choice.look.frizz.value_or(output.frizz);
   output.clump = choice.look.clump.value_or(output.clump);
+  if (!choice.look.scalp.empty()) output.hairScalpFile = choice.look.scalp;
   if (choice.prims) output.prims = *choice.prims;
   if (!choice.values.empty()) output.values = choice.values;
 }
@@ -109,7 +110,8 @@ void checkOutputs(const SceneOutput& output) {
                                "velocities are written into hair.usdc and clips only; add --usdc");
   if (output.clipFrames && !holds(output.files, "hair.usda"))
     throw CLI::ValidationError("--clips", "only hair.usda has clips; leave out --no-usd");
-  if (!output.hairs && (output.frizz != SceneOutput{}.frizz || output.clump != SceneOutput{}.clump))
+  if (!output.hairs && (output.frizz != SceneOutput{}.frizz || output.clump != SceneOutput{}.clump ||
+                        !output.hairScalp.empty() || !output.hairScalpFile.empty()))
     throw CLI::ValidationError("--hairs", "only such hairs have frizz and clumps; say how many");
   if (output.hairs && needsOrigin(output))
     throw CLI::ValidationError(
@@ -146,7 +148,7 @@ void chooseOutputs(const SceneOutput& output, RunOptions& options) {
                                                : UsdHead::baked;
   options.usesGroomPrims = output.prims == "groom";
   options.hairs = output.hairs.value_or(0);
-  options.look = {output.frizz, output.clump};
+  options.look = {output.frizz, output.clump, output.hairScalpFile};
   options.clipFrames = output.clipFrames.value_or(0);
 }
 

@@ -32,7 +32,7 @@ UsualHairs usualHairs(std::size_t strands, std::size_t particles) {
 
 Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom& rest, const Groom& first,
                                         double metresPerUnit, const PictureHairChoice& choice,
-                                        std::span<const Body> bodies) {
+                                        std::span<const Body> bodies, const HairGround& ground) {
   PictureHair self;
   self.metresPerUnit_ = metresPerUnit;
   self.firstOfStrand_ = first.firstPoint;
@@ -44,10 +44,10 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
     if (!lines) return lines.error();
     self.lines_.emplace(std::move(*lines));
   } else {
-    auto plan = FollowPlan::make(rest, metresPerUnit, options);
+    auto plan = FollowPlan::make(rest, metresPerUnit, options, ground);
     if (!plan) return plan.error();
     if (Status belongs = plan->checkPose(first); !belongs) return belongs.error();
-    auto stage = FollowStage::create(device.gpu(), plan->guides(), plan->hairs(), bodies);
+    auto stage = FollowStage::create(device.gpu(), plan->guides(), plan->hairs(), bodies, plan->isOnScalp());
     if (!stage) return stage.error();
     self.plan_.emplace(std::move(*plan));
     self.hairs_.emplace(std::move(*stage));
@@ -58,13 +58,14 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
   return self;
 }
 
-Status PictureHair::setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies) {
+Status PictureHair::setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies,
+                            std::span<const Vec3d> roots) {
   if (lines_) return lines_->setPose(points, metresPerUnit_);
   std::vector<Vec3d> metres;
   metres.reserve(points.size());
   for (const Vec3f& p : points) metres.push_back(Vec3d(p) * metresPerUnit_);
   hairs_->setBodies(bodies);
-  return hairs_->setPose(metres);
+  return hairs_->setPose(metres, roots);
 }
 
 Quatd PictureHair::headOf(std::span<const Vec3f> points) const {

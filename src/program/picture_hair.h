@@ -33,10 +33,15 @@ class PictureHair {
   /// memory.
   static Result<PictureHair> create(const ComputeDevice& device, const Groom& rest, const Groom& first,
                                     double metresPerUnit, const PictureHairChoice& choice,
-                                    std::span<const Body> bodies = {});
+                                    std::span<const Body> bodies = {}, const HairGround& ground = {});
 
-  /// The strands of the next moment, in their unit, and one pose a body. Nothing may be under way.
-  Status setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {});
+  /// The strands of the next moment, in their unit, one pose a body, and rootsAt. Nothing may be under way.
+  Status setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {},
+                 std::span<const Vec3d> roots = {});
+  /// As FollowPlan::rootsAt.
+  std::vector<Vec3d> rootsAt(double t, const HeadPose& head) const {
+    return plan_ ? plan_->rootsAt(t, head) : std::vector<Vec3d>();
+  }
   /// How the head has turned since the rest pose.
   Quatd headOf(std::span<const Vec3f> points) const;
   /// Moves what follows to the pose; its stage is "follow".

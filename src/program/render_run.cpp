@@ -92,8 +92,11 @@ Bounds Rendering::boxOf(const Points& points) const {
 
 Status Rendering::start(const Groom& first) {
   rest_ = plan_.rest ? *plan_.rest : first;
+  const auto ground = plan_.scene ? hairGroundOf(*plan_.scene, plan_.hair.look)
+                                  : hairGroundOf(plan_.hair.look, subject_.metresPerUnit);
+  if (!ground) return ground.error();
   auto hair = PictureHair::create(device_, rest_, first, subject_.metresPerUnit, plan_.hair,
-                                  plan_.scene ? plan_.scene->bodies : std::vector<Body>());
+                                  plan_.scene ? plan_.scene->bodies : std::vector<Body>(), *ground);
   if (!hair) return hair.error();
   hair_.emplace(std::move(*hair));
   return {};
@@ -172,7 +175,8 @@ Status Rendering::drawMoment(int frame, double share, const Points& before, cons
       pose[i] = before[i] + (points[i] - before[i]) * static_cast<float>(share);
   const double at = frame - 1 + share;
   const auto bodies = plan_.scene ? bodiesAtFrame(*plan_.scene, at) : std::vector<BodyPose>();
-  if (Status set = hair_->setPose(pose, bodies); !set) return set;
+  const auto roots = plan_.scene ? hairRootsAtFrame(*plan_.scene, *hair_, at) : std::vector<Vec3d>();
+  if (Status set = hair_->setPose(pose, bodies, roots); !set) return set;
   const Quatd head = hair_->headOf(pose);
   const Bounds here = boxOf(pose);
   const int span = plan_.lastFrame - plan_.firstFrame;

@@ -52,7 +52,8 @@ void addLines(std::string_view text, std::string table, std::vector<RunFact>& fa
 
 std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene) {
   std::set<fs::path> files{
-      input, scene.groom.file, scene.groom.scalp, scene.motion.file, scene.scalp.file, scene.goalFile};
+      input,          scene.groom.file,          scene.groom.scalp, scene.motion.file, scene.scalp.file,
+      scene.goalFile, scene.output.hairScalpFile};
   for (const SceneBody& body : scene.bodies) {
     files.insert(body.file);
     if (body.motion) files.insert(body.motion->file);
@@ -101,6 +102,7 @@ void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
   add("hairs", options.hairs);
   add("frizz", options.look.of({}).frizz);
   add("clump", options.look.of({}).gather);
+  add("hair_scalp_file", options.look.scalp.string());
 }
 
 }  // namespace ringlet::program

@@ -83,7 +83,10 @@ Status Writers::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& h
   if (sheet_) sheet_->offer(frame, points, placesOf(bodies));
   lastPoints_ = std::move(points);
   const UsdTransform place = rigidTransform(head.rotation, head.position / input_.groom.metresPerUnit);
-  if (hairs_ && !animations_.empty()) hairs_->follow(lastPoints_, bodies);
+  if (hairs_ && !animations_.empty()) {
+    const double seconds = frame / input_.settings.framesPerSecond;
+    hairs_->follow(lastPoints_, bodies, hairs_->rootsAt(seconds, input_.motion.poseAt(seconds)));
+  }
   const std::vector<Vec3f>& shown = hairs_ ? hairs_->groom().points : lastPoints_;
   for (const auto& animation : animations_) {
     if (Status added = animation->addFrame(shown, place); !added) return added;

@@ -112,7 +112,11 @@ Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view:
   const double count = hairs > 0 ? hairs : static_cast<double>(scene.groom.strandCount());
   plan.look.width = std::min(widthOfHairs(count), view::kMostStrandWidth);
   if (hairs == 0) return {};
-  auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}));
+  // The head carries hairs' roots here, also where a scalp carries those of strands.
+  const auto ground = hairGroundOf(scene.hairs, nullptr, look, scene.groom.metresPerUnit);
+  if (!ground) return ground.error();
+  auto follow =
+      FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}), *ground);
   if (!follow) return follow.error();
   plan.look.guides = follow->guides();
   plan.look.bodies = scene.bodies;

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -95,13 +96,13 @@ struct Met {
 
 // The points that the device finds, in the order of hairs.
 std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
-                            Quatd head, const Met& met = {}) {
-  auto stage = FollowStage::create(device, plan.guides, plan.hairs, met.bodies);
+                            Quatd head, const Met& met = {}, const std::vector<Vec3d>& roots = {}) {
+  auto stage = FollowStage::create(device, plan.guides, plan.hairs, met.bodies, !roots.empty());
   EXPECT_TRUE(stage) << stage.error().message;
   stage->setBodies(met.poses);
   std::vector<Vec3d> positions;
   for (const Strand& strand : pose) positions.insert(positions.end(), strand.begin(), strand.end());
-  EXPECT_TRUE(stage->setPose(positions));
+  EXPECT_TRUE(stage->setPose(positions, roots));
   auto recorder = gpu::Recorder::create(device, "follow");
   EXPECT_TRUE(recorder->begin());
   stage->record(*recorder, head);
@@ -122,12 +123,15 @@ std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::ve
 }
 
 double largestDifference(const Plan& plan, const std::vector<Strand>& pose, Quatd head,
-                         const std::vector<Vec3d>& found, const Met& met = {}) {
+                         const std::vector<Vec3d>& found, const Met& met = {},
+                         const std::vector<Vec3d>& roots = {}) {
   double largest = 0;
   std::size_t at = 0;
-  for (const FollowHair& hair : plan.hairs) {
+  for (std::size_t h = 0; h < plan.hairs.size(); ++h) {
+    const FollowHair& hair = plan.hairs[h];
     const auto guide = reference::poseGuide(plan.guides[hair.guide], pose[hair.guide], head);
-    for (const Vec3d& expected : reference::followGuide(hair, guide, met.bodies, met.poses)) {
+    const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
+    for (const Vec3d& expected : reference::followGuide(hair, guide, met.bodies, met.poses, root)) {
       const double difference = length(expected - found.at(at++));
       if (!(difference <= largest)) largest = difference;  // NaN too
     }
@@ -230,6 +234,32 @@ TEST_F(FollowStageTest, AmongBodiesItIsTheReference) {
     EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
     EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
     EXPECT_EQ(followOn(**few, plan, pose, kTurned, met), found) << "storage buffers in place of texels";
+  }
+}
+
+// A scalp that bends takes each root its own way, here by up to a centimetre.
+TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
+  const Guides guides = allGuides().front();
+  const Plan plan = planOf(guides, 300);
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-0.006, 0.006);
+  std::vector<Vec3d> roots;
+  for (const FollowHair& hair : plan.hairs)
+    roots.push_back(pose[hair.guide].front() + Vec3d{any(random), any(random), any(random)});
+  const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
+  ASSERT_TRUE(few) << few.error().message;
+  for (const Met& met : {Met{}, metBy(parity::sampleBodies(), pose)}) {
+    const auto found = followOn(gpu(), plan, pose, kTurned, met, roots);
+    EXPECT_LT(largestDifference(plan, pose, kTurned, found, met, roots), parity::kFollowMetres);
+    EXPECT_GT(countOther(found, followOn(gpu(), plan, pose, kTurned, met)), found.size() / 20);
+    EXPECT_EQ(followOn(**few, plan, pose, kTurned, met, roots), found) << "storage in place of texels";
+    if (!met.bodies.empty()) continue;
+    double farthest = 0;
+    for (std::size_t h = 0; h < roots.size(); ++h)
+      farthest = std::max(farthest, length(found[h * pose.front().size()] - roots[h]));
+    EXPECT_LT(farthest, 1e-6);
   }
 }
 

@@ -286,7 +286,7 @@ const std::vector<CppStruct> kCppStructs = {
                        sizeof(S),
                        {RINGLET_MEMBER(offset), RINGLET_MEMBER(guide), RINGLET_MEMBER(phase),
                         RINGLET_MEMBER(radius), RINGLET_MEMBER(lengthShare), RINGLET_MEMBER(spread),
-                        RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(unused)}};
+                        RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(rootOffset)}};
     }(),
     [] {
       using S = layout::NearCount;

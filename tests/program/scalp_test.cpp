@@ -2,10 +2,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "ringlet/base/whole_file.h"
+#include "ringlet/bodies/head_mesh.h"
+#include "ringlet/bodies/triangle_tree.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/motion/skinned_mesh.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
@@ -91,6 +96,106 @@ TEST(ScalpProgram, SharesTheHeadsFile) {
   const json run = simulate(folder, "reference");
   EXPECT_EQ(run["warnings"], json::array());
   expectOnStrip(folder, {0, 10, 0});
+}
+
+std::string bytesOf(const std::filesystem::path& path) {
+  const auto bytes = readWholeFile(path);
+  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "";
+}
+
+// Hairs that follow have roots all over the strip, go with it as it bends, and are the same afterwards.
+TEST(ScalpProgram, CarriesRootsOfHairs) {
+  const auto folder = folderWithFiles("scalp_hairs", 0);
+  const auto does = [&](const std::vector<std::string>& arguments) {
+    const auto result = runProgram(folder, arguments);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  };
+  const std::string scene = "cache = 'float32'\n[motion]\nkind = 'nod'\n[scalp]\nfile = 'strip.glb'\n";
+  writeScene(folder / "scene.toml", scene);
+  const std::vector<std::string> simulated{"simulate", "scene.toml", "--backend", "reference", "-o"};
+  auto more = simulated;
+  does((more.insert(more.end(), {"strands"}), more));
+  for (const char* name : {"hairs", "again"}) {
+    more = simulated;
+    more.insert(more.end(), {name, "--hairs", "300"});
+    does(more);
+  }
+  does({"convert", "strands/hair.rgc", "made.rgc", "--hairs", "300", "--scene", "scene.toml"});
+  const std::string found = bytesOf(folder / "hairs/hair.rgc");
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(bytesOf(folder / "again/hair.rgc") == found);
+  EXPECT_TRUE(bytesOf(folder / "made.rgc") == found);
+
+  does({"convert", "hairs/hair.rgc", "last.obj", "--frame", "12"});
+  const auto last = readGroom(folder / "last.obj");
+  ASSERT_TRUE(last) << last.error().message;
+  ASSERT_EQ(last->groom.strandCount(), 300u);
+  const auto strip = readSkinnedMesh(folder / "strip.glb");
+  ASSERT_TRUE(strip) << strip.error().message;
+  const TriangleTree bent({strip->pointsAt(0.5), strip->triangles()});
+  const TriangleTree flat({strip->pointsAt(0), strip->triangles()});
+  double farthest = 0, farthestFromFlat = 0;
+  for (std::size_t h = 0; h < 300; ++h) {
+    const Vec3d root(last->groom.strand(h).front());
+    farthest = std::max(farthest, bent.nearest(root).distance);
+    farthestFromFlat = std::max(farthestFromFlat, flat.nearest(root).distance);
+  }
+  EXPECT_LT(farthest, 1e-4) << "0.1 mm";
+  EXPECT_GT(farthestFromFlat, 0.1) << "the strip must bend";
+
+  // A map of density over strands leaves some of the same.
+  writeScene(folder / "thin.toml",
+             scene + "[[map]]\nnumber = 'output.hairs'\nstrands = '2'\nfactor = 0.25\n");
+  does(
+      {"convert", "strands/hair.rgc", "thin.obj", "--frame", "12", "--hairs", "300", "--scene", "thin.toml"});
+  const auto thin = readGroom(folder / "thin.obj");
+  EXPECT_LT(thin->groom.strandCount(), 260u);
+  EXPECT_GT(thin->groom.strandCount(), 150u);
+}
+
+// A head of triangles among the bodies, or in a file.
+TEST(ScalpProgram, HairsGrowOnAMeshThatIsNamed) {
+  const auto folder = scratchFolder("hair_scalp");
+  const auto does = [&](const std::vector<std::string>& arguments) {
+    const auto result = runProgram(folder, arguments);
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  };
+  does({"make", "head", "--strands", "40", "--particles", "12", "--turns", "1", "-o", "head.obj"});
+  const TriangleMesh head = makeHeadMesh();
+  std::ofstream mesh(folder / "mesh.obj");
+  for (const Vec3d& p : head.points) mesh << fmt::format("v {} {} {}\n", 100 * p.x, 100 * p.y, 100 * p.z);
+  for (const auto& [a, b, c] : head.triangles) mesh << fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+  mesh.close();
+  const auto write = [&](const char* name, const char* body) {
+    std::ofstream(folder / name) << "[groom]\nfile = 'head.obj'\n[motion]\nkind = 'nod'\n"
+                                    "[simulation]\nframes = 2\n[output]\ncache = 'float32'\n"
+                                 << body;
+  };
+  write("scene.toml",
+        "hair_scalp = 'skull'\nhairs = 500\n[[body]]\nname = 'skull'\nshape = 'mesh'\ngenerate = 'head'\n");
+  does({"simulate", "scene.toml", "--backend", "reference", "-o", "out"});
+  does({"convert", "out/hair.rgc", "last.obj", "--frame", "2"});
+  does({"convert", "head.obj", "rest.obj", "--hairs", "500", "--hair-scalp", "mesh.obj"});
+  const auto rest = readGroom(folder / "rest.obj"), last = readGroom(folder / "last.obj");
+  ASSERT_TRUE(rest && last);
+  const TriangleTree tree(head);
+  for (std::size_t h = 0; h < 500; ++h)
+    EXPECT_LT(tree.nearest(Vec3d(rest->groom.strand(h).front()) * 0.01).distance, 1e-4);
+  // The head carries the mesh: every two roots are as far apart as at rest.
+  for (std::size_t h = 1; h < 500; ++h)
+    EXPECT_NEAR(length(last->groom.strand(h).front() - last->groom.strand(0).front()),
+                length(rest->groom.strand(h).front() - rest->groom.strand(0).front()), 1e-3);
+
+  const auto refusal = [&](const char* body) {
+    write("wrong.toml", body);
+    const auto result = runProgram(folder, {"simulate", "wrong.toml", "--backend", "reference", "-o", "no"});
+    EXPECT_NE(result.exitCode, 0);
+    return result.err;
+  };
+  EXPECT_NE(refusal("hairs = 9\nhair_scalp = 'skull'\n").find("no body is named skull"), std::string::npos);
+  EXPECT_NE(refusal("hairs = 9\nhair_scalp = 'b'\n[[body]]\nname = 'b'\nshape = 'sphere'\n")
+                .find("is a sphere; expected a mesh"),
+            std::string::npos);
 }
 
 TEST(ScalpProgram, SaysWhatIsWrong) {

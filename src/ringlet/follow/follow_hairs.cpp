@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "ringlet/follow/near_guides.h"
 #include "ringlet/groom/seeded_random.h"
 
 namespace ringlet {
@@ -150,7 +151,8 @@ std::vector<Vec3d> placesOn(const ScalpPatch& patch, double reach, std::size_t c
   return places;
 }
 
-FollowHair variedHair(const FollowOptions& options, SeededRandom random) {
+// clump: a factor on what hairs gather.
+FollowHair variedHair(const FollowOptions& options, double clump, SeededRandom random) {
   // Always the same draws in the same order, so that one option does not change the others.
   const bool isStray = random.uniform() < options.frizz * options.strayShare;
   const double turn = random.uniform() + random.uniform() - 1;  // triangular
@@ -162,28 +164,90 @@ FollowHair variedHair(const FollowOptions& options, SeededRandom random) {
   hair.phase = static_cast<float>(turn * phase * (isStray ? kStrayPhase : 1));
   hair.radius = static_cast<float>(1 + radius * wider);
   hair.length = static_cast<float>(1 - options.length * shorter);
-  hair.spread = static_cast<float>(isStray ? kStraySpread : std::max(0.0, 1 - options.gather * together));
+  hair.spread = static_cast<float>(
+      isStray ? kStraySpread : std::max(0.0, 1 - std::min(1.0, clump * options.gather) * together));
   return hair;
+}
+
+double factorAt(std::span<const float> map, std::size_t guide) {
+  return map.empty() ? 1.0 : static_cast<double>(map[guide]);
+}
+double factorAt(std::span<const float> map, const std::array<NearGuides::Share, 3>& shares) {
+  if (map.empty()) return 1;
+  double factor = 0;
+  for (const NearGuides::Share& each : shares) factor += each.share * factorAt(map, each.guide);
+  return factor;
+}
+
+// Up to which hair each guide has them: the same numbers, or less where the density is less.
+std::vector<std::size_t> lastHairs(std::size_t guideCount, std::size_t hairCount,
+                                   std::span<const float> density) {
+  std::vector<std::size_t> last;
+  double sum = 0;
+  for (std::size_t g = 0; g < guideCount; ++g) {
+    sum += std::min(1.0, factorAt(density, g));
+    last.push_back(density.empty() ? (g + 1) * hairCount / guideCount
+                                   : static_cast<std::size_t>(sum * static_cast<double>(hairCount) /
+                                                              static_cast<double>(guideCount)));
+  }
+  return last;
+}
+
+// Of a root beside its guide.
+void standOn(const GuideRest& guide, std::size_t number, Vec3d place, FollowHair& hair) {
+  const MeasuringFrame& frame = guide.frame;
+  hair.guide = static_cast<std::uint32_t>(number);
+  hair.offset = Vec3f(Vec3d{dot(place, frame.normal), dot(place, frame.binormal), dot(place, frame.tangent)});
+}
+
+Status checkCount(std::size_t hairCount) {
+  return hairCount > 0 ? Status() : Status(Error{"the map of density leaves no hair; ask for more hairs"});
 }
 
 }  // namespace
 
-Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const FollowOptions& options) {
+Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const ScalpRoots& roots,
+                                          const FollowOptions& options, const FollowMaps& maps,
+                                          std::vector<std::uint32_t>* rootOf) {
+  if (Status checked = checkOptions(guides, options); !checked) return checked.error();
+  const NearGuides near(guides);
+  std::vector<std::pair<FollowHair, std::uint32_t>> found;
+  for (std::uint32_t i = 0; i < roots.places.size(); ++i) {
+    const auto shares = near.sharesAt(roots.places[i]);
+    if (!maps.density.empty() && roots.ranks[i] > factorAt(maps.density, shares)) continue;
+    FollowHair hair = variedHair(options, factorAt(maps.clump, shares), SeededRandom(options.seed, i));
+    const GuideRest& guide = guides[shares[0].guide];
+    standOn(guide, shares[0].guide, roots.places[i] - guide.root, hair);
+    found.emplace_back(hair, i);
+  }
+  if (Status some = checkCount(found.size()); !some) return some.error();
+  std::ranges::stable_sort(found, {}, [](const auto& each) { return each.first.guide; });
+  std::vector<FollowHair> hairs;
+  if (rootOf) rootOf->clear();
+  for (const auto& [hair, root] : found) {
+    hairs.push_back(hair);
+    if (rootOf) rootOf->push_back(root);
+  }
+  return hairs;
+}
+
+Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const FollowOptions& options,
+                                          const FollowMaps& maps) {
   if (Status checked = checkOptions(guides, options); !checked) return checked.error();
   const auto neighbours = neighboursOf(guides);
   const auto hairCount = static_cast<std::size_t>(options.hairCount);
+  const std::vector<std::size_t> last = lastHairs(guides.size(), hairCount, maps.density);
+  if (Status some = checkCount(last.back()); !some) return some.error();
   std::vector<FollowHair> hairs;
-  hairs.reserve(hairCount);
+  hairs.reserve(last.back());
   for (std::size_t g = 0; g < guides.size(); ++g) {
-    const std::size_t count = (g + 1) * hairCount / guides.size() - g * hairCount / guides.size();
+    const std::size_t count = last[g] - (g > 0 ? last[g - 1] : 0);
     const ScalpPatch patch(guides[g], neighbours[g]);
     const double firstAngle = SeededRandom(options.seed, g).between(0, 2 * std::numbers::pi);
     for (const Vec3d& place : placesOn(patch, options.reach, count, firstAngle)) {
-      FollowHair hair = variedHair(options, SeededRandom(options.seed, guides.size() + hairs.size()));
-      const MeasuringFrame& frame = guides[g].frame;
-      hair.guide = static_cast<std::uint32_t>(g);
-      hair.offset =
-          Vec3f(Vec3d{dot(place, frame.normal), dot(place, frame.binormal), dot(place, frame.tangent)});
+      FollowHair hair = variedHair(options, factorAt(maps.clump, g),
+                                   SeededRandom(options.seed, guides.size() + hairs.size()));
+      standOn(guides[g], g, place, hair);
       hairs.push_back(hair);
     }
   }

@@ -9,6 +9,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/follow/guide_rest.h"
+#include "ringlet/follow/scalp_roots.h"
 
 namespace ringlet {
 
@@ -35,10 +36,24 @@ struct FollowOptions {
   std::uint64_t seed = 1;
 };
 
+/// Factors of each guide; empty: 1 everywhere.
+struct FollowMaps {
+  std::span<const float> density;  // share of the hairs that are there, in [0, 1]; above 1 counts as 1
+  std::span<const float> clump;    // on FollowOptions::gather, up to all of it
+};
+
 /// Hairs of all guides, those of a guide one after the other, as many of each as of any other, or one more.
 /// Roots are spread evenly over the guide's part of the scalp: where no other guide's root is nearer, and not
 /// beyond `reach`. The scalp there is the paraboloid through the roots about it. Errors: an option outside
 /// its range; no guide. Cost: guides^1.5, and with hairs.
-Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const FollowOptions& options);
+Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const FollowOptions& options,
+                                          const FollowMaps& maps = {});
+
+/// The same with these roots in place of hairCount and reach. Each follows the guide nearest to it. Maps have
+/// what they have at guides, and between them what is between. `rootOf`: the root of each hair, where one is
+/// to know.
+Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, const ScalpRoots& roots,
+                                          const FollowOptions& options, const FollowMaps& maps = {},
+                                          std::vector<std::uint32_t>* rootOf = nullptr);
 
 }  // namespace ringlet

@@ -12,6 +12,7 @@
 
 #include "layout/follow.h"
 #include "layout/hair_points.h"
+#include "ringlet/base/assert.h"
 #include "ringlet/base/in_parallel.h"
 #include "ringlet/base/packed.h"
 #include "ringlet/follow/core_weights.h"
@@ -56,6 +57,17 @@ std::vector<std::vector<CoreWeights>> weightsOf(std::span<const GuideRest> guide
     for (std::size_t g; (g = next++) < guides.size();) weights[g] = coreWeightsOf(guides[g]);
   });
   return weights;
+}
+
+layout::FollowHair recordOf(const FollowHair& hair, std::uint32_t firstPoint, Vec3f rootOffset) {
+  return {.offset = {hair.offset.x, hair.offset.y, hair.offset.z},
+          .guide = hair.guide,
+          .phase = hair.phase,
+          .radius = hair.radius,
+          .lengthShare = hair.length,
+          .spread = hair.spread,
+          .firstPoint = firstPoint,
+          .rootOffset = {rootOffset.x, rootOffset.y, rootOffset.z}};
 }
 
 std::uint32_t groupSizeOn(const gpu::Device& device) {
@@ -117,7 +129,7 @@ Status FollowStage::makeNear(gpu::Device& device) {
   return {};
 }
 
-Status FollowStage::makeKernels(gpu::Device& device) {
+Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp) {
   gpu::BufferTable table = bodies_.bufferTable();
   const auto bind = [&](std::uint32_t number, const gpu::Buffer& buffer) {
     table.emplace(number, buffer);
@@ -139,7 +151,8 @@ Status FollowStage::makeKernels(gpu::Device& device) {
     description.remedy = "take another device, or fewer hairs";
     description.pushConstantBytes = sizeof(layout::FollowParameters);
     description.constants = {{layout::kSpecGroupSize, groupSizeOn(device)},
-                             {layout::kSpecTexels, texels ? 1u : 0u}};
+                             {layout::kSpecTexels, texels ? 1u : 0u},
+                             {layout::kSpecOnScalp, isOnScalp ? 1u : 0u}};
     description.groupSize = groupSizeOn(device);
     auto kernel = gpu::BoundKernel::create(device, description, table);
     if (!kernel) return kernel.error();
@@ -149,7 +162,8 @@ Status FollowStage::makeKernels(gpu::Device& device) {
 }
 
 Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const GuideRest> guides,
-                                        std::span<const FollowHair> hairs, std::span<const Body> bodies) {
+                                        std::span<const FollowHair> hairs, std::span<const Body> bodies,
+                                        bool isOnScalp) {
   std::uint64_t particles = 0, points = 0;
   std::size_t stride = 0;
   for (const GuideRest& guide : guides) {
@@ -185,30 +199,36 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   std::vector<layout::FollowHair> records;
   self.firstPoint_ = {0};
   for (const FollowHair& hair : hairs) {
-    records.push_back({.offset = {hair.offset.x, hair.offset.y, hair.offset.z},
-                       .guide = hair.guide,
-                       .phase = hair.phase,
-                       .radius = hair.radius,
-                       .lengthShare = hair.length,
-                       .spread = hair.spread,
-                       .firstPoint = self.firstPoint_.back(),
-                       .unused = {}});
+    records.push_back(recordOf(hair, self.firstPoint_.back(), {}));
     self.firstPoint_.push_back(self.firstPoint_.back() +
                                static_cast<std::uint32_t>(guides[hair.guide].arcs.size()));
   }
   auto filled = createFilled(device, records, "hairs");
   if (!filled) return filled.error();
   self.others_.push_back(std::move(*filled));
+  if (isOnScalp) {
+    self.onScalp_.assign(hairs.begin(), hairs.end());
+    std::vector<std::uint32_t> first{0};
+    for (const GuideRest& guide : guides)
+      first.push_back(first.back() + static_cast<std::uint32_t>(guide.arcs.size()));
+    for (const FollowHair& hair : hairs) self.guideRoots_.push_back(first[hair.guide]);
+  }
   if (Status made = self.makeNear(device); !made) return made.error();
-  if (Status made = self.makeKernels(device); !made) return made.error();
+  if (Status made = self.makeKernels(device, isOnScalp); !made) return made.error();
   return self;
 }
 
-Status FollowStage::setPose(std::span<const Vec3d> positions) {
+Status FollowStage::setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots) {
+  RINGLET_ASSERT(roots.size() == onScalp_.size(), "hairs on a scalp have a root each");
   std::vector<layout::vec4> records;
   records.reserve(positions.size());
   for (const Vec3d& position : positions) records.push_back(packed(position));
-  return positions_.upload(std::as_bytes(std::span(records)));
+  if (Status done = positions_.upload(std::as_bytes(std::span(records))); !done || roots.empty()) return done;
+  std::vector<layout::FollowHair> hairs;
+  hairs.reserve(roots.size());
+  for (std::size_t h = 0; h < roots.size(); ++h)
+    hairs.push_back(recordOf(onScalp_[h], firstPoint_[h], Vec3f(roots[h] - positions[guideRoots_[h]])));
+  return others_.back().upload(std::as_bytes(std::span(hairs)));
 }
 
 void FollowStage::record(gpu::CommandList& list, Quatd head) const {

@@ -22,13 +22,15 @@ class FollowStage {
   /// `hairs`: of planHairs, of these guides. `bodies`: that hairs stay out of where their guides do; they
   /// pass checkBody. Errors: the device lacks memory, or sees too little of a buffer at once; the message
   /// says how many hairs it has room for. Cost: the guides' cores, on all processors.
+  /// `isOnScalp`: setPose says where the hairs' roots are.
   static Result<FollowStage> create(gpu::Device& device, std::span<const GuideRest> guides,
-                                    std::span<const FollowHair> hairs, std::span<const Body> bodies = {});
+                                    std::span<const FollowHair> hairs, std::span<const Body> bodies = {},
+                                    bool isOnScalp = false);
   FollowStage(FollowStage&&) = default;
 
   /// The guides' particles [m], one after the other in the guides' order. The next frame follows them. No
-  /// submission may be using them meanwhile.
-  Status setPose(std::span<const Vec3d> positions);
+  /// submission may be using them meanwhile. `roots`: of hairs on a scalp [m], one each; else none.
+  Status setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots = {});
 
   /// vec4[particles]: the same on the device, for what writes it there (DevicePose).
   const gpu::Buffer& pose() const { return positions_; }
@@ -54,7 +56,7 @@ class FollowStage {
       : positions_(std::move(positions)), points_(std::move(points)), bodies_(std::move(bodies)) {}
   Status makeGuides(gpu::Device& device, std::span<const GuideRest> guides);
   Status makeNear(gpu::Device& device);
-  Status makeKernels(gpu::Device& device);
+  Status makeKernels(gpu::Device& device, bool isOnScalp);
 
   // Points of hairs near bodies: how many there are, none, and which.
   struct Near {
@@ -66,6 +68,8 @@ class FollowStage {
   std::optional<Near> near_;  // where there are bodies
   std::vector<gpu::Buffer> others_;
   std::vector<gpu::BoundKernel> kernels_;  // in their order; that of bodies only where there are any
+  std::vector<FollowHair> onScalp_;        // the hairs, where a scalp carries their roots; else none
+  std::vector<std::uint32_t> guideRoots_;  // the particle at the root of each one's guide
   std::vector<std::uint32_t> firstPoint_;
   std::uint32_t guideCount_ = 0, particleCount_ = 0, hairCount_ = 0, pointCount_ = 0, stride_ = 0;
 };

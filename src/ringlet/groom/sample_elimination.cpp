@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <cstddef>
 #include <numbers>
 #include <numeric>
-#include <set>
+#include <queue>
+#include <unordered_map>
 #include <utility>
 
 namespace ringlet {
@@ -34,13 +35,41 @@ class Cells {
 
  private:
   using Cell = std::array<long, 3>;
+  struct Hash {
+    std::size_t operator()(const Cell& cell) const {
+      std::size_t hash = 0;
+      for (const long number : cell)
+        hash = (hash ^ static_cast<std::size_t>(number)) * 0x9e3779b97f4a7c15u;  // 2^64 over the golden ratio
+      return hash ^ (hash >> 32);
+    }
+  };
   Cell cellOf(Vec3d p) const {
     return {std::lround(std::floor(p.x / edge_)), std::lround(std::floor(p.y / edge_)),
             std::lround(std::floor(p.z / edge_))};
   }
 
   double edge_;
-  std::map<Cell, std::vector<std::uint32_t>> cells_;
+  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells_;
+};
+
+// What each sample adds to the weights of those near it.
+struct Shares {
+  std::vector<std::size_t> first{0};  // of each sample, and one more
+  std::vector<std::uint32_t> other;
+  std::vector<double> weight;
+
+  Shares(std::span<const Vec3d> points, double reach) {
+    const Cells cells(points, reach);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      cells.eachNear(points[i], [&](std::uint32_t j) {
+        const double near = 1 - length(points[i] - points[j]) / reach;
+        if (j == i || !(near > 0)) return;
+        other.push_back(j);
+        weight.push_back(std::pow(near, 8));
+      });
+      first.push_back(other.size());
+    }
+  }
 };
 
 }  // namespace
@@ -53,32 +82,29 @@ std::vector<std::uint32_t> eliminateSamples(std::span<const Vec3d> points, std::
 
   // Twice the radius of discs in a hexagonal packing.
   const double reach = 2 * std::sqrt(area / (2 * std::numbers::sqrt3 * static_cast<double>(count)));
-  const auto weigh = [&](std::uint32_t i, std::uint32_t j) {
-    return std::pow(std::max(0.0, 1 - length(points[i] - points[j]) / reach), 8);
-  };
-  const Cells cells(points, reach);
+  const Shares shares(points, reach);
   std::vector<double> weights(points.size());
-  for (const std::uint32_t i : kept)
-    cells.eachNear(points[i], [&](std::uint32_t j) { weights[i] += j == i ? 0 : weigh(i, j); });
-
-  using Entry = std::pair<double, std::uint32_t>;  // by falling weight
-  std::set<Entry> left;
-  for (const std::uint32_t i : kept) left.emplace(-weights[i], i);
-  while (left.size() > count) {
-    const std::uint32_t gone = left.begin()->second;
-    left.erase(left.begin());
-    cells.eachNear(points[gone], [&](std::uint32_t j) {
-      const auto entry = left.find({-weights[j], j});
-      const double weight = j == gone ? 0 : weigh(gone, j);
-      if (entry == left.end() || weight == 0) return;
-      left.erase(entry);
-      weights[j] -= weight;
-      left.emplace(-weights[j], j);
-    });
+  using Entry = std::pair<double, std::int64_t>;  // a weight, and the sample with its sign changed
+  std::priority_queue<Entry> heaviest;
+  for (const std::uint32_t i : kept) {
+    for (std::size_t k = shares.first[i]; k < shares.first[i + 1]; ++k) weights[i] += shares.weight[k];
+    heaviest.emplace(weights[i], -std::int64_t{i});
   }
-  kept.clear();
-  for (const auto& [weight, i] : left) kept.push_back(i);
-  std::ranges::sort(kept);
+  std::vector<bool> isGone(points.size());
+  for (std::size_t left = points.size(); left > count;) {
+    const auto [weight, sample] = heaviest.top();
+    heaviest.pop();
+    const auto gone = static_cast<std::uint32_t>(-sample);
+    if (weight != weights[gone]) {  // it has become lighter since
+      heaviest.emplace(weights[gone], sample);
+      continue;
+    }
+    isGone[gone] = true;
+    --left;
+    for (std::size_t k = shares.first[gone]; k < shares.first[gone + 1]; ++k)
+      if (!isGone[shares.other[k]]) weights[shares.other[k]] -= shares.weight[k];
+  }
+  std::erase_if(kept, [&](std::uint32_t i) { return isGone[i]; });
   return kept;
 }
 

@@ -47,6 +47,14 @@ HeadPose HeadScalp::headAt(double t) const {
   return pose;
 }
 
+TriangleMesh HeadScalp::meshAtBinding() const {
+  const HeadPose head = headAt(choice_.start);
+  const Quatd toHead = head.rotation.conjugate();
+  TriangleMesh mesh{scalp_.mesh()->pointsAt(firstSeconds_), scalp_.mesh()->triangles()};
+  for (Vec3d& point : mesh.points) point = rotate(toHead, point - head.position);
+  return mesh;
+}
+
 std::vector<BodyPose> HeadScalp::rootPosesAt(double t) const {
   t = beforeCut(head_, t);
   if (t < choice_.start) return std::vector<BodyPose>(scalp_.rootCount());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
+#include "ringlet/bodies/triangle_mesh.h"
 #include "ringlet/motion/scalp.h"
 #include "ringlet/motion/skinned_mesh.h"
 #include "ringlet/scene/body.h"
@@ -37,6 +38,13 @@ class HeadScalp {
   /// first key, and comes with the head. While the head is cut (Keyframes::isCut) they are what they were
   /// before. Cost: that of Scalp::posesAt.
   std::vector<BodyPose> rootPosesAt(double t) const;
+
+  /// The mesh as it was when roots were bound to it, in the groom's axes [m].
+  TriangleMesh meshAtBinding() const;
+  /// Other roots of the same groom, bound to the same mesh in the same way.
+  Result<HeadScalp> bindOthers(std::span<const Vec3d> roots) const {
+    return bind(scalp_.mesh(), roots, head_, choice_);
+  }
 
   const Scalp& scalp() const { return scalp_; }
 

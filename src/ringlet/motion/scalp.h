@@ -30,6 +30,7 @@ class Scalp {
   /// frame is any across what is left of it. Cost: linear in roots and mesh.
   std::vector<HeadPose> posesAt(double t) const;
 
+  const std::shared_ptr<const SkinnedMesh>& mesh() const { return mesh_; }
   std::size_t rootCount() const { return bindings_.size(); }
   /// The triangle a root is bound to.
   std::size_t triangleOf(std::size_t root) const { return bindings_[root].triangle; }

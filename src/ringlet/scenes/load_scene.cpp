@@ -42,9 +42,9 @@ Result<TriangleMesh> readGltfMesh(const SceneBody& scene, std::vector<std::strin
   return mesh;
 }
 
-// The distance grid of a mesh, read or made.
-Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, double metresPerUnit, Body& body,
-                    std::vector<std::string>& warnings) {
+// The triangles of a body of shape mesh, read or made, in its own axes [m].
+Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, double metresPerUnit,
+                            std::vector<std::string>& warnings) {
   TriangleMesh mesh;
   if (scene.generate == "head") {
     HeadParameters head;
@@ -58,7 +58,15 @@ Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, double metr
     mesh = std::move(*read);
   }
   for (Vec3d& point : mesh.points) point = point * scene.scale;
-  auto made = makeDistanceGrid(mesh, {.cells = scene.cells});
+  return mesh;
+}
+
+// Its distance grid.
+Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, double metresPerUnit, Body& body,
+                    std::vector<std::string>& warnings) {
+  const auto mesh = meshOf(scene, groom, metresPerUnit, warnings);
+  if (!mesh) return mesh.error();
+  auto made = makeDistanceGrid(*mesh, {.cells = scene.cells});
   if (!made) return made.error();
   for (const std::string& warning : made->warnings)
     warnings.push_back(fmt::format("the body {}: {}", body.name, warning));
@@ -247,6 +255,41 @@ Status addRadii(const SceneFile& scene, std::size_t strandCount, ContactSettings
   return {};
 }
 
+// The body that hairs grow on, where the head is at the start.
+Status addHairScalp(const SceneFile& scene, LoadedScene& loaded) {
+  const std::string& name = scene.output.hairScalp;
+  if (name.empty()) return {};
+  for (std::size_t i = 0; i < loaded.bodies.size(); ++i) {
+    if (loaded.bodies[i].name != name) continue;
+    if (scene.bodies[i].shape != "mesh")
+      return Error{fmt::format("the body {} that hairs grow on is a {}; expected a mesh", name,
+                               scene.bodies[i].shape)};
+    std::vector<std::string> said;  // with the body
+    auto mesh = meshOf(scene.bodies[i], scene.groom, loaded.groom.metresPerUnit, said);
+    if (!mesh) return mesh.error();
+    const HeadPose head = loaded.motion.poseAt(0);
+    const BodyPose pose = loaded.bodies[i].poseAt(0, head);
+    for (Vec3d& point : mesh->points)
+      point = rotate(head.rotation.conjugate(), pose.position + rotate(pose.rotation, point) - head.position);
+    loaded.hairs.scalp = std::make_shared<const TriangleMesh>(std::move(*mesh));
+    return {};
+  }
+  return Error{fmt::format("no body is named {}, which output.hair_scalp says that hairs grow on", name)};
+}
+
+// What differs from strand to strand in what is shown.
+Status addHairMaps(const SceneFile& scene, LoadedScene& loaded) {
+  const std::pair<const char*, std::vector<float>*> maps[] = {{kWidthMap, &loaded.widthFactors},
+                                                              {kHairsMap, &loaded.hairs.densities},
+                                                              {kClumpMap, &loaded.hairs.clumps}};
+  for (const auto& [number, into] : maps) {
+    auto factors = factorsOf(number, scene, loaded.groom.strandCount());
+    if (!factors) return factors.error();
+    *into = std::move(*factors);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims) {
@@ -314,9 +357,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
     return added.error();
   if (Status added = addRadii(scene, loaded.groom.strandCount(), loaded.settings.contacts); !added)
     return added.error();
-  auto widths = factorsOf(kWidthMap, scene, loaded.groom.strandCount());
-  if (!widths) return widths.error();
-  loaded.widthFactors = std::move(*widths);
+  if (Status added = addHairMaps(scene, loaded); !added) return added.error();
   auto material = loadMaterialOf(scene, loaded.settings.integrator, loaded.warnings);
   if (!material) return material.error();
   for (const StrandFactors& factors : material->factors) {
@@ -332,6 +373,7 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   if (!bodies) return bodies.error();
   loaded.bodies = std::move(*bodies);
   bindAndCheck(scene, loaded);
+  if (Status added = addHairScalp(scene, loaded); !added) return added.error();
   if (!scene.timeKeys.empty()) {
     auto keys = SceneKeys::make(scene);
     if (!keys) return keys.error();

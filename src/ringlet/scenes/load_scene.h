@@ -1,12 +1,14 @@
 // What a scene names, read: the groom, the bodies, whatever moves as a file says.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/bodies/triangle_mesh.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/groom/loaded_groom.h"
 #include "ringlet/motion/head_scalp.h"
@@ -38,6 +40,12 @@ Result<Motion> jointMotion(const SceneFile& scene, const std::string& joint,
 Result<Material> loadMaterialOf(const SceneFile& scene, Integrator integrator,
                                 std::vector<std::string>& warnings);
 
+/// Where hairs that follow the strands stand, and how they differ from strand to strand.
+struct SceneHairs {
+  std::shared_ptr<const TriangleMesh> scalp{};  // in the groom's axes [m]; none: [scalp]'s, or none
+  std::vector<float> densities{}, clumps{};     // factors of each strand; empty: all 1
+};
+
 /// Everything that a run of a scene starts from.
 struct LoadedScene {
   Groom groom;
@@ -46,8 +54,9 @@ struct LoadedScene {
   Motion motion;
   std::vector<Vec3d> rootShifts{};  // as InitialState takes them
   std::vector<Body> bodies{};
-  std::optional<HeadScalp> scalp{};   // that roots follow; none: the head carries them
-  SceneForces forces{};               // fields and holds
+  std::optional<HeadScalp> scalp{};  // that roots follow; none: the head carries them
+  SceneForces forces{};              // fields and holds
+  SceneHairs hairs{};
   std::vector<float> widthFactors{};  // of each strand, on the width in pictures and USD files; empty: all 1
   double preRollSeconds = 0;
   int frameCount = 48;                  // where the file does not say: the length of keys, or this

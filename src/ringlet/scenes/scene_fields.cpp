@@ -446,14 +446,16 @@ std::span<const SceneField<SceneMap>> mapFields() {
   static const std::string numbers = [] {
     std::string list;
     for (const auto& parameter : mappedParameters()) list += std::string(parameter.key) + ", ";
-    return list + kGoalStrengthMap + ", " + kContactRadiusMap + ", " + kWidthMap;
+    for (const std::string_view other : kOtherMaps) list += std::string(other) + ", ";
+    return list.substr(0, list.size() - 2);
   }();
   static const SceneField<M> all[] = {
       {"number",
        "",
        "none",
        "Number of the material that differs from strand to strand; or the strength of [goal], the radius in "
-       "contacts, the width in pictures and USD files.",
+       "contacts, the width in pictures and USD files; of hairs that follow the share that is there (up to "
+       "1), and `clump`.",
        &M::number,
        {},
        numbers},
@@ -654,6 +656,11 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "strands.",
        &O::hairs,
        {1, 1e7}},
+      {"hair_scalp", "", "none; the mesh of [scalp], else around the strands' roots",
+       "Name of a [[body]] of shape mesh: these hairs' roots are on it, evenly spread where strands stand.",
+       &O::hairScalp},
+      {"hair_scalp_file", "", "none",
+       "In place of hair_scalp: an OBJ file of the mesh, in the groom's axes and unit.", &O::hairScalpFile},
       {"frizz",
        "",
        "",

@@ -1,6 +1,7 @@
 // Maps of a scene: factors on numbers of the material, strand by strand. [[map]] of a scene file.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,21 +29,25 @@ Result<std::vector<StrandRun>> parseStrands(std::string_view text, double factor
 /// is there twice.
 Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text);
 
-/// In place of a number of the material: the strength of the goal, the radius in contacts, and the width of
-/// what is drawn and written.
+/// In place of a number of the material: the strength of the goal, the radius in contacts, the width of what
+/// is drawn and written, and of hairs that follow, how many there are and how they come together.
 inline constexpr const char* kGoalStrengthMap = "goal.strength";
 inline constexpr const char* kContactRadiusMap = "contacts.radius";
 inline constexpr const char* kWidthMap = "output.width";
+inline constexpr const char* kHairsMap = "output.hairs";
+inline constexpr const char* kClumpMap = "output.clump";
+inline constexpr std::string_view kOtherMaps[] = {kGoalStrengthMap, kContactRadiusMap, kWidthMap, kHairsMap,
+                                                  kClumpMap};
 
 /// Whether a map is of a number of the material, or of a preset.
 inline bool isOfMaterial(const SceneMap& map) {
-  return map.number != kGoalStrengthMap && map.number != kContactRadiusMap && map.number != kWidthMap;
+  return std::ranges::find(kOtherMaps, map.number) == std::ranges::end(kOtherMaps);
 }
 
 /// Whether the strands and factors of a map can be read. Errors: those of applyMaps.
 Status checkStrands(const SceneMap& map, const SceneFile& scene);
 
-/// Factors of one of the three by strand, groom order; empty: no map is of it. Errors: those of applyMaps,
+/// Factors of one of these by strand, groom order; empty: no map is of it. Errors: those of applyMaps,
 /// and a strand that the groom does not have.
 Result<std::vector<float>> factorsOf(std::string_view number, const SceneFile& scene,
                                      std::size_t strandCount);
