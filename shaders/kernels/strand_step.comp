@@ -35,6 +35,7 @@ vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal an
 vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
 float inverseLength[RUN];  // 1 / the groom's edge length
 vec2 bendVariation[RUN];   // factors of bend stiffness and damping, where they vary along the strand
+const int kSecond = RUN > 1 ? 1 : 0;
 uint first;            // place along the strand of this lane's particle 0
 
 // Of the step at hand:
@@ -58,7 +59,9 @@ uint degenerateEdges = 0;
 float velocityResidual = 0.0;
 
 bool isParticle(int k) { return first + k < strand.particleCount; }
-bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
+// What was cut off begins with the particle that it was cut from, which is pinned; the edge between is void.
+bool isCutEdge(int k) { return kFalls && first + k == 0; }
+bool isEdge(int k) { return first + k + 1 < strand.particleCount && !isCutEdge(k); }
 bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 
@@ -107,6 +110,7 @@ void measureEdges() {
     degenerateEdges += squared <= 1e-30 && isEdge(k) ? 1 : 0;
     maxStretch = max(maxStretch, eLength[k] * inverseLength[k]);
   }
+  if (isCutEdge(0)) e[0] = e[kSecond], dv[0] = dv[kSecond], eHat[0] = eHat[kSecond];  // smoothing begins with it
 }
 
 // The smoothed curves: directions and normals of the frames from one, forces of the core spring from the other. Two
@@ -206,6 +210,10 @@ void coreForces() {
       h[k] = state.d;
     }
     scale *= smoothedShare(strand.coreBeta);
+    if (isCutEdge(0)) {  // smoothed in its place was the edge after it
+      h[kSecond] += h[0];
+      h[0] = vec3(0);
+    }
   }
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
     h[k] *= scale;
@@ -382,8 +390,15 @@ void computeForces(uint step) {
   vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge);
   vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
   vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
-  smoothCurves(edgeStart, velocityStart, directionOf(firstEdge),
-               rotate(rotationAtStart(step), someNormal(restDirection())));
+  vec3 direction = directionOf(firstEdge);
+  vec3 normal = rotate(rotationAtStart(step), someNormal(restDirection()));
+  if (kFalls) {  // frames begin along the strand's own first edge
+    normal = carriedNormal(normal, direction, eHat[0]);
+    direction = eHat[0];
+    edgeStart = e[0];
+    velocityStart = dv[0];
+  }
+  smoothCurves(edgeStart, velocityStart, direction, normal);
   shapeForces();
   coreForces();
 }
