@@ -266,8 +266,8 @@ class Simulation {
   /// other hair. It keeps its places in groom order. A strand may be cut again, nearer to its root. Needs the
   /// integrator jacobi; no frame is in flight. Strands that are carried rigidly stay whole. Fails, without a
   /// change, with contacts, for a part of hair, and where nothing would fall or fewer than two particles, or
-  /// fewer than follow the head, would stay. Afterwards devicePositions() and tap() know only what is kept, and
-  /// HairFrames refuses this hair. Checkpoints do not hold cuts: make the same ones, call by call, before
+  /// fewer than follow the head, would stay. Afterwards devicePositions() and tap() know only what is kept,
+  /// and HairFrames refuses this hair. Checkpoints do not hold cuts: make the same ones, call by call, before
   /// restore(). Cost: a simulation of the strands that are cut.
   Status cut(std::span<const StrandCut> cuts);
   /// The present settings and material; initially the asset's. Checkpoints hold neither them nor bodies,
