@@ -83,6 +83,7 @@ void measureEdges() {
     degenerateEdges += squared <= 1e-30 && isEdge(k) ? 1 : 0;
     maxStretch = max(maxStretch, eLength[k] * inverseLength[k]);
   }
+  if (isCutEdge(0)) e[0] = e[kSecond], dv[0] = dv[kSecond], eHat[0] = eHat[kSecond];  // smoothing begins with it
 }
 
 // The smoothed curves: directions and normals of the frames from one, forces of the core spring from the other. Two
@@ -182,6 +183,10 @@ void coreForces() {
     vec3 core = scale * (isTransposed ? state.d : curveForce[k]);
     if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(core, 0));
     force[k] += core;
+  }
+  if (isCutEdge(0)) {  // smoothed in its place was the edge after it; it has no other force
+    force[kSecond] += force[0];
+    force[0] = vec3(0);
   }
 }
 
@@ -331,8 +336,15 @@ void computeForces(uint step) {
   vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge);
   vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
   vec3 velocityStart = kIntegrator == kIntegratorPaper ? dv[0] : turningVelocityBefore(step, firstEdge);
-  smoothCurves(edgeStart, velocityStart, directionOf(firstEdge),
-               rotate(rotationAtStart(step), someNormal(restDirection())));
+  vec3 direction = directionOf(firstEdge);
+  vec3 normal = rotate(rotationAtStart(step), someNormal(restDirection()));
+  if (kFalls) {  // frames begin along the strand's own first edge
+    normal = carriedNormal(normal, direction, eHat[0]);
+    direction = eHat[0];
+    edgeStart = e[0];
+    velocityStart = dv[0];
+  }
+  smoothCurves(edgeStart, velocityStart, direction, normal);
   shapeForces();
   coreForces();
 }

@@ -27,6 +27,7 @@ RINGLET_CONSTANT uint kSpecTurbulent = 15;
 RINGLET_CONSTANT uint kSpecGoals = 16;
 RINGLET_CONSTANT uint kSpecFields = 17;
 RINGLET_CONSTANT uint kSpecGoalShape = 18;
+RINGLET_CONSTANT uint kSpecFalls = 19;
 
 // Bindings of the strand_step kernels, all in set 0.
 RINGLET_CONSTANT uint kBindPositions = 0;   // vec4[particles]: position relative to the head [m], 0

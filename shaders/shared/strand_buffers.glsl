@@ -44,6 +44,7 @@ const bool kGoalShape = false;
 #endif
 const bool kPulls = kGoals || kFields;
 layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own
+layout(constant_id = kSpecFalls) const bool kFalls = false;  // strands are what was cut off: no root carries them
 layout(constant_id = kSpecForces) const bool kForces = false;            // forces from outside act on particles
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };

@@ -13,6 +13,7 @@
 vec3 p[RUN];  // [m], from the carried origin of the groom
 vec3 v[RUN];  // [m/s]
 // What does not change:
+const int kSecond = RUN > 1 ? 1 : 0;
 uint first;            // place along the strand of particle 0 of the run
 vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal and their cross product, w stretch rest
                        // length
@@ -38,7 +39,9 @@ uint degenerateEdges = 0;
 float velocityResidual = 0.0;
 
 bool isParticle(int k) { return first + k < strand.particleCount; }
-bool isEdge(int k) { return first + k + 1 < strand.particleCount; }
+// What was cut off begins with the particle that it was cut from, which is pinned; the edge between is void.
+bool isCutEdge(int k) { return kFalls && first + k == 0; }
+bool isEdge(int k) { return first + k + 1 < strand.particleCount && !isCutEdge(k); }
 bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 

@@ -52,6 +52,10 @@ class Backend {
   virtual Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) = 0;
   virtual Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
                           double dampingRatio, std::span<const Vec3f> from) = 0;
+  /// As Simulation::cut. Errors: where hair is not stepped by one GPU.
+  virtual Status cut(std::span<const StrandCut> /*cuts*/) {
+    return Error{"hair is cut on one GPU only (--backend gpu, without --devices)"};
+  }
   /// Of the frame waited for last. Groom order, relative to the head's origin, along world axes [m].
   virtual std::vector<Vec3f> framePositions() = 0;
   /// The same of now, before the first frame too, and no frame in flight.

@@ -38,6 +38,7 @@ class GpuBackend : public Backend {
                   std::span<const Vec3f> from) override {
     return simulation_.setGoals(places, strengths, dampingRatio, from);
   }
+  Status cut(std::span<const StrandCut> cuts) override { return simulation_.cut(cuts); }
   std::vector<Vec3f> framePositions() override { return simulation_.framePositions(); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<std::vector<std::byte>> checkpoint() override { return simulation_.checkpoint(); }

@@ -95,6 +95,18 @@ Status takeNumbers(Backend& backend, const RunInput& input, const RunOptions& op
                         numbers->material, end);
 }
 
+std::span<const TimedCuts> cutsOf(const RunInput& input, const RunOptions& options, int frame) {
+  return cutsOfFrame(input.cuts, frame, input.settings.framesPerSecond,
+                     frame == -preRollFrames(input, options));
+}
+
+Status makeCuts(Backend& backend, std::span<const TimedCuts> all) {
+  for (const TimedCuts& now : all) {
+    if (Status cut = backend.cut(now.cuts); !cut) return cut;
+  }
+  return {};
+}
+
 // The motion up to the first frame, so that hair begins it as it moves.
 Status preRoll(Backend& backend, const RunInput& input, const RunOptions& options) {
   std::optional<double> numbersOf;
@@ -102,6 +114,7 @@ Status preRoll(Backend& backend, const RunInput& input, const RunOptions& option
     const auto found = posesOfFrame(input, frame);
     if (!found) return found.error();
     const FramePoses& poses = *found;
+    if (Status cut = makeCuts(backend, cutsOf(input, options, frame)); !cut) return cut;
     if (Status taken = takeNumbers(backend, input, options, frame, numbersOf); !taken) return taken;
     const std::size_t together = options.measuresContacts ? 1 : poses.heads.size();  // as makeBackend says
     for (std::size_t step = 0; step < poses.heads.size(); step += together) {
@@ -288,6 +301,9 @@ Status HairRun::takeNumbersBefore(int frame) {
 
 Status HairRun::restore() {
   if (Status taken = takeNumbersBefore(outcome_.resumedFrom); !taken) return taken;
+  for (int frame = -preRollFrames(input_, options_); frame < outcome_.resumedFrom; ++frame) {
+    if (Status cut = makeCuts(*backend_, cutsOf(input_, options_, frame)); !cut) return cut;
+  }
   Archive computed = Archive::reading(folder_->checkpoint()->computed);
   Archive written = Archive::reading(folder_->checkpoint()->written);
   if (Status restored = stepper_->archive(computed); !restored) return restored;
@@ -319,6 +335,10 @@ Status HairRun::stepAll() {
       return afterWritten(found.error());
     }
     const FramePoses& poses = *found;
+    if (const auto cuts = cutsOf(input_, options_, frame); !cuts.empty()) {
+      if (Status taken = takeUnderWay(); !taken) return taken;
+      if (Status cut = makeCuts(*backend_, cuts); !cut) return afterWritten(cut.error());
+    }
     if (input_.keys) {
       if (Status taken = takeUnderWay(); !taken) return taken;
       if (Status taken = takeNumbers(*backend_, input_, options_, frame, numbersOf_); !taken)

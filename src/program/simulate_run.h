@@ -115,6 +115,7 @@ struct RunInput {
   const SceneKeys* keys = nullptr;        // of settings and material, which are then those of the start
   std::span<const float> widthFactors{};  // of each strand, in USD files; none: all are as wide
   const SceneHairs* hairs = nullptr;      // of hairs that follow; none: nothing is said of them
+  std::span<const TimedCuts> cuts{};      // by rising time
 };
 
 /// Sees every frame, in order, on a thread of its own, the last before runHair returns: points in the groom's

@@ -187,10 +187,8 @@ int run(Typed typed) {
   auto scene = loadScene(*file);
   if (!scene) return fail(scene.error());
   for (const std::string& warning : scene->warnings) say("ringlet view: warning: {}\n", warning);
-  if (scene->keys)
-    say("ringlet view: warning: in the window numbers that change over time ([[key]]) stay as at the start; "
-        "`ringlet "
-        "simulate` changes them\n");
+  if (!scene->cuts.empty())
+    say("ringlet view: warning: in the window hair is not cut ([[cut]]); `ringlet simulate` cuts it\n");
   if (typed.save.empty()) typed.save = typed.input.stem().string() + ".view.toml";
   const auto outcome = runScene(typed, *file, *scene);
   if (!outcome) return fail(outcome.error());

@@ -647,6 +647,18 @@ void addHairClass(py::module_& module) {
           "the "
           "place, 1 is critical. ringlet.Error for hair whose asset was built without goals=True.")
       .def(
+          "cut",
+          [](HairObject& self, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts) {
+            std::vector<StrandCut> all;
+            for (const auto& [strand, keep] : cuts) all.push_back({strand, keep});
+            self.demandNoneInFlight("cut");
+            self.ask([&](Simulation& simulation) { demand(simulation.cut(all)); });
+          },
+          py::arg("cuts"),
+          "Cuts strands from the next frame on: pairs (strand, keep); the particles from keep on fall, with "
+          "bodies, air and fields; strands that are carried rigidly stay whole. With no frame in flight. "
+          "ringlet.Error with contacts, and where nothing would fall or fewer than two particles would stay.")
+      .def(
           "set_fields",
           [](HairObject& self, const std::vector<ForceField>& fields, const std::vector<ForceField>& from) {
             if (!from.empty() && from.size() != fields.size())

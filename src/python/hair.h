@@ -80,6 +80,7 @@ class HairObject {
   }
 
   const AssetHandle& asset() const { return asset_; }
+  void demandNoneInFlight(const char* what) const;
 
   /// All in one submission.
   static void stepTogether(std::span<const std::pair<HairObject*, Frame>> frames);
@@ -90,7 +91,6 @@ class HairObject {
     std::span<const BodyPose> bodies, roots;
   };
   void demandThere() const;
-  void demandNoneInFlight(const char* what) const;
   Poses posesOf(const Frame& frame) const;
   void losing(const Status& status);
 

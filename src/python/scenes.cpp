@@ -109,6 +109,30 @@ void takeForces(const LoadedScene& scene, HairObject& hair, int frame) {
   hair.ask([&](Simulation& simulation) { demand(forces.set(simulation)); });
 }
 
+// What is cut as the frame begins.
+void makeCuts(const LoadedScene& scene, HairObject& hair, int frame) {
+  const auto cuts =
+      cutsOfFrame(scene.cuts, frame, scene.settings.framesPerSecond, frame == -preRollFrames(scene));
+  for (const TimedCuts& now : cuts)
+    hair.ask([&](Simulation& simulation) { demand(simulation.cut(now.cuts)); });
+}
+
+// All that the scene says of a frame but where things are; none is in flight.
+void prepare(const LoadedScene& scene, HairObject& hair, int frame) {
+  makeCuts(scene, hair, frame);
+  takeNumbers(scene, hair, frame);
+  takeForces(scene, hair, frame);
+}
+
+void stepFrame(const SceneObject& self, HairObject& hair, int frame) {
+  const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+  hair.demandNoneInFlight("Scene.step");
+  if (hair.asset()->groom != self.groom)
+    throw py::value_error("hair is of another scene; expected what start() of this one gave");
+  prepare(self.loaded, hair, frame);
+  hair.step(poses);
+}
+
 // The hair as it begins the first frame.
 HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::string& kernel) {
   if (!device)
@@ -138,8 +162,7 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
                                      .rootsEarlier = rootsEarlier,
                                      .rootShifts = scene.rootShifts});
   for (int frame = -preRollFrames(scene); frame < 0; ++frame) {
-    takeNumbers(scene, *hair, frame);
-    takeForces(scene, *hair, frame);
+    prepare(scene, *hair, frame);
     hair->step(frameOf(scene, frame));
   }
   return hair;
@@ -184,12 +207,11 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
   bool goesOn = true;
   for (int frame = 0; frame < count && goesOn; ++frame) {
     const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
-    if (self.loaded.keys && underWay) {
+    if ((self.loaded.keys || !self.loaded.cuts.empty()) && underWay) {
       goesOn = show(self, *hair, frame, *std::exchange(underWay, std::nullopt), callback);
       if (!goesOn) return hair;
     }
-    takeNumbers(self.loaded, *hair, frame);
-    takeForces(self.loaded, *hair, frame);
+    prepare(self.loaded, *hair, frame);
     hair->submit(poses);
     if (underWay) goesOn = show(self, *hair, frame, *underWay, callback);
     underWay = headAtEnd(poses);
@@ -312,8 +334,12 @@ void addScenes(py::module_& module) {
             return startHair(self, device, kernel);
           },
           py::arg("device") = py::none(), py::kw_only(), py::arg("kernel") = "auto",
-          "The scene's Hair as it begins the first frame, to be stepped with frame_poses. device: None: "
-          "Device().")
+          "The scene's Hair as it begins the first frame, to be stepped with step, or with frame_poses. "
+          "device: "
+          "None: Device().")
+      .def("step", &stepFrame, py::arg("hair"), py::arg("frame"),
+           "Steps hair of start() through a frame, 0 the first, as a run does: with what keys, fields, holds "
+           "and cuts give it then, where frame_poses has the motion only. Each cut is made by its own frame.")
       .def("run", &run, py::arg("callback") = py::none(), py::kw_only(), py::arg("frames") = py::none(),
            py::arg("device") = py::none(), py::arg("kernel") = "auto",
            "Steps frame after frame; returns the Hair after the last. callback: is given a Frame after each, "

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "ringlet/rest/rest_state.h"
+
 namespace ringlet::view {
 
 HeadPose Session::headAt(double seconds, const Drag& drag) const {
@@ -33,19 +35,52 @@ Result<Session> Session::create(const ComputeDevice& device, const SceneFile& fi
   auto hair = LiveHair::create(device, scene, {scene.settings, scene.material}, self.standing_);
   if (!hair) return hair.error();
   self.hairs_.push_back(std::move(*hair));
+  self.keys_[0] = scene.keys;
   return self;
+}
+
+// As keys have them at this moment, with steps enough for every key.
+Result<HairNumbers> Session::numbersNow(const SceneFile& edited, std::optional<SceneKeys>& keys) const {
+  auto numbers = numbersOf(edited, scene_->groom);
+  if (!numbers || edited.timeKeys.empty()) return numbers;
+  auto made = SceneKeys::make(edited);
+  if (!made) return made.error();
+  int steps = numbers->settings.stepsPerFrame;
+  for (const double time : made->times()) {
+    const auto then = made->at(time, steps);
+    if (!then) return then.error();
+    if (edited.simulation.stepsPerFrame) continue;
+    const auto needed = chooseStepsPerFrame(scene_->groom, then->material, then->settings);
+    if (!needed) return needed.error();
+    steps = std::max(steps, *needed);
+  }
+  auto now = made->at(seconds_, steps);
+  if (!now) return now.error();
+  keys = std::move(*made);
+  return HairNumbers{now->settings, std::move(now->material)};
+}
+
+// The numbers that keys give a frame that ends then.
+Status Session::takeKeys(std::size_t hair, double end) {
+  if (!keys_[hair]) return {};
+  const auto numbers = keys_[hair]->at(end, hairs_[hair].numbers().settings.stepsPerFrame);
+  if (!numbers) return numbers.error();
+  const auto taken = hairs_[hair].setNumbers({numbers->settings, numbers->material}, standing_);
+  return taken ? Status{} : taken.error();
 }
 
 Result<bool> Session::setEdits(const Edits& edits) {
   bool areOthers = false;
   if (!edits.compares && hairs_.size() == 2) hairs_.pop_back(), areOthers = true;
   for (std::size_t k = 0; k < (edits.compares ? 2u : 1u); ++k) {
-    const auto numbers = numbersOf(sceneWith(*file_, edits, k), scene_->groom);
+    std::optional<SceneKeys> keys;
+    const auto numbers = numbersNow(sceneWith(*file_, edits, k), keys);
     if (!numbers) return numbers.error();
     if (k < hairs_.size()) {
       const auto change = hairs_[k].setNumbers(*numbers, standing_);
       if (!change) return change.error();
       areOthers = areOthers || *change == LiveHair::Change::rebuilt;
+      keys_[k] = std::move(keys);
       continue;
     }
     // B begins as A is.
@@ -55,6 +90,7 @@ Result<bool> Session::setEdits(const Edits& edits) {
     if (!state) return state.error();
     if (Status set = hair->simulation().setState(*state); !set) return set.error();
     hairs_.push_back(std::move(*hair));
+    keys_[k] = std::move(keys);
     areOthers = true;
   }
   return areOthers;
@@ -98,16 +134,18 @@ Status Session::submitFrame() {
   headDrag.advance(frameSeconds);
   for (DraggedPose& drag : bodyDrags) drag.advance(frameSeconds);
   const HeadPose headNow = standing_.head;
-  for (LiveHair& hair : hairs_) {
+  for (std::size_t k = 0; k < hairs_.size(); ++k) {
+    LiveHair& hair = hairs_[k];
+    if (Status taken = takeKeys(k, seconds_ + frameSeconds); !taken) return taken;
     const Poses poses = posesOfNext(hair.numbers().settings);
     const auto forces =
         scene_->forces.inFrame({seconds_, headNow}, {seconds_ + frameSeconds, poses.heads.back()},
-                               hair.numbers().settings.goal, nullptr);
+                               hair.numbers().settings.goal, keys_[k] ? &*keys_[k] : nullptr);
     if (!forces) return forces.error();
     if (Status set = forces->set(hair.simulation()); !set) return set;
     if (Status submitted = hair.simulation().submitFrame(poses.heads, poses.bodies, poses.roots); !submitted)
       return submitted;
-    if (&hair != &hairs_.front()) continue;
+    if (k > 0) continue;
     const auto last = [](const std::vector<BodyPose>& all, std::size_t steps) {
       return std::vector<BodyPose>(all.end() - static_cast<std::ptrdiff_t>(all.size() / steps), all.end());
     };

@@ -2,6 +2,7 @@
 // its head and bodies are dragged; its numbers change; with one material, or with two side by side.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -51,6 +52,8 @@ class Session {
  private:
   Session(const ComputeDevice& device, const SceneFile& file, const LoadedScene& scene)
       : device_(&device), file_(&file), scene_(&scene) {}
+  Result<HairNumbers> numbersNow(const SceneFile& edited, std::optional<SceneKeys>& keys) const;
+  Status takeKeys(std::size_t hair, double end);
   HeadPose headAt(double seconds, const Drag& drag) const;
   Standing beginning(const Settings& settings) const;
 
@@ -64,6 +67,7 @@ class Session {
   const SceneFile* file_;
   const LoadedScene* scene_;
   std::vector<LiveHair> hairs_;
+  std::array<std::optional<SceneKeys>, 2> keys_;  // of A's and B's scene, where it has some
   Standing standing_;
   std::size_t frame_ = 0;
   double seconds_ = 0;

@@ -206,7 +206,15 @@ TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
                              "[simulation]\npreload = 1\nsleep_speed = 0.1\n[air]\nwind = [0.1, 0, 0]\n"
                              "[[key]]\ntime = 0.1\nair.wind = [0.1, 0, 0]\n"
                              "[[key]]\ntime = 0.2\nair.wind = [0, 0, 0]\n",
-                             120, 90}}) {
+                             120, 90},
+                        Case{"hair was cut",
+                             "[groom]\nfile = \"tuft.obj\"\n[motion]\nkind = \"shake\"\npre_roll = 0.1\n"
+                             "[[cut]]\ntime = -0.05\nat = 0.7\nstrands = \"0\"\n[[cut]]\ntime = 0.15\n"
+                             "[[key]]\ntime = 0.1\nmaterial.dials.weight = 1\nmaterial.dials.hold = 1\n"
+                             "[[key]]\ntime = 0.2\nmaterial.dials.weight = 0.7\nmaterial.dials.hold = 0.7\n"
+                             "[[key]]\ntime = 0.3\nmaterial.dials.weight = 1\nmaterial.dials.hold = 1\n",
+                             24, 14}}) {
+    if (!isGpu() && std::string_view(c.what) == "hair was cut") continue;  // refused there
     std::ofstream(folder_ / "keys.toml") << c.scene;
     const auto arguments = [&](const char* out) {
       return std::vector<std::string>{"simulate",

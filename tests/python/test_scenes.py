@@ -16,6 +16,9 @@ frames = 5
 steps_per_frame = 4
 """
 SCENES = {
+    "cut": SWATCH + '[motion]\nkind = "shake"\npre_roll = 0.1\n[[cut]]\nstrands = "1"\ntime = -0.05\nat = 0.7\n[[cut]]\n'
+                    'time = 0.08\n[[key]]\ntime = 0\nmaterial.dials.hold = 1\n[[key]]\ntime = 0.15\n'
+                    'material.dials.hold = 2\n',
     "shake": SWATCH + '[motion]\nkind = "shake"\n',
     "pre-roll": SWATCH + '[motion]\nkind = "nod"\npre_roll = 0.1\nstart = [0.5, 1, 0]\n',
     "keys": SWATCH + '[motion]\n[[motion.key]]\ntime = 0\n[[motion.key]]\ntime = 0.15\nposition = [0.05, 0, 0]\n',
@@ -116,6 +119,41 @@ def test_a_scene_stepped_by_hand_has_the_bits_of_its_run(device):
         assert head.shape == (4, 8) and bodies.shape == (4, 2, 7) and roots is None
         hair.step(head, body_poses=bodies)
     assert np.array_equal(hair.positions(), expected)
+
+
+@pytest.mark.parametrize("name", ["cut", "fields", "pre-roll"])
+def test_step_does_what_keys_fields_and_cuts_say(device, name, tmp_path):
+    smoke = np.zeros((4, 4, 4, 3), np.float32)
+    smoke[..., 1] = 1
+    np.save(tmp_path / "smoke.npy", smoke)
+    scene = ringlet.Scene.parse(SCENES[name], tmp_path)
+    expected = scene.run(device=device).positions()
+    hair = scene.start(device)
+    for frame in range(scene.frame_count):
+        scene.step(hair, frame)
+    assert np.array_equal(hair.positions(), expected)
+    with pytest.raises(ValueError, match="another scene"):
+        scene.step(ringlet.Scene.builtin("head_shake", strands=3).start(device), 0)
+
+
+def test_hair_that_is_cut_falls(device):
+    scene = ringlet.Scene.parse(SWATCH + '[motion]\nkind = "still"\n')
+    whole, hair = scene.start(device), scene.start(device)
+    before = hair.positions()
+    hair.cut([(1, 5)])
+    for _ in range(6):
+        hair.step(ringlet.Pose())
+        whole.step(ringlet.Pose())
+    first = scene.groom.first_point
+    moved = hair.positions() - before
+    assert (moved[first[1] + 5:first[2], 1] < -0.2).all() and (moved[first[1]:first[1] + 5, 1] > -0.02).all()
+    assert np.array_equal(hair.positions()[:first[1]], whole.positions()[:first[1]])
+    with pytest.raises(ringlet.Error, match="strand 1 has 5 particles"):
+        hair.cut([(1, 5)])
+    hair.submit(ringlet.Pose())
+    with pytest.raises(ringlet.Error, match="wait"):
+        hair.cut([(0, 5)])
+    hair.wait()
 
 
 def test_a_callback_may_end_the_run(device):

@@ -19,14 +19,15 @@ struct Scene {
   std::optional<LoadedScene> loaded;
 };
 
-Scene sceneOf(const char* motion = "shake") {
+Scene sceneOf(const char* motion = "shake", const std::string& more = "") {
   Scene scene;
   const auto file =
       parseScene(std::string("[groom]\ngenerate = \"head\"\nstrands = 12\nparticles = 16\nturns = 2\n"
                              "[motion]\nkind = \"") +
                      motion +
                      "\"\n[[body]]\nshape = \"sphere\"\nradius = 0.03\nposition = [0.3, 0, 0]\n"
-                     "moves = \"still\"\n",
+                     "moves = \"still\"\n" +
+                     more,
                  "scene");
   EXPECT_TRUE(file) << file.error().message;
   scene.file = *file;
@@ -77,6 +78,47 @@ TEST_F(SessionTest, StepsAsARunOfTheSceneDoes) {
   for (std::size_t i = 0; i < found.size(); ++i) ASSERT_LT(length(found[i] - positions[i]), 1e-5) << i;
   EXPECT_EQ(session.frame(), 6u);
   EXPECT_NEAR(session.seconds(), 6 / 24.0, 1e-12);
+}
+
+// Numbers over time: wind that comes, hair that becomes heavier, a field; and after an edit beside them.
+TEST_F(SessionTest, KeysAreThoseOfARun) {
+  const Scene scene = sceneOf("still",
+                              "[[field]]\nname = \"fan\"\nkind = \"uniform\"\naxis = [1, 0, 0]\n"
+                              "[[key]]\ntime = 0\nair.wind = [0, 0, 0]\nfield.fan.strength = 0\n"
+                              "material.dials.weight = 1\n"
+                              "[[key]]\ntime = 0.2\nair.wind = [3, 0, 0]\nfield.fan.strength = 4\n"
+                              "material.dials.weight = 2\n");
+  const LoadedScene& loaded = *scene.loaded;
+  Session session = make(scene);
+  const auto found = run(session, 8);
+  KernelChoice kernel;
+  kernel.fields = true;
+  auto expected = Simulation::create(device(), loaded.groom, loaded.material, loaded.settings,
+                                     {.bodies = loaded.bodies}, kernel);
+  ASSERT_TRUE(expected) << expected.error().message;
+  const auto steps = static_cast<std::size_t>(loaded.settings.stepsPerFrame);
+  for (int frame = 0; frame < 8; ++frame) {
+    const auto numbers = loaded.keys->at((frame + 1) / 24.0, loaded.settings.stepsPerFrame);
+    ASSERT_TRUE(numbers && expected->setSettings(numbers->settings) &&
+                expected->setMaterial(numbers->material));
+    const auto forces = loaded.forces.inFrame(frame / 24.0, (frame + 1) / 24.0, loaded.motion,
+                                              loaded.settings, &*loaded.keys);
+    ASSERT_TRUE(forces && forces->set(*expected));
+    ASSERT_TRUE(expected->stepFrame(std::vector<HeadPose>(steps)));
+  }
+  const auto positions = *expected->positions();
+  // The window adds up its time, and a run divides: some last bits of what keys say differ.
+  for (std::size_t i = 0; i < found.size(); ++i) ASSERT_LT(length(found[i] - positions[i]), 1e-5) << i;
+  EXPECT_NEAR(session.hairs()[0].numbers().settings.air.wind.x, 3, 1e-9);
+
+  ASSERT_TRUE(session.reset());
+  Edits edits = editsOf(scene.file);
+  edits.materials[0].dials.hold = 2;
+  ASSERT_TRUE(session.setEdits(edits));
+  run(session, 8);
+  EXPECT_NEAR(session.hairs()[0].numbers().settings.air.wind.x, 3, 1e-9);
+  EXPECT_NEAR(session.hairs()[0].numbers().material.gravityFactor, 2, 1e-9);
+  EXPECT_GT(session.hairs()[0].numbers().material.bendStiffness, 1.9 * loaded.material.bendStiffness);
 }
 
 TEST_F(SessionTest, ResetBringsTheBeginningBack) {

@@ -125,7 +125,7 @@ Status FollowStage::makeNear(gpu::Device& device) {
   auto points = gpu::Buffer::create(device, std::uint64_t{pointCount_} * sizeof(std::uint32_t),
                                     gpu::BufferKind::storage, "points near bodies");
   if (!points) return points.error();
-  near_.emplace(std::move(*count), std::move(*none), std::move(*points));
+  near_.emplace(Near{std::move(*count), std::move(*none), std::move(*points)});
   return {};
 }
 

@@ -385,6 +385,13 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) 
   if ((loaded.forces.haveFields() || loaded.forces.haveGoals()) &&
       loaded.settings.integrator != Integrator::jacobi)
     return Error{"fields, holds and goals of a file need the integrator jacobi; this run has another"};
+  auto cuts = cutsOf(scene, loaded.groom, loaded.settings.rootCount);
+  if (!cuts) return cuts.error();
+  loaded.cuts = std::move(*cuts);
+  if (!loaded.cuts.empty() && loaded.settings.integrator != Integrator::jacobi)
+    return Error{"hair is cut with the integrator jacobi only; this run has another"};
+  if (!loaded.cuts.empty() && loaded.settings.contacts.on)
+    return Error{"hair with contacts is not cut: leave out [contacts] or [[cut]]"};
   if (!scene.simulation.stepsPerFrame) {
     const auto steps = stepsOf(loaded);
     if (!steps) return steps.error();

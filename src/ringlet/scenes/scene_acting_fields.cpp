@@ -1,4 +1,5 @@
-// Implements scenes/scene_fields.h: of what acts on hair beside bodies and air, [[field]] and [[hold]].
+// Implements scenes/scene_fields.h: of what acts on hair beside bodies and air, [[field]], [[hold]]
+// and [[cut]].
 #include <limits>
 
 #include "ringlet/scenes/scene_fields.h"
@@ -115,6 +116,20 @@ std::span<const SceneField<SceneHold>> holdFields() {
       {"start", "s", "from the beginning", "When it takes hold.", &H::start, kTimes},
       {"release", "s", "never", "When it lets go.", &H::release, kTimes},
       {"ease", "s", "", "How long taking hold and letting go last.", &H::ease, {0, 3600}},
+  };
+  return all;
+}
+
+std::span<const SceneField<SceneCut>> sceneCutFields() {
+  using C = SceneCut;
+  static const SceneField<C> all[] = {
+      {"name", "", "its number", "Name for messages.", &C::name},
+      {"strands", "", "all", "Strands that are cut, as in \"0:99, 120\".", &C::strands},
+      {"at", "1", "",
+       "Where on a strand, as a share of the strand's length from the root. Two particles stay.", &C::at,
+       kShare},
+      {"time", "s", "", "When. A cut is made at the beginning of the first frame that begins then or later.",
+       &C::time, kTimes},
   };
   return all;
 }

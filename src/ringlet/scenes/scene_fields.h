@@ -24,6 +24,7 @@ std::span<const SceneField<SceneBody>> bodyFields();
 std::span<const SceneField<SceneCamera>> cameraFields();
 std::span<const SceneField<SceneForceField>> forceFieldFields();
 std::span<const SceneField<SceneHold>> holdFields();
+std::span<const SceneField<SceneCut>> sceneCutFields();
 std::span<const SceneField<SceneMap>> mapFields();
 std::span<const SceneField<SceneGroup>> groupFields();
 std::span<const SceneField<SceneOutput>> outputFields();

@@ -41,7 +41,7 @@ const std::vector<KnownKey>& knownKeys() {
   static const std::vector<KnownKey> all = [] {
     std::vector<KnownKey> keys;
     for (const char* table : {"groom", "material", "motion", "scalp", "simulation", "contacts", "air", "goal",
-                              "body", "camera", "field", "hold", "group", "map", "key", "output"})
+                              "body", "camera", "field", "hold", "cut", "group", "map", "key", "output"})
       keys.push_back({"", table});
     addKeys(keys, "groom", groomFields());
     keys.push_back({"groom", "cut"});
@@ -68,6 +68,7 @@ const std::vector<KnownKey>& knownKeys() {
     addKeys(keys, "camera", cameraFields());
     addKeys(keys, "field", forceFieldFields());
     addKeys(keys, "hold", holdFields());
+    addKeys(keys, "cut", sceneCutFields());
     addKeys(keys, "group", groupFields());
     addKeys(keys, "map", mapFields());
     addKeys(keys, "output", outputFields());
@@ -159,6 +160,10 @@ class SceneReader {
     for (const toml::table* table : tablesOf(file, "", "hold")) {
       scene.holds.emplace_back();
       readHold(*table, scene, scene.holds.back());
+    }
+    for (const toml::table* table : tablesOf(file, "", "cut")) {
+      scene.cuts.emplace_back();
+      readCut(*table, scene, scene.cuts.back());
     }
     readMaps(file, scene);
     readTimeKeys(file, scene);
@@ -662,13 +667,24 @@ class SceneReader {
                          "an end that is no nearer to the root than the beginning");
     if (start && release && !(*hold.start < *hold.release))
       problems_.addFound(*release, "hold.release", "a time after hold.start");
-    if (const toml::node* strands = table.get("strands"); strands && !hold.strands.empty()) {
-      if (const auto runs = parseStrands(hold.strands, 1, scene.groups); !runs)
-        problems_.add(lineOf(*strands), fmt::format("hold.strands: {}", runs.error().message));
-    }
+    checkStrandRuns(table, "hold", scene, hold.strands);
     checkJoint(table, "hold", scene);
     refuseTwice(table, "hold", scene.holds, hold.name);
     checkName(table, "hold", hold.name);
+  }
+
+  void readCut(const toml::table& table, const SceneFile& scene, SceneCut& cut) {
+    readFields(table, "cut", sceneCutFields(), cut);
+    checkStrandRuns(table, "cut", scene, cut.strands);
+    refuseTwice(table, "cut", scene.cuts, cut.name);
+  }
+
+  void checkStrandRuns(const toml::table& table, const std::string& what, const SceneFile& scene,
+                       const std::string& stated) {
+    const toml::node* strands = table.get("strands");
+    if (!strands || stated.empty()) return;
+    if (const auto runs = parseStrands(stated, 1, scene.groups); !runs)
+      problems_.add(lineOf(*strands), fmt::format("{}.strands: {}", what, runs.error().message));
   }
 
   // Keys have it between dots.

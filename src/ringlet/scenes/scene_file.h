@@ -198,6 +198,16 @@ struct SceneHold {
   bool operator==(const SceneHold&) const = default;
 };
 
+/// [[cut]]: strands that are cut at a time; what is cut off falls.
+struct SceneCut {
+  std::string name;
+  std::string strands;  // empty: all
+  double at = 0.5;      // share of the arc
+  double time = 0;      // [s]
+
+  bool operator==(const SceneCut&) const = default;
+};
+
 struct SceneOutput {
   std::filesystem::path folder;
   double width = 0.0005;
@@ -267,6 +277,7 @@ struct SceneFile {
   std::vector<SceneCamera> cameras;
   std::vector<SceneForceField> fields;
   std::vector<SceneHold> holds;
+  std::vector<SceneCut> cuts;
   std::vector<SceneGroup> groups;
   std::vector<SceneMap> maps;          // worked into the material
   std::vector<SceneTimeKey> timeKeys;  // by rising time

@@ -188,6 +188,7 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "camera", cameraFields());
   addKeys(keys, "field", forceFieldFields());
   addKeys(keys, "hold", holdFields());
+  addKeys(keys, "cut", sceneCutFields());
   addKeys(keys, "group", groupFields());
   addKeys(keys, "map", mapFields());
   keys.push_back({"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
@@ -229,6 +230,8 @@ std::string sceneText(const SceneFile& scene, const std::filesystem::path& folde
     text += headed("[[field]]", linesOf(forceFieldFields(), field, SceneForceField{}, folder));
   for (const SceneHold& hold : scene.holds)
     text += headed("[[hold]]", linesOf(holdFields(), hold, SceneHold{}, folder));
+  for (const SceneCut& cut : scene.cuts)
+    text += headed("[[cut]]", linesOf(sceneCutFields(), cut, SceneCut{}, folder));
   for (const SceneMap& map : scene.maps)
     text += headed("[[map]]", linesOf(mapFields(), map, SceneMap{}, folder));
   for (const SceneTimeKey& key : scene.timeKeys) {

@@ -26,6 +26,9 @@ class DeviceWorld {
                                     const Settings& settings, const HeadPose& start, std::size_t slots);
 
   std::size_t bodyCount() const { return bodies_.size(); }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  /// Where they are now, in the world.
+  const std::vector<BodyPose>& places() const { return now_; }
   bool isTurbulent() const { return !waves_.empty(); }
 
   /// As strand kernels bind them.

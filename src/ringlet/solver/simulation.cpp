@@ -224,10 +224,19 @@ Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom:
 Result<std::vector<Vec3f>> Simulation::positions() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
   const RigidHair& rigid = self_->rigidHair;
-  if (self_->isReadBack)
-    return self_->slotOf(self_->submitted - 1).inGroomOrder(self_->rest, self_->buffers, rigid);
-  auto values = self_->inGroomOrder(&DeviceChunk::positions);
-  if (values) rigid.scatter(rigid.positions(self_->head.now), *values);
+  Result<std::vector<Vec3f>> values = std::vector<Vec3f>();
+  if (self_->isReadBack) {
+    values = self_->slotOf(self_->submitted - 1).inGroomOrder(self_->rest, self_->buffers, rigid);
+  } else {
+    values = self_->inGroomOrder(&DeviceChunk::positions);
+    if (!values) return values;
+    rigid.scatter(rigid.positions(self_->head.now), *values);
+  }
+  for (const FallenHair& each : self_->fallen) {
+    const auto own = each.hair.positions();
+    if (!own) return own.error();
+    each.put(*own, *values);
+  }
   return values;
 }
 
@@ -252,6 +261,11 @@ Result<HairState> Simulation::state() const {
   const HeadHistory& head = self_->head;
   self_->rigidHair.scatter(
       self_->rigidHair.velocities(head.now, head.oneStepEarlier, self_->settings.stepSeconds()), *v);
+  for (const FallenHair& each : self_->fallen) {
+    const auto own = each.hair.self_->inGroomOrder(&DeviceChunk::velocities);
+    if (!own) return own.error();
+    each.put(*own, *v);
+  }
   return HairState{std::move(*p), std::move(*v)};
 }
 
@@ -267,7 +281,8 @@ Status Simulation::setState(const HairState& state) {
     return self_->changed().uploadEach(field, [&](std::size_t i) { return packed(values[place(i)]); });
   };
   if (Status status = upload(&DeviceChunk::positions, state.positions); !status) return status;
-  return upload(&DeviceChunk::velocities, state.velocities);
+  if (Status status = upload(&DeviceChunk::velocities, state.velocities); !status) return status;
+  return self_->ofFallen([&](Simulation& hair) { return hair.setState(state); });
 }
 
 Status Simulation::Implementation::archive(Archive& archive) {
@@ -276,6 +291,7 @@ Status Simulation::Implementation::archive(Archive& archive) {
   archive.value(stepsDone);
   archive.value(stepsBefore);
   archive.value(secondsBefore);
+  if (falls) archive.value(restTurn);
   stillness.archive(archive);
   world.archive(archive);
   roots.archive(archive);
@@ -294,7 +310,10 @@ Status Simulation::Implementation::archive(Archive& archive) {
   if (volume) {
     if (Status status = volume->archive(archive); !status) return status;
   }
-  return contacts ? contacts->archive(archive) : Status{};
+  if (contacts) {
+    if (Status status = contacts->archive(archive); !status) return status;
+  }
+  return ofFallen([&](Simulation& hair) { return hair.self_->archive(archive); });
 }
 
 Result<std::vector<std::byte>> Simulation::checkpoint() {
@@ -307,8 +326,8 @@ Status Simulation::restore(std::span<const std::byte> checkpoint) {
   Archive archive = Archive::reading(checkpoint);
   if (Status status = self_->archive(archive); !status) return status;
   if (!archive.isWhole()) return Error{kForeignCheckpoint};
-  self_->isReadBack = false;
-  self_->forgetRecordings();
+  self_->forgetFrames();
+  for (FallenHair& each : self_->fallen) each.hair.self_->forgetFrames();
   return {};
 }
 
@@ -323,7 +342,7 @@ Result<SimulationReport> Simulation::report() const {
   for (std::size_t s = 0; s < reports->size(); ++s) {
     if (!self_->isHere(s)) continue;
     const layout::StrandReport& r = (*reports)[s];
-    edges += self_->rest.strands[s].particleCount - 1;
+    edges += self_->edgeCountOf(s);
     limited += r.limitedEdges;
     total.maxEdgeStretch = std::max<double>(total.maxEdgeStretch, r.maxStretch);
     total.degenerateEdges += r.degenerateEdges;
@@ -332,12 +351,23 @@ Result<SimulationReport> Simulation::report() const {
     const std::int64_t strand = self_->rest.strandInGroom[s];
     if (r.nonfiniteParticles > 0 && (total.firstNonfiniteStrand < 0 || strand < total.firstNonfiniteStrand)) {
       total.firstNonfiniteStrand = strand;
-      total.firstNonfiniteParticle = r.firstNonfinite;
+      total.firstNonfiniteParticle = r.firstNonfinite + self_->firstOf(s);
     }
   }
-  if (total.nonfinite > 0) total.maxEdgeStretch = std::numeric_limits<double>::infinity();
   const double edgeSteps = static_cast<double>(edges) * static_cast<double>(self_->stepsDone);
   total.limitedShare = edgeSteps > 0 ? static_cast<double>(limited) / edgeSteps : 0;
+  for (const FallenHair& each : self_->fallen) {
+    const auto own = each.hair.report();
+    if (!own) return own.error();
+    total.maxEdgeStretch = std::max(total.maxEdgeStretch, own->maxEdgeStretch);
+    total.degenerateEdges += own->degenerateEdges;
+    if (total.nonfinite == 0) {
+      total.firstNonfiniteStrand = own->firstNonfiniteStrand;
+      total.firstNonfiniteParticle = own->firstNonfiniteParticle;
+    }
+    total.nonfinite += own->nonfinite;
+  }
+  if (total.nonfinite > 0) total.maxEdgeStretch = std::numeric_limits<double>::infinity();
   return total;
 }
 
@@ -369,7 +399,12 @@ Result<std::vector<ListedContact>> Simulation::listedContacts() const {
 
 std::size_t Simulation::rigidStrandCount() const { return self_->rigidHair.strandCount(); }
 const std::vector<std::string>& Simulation::warnings() const { return self_->warnings; }
-std::map<std::string, double> Simulation::stageMilliseconds() const { return self_->stageMilliseconds; }
+std::map<std::string, double> Simulation::stageMilliseconds() const {
+  std::map<std::string, double> all = self_->stageMilliseconds;
+  for (const FallenHair& each : self_->fallen)
+    for (const auto& [stage, milliseconds] : each.hair.stageMilliseconds()) all[stage] += milliseconds;
+  return all;
+}
 
 Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) const {
   RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount,
@@ -398,6 +433,11 @@ DeviceMemory Simulation::memory() const {
                   s.forces.writtenBytes() + s.goals.writtenBytes() + s.fields.writtenBytes();
   for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();
   if (s.divided) memory.frames += s.divided->bytes();
+  for (const FallenHair& each : s.fallen) {
+    const DeviceMemory own = each.hair.memory();
+    memory.particles += own.particles, memory.strands += own.strands, memory.world += own.world;
+    memory.frames += own.frames;
+  }
   return memory;
 }
 

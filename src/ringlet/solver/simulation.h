@@ -24,6 +24,7 @@
 #include "ringlet/scene/force_field.h"
 #include "ringlet/scene/head_pose.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/scene/strand_cut.h"
 #include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/hair_asset.h"
 #include "ringlet/solver/kernel_choice.h"
@@ -260,6 +261,15 @@ class Simulation {
   /// on more than kMostForceFields. Cost: the strand kernel is that of bodies and air; another number of
   /// fields or other grids wait for frames in flight.
   Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from = {});
+  /// Cuts strands, from the next frame on. What is kept stays as it was, with the same rest state; the edge
+  /// at the cut is no more, and what is cut off falls: bodies, air and fields act on it, and no head, goal or
+  /// other hair. It keeps its places in groom order. A strand may be cut again, nearer to its root. Needs the
+  /// integrator jacobi; no frame is in flight. Strands that are carried rigidly stay whole. Fails, without a
+  /// change, with contacts, for a part of hair, and where nothing would fall or fewer than two particles, or
+  /// fewer than follow the head, would stay. Afterwards devicePositions() and tap() know only what is kept,
+  /// and HairFrames refuses this hair. Checkpoints do not hold cuts: make the same ones, call by call, before
+  /// restore(). Cost: a simulation of the strands that are cut.
+  Status cut(std::span<const StrandCut> cuts);
   /// The present settings and material; initially the asset's. Checkpoints hold neither them nor bodies,
   /// forces, goals and fields: set these before restore().
   const Settings& settings() const;

@@ -335,12 +335,13 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
   goals.writeFrame(slot);
   fields.writeFrame(slot, std::span(heads).subspan(1), T);
   const auto poses = buffers.poses.of<layout::StepPose>(slot);
-  poses[0] = {packed(head.now.rotation), packed(head.turn()), {}, static_cast<float>(head.now.shift)};
+  const auto rotation = [&] { return packed(falls ? restTurn : head.now.rotation); };
+  poses[0] = {rotation(), packed(head.turn()), {}, static_cast<float>(head.now.shift)};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const Vec3d before = head.velocity(T);
     head = {head.now, stepPoses[k]};
     head.now.rotation = normalized(head.now.rotation);
-    poses[1 + k] = {packed(head.now.rotation), packed(head.turn()),
+    poses[1 + k] = {rotation(), packed(head.turn()),
                     packed3((head.velocity(T) - before) * material.inertiaFactor),
                     static_cast<float>(head.now.shift)};
   }
@@ -361,27 +362,30 @@ Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<cons
                              std::span<const BodyPose> rootPoses) {
   RINGLET_ASSERT(self_->lostFrame || self_->waited == self_->submitted,
                  "stepFrame while frames are in flight");
-  if (Status status = self_->submitFrame(stepPoses, bodyPoses, rootPoses); !status) return status;
+  if (Status status = submitFrame(stepPoses, bodyPoses, rootPoses); !status) return status;
   return waitFrame();
 }
 
 Status Simulation::submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                                std::span<const BodyPose> rootPoses) {
-  return self_->submitFrame(stepPoses, bodyPoses, rootPoses);
+  if (Status status = self_->submitFrame(stepPoses, bodyPoses, rootPoses); !status) return status;
+  return self_->ofFallen([&](Simulation& hair) { return hair.submitFrame(stepPoses, bodyPoses); });
 }
 
 Status Simulation::waitFrame() {
   RINGLET_ASSERT(self_->waited < self_->submitted, "waitFrame without submitFrame");
   if (Status status = self_->finishFrames(self_->waited + 1); !status) return status;
   ++self_->waited;
-  return {};
+  return self_->ofFallen([](Simulation& hair) { return hair.waitFrame(); });
 }
 
 std::vector<Vec3f> Simulation::framePositions() const {
   RINGLET_ASSERT(self_->readsBack, "framePositions of a simulation that reads nothing back");
   RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
                  "framePositions before waitFrame, or after its place was taken");
-  return self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers, self_->rigidHair);
+  auto values = self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers, self_->rigidHair);
+  for (const FallenHair& each : self_->fallen) each.put(each.hair.framePositions(), values);
+  return values;
 }
 
 Status Simulation::stepFrame(const HeadPose& end) {

@@ -1,6 +1,6 @@
 // What a Simulation holds, for the files that implement it: simulation_frames.cpp, divided_frames.cpp
-// and hair_frames.cpp, its frames; simulation_settings.cpp, what changes between them; simulation.cpp, all
-// else.
+// and hair_frames.cpp, its frames; simulation_settings.cpp, what changes between them; simulation_cuts.cpp,
+// cuts; simulation.cpp, all else.
 #pragma once
 
 #include <cstdint>
@@ -82,6 +82,30 @@ struct StrandKernels {
   bool areThere() const { return !kernels.empty(); }
 };
 
+// What was cut off at once, and where it stands in the groom's order.
+struct FallenHair {
+  struct Run {
+    std::uint32_t first, count;
+  };
+  Simulation hair;
+  std::vector<Run> runs;
+
+  // Its values in their places among all.
+  void put(std::span<const Vec3f> values, std::span<Vec3f> all) const {
+    for (const Run& run : runs)
+      std::ranges::copy(values.subspan(run.first, run.count), all.begin() + run.first);
+  }
+};
+
+// Of a strand, the particles that are simulated.
+struct StrandPart {
+  std::uint32_t begin = 0, end = 0;
+};
+
+// What falls feels no head and has no goals.
+Material fallenMaterial(Material material);
+Settings fallenSettings(Settings settings);
+
 struct Simulation::Implementation {
   std::shared_ptr<const HairAsset::Implementation> asset;
   // Of the asset:
@@ -109,6 +133,11 @@ struct Simulation::Implementation {
   SubmissionPace pace;
   StrandKernels strandKernels;
   StrandKernels firstSolveKernels;  // of a step's first solve; none: the same
+
+  std::vector<StrandPart> parts{};   // of strands, device order, once some were cut; none: all of them
+  bool falls = false;                // what was cut off; each part begins with the particle before it
+  Quatd restTurn{};                  // of its rest pose, when it was cut
+  std::vector<FallenHair> fallen{};  // what was cut off this hair, cut by cut
 
   std::optional<ContactStage> contacts{};  // of strands that meet pair by pair
   std::optional<VolumeStage> volume{};     // of strands that meet as a volume
@@ -161,6 +190,25 @@ struct Simulation::Implementation {
   Status change(std::span<const ForceField> from, std::span<const ForceField> to);
   Status change(std::span<const Body> bodies, std::span<const BodyPose> places);
 
+  // simulation_cuts.cpp
+  template <class Work>
+  Status ofFallen(Work&& work) {
+    for (FallenHair& each : fallen) {
+      if (Status status = work(each.hair); !status) return status;
+    }
+    return {};
+  }
+  // Of a strand as the device has it, which particle is the first, and how many edges it has.
+  std::uint32_t firstOf(std::size_t strand) const { return falls ? parts[strand].begin - 1 : 0; }
+  std::uint32_t edgeCountOf(std::size_t strand) const {
+    if (parts.empty()) return rest.strands[strand].particleCount - 1;
+    return parts[strand].end - parts[strand].begin - 1;
+  }
+  Status checkCuts(std::span<const StrandCut> cuts) const;
+  Result<FallenHair> fall(std::span<const StrandCut> cuts, const HairState& state) const;
+  Status takeParts(std::vector<StrandPart> wanted);
+  void restrict(std::span<layout::StrandRest> strands, std::span<layout::ParticleRest> particles) const;
+
   // simulation_frames.cpp
   layout::StepParameters parametersOf(const StrandKernels& of, const PlannedDispatch& dispatch) const;
   bool isJump(std::span<const HeadPose> stepPoses) const {
@@ -173,6 +221,11 @@ struct Simulation::Implementation {
   // What they hold has changed.
   void forgetRecordings() {
     for (FrameSlot& slot : slots) slot.recorded = FrameSlot::Recorded::nothing;
+  }
+  // The hair is another than they left.
+  void forgetFrames() {
+    isReadBack = false;
+    forgetRecordings();
   }
   FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
   void beginFrame(FrameRecording& frame) const;

@@ -75,6 +75,7 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
           .goals = choice.goals,
           .goalShape = settings.goal.shape,
           .fields = choice.fields,
+          .falls = falls,
           .subgroupSize = askedWidth(device.gpu().properties(), choice),
           .groupSize = asset->groupSize};
 }

@@ -69,7 +69,8 @@ Status Simulation::Implementation::change(const Material& wanted) {
   }
   std::vector<layout::StrandRest> own = strands.empty() ? rest.strands : strands;
   std::vector<std::string> sentences;
-  const std::vector<layout::ParticleRest> particles = liveMaterial->with(wanted, own, sentences);
+  std::vector<layout::ParticleRest> particles = liveMaterial->with(wanted, own, sentences);
+  restrict(own, particles);
   if (Status status = buffers.setConstants(device.gpu(), own, particles); !status) return status;
   if (Status status = bindKernels(); !status) return status;
   warnings = std::move(sentences);
@@ -102,7 +103,8 @@ Status Simulation::Implementation::change(std::span<const Body> bodies, std::spa
 Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyPose> places) {
   RINGLET_ASSERT(places.empty() || places.size() == bodies.size(), "every body has a place");
   if (self_->asset->bodies == BodyUse::none && !bodies.empty()) return Error{kBuiltWithoutBodies};
-  return self_->change(bodies, places);
+  if (Status status = self_->change(bodies, places); !status) return status;
+  return self_->ofFallen([&](Simulation& hair) { return hair.setBodies(bodies, places); });
 }
 
 Status Simulation::setMaterial(const Material& material) {
@@ -117,12 +119,14 @@ Status Simulation::setMaterial(const Material& material) {
         "moves: build another asset",
         fixed)};
   }
-  return self_->change(material);
+  if (Status status = self_->change(material); !status) return status;
+  return self_->ofFallen([&](Simulation& hair) { return hair.self_->change(fallenMaterial(material)); });
 }
 
 Status Simulation::setSettings(const Settings& settings) {
   if (Status status = self_->checkChange(settings); !status) return status;
-  return self_->change(settings);
+  if (Status status = self_->change(settings); !status) return status;
+  return self_->ofFallen([&](Simulation& hair) { return hair.setSettings(fallenSettings(settings)); });
 }
 
 Status Simulation::setForces(std::span<const Vec3f> forces) {
@@ -133,7 +137,7 @@ Status Simulation::setForces(std::span<const Vec3f> forces) {
   }
   self_->forces.set(forces);
   self_->stillness.wake();
-  return {};
+  return self_->ofFallen([&](Simulation& hair) { return hair.setForces(forces); });
 }
 
 Status Simulation::setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
@@ -171,7 +175,8 @@ Status Simulation::setFields(std::span<const ForceField> fields, std::span<const
       if (Status checked = checkForceField(field); !checked) return checked;
     }
   }
-  return self_->change(from.empty() ? fields : from, fields);
+  if (Status status = self_->change(from.empty() ? fields : from, fields); !status) return status;
+  return self_->ofFallen([&](Simulation& hair) { return hair.setFields(fields, from); });
 }
 
 const Settings& Simulation::settings() const { return self_->settings; }

@@ -100,6 +100,7 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecTurbulent, options.turbulence ? 1u : 0u},
                            {layout::kSpecGoals, options.goals ? 1u : 0u},
                            {layout::kSpecFields, options.fields ? 1u : 0u},
+                           {layout::kSpecFalls, options.falls ? 1u : 0u},
                            {layout::kSpecGoalShape, options.goals && options.goalShape ? 1u : 0u}};
   if (options.contacts) {
     description.constants.push_back({layout::kSpecPairs, options.pairs ? 1u : 0u});

@@ -44,6 +44,7 @@ struct StrandKernelOptions {
   bool goals = false;              // particles are pulled to places
   bool goalShape = false;          // or edges to vectors
   bool fields = false;             // fields act on them
+  bool falls = false;              // strands are what was cut off
   std::uint32_t subgroupSize = 0;  // of the lanes form, one the device can be asked for; 0: its default
   std::uint32_t groupSize = kStrandGroupSize;
 };

@@ -1,0 +1,82 @@
+// Cuts of scenes: what a scene says of them, and with which frame each is made.
+#include "ringlet/scenes/scene_cuts.h"
+
+#include <gtest/gtest.h>
+
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_text.h"
+
+namespace ringlet {
+namespace {
+
+// Two straight strands of five particles.
+const std::string kGroom =
+    "[groom]\ngenerate = \"swatch\"\ncolumns = 2\nrows = 1\nparticles = 5\nturns = 0\nradius = 0.001\n"
+    "length = 0.04\nspacing = 0.02\nvary_radius = 0\nvary_length = 0\nvary_phase = 0\n";
+
+Result<std::vector<TimedCuts>> cutsIn(const std::string& text) {
+  const auto scene = parseScene(kGroom + text, "scene.toml");
+  if (!scene) return scene.error();
+  auto loaded = loadScene(*scene);
+  if (!loaded) return loaded.error();
+  return std::move(loaded->cuts);
+}
+std::string errorOf(const std::string& text) {
+  const auto cuts = cutsIn(text);
+  return cuts ? "" : cuts.error().message;
+}
+
+TEST(SceneCuts, ParticlesBeyondTheirPlaceFall) {
+  const auto cuts = cutsIn(
+      "[[group]]\nname = \"right\"\nstrands = \"1\"\n"
+      "[[cut]]\ntime = 2\nat = 0\nstrands = \"right\"\n"  // two particles stay
+      "[[cut]]\ntime = 1\nat = 0.6\n"
+      "[[cut]]\ntime = 1\nat = 0.7\n"    // the shorter of two at a time
+      "[[cut]]\ntime = 3\nat = 0.9\n");  // nothing is left there
+  ASSERT_TRUE(cuts) << cuts.error().message;
+  ASSERT_EQ(cuts->size(), 2u);
+  EXPECT_EQ((*cuts)[0].seconds, 1);
+  EXPECT_EQ((*cuts)[0].cuts, (std::vector<StrandCut>{{0, 3}, {1, 3}}));
+  EXPECT_EQ((*cuts)[1].seconds, 2);
+  EXPECT_EQ((*cuts)[1].cuts, (std::vector<StrandCut>{{1, 2}}));
+}
+
+TEST(SceneCuts, AreMadeAsAFrameBegins) {
+  const std::vector<TimedCuts> cuts{{-1, {}}, {0, {}}, {0.04, {}}, {0.25, {}}};
+  const auto of = [&](int frame, bool isFirst = false) {
+    std::vector<double> times;
+    for (const TimedCuts& now : cutsOfFrame(cuts, frame, 24, isFirst)) times.push_back(now.seconds);
+    return times;
+  };
+  EXPECT_EQ(of(0, true), (std::vector<double>{-1, 0}));
+  EXPECT_EQ(of(0), (std::vector<double>{0}));
+  EXPECT_EQ(of(1), (std::vector<double>{0.04}));  // 1/24 s
+  EXPECT_EQ(of(5), (std::vector<double>{}));
+  EXPECT_EQ(of(6), (std::vector<double>{0.25}));
+  EXPECT_EQ(of(7), (std::vector<double>{}));
+}
+
+TEST(SceneCuts, AreWrittenBack) {
+  const auto scene =
+      parseScene(kGroom + "[[cut]]\nname = \"off\"\nstrands = \"1\"\nat = 0.25\ntime = 1.5\n", "scene.toml");
+  ASSERT_TRUE(scene);
+  const auto again = parseScene(sceneText(*scene), "scene.toml");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->cuts, scene->cuts);
+  EXPECT_EQ(scene->cuts, (std::vector<SceneCut>{{"off", "1", 0.25, 1.5}}));
+}
+
+TEST(SceneCuts, WhatIsWrongIsSaid) {
+  const auto says = [](const std::string& text, const std::string& what) {
+    const std::string error = errorOf(text);
+    EXPECT_NE(error.find(what), std::string::npos) << error;
+  };
+  says("[[cut]]\nname = \"off\"\nstrands = \"2\"\n", "the cut off: it names strand 2; the groom has 2");
+  says("[[cut]]\nstrands = \"bun\"\n", "cut.strands");
+  says("[[cut]]\nat = 1.5\n", "cut.at");
+  says("[[cut]]\n[contacts]\n", "hair with contacts is not cut");
+  says("[[cut]]\n[simulation]\nintegrator = \"paper\"\n", "hair is cut with the integrator jacobi only");
+}
+
+}  // namespace
+}  // namespace ringlet
