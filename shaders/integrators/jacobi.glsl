@@ -62,9 +62,9 @@ vec3 addedMomentum(int k) {
   return momentum;
 }
 
-// The right-hand side without the springs of the boundary edges: their pull belongs to f, the force across the boundary.
-// If it stayed in, both sides' free ends would race apart and the join would cancel that again, which costs float32
-// its digits.
+// The right-hand side without the springs of the boundary edges: their pull belongs to f, the force across the
+// boundary. If it stayed in, both sides' free ends would race apart and the join would cancel that again, which costs
+// float32 its digits.
 vec3 rightHandSideOfRun(int k) {
   vec3 pull = (k + 1 < RUN ? force[k] : vec3(0)) - (k > 0 ? force[max(k - 1, 0)] : vec3(0));
   float m = restEdge[k].x;

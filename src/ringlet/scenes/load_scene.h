@@ -58,7 +58,7 @@ struct LoadedScene {
   std::optional<HeadScalp> scalp{};  // that roots follow; none: the head carries them
   SceneForces forces{};              // fields and holds
   SceneHairs hairs{};
-  std::vector<TimedCuts> cuts{};     // by rising time
+  std::vector<TimedCuts> cuts{};      // by rising time
   std::vector<float> widthFactors{};  // of each strand, on the width in pictures and USD files; empty: all 1
   double preRollSeconds = 0;
   int frameCount = 48;                  // where the file does not say: the length of keys, or this
