@@ -11,7 +11,7 @@ fi
 cmake --preset clang -B build/tidy -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 # What sources include and the build writes: the kernels.
 ninja -C build/tidy -t targets all | sed -n 's/^\(shaders\/ringlet_shaders\/.*\.h\): CUSTOM_COMMAND.*/\1/p' |
-  xargs ninja -C build/tidy > /dev/null
+  xargs ninja -C build/tidy >&2  # what does not compile is said
 files=("$@")
 [ ${#files[@]} -gt 0 ] || mapfile -t files < <(find src reference -name '*.cpp' | sort)
 printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -I{} clang-tidy --quiet -p build/tidy {} 2> /dev/null

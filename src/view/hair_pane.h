@@ -41,7 +41,6 @@ class HairPane {
   /// Of the groom's hair. Errors: the device lacks memory.
   static Result<HairPane> create(gpu::Device& device, const Groom& groom, const PaneLook& look);
   HairPane(HairPane&&) = default;
-  HairPane& operator=(HairPane&&) = default;
 
   /// Draws this hair from now on. Again after its buffers are others.
   Status attach(gpu::Device& device, const Simulation& hair);
