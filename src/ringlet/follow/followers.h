@@ -30,7 +30,8 @@ struct FollowedPoints {
   std::uint64_t bytes = 0;
 };
 
-/// For one thread at a time, which is not in a call of the Simulation meanwhile.
+/// For one thread at a time, which is not in a call of the Simulation meanwhile. Not for hair that is cut
+/// (Simulation::cut): on the device only what is kept is known.
 class Followers {
  public:
   /// `guides`: a simulation of `groom` on `device`, which lives as long as this. `hairs`: each follows a

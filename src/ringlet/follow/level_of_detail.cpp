@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
+#include <utility>
 
 #include "ringlet/follow/guide_rest.h"
+#include "ringlet/follow/near_guides.h"
 #include "ringlet/groom/sample_elimination.h"
 
 namespace ringlet {
@@ -34,10 +35,14 @@ Vec3d along(const MeasuringFrame& frame, Vec3d v) {
   return frame.normal * v.x + frame.binormal * v.y + frame.tangent * v.z;
 }
 
-Shape shapeOf(const Groom& groom, std::size_t strand) {
-  Shape shape;
-  for (const Vec3f& p : groom.strand(strand)) shape.points.push_back(Vec3d(p) * groom.metresPerUnit);
-  const GuideRest rest = restOfGuide(shape.points);
+std::vector<Vec3d> metresOf(const Groom& groom, std::size_t strand) {
+  std::vector<Vec3d> points;
+  for (const Vec3f& p : groom.strand(strand)) points.push_back(Vec3d(p) * groom.metresPerUnit);
+  return points;
+}
+
+Shape shapeOf(std::vector<Vec3d> points, const GuideRest& rest) {
+  Shape shape{.points = std::move(points), .core = {}, .curl = {}, .frames = {}};
   shape.core = smoothCore(shape.points, rest.arcs, rest.window);
   shape.frames = framesAlong(shape.core, rest.frame);
   for (std::size_t i = 1; i < shape.core.size(); ++i)
@@ -59,53 +64,18 @@ Status checkStrands(const Groom& groom) {
   return {};
 }
 
-// The area that so many points are spread over, as if they were as far apart as in a square grid [m^2]; any
+// The area that so many roots are spread over, as if they were as far apart as in a square grid [m^2]; any
 // area where all are in one place.
-double areaUnder(std::span<const Vec3d> roots, std::span<const std::uint32_t> byHeight) {
+double areaUnder(std::span<const GuideRest> strands, const NearGuides& near) {
   double sum = 0;
-  for (std::size_t i = 0; i < byHeight.size(); ++i) {
-    double nearest = std::numeric_limits<double>::max();
-    const auto look = [&](std::size_t k) {
-      const Vec3d apart = roots[byHeight[k]] - roots[byHeight[i]];
-      if (dot(apart, apart) > 0) nearest = std::min(nearest, length(apart));
-      return std::abs(apart.y) <= nearest;
-    };
-    for (std::size_t k = i; k-- > 0 && look(k);) {
+  for (const GuideRest& strand : strands) {
+    for (const NearGuides::Near& other : near.at(strand.root, kCandidates)) {
+      if (other.distance == 0) continue;  // itself, or another in the same place
+      sum += other.distance * other.distance;
+      break;
     }
-    for (std::size_t k = i + 1; k < byHeight.size() && look(k); ++k) {
-    }
-    if (nearest < std::numeric_limits<double>::max()) sum += nearest * nearest;
   }
   return sum > 0 ? sum : 1;
-}
-
-std::vector<std::uint32_t> byHeight(std::span<const Vec3d> roots) {
-  std::vector<std::uint32_t> order(roots.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t s) { return roots[s].y; });
-  return order;
-}
-
-// The places in `roots` nearest to one, nearest first; `order` is byHeight of them.
-std::vector<std::uint32_t> nearestTo(Vec3d place, std::span<const Vec3d> roots,
-                                     std::span<const std::uint32_t> order) {
-  std::vector<std::uint32_t> found;
-  const auto away = [&](std::uint32_t s) { return length(roots[s] - place); };
-  const auto look = [&](std::uint32_t s) {
-    if (found.size() == kCandidates && std::abs(roots[s].y - place.y) > away(found.back())) return false;
-    const auto at = std::ranges::upper_bound(found, away(s), {}, away);
-    found.insert(at, s);
-    if (found.size() > kCandidates) found.pop_back();
-    return true;
-  };
-  const auto middle = static_cast<std::size_t>(
-      std::ranges::lower_bound(order, place.y, {}, [&](std::uint32_t s) { return roots[s].y; }) -
-      order.begin());
-  for (std::size_t k = middle; k-- > 0 && look(order[k]);) {
-  }
-  for (std::size_t k = middle; k < order.size() && look(order[k]); ++k) {
-  }
-  return found;
 }
 
 // Of a curve with a point a particle, where share is 0 at the root and 1 at the tip.
@@ -211,29 +181,32 @@ Result<LevelOfDetail> levelOfDetail(const Groom& groom, double share) {
   if (Status checked = checkStrands(groom); !checked) return checked.error();
   const std::size_t count = groom.strandCount();
   std::vector<Shape> shapes;
+  std::vector<GuideRest> rests;
   std::vector<Vec3d> roots;
   for (std::size_t s = 0; s < count; ++s) {
-    shapes.push_back(shapeOf(groom, s));
-    roots.push_back(shapes.back().points.front());
+    std::vector<Vec3d> points = metresOf(groom, s);
+    rests.push_back(restOfGuide(points));
+    roots.push_back(points.front());
+    shapes.push_back(shapeOf(std::move(points), rests.back()));
   }
   LevelOfDetail level;
   const auto wanted = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(share * double(count))));
-  level.guides = eliminateSamples(roots, wanted, areaUnder(roots, byHeight(roots)));
-  std::vector<Vec3d> guideRoots;
+  level.guides = eliminateSamples(roots, wanted, areaUnder(rests, NearGuides(rests)));
+  std::vector<GuideRest> guideRests;
   std::vector<std::int64_t> guideOf(count, -1);
   for (const std::uint32_t s : level.guides) {
-    guideOf[s] = static_cast<std::int64_t>(guideRoots.size());
-    guideRoots.push_back(roots[s]);
+    guideOf[s] = static_cast<std::int64_t>(guideRests.size());
+    guideRests.push_back(rests[s]);
     level.groom.addStrand(groom.strand(s));
   }
   level.groom.metresPerUnit = groom.metresPerUnit;
-  const auto order = byHeight(guideRoots);
+  const NearGuides near(guideRests);
   for (std::size_t s = 0; s < count; ++s) {
     Fit best{{}, std::numeric_limits<double>::infinity()};
     if (guideOf[s] >= 0) {
       best.hair.guide = static_cast<std::uint32_t>(guideOf[s]);
     } else {
-      for (const std::uint32_t g : nearestTo(roots[s], guideRoots, order)) {
+      for (const auto& [distance, g] : near.at(roots[s], kCandidates)) {
         Fit fit = fitTo(shapes[level.guides[g]], shapes[s]);
         fit.hair.guide = g;
         if (fit.distance2 < best.distance2) best = fit;
