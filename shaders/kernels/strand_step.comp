@@ -4,9 +4,9 @@
 // that masks lanes (lavapipe) runs the body of one that asks before it once more than it has turns. Specialized with
 // RUN = particles per lane, the lanes per strand and the integrator. With contacts every solve is a dispatch of its
 // own; the last of a step moves the strand and goes on to the next step's first. Compiled for `jacobi` by itself; with
-// RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies, air, goals and fields; with
-// RINGLET_BASELINES, the other integrators; each with the run in registers and, with RINGLET_IN_MEMORY, in memory
-// (scan/lanes.glsl).
+// RINGLET_HEADS, for many heads at once; with RINGLET_CONTACTS, contacts; with RINGLET_SURROUNDINGS, contacts, bodies,
+// air, goals and fields; with RINGLET_BASELINES, the other integrators; each with the run in registers and, with
+// RINGLET_IN_MEMORY, in memory (scan/lanes.glsl).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -296,7 +296,7 @@ void storeStrand(uint strandIndex) {
   uint firstNonfinite = ~0u;
   RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
     if (!isParticle(k)) continue;
-    uint i = strand.firstParticle + first + k;
+    uint i = stateAt(strand.firstParticle + first + k);
     positions[i] = vec4(p[k], 0);  // whole records: parts of one cost lavapipe more
     velocities[i] = vec4(v[k], 0);
     if (!isFiniteVec3(p[k]) || !isFiniteVec3(v[k])) {
@@ -310,14 +310,14 @@ void storeStrand(uint strandIndex) {
   nonfinite = sumOverStrand(nonfinite);
   firstNonfinite = minOverStrand(firstNonfinite);
   if (lane == 0) {
-    StrandReport report = reports[strandIndex];
+    StrandReport report = reports[reportAt(strandIndex)];
     report.maxStretch = max(report.maxStretch, maxStretch);
     report.limitedEdges += limitedEdges;
     report.degenerateEdges += degenerateEdges;
     report.nonfiniteParticles = nonfinite;
     report.firstNonfinite = firstNonfinite;
     report.velocityResidual = max(report.velocityResidual, velocityResidual);
-    reports[strandIndex] = report;
+    reports[reportAt(strandIndex)] = report;
   }
 }
 
@@ -372,7 +372,7 @@ void main() {
   if (kContacts && control.isHalted != 0) return;
 #endif
   findLane();
-  uint strandIndex = parameters.strandBegin + invocationOfDispatch() / kLanes;
+  uint strandIndex = parameters.strandBegin + placeInHead(invocationOfDispatch() / kLanes);
   // No early return: the lanes of an idle strand repeat the last one and store nothing, so that every shuffle is whole.
   bool idle = strandIndex >= parameters.strandEnd;
   strandAt = min(strandIndex, parameters.strandEnd - 1);

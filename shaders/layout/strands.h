@@ -62,6 +62,9 @@ RINGLET_CONSTANT uint kBindGoalsBefore = 31;     // vec4[particles]: xyz: at the
 RINGLET_CONSTANT uint kBindGoals = 32;           // vec4[particles]: xyz: at its end [m]; w: stiffness k [1/s^2]
 RINGLET_CONSTANT uint kBindGoalBeforeTexels = 33;
 RINGLET_CONSTANT uint kBindGoalTexels = 34;
+// And the poses of many heads, in place of one's:
+RINGLET_CONSTANT uint kBindHeadPoses = 40;       // StepPose[heads][headPoses]
+RINGLET_CONSTANT uint kBindHeadPoseTexels = 41;  // 3 a pose
 
 // Integrators (kSpecIntegrator).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;
@@ -176,6 +179,10 @@ struct StepParameters {
   uint strandCount;    // of the chunk: stride of the root poses
   uint stepCount;      // of the frame
   uint fieldCount;
+  uint headCount;  // of this dispatch, where buffers hold many
+  uint headParticles;  // from one head to the next: particles, strands, poses
+  uint headStrands;
+  uint headPoses;
 };
 
 #ifdef __cplusplus

@@ -30,18 +30,18 @@ vec3 rootVelocity(uint pose) {
 }
 
 vec4 rotationAt(uint pose) {
-  if (!kMovingRoots) return poses[pose].rotation;
+  if (!kMovingRoots) return stepPose(pose).rotation;
   return rootRotation(pose);
 }
 // From the pose before. A small turn: as the difference of two rotations it would have lost its digits.
 vec4 turnTo(uint pose) {
-  if (!kMovingRoots) return poses[pose].turn;
+  if (!kMovingRoots) return stepPose(pose).turn;
   return rootTurn(pose);
 }
 
 vec4 rotationAtStart(uint step) { return rotationAt(step); }
 vec4 rotationAtEnd(uint step) { return rotationAt(step + 1); }
-vec3 headVelocityChange(uint step) { return poses[step + 1].velocityChange; }
+vec3 headVelocityChange(uint step) { return stepPose(step + 1).velocityChange; }
 
 /// How fast x, as it is at the step's start, goes by the turning in this step.
 vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), x) / stepSeconds(); }
@@ -50,7 +50,7 @@ vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(t
 
 // Pinned particle k of the strand: it is carried, and its shift beside.
 vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
-float shiftedShare(uint step) { return poses[step].shiftedShare; }
+float shiftedShare(uint step) { return stepPose(step).shiftedShare; }
 // From the carried origin of the groom.
 vec3 pinArm(uint pose, uint k) {
   return rotate(rotationAt(pose), strand.pins[k].xyz + shiftedShare(pose) * rootShift());

@@ -1,7 +1,8 @@
 // The buffers and parameters of the strand_step kernels (layout/strands.h), and the taps, which only a kernel compiled
 // with RINGLET_TAPS writes. Kernels know of contacts where compiled with RINGLET_CONTACTS, of bodies, air, goals
 // and fields where compiled with RINGLET_SURROUNDINGS: a constant that is false still leaves their buffers bound, and a
-// small device has few.
+// small device has few. With RINGLET_HEADS the buffers of what moves, and of poses, hold many heads, one behind the
+// other, and a dispatch steps some of them; roots of their own and forces from outside they do not have.
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 
@@ -43,9 +44,14 @@ const bool kFields = false;
 const bool kGoalShape = false;
 #endif
 const bool kPulls = kGoals || kFields;
+#ifdef RINGLET_HEADS
+const bool kMovingRoots = false;
+const bool kForces = false;
+#else
 layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own
-layout(constant_id = kSpecFalls) const bool kFalls = false;  // strands are what was cut off: no root carries them
 layout(constant_id = kSpecForces) const bool kForces = false;            // forces from outside act on particles
+#endif
+layout(constant_id = kSpecFalls) const bool kFalls = false;  // strands are what was cut off: no root carries them
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -53,7 +59,6 @@ layout(set = 0, binding = kBindParticles) readonly buffer Particles { ParticleRe
 layout(set = 0, binding = kBindStrands) readonly buffer Strands { StrandRest strands[]; };
 layout(set = 0, binding = kBindReports) buffer Reports { StrandReport reports[]; };
 layout(set = 0, binding = kBindTaps) buffer Taps { vec4 taps[]; };
-layout(set = 0, binding = kBindPoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
 layout(set = 0, binding = kBindOutsideForces) readonly buffer Forces { vec4 forces[]; };
 layout(set = 0, binding = kBindPositionTexels) uniform usamplerBuffer positionTexels;
 layout(set = 0, binding = kBindVelocityTexels) uniform usamplerBuffer velocityTexels;
@@ -62,9 +67,37 @@ layout(set = 0, binding = kBindStrandTexels) uniform usamplerBuffer strandTexels
 layout(set = 0, binding = kBindOutsideForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { StepParameters parameters; };
 
+#ifdef RINGLET_HEADS
+layout(set = 0, binding = kBindHeadPoses) readonly buffer HeadPoses { StepPose headPoses[]; };
+layout(set = 0, binding = kBindHeadPoseTexels) uniform usamplerBuffer headPoseTexels;
+uint head = 0;  // this invocation's place among the heads
+// Of the n-th strand of the dispatch: which head it is of, and its place among those of one head; what lies beyond the
+// last head's is beyond theirs.
+uint placeInHead(uint n) {
+  uint strands = parameters.strandEnd - parameters.strandBegin;
+  head = min(n / strands, parameters.headCount - 1);
+  return n - head * strands;
+}
+// Where the head has what moves of its particle i, and the report of its strand s.
+uint stateAt(uint i) { return head * parameters.headParticles + i; }
+uint reportAt(uint s) { return head * parameters.headStrands + s; }
+vec4 posePart(uint pose, uint part) { return vectorAt(headPoseTexels, 3 * (head * parameters.headPoses + pose) + part); }
+StepPose stepPose(uint pose) {
+  if (!kTexels) return headPoses[head * parameters.headPoses + pose];
+  vec4 last = posePart(pose, 2);
+  return StepPose(posePart(pose, 0), posePart(pose, 1), last.xyz, last.w);
+}
+#else
+layout(set = 0, binding = kBindPoses) uniform Poses { StepPose poses[kMaxStepPoses]; };
+uint placeInHead(uint n) { return n; }
+uint stateAt(uint i) { return i; }
+uint reportAt(uint s) { return s; }
+StepPose stepPose(uint pose) { return poses[pose]; }
+#endif
+
 // Positions and velocities as they were when the dispatch began.
-vec3 positionAtStart(uint i) { return kTexels ? vectorAt(positionTexels, i).xyz : positions[i].xyz; }
-vec3 velocityAtStart(uint i) { return kTexels ? vectorAt(velocityTexels, i).xyz : velocities[i].xyz; }
+vec3 positionAtStart(uint i) { return (kTexels ? vectorAt(positionTexels, stateAt(i)) : positions[stateAt(i)]).xyz; }
+vec3 velocityAtStart(uint i) { return (kTexels ? vectorAt(velocityTexels, stateAt(i)) : velocities[stateAt(i)]).xyz; }
 ParticleRest particleRest(uint i) {
   if (!kTexels) return particles[i];
   vec4 spring = vectorAt(particleTexels, 2 * i);

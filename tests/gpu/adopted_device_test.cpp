@@ -27,7 +27,7 @@ Result<HairAsset> assetOn(const ComputeDevice& device, bool contacts = true, int
   parameters.curl.particleCount = 24;
   Settings settings;
   settings.contacts.on = contacts;
-  return HairAsset::build(device, *makeHead(parameters), {}, settings);
+  return HairAsset::build(device, *makeHead(parameters), {}, settings, {.heads = 2});
 }
 
 // As a host's kernel reads them.

@@ -77,6 +77,38 @@ TEST_F(Buffers, RoundTripThroughStaging) {
   expectNoMessages(*(*opened)->validationLog());
 }
 
+// Parts are where they were asked for, on both ways, and outlive what they are parts of.
+TEST_F(Buffers, APartIsTheSameMemory) {
+  auto staging = gpu::Device::open("", {.alwaysStage = true});
+  ASSERT_TRUE(staging) << staging.error().message;
+  for (gpu::Device* device : {&gpu(), staging->get()}) {
+    auto whole = Buffer::create(*device, 4096, BufferKind::storage, "whole");
+    ASSERT_TRUE(whole) << whole.error().message;
+    std::vector<std::byte> expected = someBytes(4096, 1);
+    ASSERT_TRUE(whole->upload(expected));
+    const std::uint64_t offset = 2 * whole->alignment();
+    ASSERT_LE(offset + 100, 4096u);
+    auto part = Buffer::part(*whole, offset, 100, "part");
+    ASSERT_TRUE(part) << part.error().message;
+    EXPECT_EQ(part->bytes(), 100u);
+    std::vector<std::byte> found(100);
+    ASSERT_TRUE(part->download(found));
+    const auto at = expected.begin() + static_cast<std::ptrdiff_t>(offset);
+    EXPECT_TRUE(std::equal(found.begin(), found.end(), at));
+
+    const std::vector<std::byte> other = someBytes(100, 2);
+    ASSERT_TRUE(part->upload(other));
+    std::copy(other.begin(), other.end(), at);
+    std::vector<std::byte> all(4096);
+    ASSERT_TRUE(whole->download(all));
+    EXPECT_TRUE(all == expected);
+    { const Buffer gone = std::move(*whole); }
+    ASSERT_TRUE(part->download(found));
+    EXPECT_TRUE(found == other);
+  }
+  expectNoMessages(*(*staging)->validationLog());
+}
+
 TEST_F(Buffers, StreamIsMapped) {
   auto buffer = Buffer::create(gpu(), 33, BufferKind::stream, "stream");
   ASSERT_TRUE(buffer) << buffer.error().message;

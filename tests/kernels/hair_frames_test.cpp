@@ -3,9 +3,12 @@
 
 #include <vector>
 
+#include "parity/tolerances.h"
+#include "ringlet/gpu/device.h"
 #include "ringlet/solver/hair_frames.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/test_support.h"
 
 namespace ringlet::test {
 namespace {
@@ -97,6 +100,109 @@ TEST_F(HairFramesTest, ListsThatGrowHoldNobodyUp) {
   }
   EXPECT_GT(grown, 0u) << "all lists had room";
   expectEqual(crowd);
+}
+
+// What heads of one asset are like that a dispatch can step together, and that one must not.
+struct RowOfHeads {
+  std::vector<Head> heads;
+  std::vector<Simulation> hair;
+
+  RowOfHeads(const ComputeDevice& device, const Hair& kind) {
+    const auto asset = build(device, kind);
+    EXPECT_TRUE(asset) << asset.error().message;
+    for (int k = 0; k < kCount; ++k) {
+      heads.push_back({Vec3d{0.3 * k - 0.7, 0.2, -0.1 * k}, k == 5 ? 1.0 : 0.0});
+      hair.push_back(*make(*asset, kind, heads.back()));
+    }
+    Settings heavy = hair[2].settings();
+    heavy.gravity = heavy.gravity * 2.0;
+    EXPECT_TRUE(hair[2].setSettings(heavy));
+    Material stiff = hair[4].material();
+    stiff.bendStiffness *= 3;
+    EXPECT_TRUE(hair[4].setMaterial(stiff));
+    hair[6] = *make(*asset, kind, heads[6]);  // its place is behind the others
+    hair[7] = *make(*asset, kind, heads[7]);  // in the place that 6 left
+  }
+  static constexpr int kCount = 9;
+};
+
+// Nine heads in two rows and a piece, handed over in no order: with other gravity, another material and roots
+// that shift among them. Each is where it is alone, and where hair of one head is.
+TEST_F(HairFramesTest, HeadsOfARowStepAsIfAlone) {
+  using Form = KernelChoice::Form;
+  Hair kind = hairs().front();
+  for (const KernelChoice& choice : {KernelChoice{}, KernelChoice{Form::lanes, 8, 8},
+                                     KernelChoice{Form::memory}, KernelChoice{Form::serial}}) {
+    kind.kernel = choice;
+    RowOfHeads single(device(), kind);
+    kind.kernel.heads = 4;
+    RowOfHeads together(device(), kind), alone(device(), kind);
+    SCOPED_TRACE(together.hair[0].kernelDescription());
+    for (int frame = 0; frame < 3; ++frame) {
+      SCOPED_TRACE(frame);
+      std::vector<std::vector<HeadPose>> poses;
+      for (const Head& head : together.heads) poses.push_back(posesOf(kind, head, frame));
+      std::vector<HairFrame> frames;
+      for (const int k : {3, 0, 8, 7, 1, 2, 6, 5, 4}) frames.push_back({&together.hair[k], poses[k]});
+      const Status status = stepFrames(frames);
+      ASSERT_TRUE(status) << status.error().message;
+      for (int k = 0; k < RowOfHeads::kCount; ++k) {
+        SCOPED_TRACE(k);
+        ASSERT_TRUE(alone.hair[k].stepFrame(poses[k]));
+        ASSERT_TRUE(single.hair[k].stepFrame(poses[k]));
+        EXPECT_EQ(together.hair[k].framePositions(), alone.hair[k].framePositions());
+        EXPECT_EQ(together.hair[k].state()->velocities, alone.hair[k].state()->velocities);
+        EXPECT_LT(farthestApart(*together.hair[k].positions(), *single.hair[k].positions()),
+                  parity::kOneFrame * 0.25)
+            << "strands of 25 cm";
+        EXPECT_NEAR(together.hair[k].report()->maxEdgeStretch, single.hair[k].report()->maxEdgeStretch, 1e-5);
+      }
+    }
+  }
+}
+
+// Counts vkCmdDispatch on its way to the driver.
+class CountedDispatches {
+ public:
+  explicit CountedDispatches(const gpu::Device& device) : table_(const_cast<VolkDeviceTable&>(device.vk())) {
+    driver = table_.vkCmdDispatch;
+    count = 0;
+    table_.vkCmdDispatch = [](VkCommandBuffer commands, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+      ++count;
+      driver(commands, x, y, z);
+    };
+  }
+  ~CountedDispatches() { table_.vkCmdDispatch = driver; }
+
+  static inline PFN_vkCmdDispatch driver = nullptr;
+  static inline int count = 0;
+
+ private:
+  VolkDeviceTable& table_;
+};
+
+// Seven heads in rows of five: a dispatch for each row; with one head under other gravity, one for those
+// before it, one for it, one for those behind it.
+TEST_F(HairFramesTest, OneDispatchStepsManyHeads) {
+  Hair kind = hairs().front();
+  kind.groom = randomGroom(std::vector<int>(10, 20), 3);
+  kind.kernel.heads = 5;
+  const auto asset = build(device(), kind);
+  std::vector<Simulation> heads;
+  for (int k = 0; k < 7; ++k) heads.push_back(*make(*asset, kind, kHeads[0]));
+  const auto dispatchesOf = [&](int frame) {
+    const CountedDispatches counted(gpu());
+    const std::vector<HeadPose> poses = posesOf(kind, kHeads[0], frame);
+    std::vector<HairFrame> frames;
+    for (Simulation& head : heads) frames.push_back({&head, poses});
+    EXPECT_TRUE(stepFrames(frames));
+    return CountedDispatches::count;
+  };
+  EXPECT_EQ(dispatchesOf(0), 2);
+  Settings heavy = heads[2].settings();
+  heavy.gravity = heavy.gravity * 2.0;
+  ASSERT_TRUE(heads[2].setSettings(heavy));
+  EXPECT_EQ(dispatchesOf(1), 4);
 }
 
 TEST_F(HairFramesTest, NoHeadsAreFine) { EXPECT_TRUE(stepFrames({})); }

@@ -136,7 +136,11 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(dragAlong),
                         RINGLET_MEMBER(strandCount),
                         RINGLET_MEMBER(stepCount),
-                        RINGLET_MEMBER(fieldCount)}};
+                        RINGLET_MEMBER(fieldCount),
+                        RINGLET_MEMBER(headCount),
+                        RINGLET_MEMBER(headParticles),
+                        RINGLET_MEMBER(headStrands),
+                        RINGLET_MEMBER(headPoses)}};
     }(),
     [] {
       using S = layout::ContactRest;

@@ -33,6 +33,7 @@ inline std::vector<Hair> hairs() {
   air.air.on = true;
   return {{"lanes", groom},
           {"serial", groom, {}, {KernelChoice::Form::serial}},
+          {"of many heads", groom, {}, {.heads = 4}},
           {"roots that move", groom, {}, {.movingRoots = true}},
           {"forces", groom, {}, {.forces = true}},
           {"chunks", randomGroom(std::vector<int>(40, 30), 3), {}, {.mostBufferBytes = kSmallBuffer}},

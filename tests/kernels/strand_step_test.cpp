@@ -188,6 +188,18 @@ TEST_F(StrandStep, RootsOfTheirOwnAgree) {
   }
 }
 
+// Kernels of many heads have no taps: each form is tried by the frame.
+TEST_F(StrandStep, AFrameOfOneOfManyHeadsAgreesWithDouble) {
+  for (Variant variant : {kVariants[0], kVariants[7], kVariants[8]}) {
+    variant.kernel.heads = 4;
+    const ParityCase c{
+        randomGroom(awkwardLengths(25), 29), {}, settingsFor(Integrator::jacobi), variant.kernel};
+    const FieldError e = oneFrameError(device(), c);
+    fmt::print("one frame, one of many heads, {:<12} {:.1e} of the arc length\n", variant.name, e.error);
+    EXPECT_LE(e.error, kOneFrame) << variant.name << ": " << e.where;
+  }
+}
+
 TEST_F(StrandStep, AFrameAgreesWithDouble) {
   for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
     for (const Variant& variant : kVariants) {

@@ -30,23 +30,25 @@ std::optional<std::uint32_t> bestHeap(const Device& device, BufferKind kind) {
   return device.memory().memoryTypes[types.front()].heapIndex;
 }
 
-}  // namespace
-
-Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name) {
-  const DeviceProperties& limits = device.properties();
-  const auto attempt = [&] {
-    return fmt::format("make the buffer '{}' of {} bytes on {}", name, bytes, limits.name);
-  };
+Status checkSize(const DeviceProperties& limits, std::uint64_t bytes, const std::string& name) {
   // The comparison comes before rounding up, which could overflow.
   const std::uint64_t largest = std::min(limits.maxStorageBufferRange, limits.maxAllocationBytes);
-  const std::uint64_t largestRecords = largest / kRecordBytes * kRecordBytes;
-  if (bytes > largestRecords) {
-    const bool isRange = limits.maxStorageBufferRange <= limits.maxAllocationBytes;
-    return Error{fmt::format(
-        "could not {}: this device allows at most {} bytes ({}). Use less data, or another device", attempt(),
-        largest, isRange ? "maxStorageBufferRange" : "maxMemoryAllocationSize")};
-  }
+  if (bytes <= largest / kRecordBytes * kRecordBytes) return {};
+  const bool isRange = limits.maxStorageBufferRange <= limits.maxAllocationBytes;
+  return Error{fmt::format(
+      "could not make the buffer '{}' of {} bytes on {}: this device allows at most {} bytes ({}). Use less "
+      "data, or another device",
+      name, bytes, limits.name, largest, isRange ? "maxStorageBufferRange" : "maxMemoryAllocationSize")};
+}
 
+}  // namespace
+
+std::string Buffer::attempt() const {
+  return fmt::format("make the buffer '{}' of {} bytes on {}", name_, bytes_, device_->properties().name);
+}
+
+Result<Buffer> Buffer::withoutMemory(Device& device, std::uint64_t bytes, BufferKind kind,
+                                     const std::string& name) {
   Buffer self;
   self.device_ = &device;
   self.bytes_ = bytes;
@@ -62,37 +64,68 @@ Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind ki
                VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
   VkBuffer buffer = VK_NULL_HANDLE;
-  RINGLET_VK_CHECK(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &buffer), attempt());
+  RINGLET_VK_CHECK(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &buffer), self.attempt());
   self.buffer_ = OwnedBuffer(device.shared_from_this(), buffer);
   device.nameObject(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer), name);
+  return self;
+}
+
+Status Buffer::bind(std::uint64_t offset) {
+  RINGLET_VK_CHECK(device_->vk().vkBindBufferMemory(device_->handle(), handle(), memory_->memory(),
+                                                    memory_->offset() + offset),
+                   attempt());
+  return {};
+}
+
+Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name) {
+  if (Status status = checkSize(device.properties(), bytes, name); !status) return status.error();
+  auto made = withoutMemory(device, bytes, kind, name);
+  if (!made) return made;
+  Buffer& self = *made;
 
   VkMemoryRequirements requirements;
-  device.vk().vkGetBufferMemoryRequirements(device.handle(), buffer, &requirements);
+  device.vk().vkGetBufferMemoryRequirements(device.handle(), self.handle(), &requirements);
+  self.alignment_ = std::max(kRecordBytes, requirements.alignment);
   const auto types =
       memoryTypesFor(device.memory(), requirements.memoryTypeBits, kind, device.options().alwaysStage);
   if (types.empty()) {
-    return Error{fmt::format("could not {}: the driver offers no {} memory for it", attempt(),
+    return Error{fmt::format("could not {}: the driver offers no {} memory for it", self.attempt(),
                              kind == BufferKind::stream ? "host-coherent" : "device")};
   }
+  self.memory_ = std::make_shared<Allocation>();
   const auto allocate = [&](std::uint32_t type) {
-    return Allocation::make(device, requirements, type, self.memory_);
+    return Allocation::make(device, requirements, type, *self.memory_);
   };
-  const auto type = allocateInFirst(device.memory(), types, requirements.size, attempt(), allocate);
+  const auto type = allocateInFirst(device.memory(), types, requirements.size, self.attempt(), allocate);
   if (!type) return type.error();
   const VkMemoryType& chosen = device.memory().memoryTypes[*type];
   self.counted_ = device.countBytes(chosen.heapIndex, requirements.size);
-  RINGLET_VK_CHECK(
-      device.vk().vkBindBufferMemory(device.handle(), buffer, self.memory_.memory(), self.memory_.offset()),
-      attempt());
+  if (Status status = self.bind(0); !status) return status.error();
 
   const bool isMapped = kind == BufferKind::stream ||
                         (!device.options().alwaysStage && (chosen.propertyFlags & kMappable) == kMappable);
   if (isMapped) {
-    const auto address = self.memory_.map(attempt());
+    const auto address = self.memory_->map(self.attempt());
     if (!address) return address.error();
     self.mapped_ = *address;
   }
-  return self;
+  return made;
+}
+
+Result<Buffer> Buffer::part(const Buffer& whole, std::uint64_t offset, std::uint64_t bytes,
+                            const std::string& name) {
+  RINGLET_ASSERT(offset % whole.alignment_ == 0, "a part begins where buffers may");
+  RINGLET_ASSERT(offset <= whole.bytes_ && bytes <= whole.bytes_ - offset,
+                 "a part runs past its whole's end");
+  auto made = withoutMemory(*whole.device_, bytes, whole.kind_, name);
+  if (!made) return made;
+  Buffer& self = *made;
+  self.alignment_ = whole.alignment_;
+  self.memory_ = whole.memory_;
+  self.counted_ = whole.counted_;
+  if (Status status = self.bind(offset); !status) return status.error();
+  if (whole.mapped_) self.mapped_ = whole.mapped_ + offset;
+  return made;
 }
 
 Status Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {

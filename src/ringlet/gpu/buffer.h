@@ -23,6 +23,10 @@ class Buffer {
  public:
   /// The content is undefined until written. No bytes are fine, and can be bound. `name` is for messages.
   static Result<Buffer> create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name);
+  /// `bytes` of `whole` from `offset` on, a multiple of its alignment(), as a buffer of its own in the same
+  /// memory, which it keeps: what is written by one is read by the other, after a barrier.
+  static Result<Buffer> part(const Buffer& whole, std::uint64_t offset, std::uint64_t bytes,
+                             const std::string& name);
   Buffer(Buffer&&) = default;
   Buffer& operator=(Buffer&&) = default;
 
@@ -44,17 +48,24 @@ class Buffer {
   VkBuffer handle() const { return buffer_.get(); }
   /// bytes(), rounded up to whole 16-byte records and to at least one: what is bound and filled.
   std::uint64_t capacity() const { return capacity_; }
+  /// Where parts may begin [bytes].
+  std::uint64_t alignment() const { return alignment_; }
 
  private:
   Buffer() = default;
+  static Result<Buffer> withoutMemory(Device& device, std::uint64_t bytes, BufferKind kind,
+                                      const std::string& name);
+  Status bind(std::uint64_t offset);
+  std::string attempt() const;  // completes "could not ..."
 
   Device* device_ = nullptr;  // held open by what follows
-  Allocation memory_;
+  std::shared_ptr<Allocation> memory_;
   std::shared_ptr<void> counted_;  // among what is taken of the device's memory
   OwnedBuffer buffer_;
   std::byte* mapped_ = nullptr;
   std::uint64_t bytes_ = 0;
   std::uint64_t capacity_ = 0;
+  std::uint64_t alignment_ = 1;
   BufferKind kind_ = BufferKind::storage;
   std::string name_;
 };

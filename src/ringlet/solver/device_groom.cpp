@@ -36,15 +36,21 @@ Result<std::shared_ptr<Buffer>> createStrands(gpu::Device& device, std::span<con
   return std::make_shared<Buffer>(std::move(*strands));
 }
 
+// `ofPlace`: what moves, of a head that has a place; which gives it away.
 Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& constants,
-                                const GroomRecords& records) {
+                                const GroomRecords& records, HeadBuffers* ofPlace) {
   const GroomChunk& part = constants.part;
   const std::uint64_t particleCount = part.particleCount(), strandCount = part.strandCount();
-  auto positions = createZero(device, particleCount * records.position, "positions");
+  const auto moving = [&](Buffer HeadBuffers::*own, std::uint64_t bytes, const char* name) -> Result<Buffer> {
+    if (!ofPlace) return createZero(device, bytes, name);
+    if (Status status = (ofPlace->*own).fillZero(); !status) return status.error();
+    return std::move(ofPlace->*own);
+  };
+  auto positions = moving(&HeadBuffers::positions, particleCount * records.position, "positions");
   if (!positions) return positions.error();
-  auto velocities = createZero(device, particleCount * records.velocity, "velocities");
+  auto velocities = moving(&HeadBuffers::velocities, particleCount * records.velocity, "velocities");
   if (!velocities) return velocities.error();
-  auto reports = createZero(device, strandCount * records.report, "reports");
+  auto reports = moving(&HeadBuffers::reports, strandCount * records.report, "reports");
   if (!reports) return reports.error();
   auto taps = createZero(device, particleCount * records.taps, "taps");
   if (!taps) return taps.error();
@@ -133,8 +139,19 @@ Status DeviceGroom::setConstants(gpu::Device& device, std::span<const layout::St
 
 Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, std::span<const ConstantChunk> constants,
                                         std::span<const layout::StrandRest> shifted,
-                                        const GroomRecords& records, std::size_t slots) {
-  auto poses = FrameInput::create(device, layout::kMaxStepPoses * sizeof(layout::StepPose), slots, "poses");
+                                        const GroomRecords& records, std::size_t slots, HeadPlaces* places) {
+  std::optional<HeadPlace> place;
+  std::optional<HeadBuffers> ofPlace;
+  if (places) {
+    auto taken = places->take();
+    if (!taken) return taken.error();
+    auto part = taken->part(1);
+    if (!part) return part.error();
+    place = std::move(*taken), ofPlace = std::move(*part);
+  }
+  constexpr std::uint64_t kPoseBytes = layout::kMaxStepPoses * sizeof(layout::StepPose);
+  auto poses = ofPlace ? FrameInput::create(device, std::move(ofPlace->poses), slots, "poses")
+                       : FrameInput::create(device, kPoseBytes, slots, "poses");
   if (!poses) return poses.error();
   auto control = createZero(
       device, records.contactSystem + records.addedByVolume > 0 ? sizeof(layout::ContactControl) : 0,
@@ -144,8 +161,9 @@ Result<DeviceGroom> DeviceGroom::create(gpu::Device& device, std::span<const Con
                                          "contact control read back");
   if (!controlRead) return controlRead.error();
   DeviceGroom groom{{}, std::move(*poses), std::move(*control), std::move(*controlRead), !shifted.empty()};
+  groom.place = std::move(place);
   for (const ConstantChunk& constant : constants) {
-    auto chunk = createChunk(device, constant, records);
+    auto chunk = createChunk(device, constant, records, ofPlace ? &*ofPlace : nullptr);
     if (!chunk) return chunk.error();
     if (!shifted.empty()) {
       auto strands = createStrands(device, shifted, constant.part);
@@ -167,6 +185,8 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindReports, c.reports},
           {kBindTaps, c.taps},
           {kBindPoses, poses.seen()},
+          {kBindHeadPoses, poses.seen()},
+          {kBindHeadPoseTexels, poses.seen()},
           {kBindSolved, c.solved},
           {kBindContactSystems, c.contactSystems},
           {kBindContactControl, contactControl},
@@ -188,7 +208,7 @@ const layout::ContactControl& DeviceGroom::control() const {
 }
 
 std::uint64_t DeviceGroom::largestTexels() const {
-  std::uint64_t largest = 0;
+  std::uint64_t largest = place ? place->row().largestBuffer() : 0;
   for (const DeviceChunk& c : chunks)
     largest = std::max({largest, c.positions.bytes(), c.particles->bytes(), c.strands->bytes(),
                         c.contactSystems.bytes(), c.addedByVolume.bytes()});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/solver/frame_input.h"
 #include "ringlet/solver/groom_chunks.h"
+#include "ringlet/solver/head_places.h"
 
 namespace ringlet {
 
@@ -61,17 +63,21 @@ struct DeviceGroom {
   gpu::Buffer controlRead;           // as the last frame left it, in the host's memory
   bool hasOwnStrands = false;        // which no other head sees
   std::vector<ConstantChunk> own{};  // in place of what heads share, of all chunks; none: that
+  std::optional<HeadPlace> place{};  // among other heads, of which all that changes is a part
 
   /// `shifted`: all strands in device order, of a head whose roots move beside it; else none. `slots`: frames
-  /// in flight. Fails when the device lacks memory.
+  /// in flight. `places`: among which to take one, or null. Fails when the device lacks memory.
   static Result<DeviceGroom> create(gpu::Device& device, std::span<const ConstantChunk> constants,
                                     std::span<const layout::StrandRest> shifted, const GroomRecords& records,
-                                    std::size_t slots);
+                                    std::size_t slots, HeadPlaces* places);
 
   /// Constants of this head's own in place of the others; kernels must be bound to them anew. Fails when the
   /// device lacks memory.
   Status setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
                       std::span<const layout::ParticleRest> particles);
+
+  /// Whether all that does not change is what other heads see too.
+  bool sharesConstants() const { return own.empty() && !hasOwnStrands; }
 
   /// A chunk's buffers, as strand kernels bind them.
   gpu::BufferTable bufferTable(std::size_t chunk) const;

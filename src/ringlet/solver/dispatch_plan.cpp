@@ -104,13 +104,19 @@ void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& ran
       piece.range = index;
       piece.strandBegin = static_cast<std::uint32_t>(begin);
       piece.strandEnd = static_cast<std::uint32_t>(std::min<std::uint64_t>(range.end, begin + strandsAtOnce));
-      piece.groupCount = (piece.strandEnd - piece.strandBegin + strandsPerGroup - 1) / strandsPerGroup;
+      piece.groupCount = groupCountOf(piece, range.shape, groupSize);
       plan.push_back(piece);
     }
   }
 }
 
 }  // namespace
+
+std::uint32_t groupCountOf(const PlannedDispatch& dispatch, const StrandShape& shape, std::uint32_t groupSize,
+                           std::uint32_t heads) {
+  const std::uint32_t strandsPerGroup = groupSize / shape.lanes;
+  return (heads * (dispatch.strandEnd - dispatch.strandBegin) + strandsPerGroup - 1) / strandsPerGroup;
+}
 
 std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const StrandRange> ranges) {
   return std::uint64_t{dispatch.strandEnd - dispatch.strandBegin} * ranges[dispatch.range].longest *

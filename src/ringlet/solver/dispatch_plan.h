@@ -21,6 +21,10 @@ struct PlannedDispatch {
   std::uint32_t groupCount = 0;
 };
 
+/// Workgroups of a dispatch for so many heads.
+std::uint32_t groupCountOf(const PlannedDispatch& dispatch, const StrandShape& shape, std::uint32_t groupSize,
+                           std::uint32_t heads = 1);
+
 /// One solve with contacts on: which step, what it does, and whether it goes on to the next step's first
 /// solve.
 struct SolvePass {

@@ -15,10 +15,15 @@ Result<FrameInput> FrameInput::create(gpu::Device& device, std::uint64_t bytes, 
                                       const std::string& name) {
   auto seen = Buffer::create(device, bytes, BufferKind::storage, name);
   if (!seen) return seen.error();
-  FrameInput input(std::move(*seen));
+  return create(device, std::move(*seen), slots, name);
+}
+
+Result<FrameInput> FrameInput::create(gpu::Device& device, gpu::Buffer seen, std::size_t slots,
+                                      const std::string& name) {
+  FrameInput input(std::move(seen));
   for (std::size_t slot = 0; slot < slots; ++slot) {
-    auto written =
-        Buffer::create(device, bytes, BufferKind::stream, fmt::format("{} of frame slot {}", name, slot));
+    auto written = Buffer::create(device, input.bytes(), BufferKind::stream,
+                                  fmt::format("{} of frame slot {}", name, slot));
     if (!written) return written.error();
     input.written_.push_back(std::move(*written));
   }

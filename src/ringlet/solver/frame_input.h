@@ -21,6 +21,9 @@ class FrameInput {
   /// For `slots` frames in flight. No bytes are fine.
   static Result<FrameInput> create(gpu::Device& device, std::uint64_t bytes, std::size_t slots,
                                    const std::string& name);
+  /// Kernels are to see `seen`.
+  static Result<FrameInput> create(gpu::Device& device, gpu::Buffer seen, std::size_t slots,
+                                   const std::string& name);
 
   /// What kernels see.
   const gpu::Buffer& seen() const { return seen_; }

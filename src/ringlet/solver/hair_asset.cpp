@@ -99,6 +99,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
                                                               {},
                                                               {},
                                                               {},
+                                                              {},
                                                               {}});
   if (settings.goal.on) self->goal = goalOf(groom);
   self->choice.goals = choice.goals || settings.goal.on;
@@ -129,7 +130,19 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     if (!first) return first.error();
     self->firstRanges = std::move(*first);
   }
-  self->groupSize = strandGroupSize(*limits, lanesOf(self->ranges));
+  const StrandKernelOptions hair{.integrator = settings.integrator,
+                                 .taps = choice.taps,
+                                 .contacts = settings.contacts.on,
+                                 .bodies = hasBodies,
+                                 .air = settings.air.on,
+                                 .movingRoots = choice.movingRoots,
+                                 .forces = choice.forces,
+                                 .goals = self->choice.goals,
+                                 .fields = choice.fields};
+  if (chunks->size() == 1 && canBeOfHeads(hair))
+    self->places = HeadPlaces::create(device.gpu(), chunks->front(), self->records, choice.heads);
+  const std::uint64_t lanes = lanesOf(self->ranges);
+  self->groupSize = strandGroupSize(*limits, self->places ? lanes * self->places->headsOfRow() : lanes);
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
   if (!plan) return plan.error();  // before anything is made for it
   for (const GroomChunk& chunk : *chunks) {

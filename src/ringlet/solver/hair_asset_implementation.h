@@ -12,6 +12,7 @@
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/groom_chunks.h"
 #include "ringlet/solver/hair_asset.h"
+#include "ringlet/solver/head_places.h"
 #include "ringlet/solver/shape_plan.h"
 
 namespace ringlet {
@@ -37,6 +38,7 @@ struct HairAsset::Implementation {
       firstRanges;  // as a step's first solve has them, where that has kernels of its own
   GroomRecords records;
   std::vector<ConstantChunk> constants;
+  std::shared_ptr<HeadPlaces> places;              // of many small heads; none: each has its own buffers
   std::optional<GroomGoal> goal;                   // where Settings::goal is on
   std::optional<std::vector<GoalUnit>> goalUnits;  // with goals
 

@@ -2,7 +2,11 @@
 #include "ringlet/solver/hair_frames.h"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "ringlet/base/assert.h"
 #include "ringlet/gpu/command_list.h"
@@ -24,8 +28,21 @@ class HairFrames {
   }
 
  private:
+  static std::vector<HairFrame> inRows(std::span<const HairFrame> frames);
+  static Status recordAll(std::span<const HairFrame> frames, gpu::CommandList& list);
   static Simulation::Implementation& of(const HairFrame& frame) { return *frame.hair->self_; }
 };
+
+// Those that stand in a row come in its order, so that a dispatch can step several.
+std::vector<HairFrame> HairFrames::inRows(std::span<const HairFrame> frames) {
+  std::vector<HairFrame> ordered(frames.begin(), frames.end());
+  const auto placeOf = [](const HairFrame& frame) {
+    const std::optional<HeadPlace>& place = of(frame).buffers.place;
+    return place ? std::pair(&place->row(), place->number()) : std::pair<const HeadRow*, std::uint32_t>();
+  };
+  std::ranges::stable_sort(ordered, std::less{}, placeOf);
+  return ordered;
+}
 
 Status HairFrames::record(std::span<const HairFrame> frames, gpu::CommandList& list) {
   std::set<const Simulation*> heads;
@@ -35,10 +52,27 @@ Status HairFrames::record(std::span<const HairFrame> frames, gpu::CommandList& l
     RINGLET_ASSERT(&of(frame).device.gpu() == &device(frames), "heads of several devices in one recording");
     if (Status status = of(frame).checkFree(frame); !status) return status;
   }
+  const Status recorded = recordAll(inRows(frames), list);
+  if (!recorded) lose(frames, recorded.error());
+  return recorded;
+}
+
+Status HairFrames::recordAll(std::span<const HairFrame> frames, gpu::CommandList& list) {
+  std::vector<bool> works;
   for (const HairFrame& frame : frames) {
-    if (Status status = of(frame).recordBeside(frame, list); !status) {
-      lose(frames, status.error());
-      return status;
+    const auto prepared = of(frame).prepareFrame(frame.stepPoses, frame.bodyPoses, frame.rootPoses);
+    if (!prepared) return prepared.error();
+    works.push_back(*prepared);
+  }
+  for (std::size_t begin = 0, end = 0; begin < frames.size(); begin = end) {
+    const std::size_t most = of(frames[begin]).mostHeadsOfDispatch();
+    end = begin + 1;
+    while (end < frames.size() && end - begin < most && works[begin] && works[end] &&
+           of(frames[end]).goesWith(of(frames[end - 1])))
+      ++end;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto stepped = static_cast<std::uint32_t>(k == begin ? end - begin : 0);
+      if (Status status = of(frames[k]).recordBeside(list, works[k], stepped); !status) return status;
     }
   }
   return {};
@@ -59,20 +93,44 @@ Status Simulation::Implementation::checkFree(const HairFrame& frame) const {
                          "and call frameIsOver"};
 }
 
-// Beside what the list has of other heads. The submission's length is the host's.
-Status Simulation::Implementation::recordBeside(const HairFrame& frame, gpu::CommandList& list) {
-  const auto works = prepareFrame(frame.stepPoses, frame.bodyPoses, frame.rootPoses);
-  if (!works) return works.error();
-  const std::size_t slot = submitted++ % kFramesInFlight;
-  if (*works) {
-    SubmissionPace unbounded(0);
-    FrameRecording recording{list, unbounded, slot};
-    list.beside();
-    if (Status status = recordFrame(recording); !status) return status;
-    slots[slot].isHosts = true;
-  } else {
-    waited = ++finished;
+std::size_t Simulation::Implementation::mostHeadsOfDispatch() const {
+  std::uint32_t groups = 1;
+  for (const StrandRange& range : ranges) {
+    const PlannedDispatch whole{.strandBegin = range.begin, .strandEnd = range.end};
+    groups = std::max(groups, groupCountOf(whole, range.shape, asset->groupSize));
   }
+  return std::max(1u, asset->limits.maxGroupCount / groups);
+}
+
+// Whether the dispatches of the head that stands before this one in its row, for one head more, step this
+// one.
+bool Simulation::Implementation::goesWith(const Implementation& before) const {
+  const auto isOfRow = [](const Implementation& one) {
+    return one.strandKernels.areOfHeads && one.buffers.sharesConstants() && !one.stillness.sleeps();
+  };
+  if (asset != before.asset || !isOfRow(*this) || !isOfRow(before)) return false;
+  const HeadPlace &here = *buffers.place, &there = *before.buffers.place;
+  if (&here.row() != &there.row() || here.number() != there.number() + 1) return false;
+  // What the host says of a step, and how a frame is planned by it.
+  const auto said = [](const Implementation& one) { return one.parametersOf(one.strandKernels, {}); };
+  const layout::StepParameters own = said(*this), others = said(before);
+  return std::ranges::equal(std::as_bytes(std::span(&own, 1)), std::as_bytes(std::span(&others, 1)));
+}
+
+// Beside what the list has of other heads. The submission's length is the host's. `heads`: as FrameRecording
+// has them.
+Status Simulation::Implementation::recordBeside(gpu::CommandList& list, bool works, std::uint32_t heads) {
+  const std::size_t slot = submitted++ % kFramesInFlight;
+  if (!works) {
+    waited = ++finished;
+    return {};
+  }
+  SubmissionPace unbounded(0);
+  FrameRecording recording{list, unbounded, slot, heads};
+  if (Status status = bindHeads(heads); !status) return status;
+  list.beside();
+  if (Status status = recordFrame(recording); !status) return status;
+  slots[slot].isHosts = true;
   return {};
 }
 

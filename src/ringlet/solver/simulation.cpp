@@ -59,7 +59,8 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   if (!plan) return plan.error();  // before anything is made for it
 
   std::vector<layout::StrandRest> strands = shiftedStrands(rest, initial.rootShifts);
-  auto buffers = DeviceGroom::create(device, constant.constants, strands, constant.records, kFramesInFlight);
+  auto buffers = DeviceGroom::create(device, constant.constants, strands, constant.records, kFramesInFlight,
+                                     constant.places.get());
   if (!buffers) return buffers.error();
   auto world = DeviceWorld::create(device, initial.bodies, settings, initial.head, kFramesInFlight);
   if (!world) return world.error();

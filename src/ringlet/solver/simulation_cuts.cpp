@@ -133,6 +133,7 @@ Result<FallenHair> Simulation::Implementation::fall(std::span<const StrandCut> c
   KernelChoice kernels = choice;
   kernels.part = strandsCut;
   kernels.observer = nullptr;
+  kernels.heads = 1;
   kernels.movingRoots = kernels.goals = kernels.taps = kernels.residual = false;
   const auto made = HairAsset::build(device, groomOf(rest), fallenMaterial(asset->material),
                                      fallenSettings(asset->settings), kernels, asset->bodies);

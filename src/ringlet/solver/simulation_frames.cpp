@@ -13,7 +13,8 @@
 namespace ringlet {
 
 layout::StepParameters Simulation::Implementation::parametersOf(const StrandKernels& of,
-                                                                const PlannedDispatch& dispatch) const {
+                                                                const PlannedDispatch& dispatch,
+                                                                std::uint32_t heads) const {
   layout::StepParameters p{};
   p.gravity = packed3(settings.gravity * material.gravityFactor);
   p.seconds = static_cast<float>(settings.stepSeconds());
@@ -39,6 +40,13 @@ layout::StepParameters Simulation::Implementation::parametersOf(const StrandKern
   p.strandCount = chunk.strandCount();
   p.stepCount = static_cast<std::uint32_t>(settings.stepsPerFrame);
   p.fieldCount = static_cast<std::uint32_t>(fields.count());
+  if (of.areOfHeads) {
+    const HeadRow& row = buffers.place->row();
+    p.headCount = heads;
+    p.headParticles = row.particles;
+    p.headStrands = row.strands;
+    p.headPoses = row.stepPoses;
+  }
   return p;
 }
 
@@ -58,8 +66,10 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame, const Strand
     // for hazards.
     const bool isValidated = device.gpu().validationLog() != nullptr;
     if (d > 0 && !cuts && (isValidated || sharesStrands(dispatches[d - 1], now))) frame.list.barrier();
-    frame.list.dispatch(*of.kernels[of.kernelOf[now.range]], of.bindings[now.range], parametersOf(of, now),
-                        now.groupCount);
+    if (frame.heads == 0) continue;
+    frame.list.dispatch(*of.kernels[of.kernelOf[now.range]], of.bindingsOf(now.range, frame.heads),
+                        parametersOf(of, now, frame.heads),
+                        groupCountOf(now, of.ranges[now.range].shape, asset->groupSize, frame.heads));
   }
   frame.list.endStage();
 }

@@ -69,7 +69,16 @@ struct FrameRecording {
   gpu::CommandList& list;
   SubmissionPace& pace;
   std::size_t slot = 0;
+  // Whose strands its dispatches step: this head's and those behind it in the row; 0: none, another head's
+  // do.
+  std::uint32_t heads = 1;
   double particleSteps = 0;  // of strands
+};
+
+// This head and some behind it in its row, as a dispatch sees them.
+struct BoundHeads {
+  HeadBuffers buffers;
+  std::vector<gpu::Bindings> bindings;  // one a range
 };
 
 // Kernels of strands, in the shapes of these ranges.
@@ -78,6 +87,12 @@ struct StrandKernels {
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
   std::vector<std::size_t> kernelOf{};                        // each range's
   std::vector<gpu::Bindings> bindings{};                      // one a range
+  bool areOfHeads = false;                                    // StrandKernelOptions::heads
+  std::map<std::uint32_t, BoundHeads> ofHeads{};              // by how many; of one: bindings
+
+  const gpu::Bindings& bindingsOf(std::uint32_t range, std::uint32_t heads) const {
+    return heads > 1 ? ofHeads.at(heads).bindings[range] : bindings[range];
+  }
 
   bool areThere() const { return !kernels.empty(); }
 };
@@ -169,6 +184,8 @@ struct Simulation::Implementation {
   Status create(StrandKernels& of, const StrandKernelOptions& options) const;
   Status bindKernels();
   Status bindKernels(StrandKernels& of);
+  Status bindHeads(std::uint32_t heads);
+  gpu::BufferTable bufferTable(std::size_t chunk) const;
   void dispatchNothing(gpu::CommandList& list, const StrandKernels& of,
                        std::span<const std::size_t> newKernels) const;
 
@@ -210,7 +227,8 @@ struct Simulation::Implementation {
   void restrict(std::span<layout::StrandRest> strands, std::span<layout::ParticleRest> particles) const;
 
   // simulation_frames.cpp
-  layout::StepParameters parametersOf(const StrandKernels& of, const PlannedDispatch& dispatch) const;
+  layout::StepParameters parametersOf(const StrandKernels& of, const PlannedDispatch& dispatch,
+                                      std::uint32_t heads = 1) const;
   bool isJump(std::span<const HeadPose> stepPoses) const {
     RINGLET_ASSERT(stepPoses.size() == static_cast<std::size_t>(settings.stepsPerFrame),
                    "a frame takes one pose per outer step");
@@ -268,7 +286,9 @@ struct Simulation::Implementation {
 
   // hair_frames.cpp
   Status checkFree(const HairFrame& frame) const;
-  Status recordBeside(const HairFrame& frame, gpu::CommandList& list);
+  std::size_t mostHeadsOfDispatch() const;
+  bool goesWith(const Implementation& before) const;
+  Status recordBeside(gpu::CommandList& list, bool works, std::uint32_t heads);
 };
 
 }  // namespace ringlet

@@ -58,26 +58,28 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
                               forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));
-  return {.integrator = settings.integrator,
-          .oneSmoothing = rest.oneSmoothing,
-          .bendVaries = bendVaries,
-          .taps = choice.taps,
-          .contacts = settings.contacts.on,
-          .pairs = contacts.has_value(),
-          .volume = volume.has_value(),
-          .texels = fitsTexels,
-          .residual = choice.residual,
-          .bodies = asset->bodies == BodyUse::some,
-          .air = settings.air.on,
-          .turbulence = world.isTurbulent(),
-          .movingRoots = choice.movingRoots,
-          .forces = choice.forces,
-          .goals = choice.goals,
-          .goalShape = settings.goal.shape,
-          .fields = choice.fields,
-          .falls = falls,
-          .subgroupSize = askedWidth(device.gpu().properties(), choice),
-          .groupSize = asset->groupSize};
+  StrandKernelOptions options{.integrator = settings.integrator,
+                              .oneSmoothing = rest.oneSmoothing,
+                              .bendVaries = bendVaries,
+                              .taps = choice.taps,
+                              .contacts = settings.contacts.on,
+                              .pairs = contacts.has_value(),
+                              .volume = volume.has_value(),
+                              .texels = fitsTexels,
+                              .residual = choice.residual,
+                              .bodies = asset->bodies == BodyUse::some,
+                              .air = settings.air.on,
+                              .turbulence = world.isTurbulent(),
+                              .movingRoots = choice.movingRoots,
+                              .forces = choice.forces,
+                              .goals = choice.goals,
+                              .goalShape = settings.goal.shape,
+                              .fields = choice.fields,
+                              .falls = falls,
+                              .subgroupSize = askedWidth(device.gpu().properties(), choice),
+                              .groupSize = asset->groupSize};
+  options.heads = buffers.place && canBeOfHeads(options);
+  return options;
 }
 
 // Shapes whose kernels a simulation before has not made on this device.
@@ -98,6 +100,7 @@ Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelO
   auto made = createStrandKernels(device.gpu(), shapes, options);
   if (!made) return made.error();
   of.kernels = std::move(*made);
+  of.areOfHeads = options.heads;
   for (const StrandRange& range : of.ranges)
     of.kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
   return {};
@@ -141,20 +144,40 @@ Status Simulation::Implementation::bindKernels() {
   return bindKernels(firstSolveKernels);
 }
 
+gpu::BufferTable Simulation::Implementation::bufferTable(std::size_t chunk) const {
+  gpu::BufferTable table = buffers.bufferTable(chunk);
+  table.merge(world.bufferTable());
+  table.merge(roots.bufferTable(chunk));
+  table.merge(forces.bufferTable(chunk));
+  table.merge(goals.bufferTable(chunk));
+  table.merge(fields.bufferTable());
+  return table;
+}
+
 Status Simulation::Implementation::bindKernels(StrandKernels& of) {
   of.bindings.clear();
+  of.ofHeads.clear();
   for (std::size_t r = 0; r < of.ranges.size(); ++r) {
-    const std::uint32_t chunk = of.ranges[r].chunk;
-    gpu::BufferTable table = buffers.bufferTable(chunk);
-    table.merge(world.bufferTable());
-    table.merge(roots.bufferTable(chunk));
-    table.merge(forces.bufferTable(chunk));
-    table.merge(goals.bufferTable(chunk));
-    table.merge(fields.bufferTable());
-    auto bound = gpu::Bindings::create(*of.kernels[of.kernelOf[r]], table);
+    auto bound = gpu::Bindings::create(*of.kernels[of.kernelOf[r]], bufferTable(of.ranges[r].chunk));
     if (!bound) return bound.error();
     of.bindings.push_back(std::move(*bound));
   }
+  return {};
+}
+
+Status Simulation::Implementation::bindHeads(std::uint32_t heads) {
+  if (heads < 2 || strandKernels.ofHeads.contains(heads)) return {};
+  auto part = buffers.place->part(heads);
+  if (!part) return part.error();
+  BoundHeads bound{std::move(*part), {}};
+  gpu::BufferTable table = bound.buffers.bufferTable();
+  table.merge(bufferTable(0));
+  for (const std::size_t kernel : strandKernels.kernelOf) {
+    auto bindings = gpu::Bindings::create(*strandKernels.kernels[kernel], table);
+    if (!bindings) return bindings.error();
+    bound.bindings.push_back(std::move(*bindings));
+  }
+  strandKernels.ofHeads.emplace(heads, std::move(bound));
   return {};
 }
 

@@ -11,8 +11,10 @@
 #include "ringlet_shaders/strand_step_baselines_taps.h"
 #include "ringlet_shaders/strand_step_contacts.h"
 #include "ringlet_shaders/strand_step_contacts_taps.h"
+#include "ringlet_shaders/strand_step_heads.h"
 #include "ringlet_shaders/strand_step_memory_baselines.h"
 #include "ringlet_shaders/strand_step_memory_baselines_taps.h"
+#include "ringlet_shaders/strand_step_memory_heads.h"
 #include "ringlet_shaders/strand_step_memory_plain.h"
 #include "ringlet_shaders/strand_step_memory_plain_taps.h"
 #include "ringlet_shaders/strand_step_memory_surroundings.h"
@@ -21,6 +23,7 @@
 #include "ringlet_shaders/strand_step_plain_taps.h"
 #include "ringlet_shaders/strand_step_serial_baselines.h"
 #include "ringlet_shaders/strand_step_serial_baselines_taps.h"
+#include "ringlet_shaders/strand_step_serial_heads.h"
 #include "ringlet_shaders/strand_step_serial_plain.h"
 #include "ringlet_shaders/strand_step_serial_plain_taps.h"
 #include "ringlet_shaders/strand_step_serial_surroundings.h"
@@ -39,6 +42,10 @@ Spirv spirvOf(const StrandShape& shape, const StrandKernelOptions& options) {
   const auto either = [&](Spirv plain, Spirv taps) { return options.taps ? taps : plain; };
   const bool amongOthers = options.bodies || options.air || options.goals || options.fields;
   const bool isBaseline = options.integrator != Integrator::jacobi;
+  if (options.heads)
+    return shape.serial()   ? Spirv(k_strand_step_serial_heads)
+           : shape.inMemory ? Spirv(k_strand_step_memory_heads)
+                            : Spirv(k_strand_step_heads);
   if (shape.serial()) {
     if (isBaseline) return either(k_strand_step_serial_baselines, k_strand_step_serial_baselines_taps);
     if (amongOthers || options.contacts)
@@ -70,6 +77,12 @@ std::uint32_t integratorConstant(Integrator integrator) {
 }
 
 }  // namespace
+
+bool canBeOfHeads(const StrandKernelOptions& options) {
+  return options.integrator == Integrator::jacobi && !options.taps && !options.contacts && !options.bodies &&
+         !options.air && !options.movingRoots && !options.forces && !options.goals && !options.fields &&
+         !options.falls;
+}
 
 // FNV-1a, word by word.
 std::string strandKernelHash() {
