@@ -128,7 +128,7 @@ void checkOutputs(const SceneOutput& output) {
 }
 
 Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {
-  if (options.usesGroomPrims && groom.prims.empty())
+  if (options.usesGroomPrims && (groom.prims.empty() || groom.prims.front().path.empty()))
     return Error{"only a USD groom has prims of its own, which --usd-prims groom would change; leave it out"};
   options.origin = &groom;
   return {};

@@ -64,6 +64,42 @@ TEST(HairFile, ReadsStrandsOfDifferentLengths) {
   }
 }
 
+// Behind thickness and transparency, without those of a strand that is left out.
+TEST(HairFile, ColoursAreAPrimvar) {
+  const auto floats = [](std::size_t count, float first) {
+    std::string out;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float value = first + static_cast<float>(i);
+      out.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    return out;
+  };
+  HairBytes hair{.segments = {1, 0, 5}};
+  hair.flags = 3 | 4 | 8 | 16;
+  hair.after = floats(9, 100) + floats(9, 200) + floats(27, 0);
+  const auto read = [&] { return readHair(test::bytesOf(hair.bytes()), "test.hair", {.keepsPrims = true}); };
+  auto loaded = read();
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->prims.size(), 1u);
+  EXPECT_EQ(loaded->prims[0].strandCount, 2u);
+  ASSERT_EQ(loaded->prims[0].values.size(), 1u);
+  const GroomValue& colours = loaded->prims[0].values[0];
+  EXPECT_EQ(colours.name, "primvars:displayColor");
+  EXPECT_EQ(colours.interpolation, "vertex");
+  std::vector<double> expected{0, 1, 2, 3, 4, 5};
+  for (int i = 9; i < 27; ++i) expected.push_back(i);
+  EXPECT_EQ(colours.numbers, expected);
+  EXPECT_TRUE(readHair(test::bytesOf(hair.bytes()), "test.hair")->prims.empty());
+
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(hair.after.data() + 72, &nothing, 4);
+  loaded = read();
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_TRUE(loaded->prims.empty());
+  ASSERT_EQ(loaded->warnings.size(), 2u);
+  EXPECT_TRUE(contains(loaded->warnings[1], "a colour that is not finite")) << loaded->warnings[1];
+}
+
 TEST(HairFile, TakesALowerCaseMagicWithAWarning) {
   std::string bytes = HairBytes{}.bytes();
   bytes.replace(0, 4, "hair");

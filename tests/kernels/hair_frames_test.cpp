@@ -199,10 +199,42 @@ TEST_F(HairFramesTest, OneDispatchStepsManyHeads) {
     return CountedDispatches::count;
   };
   EXPECT_EQ(dispatchesOf(0), 2);
+  heads.pop_back();
+  heads.push_back(*make(*asset, kind, kHeads[0]));  // in the place that is free again
+  EXPECT_EQ(dispatchesOf(1), 2);
   Settings heavy = heads[2].settings();
   heavy.gravity = heavy.gravity * 2.0;
   ASSERT_TRUE(heads[2].setSettings(heavy));
-  EXPECT_EQ(dispatchesOf(1), 4);
+  EXPECT_EQ(dispatchesOf(2), 4);
+}
+
+// One that sleeps between two that move is left as it is.
+TEST_F(HairFramesTest, ASleeperOfARowIsLeftAlone) {
+  Hair kind = hairs().front();
+  kind.groom = randomGroom(std::vector<int>(10, 20), 3);
+  kind.kernel.heads = 3;
+  kind.settings.sleepSpeed = 0.5;
+  const Head heads[] = {{{1, 0, 0}}, {{0, 0, 0}}, {{0, 0.5, 0}}};
+  const auto asset = build(device(), kind);
+  std::vector<Simulation> together, alone;
+  for (const Head& head : heads) together.push_back(*make(*asset, kind, head));
+  for (const Head& head : heads) alone.push_back(*make(*asset, kind, head));
+  int dispatches = 0;
+  for (int frame = 0; frame < 30; ++frame) {
+    SCOPED_TRACE(frame);
+    const CountedDispatches counted(gpu());
+    std::vector<std::vector<HeadPose>> poses;
+    std::vector<HairFrame> frames;
+    for (int k = 0; k < 3; ++k) poses.push_back(posesOf(kind, heads[k], frame));
+    for (int k = 0; k < 3; ++k) frames.push_back({&together[k], poses[k]});
+    ASSERT_TRUE(stepFrames(frames));
+    dispatches = CountedDispatches::count;
+    for (int k = 0; k < 3; ++k) {
+      ASSERT_TRUE(alone[k].stepFrame(poses[k]));
+      EXPECT_EQ(together[k].framePositions(), alone[k].framePositions()) << k;
+    }
+  }
+  EXPECT_EQ(dispatches, 2) << "one for each that moves";
 }
 
 TEST_F(HairFramesTest, NoHeadsAreFine) { EXPECT_TRUE(stepFrames({})); }

@@ -59,7 +59,7 @@ Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomRead
     if (!bytes) return bytes.error();
     switch (*format) {
       case Format::hair:
-        return readHair(*bytes, path);
+        return readHair(*bytes, path, reading);
       case Format::obj:
         return readObj(*bytes, path);
       case Format::tfx:

@@ -46,10 +46,12 @@ struct Header {
   bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
   // In 64 bits, where no count of the header can overflow it.
   std::uint64_t pointsOffset() const { return kHeaderSize + (has(kHasSegments) ? 2ull * strandCount : 0); }
+  std::uint64_t coloursOffset() const {
+    const std::uint64_t before = kPointSize + (has(kHasThickness) ? 4 : 0) + (has(kHasTransparency) ? 4 : 0);
+    return pointsOffset() + before * pointCount;
+  }
   std::uint64_t fileSize() const {
-    const std::uint64_t perPoint = kPointSize + (has(kHasThickness) ? 4 : 0) +
-                                   (has(kHasTransparency) ? 4 : 0) + (has(kHasColours) ? 12 : 0);
-    return pointsOffset() + perPoint * pointCount;
+    return coloursOffset() + (has(kHasColours) ? kPointSize * pointCount : 0);
   }
 };
 
@@ -121,9 +123,31 @@ Result<std::vector<std::uint32_t>> readPointCounts(std::span<const std::byte> by
   return counts;
 }
 
+// The points' colours as USD's displayColor, of the strands that the groom has.
+void addColours(std::span<const std::byte> bytes, const Header& header, std::span<const std::uint32_t> counts,
+                const std::string& name, LoadedGroom& loaded) {
+  GroomValue colours{"primvars:displayColor", "color3f[]", "vertex", {}, {}};
+  std::size_t offset = static_cast<std::size_t>(header.coloursOffset());
+  for (const std::uint32_t count : counts) {
+    for (std::size_t k = 0; count >= 2 && k < 3 * std::size_t{count}; ++k) {
+      colours.numbers.push_back(readF32(bytes, offset + 4 * k));
+      if (std::isfinite(colours.numbers.back())) continue;
+      loaded.warnings.push_back(fmt::format(
+          "{}: at byte {}: found a colour that is not finite; colours are left aside", name, offset + 4 * k));
+      return;
+    }
+    offset += kPointSize * std::size_t{count};
+  }
+  GroomPrim prim;
+  prim.strandCount = static_cast<std::uint32_t>(loaded.groom.strandCount());
+  prim.values.push_back(std::move(colours));
+  loaded.prims.push_back(std::move(prim));
+}
+
 }  // namespace
 
-Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                             const GroomReading& reading) {
   const std::string name = path.string();
   const Result<Header> header = readHeader(bytes, name);
   if (!header) return header.error();
@@ -158,6 +182,7 @@ Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesy
         fmt::format("{}: left out {} of {} strands, which have one point; a strand needs two", name, tooShort,
                     counts->size()));
   }
+  if (reading.keepsPrims && header->has(kHasColours)) addColours(bytes, *header, *counts, name, loaded);
   if (magicOf(bytes) == kLowerMagic) {
     loaded.warnings.push_back(
         fmt::format("{}: at byte 0: found '{}' for '{}'; read as the same", name, kLowerMagic, kMagic));

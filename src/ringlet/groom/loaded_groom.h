@@ -12,19 +12,20 @@ namespace ringlet {
 /// How a groom is wanted.
 struct GroomReading {
   bool upIsZ = false;       // a file that states its up axis is turned to this one, Y or Z
-  bool keepsPrims = false;  // LoadedGroom::prims, of USD files
+  bool keepsPrims = false;  // LoadedGroom::prims
 };
 
-/// What a USD file says of its curves beside their points: a primvar, ids, widths. Names are USD's.
+/// What a file says of its curves beside their points: a primvar, ids, widths. Names are USD's.
 struct GroomValue {
   std::string name, type, interpolation;  // "primvars:displayColor", "color3f[]", "uniform"
   std::vector<double> numbers;            // one element after the other; or
   std::vector<std::string> texts;
 };
 
-/// A prim of a USD file whose curves are strands of the groom.
+/// A prim of a USD file whose curves are strands of the groom, or all strands of a .hair file that has
+/// colours.
 struct GroomPrim {
-  std::string path;  // "/Head/Hair"
+  std::string path;  // "/Head/Hair"; none in .hair
   std::uint32_t firstStrand = 0, strandCount = 0;
   UsdTransform toGroom;            // from where its points stand to the groom's
   bool isWhole = true;             // every curve is a strand and every point a particle

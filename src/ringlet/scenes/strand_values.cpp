@@ -88,7 +88,9 @@ Result<std::vector<double>> primvarOfStrands(const LoadedGroom& groom, const std
                                              std::size_t& width) {
   if (groom.prims.empty())
     return Error{
-        fmt::format("the groom's file has no primvar {}; primvars are of USD grooms", ringlet::quoted(name))};
+        fmt::format("the groom's file has no primvar {}; primvars are of USD grooms, and displayColor of "
+                    ".hair files with colours",
+                    ringlet::quoted(name))};
   std::vector<double> numbers;
   width = 0;
   for (const GroomPrim& prim : groom.prims) {

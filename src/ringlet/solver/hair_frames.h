@@ -22,8 +22,10 @@ struct HairFrame {
 };
 
 /// Simulation::stepFrame of each head, with the same bits, in one submission; stageMilliseconds does not
-/// count it. All heads are on one device, each is named once, and none has a frame in flight. Fails where
-/// stepFrame fails; the state of all heads is then undefined.
+/// count it. One dispatch steps the heads of an asset that was built for many (KernelChoice::heads), where
+/// their settings are equal and none has a material or root shifts of its own. All heads are on one device,
+/// each is named once, and none has a frame in flight. Fails where stepFrame fails; the state of all heads is
+/// then undefined.
 Status stepFrames(std::span<const HairFrame> frames);
 
 /// Records the same into `commandBuffer`, a VkCommandBuffer that is being recorded outside a render pass, for

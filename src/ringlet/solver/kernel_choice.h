@@ -31,7 +31,9 @@ struct KernelChoice {
   std::span<const ShapeCost>
       measured{};            // on this device, read until build or create returns; none: a cost model is used
   bool manyKernels = false;  // the best shape for every strand, however long kernels take to compile
-  int heads = 1;  // expected number of heads with this hair; for many heads a long compilation pays
+  // Expected number of heads with this hair. For many heads a long compilation pays. With 2 or more, heads of
+  // hair by itself stand together on the device, and one dispatch steps many (hair_frames.h).
+  int heads = 1;
   // Strands, groom order, that are simulated here, where others are elsewhere: these have the bits they have
   // in the whole groom, and of the others no position is known here. Without sleep only, and with contacts
   // only as `link` says. Read until build or create returns; empty: all

@@ -126,9 +126,10 @@ struct HairState {
 
 /// Positions in device memory, for a host that draws from there (ComputeDevice::adopt): four floats a
 /// particle, x y z 0 [m], relative to the head's origin, along world axes. After the wait for a frame they
-/// are that frame's. Commands of the host that read them begin with a barrier from compute writes, and must
-/// end before the next frame is submitted. The buffer has the usages storage, uniform texel, vertex and
-/// transfer source.
+/// are that frame's. Commands of the host that read them begin with a barrier from compute writes of all
+/// memory (VkMemoryBarrier: kernels may write through another VkBuffer of the same memory), and must end
+/// before the next frame is submitted. The buffer has the usages storage, uniform texel, vertex and transfer
+/// source.
 struct DevicePositions {
   void* buffer = nullptr;  // VkBuffer; where handles are 64 bits
   std::uint64_t bytes = 0;
