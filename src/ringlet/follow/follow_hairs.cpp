@@ -247,7 +247,7 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
     FollowHair hair = variedHair(options, factorAt(maps.clump, shares), SeededRandom(options.seed, i));
     const GuideRest& guide = guides[shares[0].guide];
     standOn(guide, shares[0].guide, roots.places[i] - guide.root, hair);
-    blendWith(guides, shares, roots.places[i], options.blend, hair);
+    if (options.blend > 0) blendWith(guides, shares, roots.places[i], options.blend, hair);
     found.emplace_back(hair, i);
   }
   if (Status some = checkCount(found.size()); !some) return some.error();
