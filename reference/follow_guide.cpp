@@ -1,6 +1,8 @@
 // Implements reference/follow_guide.h.
 #include "reference/follow_guide.h"
 
+#include <algorithm>
+
 #include "reference/equations/body_distance.h"
 #include "ringlet/measure/core.h"
 
@@ -15,11 +17,24 @@ Rotation<double> rotationOf(const MeasuringFrame& frame) {
 
 Vector3<double> pointOf(const GuidePlace<double>& place) { return place.core + place.frame * place.curl; }
 
+// Beside a point of a hair: a guide's particles, and where between those.
+struct Beside {
+  double weight = 1;  // of several guides
+  const GuidePlace<double>*before = nullptr, *after = nullptr;
+  double between = 0;
+
+  GuidePlace<double> place() const { return placeBetween(*before, *after, between); }
+};
+Beside besideOf(const GuidePose& guide, double along, double weight) {
+  const std::size_t k = std::min(static_cast<std::size_t>(along), guide.places.size() - 2);
+  return {weight, &guide.places[k], &guide.places[k + 1], along - static_cast<double>(k)};
+}
+
 // A point of a hair, a share of the way along it.
 struct HairPoint {
-  Vector3<double> x, root;        // [m]
-  Vector3<double> before, after;  // its guide's particles beside it [m],
-  double between = 0, share = 0;  // and where between those it is
+  Vector3<double> x, root;  // [m]
+  double share = 0;
+  std::vector<Beside> guides;  // whose weights add up to 1
 };
 
 Vector3<double> outOfBodies(const HairPoint& point, std::span<const Body> bodies,
@@ -32,10 +47,12 @@ Vector3<double> outOfBodies(const HairPoint& point, std::span<const Body> bodies
       return bodyDistance<double>(bodies[b], turn.conjugate() * (p - origin));
     };
     const Surface<double> there = surfaceAt(x);
-    const double ofGuide = (1 - point.between) * surfaceAt(point.before).distance +
-                           point.between * surfaceAt(point.after).distance;
+    double ofGuides = 0;
+    for (const Beside& guide : point.guides)
+      ofGuides += guide.weight * ((1 - guide.between) * surfaceAt(pointOf(*guide.before)).distance +
+                                  guide.between * surfaceAt(pointOf(*guide.after)).distance);
     const double way =
-        wayOutBesideGuide(there.distance, ofGuide, surfaceAt(point.root).distance, point.share);
+        wayOutBesideGuide(there.distance, ofGuides, surfaceAt(point.root).distance, point.share);
     x += way * (turn * there.normal);
   }
   return x;
@@ -59,7 +76,8 @@ GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Qua
 }
 
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, std::span<const Body> bodies,
-                               std::span<const BodyPose> poses, std::optional<Vec3d> rootOnScalp) {
+                               std::span<const BodyPose> poses, std::optional<Vec3d> rootOnScalp,
+                               const OtherPoses& others) {
   const std::size_t last = guide.places.size() - 1;
   const Vector3<double> guideRoot = pointOf(guide.places.front());
   const Vector3<double> rootOffset = rootOnScalp
@@ -72,16 +90,35 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, s
     // A shorter hair lags behind its guide, but for the root.
     const double along =
         static_cast<double>(i) * (1 + (static_cast<double>(hair.length) - 1) * risesOver(0.2, share));
-    const std::size_t k = std::min(static_cast<std::size_t>(along), last - 1);
-    const GuidePlace<double>&before = guide.places[k], &after = guide.places[k + 1];
-    const double between = along - static_cast<double>(k);
-    const Vector3<double> alone =
-        followedPoint(hair, placeBetween(before, after, between), rootOffset, share);
-    const Vector3<double> x =
-        outOfBodies({alone, root, pointOf(before), pointOf(after), between, share}, bodies, poses);
+    HairPoint point{{}, root, share, {besideOf(guide, along, 1)}};
+    const GuidePlace<double> own = point.guides.front().place();
+    point.x = followedPoint(hair, own, rootOffset, share);
+    const Vector3<double> withOwn = blendedPoint(hair, toEigen<double>(hair.offset), own, rootOffset, share);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      if (!others[k]) continue;
+      const FollowHair::Other& other = hair.others[k];
+      const auto weight = static_cast<double>(other.share);
+      const double itsLast = static_cast<double>(others[k]->places.size() - 1);
+      const Beside beside = besideOf(*others[k], along / static_cast<double>(last) * itsLast, weight);
+      const Vector3<double> fromIts = root - pointOf(others[k]->places.front());
+      point.x += weight * (blendedPoint(hair, toEigen<double>(other.offset), beside.place(), fromIts, share) -
+                           withOwn);
+      point.guides.front().weight -= weight;
+      point.guides.push_back(beside);
+    }
+    const Vector3<double> x = outOfBodies(point, bodies, poses);
     points.push_back({x.x(), x.y(), x.z()});
   }
   return points;
+}
+
+std::vector<Vec3d> followGuides(const FollowHair& hair, std::span<const GuidePose> guides,
+                                std::span<const Body> bodies, std::span<const BodyPose> poses,
+                                std::optional<Vec3d> rootOnScalp) {
+  OtherPoses others{};
+  for (std::size_t k = 0; k < others.size(); ++k)
+    if (hair.others[k].share > 0) others[k] = &guides[hair.others[k].guide];
+  return followGuide(hair, guides[hair.guide], bodies, poses, rootOnScalp, others);
 }
 
 }  // namespace ringlet::reference

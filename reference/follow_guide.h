@@ -1,6 +1,7 @@
-// Hairs that follow a guide through a pose: the guide's core, frames and curl, then each hair's points.
+// Hairs that follow guides through a pose: each guide's core, frames and curl, then each hair's points.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -22,10 +23,19 @@ struct GuidePose {
 /// has turned since the rest pose.
 GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Quatd head);
 
+/// Those of FollowHair::others; none where its share is 0.
+using OtherPoses = std::array<const GuidePose*, 2>;
+
 /// The points of a hair, as many as its guide's [m], out of bodies at `poses`, one a body. `rootOnScalp`:
 /// where its root is in this pose [m]; none: where the head carries it.
 std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide,
                                std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {},
-                               std::optional<Vec3d> rootOnScalp = std::nullopt);
+                               std::optional<Vec3d> rootOnScalp = std::nullopt,
+                               const OtherPoses& others = {});
+
+/// The same with all guides' poses.
+std::vector<Vec3d> followGuides(const FollowHair& hair, std::span<const GuidePose> guides,
+                                std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {},
+                                std::optional<Vec3d> rootOnScalp = std::nullopt);
 
 }  // namespace ringlet::reference

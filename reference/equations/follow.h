@@ -9,14 +9,24 @@
 // bends there. e is F_root d, with F_root the frame at rest carried by the head, or what a scalp that bends
 // makes of it. The idea is Choe and Ko's (2005, wisps: a master strand and variation about it).
 //
+// A hair may follow up to three guides. Blended positions of curls would be no curls, so what is blended are
+// cores: guides 2 and 3, with shares w_j, the hair's offsets d_j and e_j from them and z_j, F_j as they have
+// them at the same share of their own way, move x by
+//
+//     sum_j w_j (y_j - y_1),   y_j = c_j + (1 - r) F_j z_j + k ((1 - r) e_j + r F_j d_j)
+//
+// Beyond the first fifth the hair has the curl of guide 1 about the blended core. At the root every y_j is
+// the hair's root, as e_j goes from guide j's root to it: there nothing moves.
+//
 // Bodies hold guides out, and hairs are beside them. With d_x, D, D_root the distances of the body's surface
 // from the point, from the guide beside it (between two particles, what is between theirs, since particles
 // are what bodies hold out) and from the hair's root, negative inside, the point goes out of the body by
 //
 //     max(min(0, D, (1 - r) D_root) - d_x, 0)
 //
-// and so no further than its guide is out: a guide that passes through a body takes its hairs along, where a
-// hair of its own mind would jump. Roots stay on the scalp, which may be some way inside.
+// where D of several guides is the sum of w_j D_j. So it goes no further than its guide is out: a guide that
+// passes through a body takes its hairs along, where a hair of its own mind would jump. Roots stay on the
+// scalp, which may be some way inside.
 #pragma once
 
 #include <algorithm>
@@ -68,6 +78,16 @@ Vector3<Real> followedPoint(const FollowHair& hair, const GuidePlace<Real>& plac
                               std::sin(angle) * z.x() + std::cos(angle) * z.y(), z.z()};
   const Vector3<Real> offset = toEigen<Real>(hair.offset);
   return place.core + place.frame * (scale * curl) +
+         spread * ((1 - r) * rootOffset + r * (place.frame * offset));
+}
+
+/// Of one of several guides: y [m]. `offset`: d_j [m]; `rootOffset`: e_j [m].
+template <class Real>
+Vector3<Real> blendedPoint(const FollowHair& hair, const Vector3<Real>& offset, const GuidePlace<Real>& place,
+                           const Vector3<Real>& rootOffset, Real share) {
+  const Real r = risesOver(Real(1) / 5, share);
+  const Real spread = 1 + (static_cast<Real>(hair.spread) - 1) * risesOver(Real(2) / 5, share);
+  return place.core + (1 - r) * (place.frame * place.curl) +
          spread * ((1 - r) * rootOffset + r * (place.frame * offset));
 }
 

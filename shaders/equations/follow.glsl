@@ -5,12 +5,18 @@
 //
 // c: the guide's core, F: the frame along it, z: the guide's curl seen from F, d: the hair's offset, e: from the
 // guide's root to the hair's; F_root d with the frame at rest carried by the head, or what a scalp that bends makes of
-// it. Choe and Ko 2005 (wisps). Out of a body it is pushed by
+// it. Choe and Ko 2005 (wisps). Of several guides, with shares w_j of the core and the hair's offsets from each, it is
+// moved by
+//
+//     sum_j w_j (y_j - y_1),   y_j = c_j + (1 - r) F_j z_j + k ((1 - r) e_j + r F_j d_j)
+//
+// and keeps the first one's curl. Out of a body it is pushed by
 //
 //     max(min(0, D, (1 - r) D_root) - d_x, 0)
 //
-// d_x, D, D_root: how far the point, its guide beside it (between particles, what is between theirs) and the hair's
-// root are from the body's surface, negative inside. Mirrored by reference/equations/follow.h.
+// d_x, D, D_root: how far the point, its guide beside it (between particles, what is between theirs; of several guides
+// the sum of w_j D_j) and the hair's root are from the body's surface, negative inside. Mirrored by
+// reference/equations/follow.h.
 #ifndef RINGLET_FOLLOW
 #define RINGLET_FOLLOW
 
@@ -50,6 +56,14 @@ vec3 followedPoint(float phase, float radius, float spread, vec3 offset, GuidePl
   vec3 curl = (1.0 + (radius - 1.0) * r) * vec3(cosine * z.x - sine * z.y, sine * z.x + cosine * z.y, z.z);
   float k = 1.0 + (spread - 1.0) * risesOver(0.4, share);
   return place.core + rotate(place.frame, curl) +
+         k * ((1.0 - r) * rootOffset + r * rotate(place.frame, offset));
+}
+
+/// y of a guide, one of several [m]; offset, rootOffset: d and e from that guide.
+vec3 blendedPoint(float spread, vec3 offset, GuidePlace place, vec3 rootOffset, float share) {
+  float r = risesOver(0.2, share);
+  float k = 1.0 + (spread - 1.0) * risesOver(0.4, share);
+  return place.core + (1.0 - r) * rotate(place.frame, place.curl) +
          k * ((1.0 - r) * rootOffset + r * rotate(place.frame, offset));
 }
 

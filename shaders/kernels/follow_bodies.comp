@@ -12,6 +12,10 @@ layout(set = 0, binding = kBindNearPoints) readonly buffer NearPoints { uint nea
 float distanceFrom(BodyRest body, BodyPose pose, vec3 p) {
   return bodyDistance(body, rotate(conjugate(pose.rotation), p - pose.position)).distance;
 }
+float distanceBeside(BodyRest body, BodyPose pose, GuideBeside beside) {
+  return mix(distanceFrom(body, pose, pointOf(beside.before)), distanceFrom(body, pose, pointOf(beside.after)),
+             beside.between);
+}
 
 void main() {
   if (gl_GlobalInvocationID.x >= counts.points) return;
@@ -22,14 +26,17 @@ void main() {
   FollowGuide guide = followGuide(hair.guide);
   HairOnGuide point = hairOnGuide(h, i, hair, guide);
   vec3 root = pointOf(placeAt(guide.firstParticle)) + point.rootOffset;
-  vec3 before = pointOf(point.before);
-  vec3 after = pointOf(point.after);
   vec3 x = followed(point);
   for (uint b = 0; b < parameters.bodyCount; ++b) {
     BodyRest body = bodyRest(b);
     BodyPose pose = bodyPose(b);
     Surface there = bodyDistance(body, rotate(conjugate(pose.rotation), x - pose.position));
-    float ofGuide = mix(distanceFrom(body, pose, before), distanceFrom(body, pose, after), point.between);
+    float ofGuide = distanceBeside(body, pose, point.own);
+#ifdef RINGLET_BLENDS
+    float ofOwn = ofGuide;
+    for (uint k = 0; k < 2; ++k)
+      ofGuide += point.weights[k] * (distanceBeside(body, pose, point.others[k]) - ofOwn);
+#endif
     float way = wayOutBesideGuide(there.distance, ofGuide, distanceFrom(body, pose, root), point.share);
     x += way * rotate(pose.rotation, there.normal);
   }

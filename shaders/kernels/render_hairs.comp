@@ -44,6 +44,8 @@ void main() {
   float nearnessA = picture.near / a.z;
   float nearnessB = picture.near / b.z;
   uint stride = picture.side * picture.width;
+  // A hit at a time, a row of it at a time: lanes go on whatever the others' rows.
+  float q = 0.0;
   if (m < hits) do {
     uint random = seed + uint(m) * 0x9e3779b9u;
     random = (random ^ random >> 15) * 0x2c1b3c6du;
@@ -53,12 +55,12 @@ void main() {
     // Nearness is linear across the picture.
     float nearness = mix(nearnessA, nearnessB, clamp(t, 0.0, 1.0));
     float rows = max(floor(width + chance), 1.0);
-    float y = floor(mix(from.y, to.y, t) + (width < 1.0 ? chance - 0.5 : 0.5 - 0.5 * rows));
-    float q = 0.0;
-    do {
-      vec2 at = vec2(x, y + q) - low;
-      if (at.y >= 0.0 && y + q < high.y)
-        show(isSteep ? uint(at.x) * stride + uint(at.y) : uint(at.y) * stride + uint(at.x), nearness, p + 1);
-    } while (++q < rows);
-  } while (++m < hits);
+    float y = floor(mix(from.y, to.y, t) + (width < 1.0 ? chance - 0.5 : 0.5 - 0.5 * rows)) + q;
+    vec2 at = vec2(x, y) - low;
+    if (at.y >= 0.0 && y < high.y)
+      show(isSteep ? uint(at.x) * stride + uint(at.y) : uint(at.y) * stride + uint(at.x), nearness, p + 1);
+    bool isLast = q + 1.0 >= rows;
+    q = isLast ? 0.0 : q + 1.0;
+    m += isLast ? 1.0 : 0.0;
+  } while (m < hits);
 }

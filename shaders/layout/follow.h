@@ -23,6 +23,7 @@ RINGLET_CONSTANT uint kBindHairPoints = 8;    // uvec4[points of hairs]: hair_po
 RINGLET_CONSTANT uint kBindBodySpheres = 9;   // vec4[bodies]: xyz: middle of a sphere about it [m]; w: radius [m]
 RINGLET_CONSTANT uint kBindNearCount = 10;    // NearCount
 RINGLET_CONSTANT uint kBindNearPoints = 11;   // uint[points near bodies]: the invocation of follow_hairs that found it
+RINGLET_CONSTANT uint kBindFollowBlends = 12; // FollowBlend[hairs], where hairs follow several guides
 // Whether roots are where FollowHair::rootOffset says, on a scalp that bends, and not where the head carries them.
 RINGLET_CONSTANT uint kSpecOnScalp = 2;
 // The same as texels, these numbers further:
@@ -54,6 +55,13 @@ struct FollowHair {
   float spread;  // what becomes of the offset beyond the root
   uint firstPoint;
   float rootOffset[3];  // with kSpecOnScalp: in this pose from the guide's root to the hair's [m]
+};
+
+// Constant per hair that follows several guides: those beside its own. Nothing of a guide whose share is 0.
+struct FollowBlend {
+  vec4 offsets[2]; // xyz: of the hair's root from that guide's, along the guide's restFrame [m]; w: share of the core
+  uint guides[2];
+  uint unused[2];
 };
 
 // Points of hairs near bodies, as groups of invocations and as a number.

@@ -22,6 +22,10 @@ layout(set = 0, binding = kFollowTexels + kBindFollowGuides) uniform usamplerBuf
 layout(set = 0, binding = kFollowTexels + kBindCoreFrames) uniform usamplerBuffer coreFrameTexels;
 layout(set = 0, binding = kFollowTexels + kBindCurls) uniform usamplerBuffer curlTexels;
 layout(set = 0, binding = kFollowTexels + kBindFollowHairs) uniform usamplerBuffer followHairTexels;
+#ifdef RINGLET_BLENDS
+layout(set = 0, binding = kBindFollowBlends) readonly buffer FollowBlends { FollowBlend followBlends[]; };
+layout(set = 0, binding = kFollowTexels + kBindFollowBlends) uniform usamplerBuffer followBlendTexels;
+#endif
 layout(push_constant) uniform Parameters { FollowParameters parameters; };
 
 vec3 guidePoint(uint i) { return (kTexels ? vectorAt(guidePointTexels, i) : guidePoints[i]).xyz; }
@@ -45,5 +49,13 @@ FollowHair followHair(uint i) {
   return FollowHair(uintBitsToFloat(place.xyz), place.w, differs.x, differs.y, differs.z, differs.w, points.x,
                     float[3](root.x, root.y, root.z));
 }
+#ifdef RINGLET_BLENDS
+FollowBlend followBlend(uint i) {
+  if (!kTexels) return followBlends[i];
+  uvec4 guides = recordAt(followBlendTexels, 3 * i + 2);
+  return FollowBlend(vec4[2](vectorAt(followBlendTexels, 3 * i), vectorAt(followBlendTexels, 3 * i + 1)),
+                     uint[2](guides.x, guides.y), uint[2](guides.z, guides.w));
+}
+#endif
 
 #endif

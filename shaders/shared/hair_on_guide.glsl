@@ -1,5 +1,5 @@
-// A point of a hair beside its guide, as kernels of a point an invocation find it. Mirrored by
-// reference/follow_guide.h.
+// A point of a hair beside its guide, as kernels of a point an invocation find it; compiled with RINGLET_BLENDS beside
+// three guides. Mirrored by reference/follow_guide.h.
 #ifndef RINGLET_HAIR_ON_GUIDE
 #define RINGLET_HAIR_ON_GUIDE
 
@@ -16,34 +16,82 @@ GuidePlace placeAt(uint i) {
 }
 vec3 pointOf(GuidePlace place) { return place.core + rotate(place.frame, place.curl); }
 
+/// Beside a point of a hair.
+struct GuideBeside {
+  GuidePlace before, after;  // the guide's particles,
+  float between;             // and where between them
+};
+GuideBeside besideOf(FollowGuide guide, float along) {
+  uint k = min(uint(along), guide.particleCount - 2);
+  uint at = guide.firstParticle + k;
+  return GuideBeside(placeAt(at), placeAt(at + 1), along - float(k));
+}
+GuidePlace placeOf(GuideBeside beside) { return placeBetween(beside.before, beside.after, beside.between); }
+
 struct HairOnGuide {
   FollowHair hair;
   FollowGuide guide;
-  vec3 rootOffset;           // in this pose from the guide's root to the hair's [m]
-  float share;               // of the way from root to tip
-  GuidePlace before, after;  // the guide's particles beside the point,
-  float between;             // and where between them it is
-  uint tag;                  // of the point
+  vec3 rootOffset;  // in this pose from the guide's root to the hair's [m]
+  float share;      // of the way from root to tip
+  float along;      // where on the guide that is, in edges
+  GuideBeside own;
+#ifdef RINGLET_BLENDS
+  float weights[2];     // of these guides' cores
+  vec3 offsets[2];      // d [m]
+  vec3 rootOffsets[2];  // e [m]
+  GuideBeside others[2];
+#endif
+  uint tag;  // of the point
 };
+
+#ifdef RINGLET_BLENDS
+/// Of a hair's other guide.
+void besideOther(uint k, FollowBlend blend, vec3 root, inout HairOnGuide point) {
+  FollowGuide guide = followGuide(blend.guides[k]);
+  float along = point.along / float(point.guide.particleCount - 1) * float(guide.particleCount - 1);
+  point.weights[k] = blend.offsets[k].w;
+  point.offsets[k] = blend.offsets[k].xyz;
+  point.rootOffsets[k] = root - guidePoint(guide.firstParticle);
+  point.others[k] = besideOf(guide, along);
+}
+#endif
 
 /// Point i of hair h, where i is below the guide's particleCount.
 HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
+  HairOnGuide point;
   uint last = guide.particleCount - 1;
-  float share = float(i) / float(last);
+  point.hair = hair;
+  point.guide = guide;
+  point.share = float(i) / float(last);
   // A shorter hair lags behind its guide, but for the root.
-  float along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
-  uint k = min(uint(along), last - 1);
-  uint at = guide.firstParticle + k;
-  vec3 rootOffset = kOnScalp ? vec3(hair.rootOffset[0], hair.rootOffset[1], hair.rootOffset[2])
-                             : rotate(multiply(parameters.head, guide.restFrame), hair.offset);
-  return HairOnGuide(hair, guide, rootOffset, share, placeAt(at), placeAt(at + 1), along - float(k),
-                     i == last ? h | kHairEnd : h);
+  point.along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, point.share));
+  point.rootOffset = kOnScalp ? vec3(hair.rootOffset[0], hair.rootOffset[1], hair.rootOffset[2])
+                              : rotate(multiply(parameters.head, guide.restFrame), hair.offset);
+  point.own = besideOf(guide, point.along);
+  point.tag = i == last ? h | kHairEnd : h;
+#ifdef RINGLET_BLENDS
+  FollowBlend blend = followBlend(h);
+  vec3 root = guidePoint(guide.firstParticle) + point.rootOffset;
+  besideOther(0, blend, root, point);
+  besideOther(1, blend, root, point);
+#endif
+  return point;
 }
 
 /// Where it is, were there no bodies [m].
 vec3 followed(HairOnGuide point) {
-  return followedPoint(point.hair.phase, point.hair.radius, point.hair.spread, point.hair.offset,
-                       placeBetween(point.before, point.after, point.between), point.rootOffset, point.share);
+  GuidePlace place = placeOf(point.own);
+  vec3 x = followedPoint(point.hair.phase, point.hair.radius, point.hair.spread, point.hair.offset, place,
+                         point.rootOffset, point.share);
+#ifdef RINGLET_BLENDS
+  vec3 ofOwn = blendedPoint(point.hair.spread, point.hair.offset, place, point.rootOffset, point.share);
+  for (uint k = 0; k < 2; ++k) {
+    vec3 ofOther = blendedPoint(point.hair.spread, point.offsets[k], placeOf(point.others[k]), point.rootOffsets[k],
+                                point.share);
+    x += point.weights[k] * (ofOther - ofOwn);
+  }
+#endif
+  return x;
 }
 
 #endif

@@ -13,9 +13,19 @@
 #extension GL_EXT_shader_atomic_int64 : require
 layout(set = 0, binding = kBindSamples) buffer Samples { uint64_t samples[]; };
 
+layout(set = 0, binding = kRenderTexels + kBindSamples) uniform usamplerBuffer sampleTexels;
+
+/// Of what was seen at a sample a while ago: only ever too small, so that what is hidden by it is hidden. Most is, and
+/// is spared the atomic.
+uint nearnessBefore(uint at) {
+  if (!kTexels) return uint(samples[at] >> 32);
+  uvec4 two = recordAt(sampleTexels, at >> 1);
+  return (at & 1u) != 0 ? two.w : two.y;
+}
+
 void show(uint at, float nearness, uint what) {
-  uint64_t key = uint64_t(floatBitsToUint(nearness)) << 32 | uint64_t(what);
-  if (samples[at] < key) atomicMax(samples[at], key);
+  uint bits = floatBitsToUint(nearness);
+  if (nearnessBefore(at) <= bits) atomicMax(samples[at], uint64_t(bits) << 32 | uint64_t(what));
 }
 #else
 layout(constant_id = kSpecPass) const uint kPass = 0;

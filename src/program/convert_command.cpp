@@ -159,7 +159,7 @@ void checkOptions(const Typed& typed) {
   if (!typed.groom.empty() && !typed.scene.empty())
     throw CLI::ValidationError("--groom", "the scene names its groom; say one of --scene and --groom");
   if (!typed.hairs && typed.look.isAsked())
-    throw CLI::ValidationError("--hairs", "only such hairs have frizz and clumps; say how many");
+    throw CLI::ValidationError("--hairs", "only such hairs have frizz, clumps and blends; say how many");
   if (!typed.hairs && !typed.groom.empty()) throw CLI::ValidationError("--groom", "only --hairs needs it");
   if (!typed.hairs && !typed.scene.empty()) throw CLI::ValidationError("--scene", "only --hairs needs it");
   if (typed.frame && !typed.frames.empty())

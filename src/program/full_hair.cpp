@@ -22,6 +22,7 @@ Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const F
   hair.groom_.points.resize(hair.groom_.firstPoint.back());
   hair.firstHair_.assign(rest.strandCount() + 1, 0);
   for (const FollowHair& each : hair.plan_.hairs()) ++hair.firstHair_[each.guide + 1];
+  hair.isBlended_ = options.blend > 0;
   for (std::size_t s = 0; s < rest.strandCount(); ++s) hair.firstHair_[s + 1] += hair.firstHair_[s];
   hair.follow(rest.points, {}, hair.plan_.restRoots());
   return hair;
@@ -31,18 +32,38 @@ void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> b
                       std::span<const Vec3d> roots) {
   const Quatd head = plan_.headOf(points);
   const std::span<const Body> met = bodies.empty() ? std::span<const Body>() : bodies_;
-  std::atomic<std::size_t> next = 0;
-  inParallel(std::max(1u, std::thread::hardware_concurrency()), [&] {
-    for (std::size_t s; (s = next++) < plan_.guides().size();) {
-      const reference::GuidePose pose =
-          reference::poseGuide(plan_.guides()[s], plan_.strandOf(points, s), head);
-      for (std::size_t h = firstHair_[s]; h < firstHair_[s + 1]; ++h) {
-        std::uint32_t at = groom_.firstPoint[h];
-        const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
-        for (const Vec3d& p : reference::followGuide(plan_.hairs()[h], pose, met, bodies, root))
-          groom_.points[at++] = Vec3f(p / plan_.metresPerUnit());
-      }
+  const auto poseOf = [&](std::size_t s) {
+    return reference::poseGuide(plan_.guides()[s], plan_.strandOf(points, s), head);
+  };
+  const auto forEachStrand = [&](const auto& use) {
+    std::atomic<std::size_t> next = 0;
+    inParallel(std::max(1u, std::thread::hardware_concurrency()), [&] {
+      for (std::size_t s; (s = next++) < plan_.guides().size();) use(s);
+    });
+  };
+  const auto moveHairs = [&](std::size_t s, const auto& pointsOf) {
+    for (std::size_t h = firstHair_[s]; h < firstHair_[s + 1]; ++h) {
+      std::uint32_t at = groom_.firstPoint[h];
+      const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
+      for (const Vec3d& p : pointsOf(plan_.hairs()[h], root))
+        groom_.points[at++] = Vec3f(p / plan_.metresPerUnit());
     }
+  };
+  if (!isBlended_) {
+    forEachStrand([&](std::size_t s) {
+      const reference::GuidePose pose = poseOf(s);
+      moveHairs(s, [&](const FollowHair& hair, const std::optional<Vec3d>& root) {
+        return reference::followGuide(hair, pose, met, bodies, root);
+      });
+    });
+    return;
+  }
+  std::vector<reference::GuidePose> poses(plan_.guides().size());
+  forEachStrand([&](std::size_t s) { poses[s] = poseOf(s); });
+  forEachStrand([&](std::size_t s) {
+    moveHairs(s, [&](const FollowHair& hair, const std::optional<Vec3d>& root) {
+      return reference::followGuides(hair, poses, met, bodies, root);
+    });
   });
 }
 

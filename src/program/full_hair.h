@@ -38,6 +38,7 @@ class FullHair {
   FollowPlan plan_;
   std::vector<Body> bodies_;
   std::vector<std::size_t> firstHair_;  // of each strand, and one more
+  bool isBlended_ = false;              // hairs follow several strands
   Groom groom_;
 };
 

@@ -24,6 +24,14 @@ void addHairLookOptions(CLI::App& command, HairLook& look, const std::string& gr
       ->type_name("S")
       ->group(group);
   command
+      .add_option(
+          "--blend", look.blend,
+          "Share, 0 to 1, of what the two nearest strands beside a hair's own have in its course; its curl "
+          "stays that of its own. 1 for straight and wavy hair (default 0)")
+      ->check(between(0, 1))
+      ->type_name("S")
+      ->group(group);
+  command
       .add_option("--hair-scalp", look.scalp,
                   "An OBJ file in the groom's axes and unit: hairs' roots are on this mesh, evenly spread "
                   "where strands stand (default: the mesh of the scene's scalp, else around strands' roots)")

@@ -99,6 +99,7 @@ void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
   if (choice.hairs) output.hairs = choice.hairs;
   output.frizz = choice.look.frizz.value_or(output.frizz);
   output.clump = choice.look.clump.value_or(output.clump);
+  output.blend = choice.look.blend.value_or(output.blend);
   if (!choice.look.scalp.empty()) output.hairScalpFile = choice.look.scalp;
   if (choice.prims) output.prims = *choice.prims;
   if (!choice.values.empty()) output.values = choice.values;
@@ -110,9 +111,10 @@ void checkOutputs(const SceneOutput& output) {
                                "velocities are written into hair.usdc and clips only; add --usdc");
   if (output.clipFrames && !holds(output.files, "hair.usda"))
     throw CLI::ValidationError("--clips", "only hair.usda has clips; leave out --no-usd");
-  if (!output.hairs && (output.frizz != SceneOutput{}.frizz || output.clump != SceneOutput{}.clump ||
-                        !output.hairScalp.empty() || !output.hairScalpFile.empty()))
-    throw CLI::ValidationError("--hairs", "only such hairs have frizz and clumps; say how many");
+  if (!output.hairs &&
+      (output.frizz != SceneOutput{}.frizz || output.clump != SceneOutput{}.clump ||
+       output.blend != SceneOutput{}.blend || !output.hairScalp.empty() || !output.hairScalpFile.empty()))
+    throw CLI::ValidationError("--hairs", "only such hairs have frizz, clumps and blends; say how many");
   if (output.hairs && needsOrigin(output))
     throw CLI::ValidationError(
         "--hairs",
@@ -148,7 +150,7 @@ void chooseOutputs(const SceneOutput& output, RunOptions& options) {
                                                : UsdHead::baked;
   options.usesGroomPrims = output.prims == "groom";
   options.hairs = output.hairs.value_or(0);
-  options.look = {output.frizz, output.clump, output.hairScalpFile};
+  options.look = {output.frizz, output.clump, output.blend, output.hairScalpFile};
   options.clipFrames = output.clipFrames.value_or(0);
 }
 

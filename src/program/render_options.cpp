@@ -53,7 +53,7 @@ void checkInput(const RenderOptions& options) {
   if (!isGroom && options.up != "Y")
     throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
   if (options.hairs == 0 && options.look.isAsked())
-    throw CLI::ValidationError("--hairs", "0 are no hairs that could have frizz or clumps");
+    throw CLI::ValidationError("--hairs", "0 are no hairs that could have frizz, clumps or blends");
   if (isGroom && (!options.frames.empty() || !options.groom.empty() || !options.scene.empty()))
     throw CLI::ValidationError("IN",
                                "is a groom, which has no frames; leave out --frames, --groom and --scene");

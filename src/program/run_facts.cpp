@@ -102,6 +102,7 @@ void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
   add("hairs", options.hairs);
   add("frizz", options.look.of({}).frizz);
   add("clump", options.look.of({}).gather);
+  add("blend", options.look.of({}).blend);
   add("hair_scalp_file", options.look.scalp.string());
 }
 

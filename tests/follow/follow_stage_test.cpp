@@ -82,10 +82,10 @@ struct Plan {
   std::vector<FollowHair> hairs;
 };
 
-Plan planOf(const Guides& guides, int hairCount) {
+Plan planOf(const Guides& guides, int hairCount, double blend = 0) {
   Plan plan;
   for (const Strand& strand : guides.strands) plan.guides.push_back(restOfGuide(strand));
-  plan.hairs = *planHairs(plan.guides, {.hairCount = hairCount});
+  plan.hairs = *planHairs(plan.guides, {.hairCount = hairCount, .blend = blend});
   return plan;
 }
 
@@ -127,17 +127,25 @@ double largestDifference(const Plan& plan, const std::vector<Strand>& pose, Quat
                          const std::vector<Vec3d>& roots = {}) {
   double largest = 0;
   std::size_t at = 0;
+  std::vector<reference::GuidePose> guides;
+  for (std::size_t g = 0; g < pose.size(); ++g)
+    guides.push_back(reference::poseGuide(plan.guides[g], pose[g], head));
   for (std::size_t h = 0; h < plan.hairs.size(); ++h) {
-    const FollowHair& hair = plan.hairs[h];
-    const auto guide = reference::poseGuide(plan.guides[hair.guide], pose[hair.guide], head);
     const auto root = roots.empty() ? std::nullopt : std::optional(roots[h]);
-    for (const Vec3d& expected : reference::followGuide(hair, guide, met.bodies, met.poses, root)) {
+    for (const Vec3d& expected :
+         reference::followGuides(plan.hairs[h], guides, met.bodies, met.poses, root)) {
       const double difference = length(expected - found.at(at++));
       if (!(difference <= largest)) largest = difference;  // NaN too
     }
   }
   EXPECT_EQ(at, found.size());
   return largest;
+}
+
+std::size_t countOther(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+  return count;
 }
 
 TEST(CoreWeights, AreTheCoreOfAnyPoints) {
@@ -183,14 +191,46 @@ TEST_F(FollowStageTest, IsTheReference) {
 
 TEST_F(FollowStageTest, StorageAndTexelsGiveTheSameBits) {
   const Guides guides = allGuides().back();
-  const Plan plan = planOf(guides, 300);
-  std::vector<Strand> pose;
-  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
-  const auto texels = followOn(gpu(), plan, pose, kTurned);
   const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
   ASSERT_TRUE(few) << few.error().message;
-  EXPECT_EQ(followOn(**few, plan, pose, kTurned), texels);
-  EXPECT_EQ(followOn(gpu(), plan, pose, kTurned), texels) << "a second time";
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  for (const double blend : {0.0, 1.0}) {
+    const Plan plan = planOf(guides, 300, blend);
+    const auto texels = followOn(gpu(), plan, pose, kTurned);
+    EXPECT_EQ(followOn(**few, plan, pose, kTurned), texels) << blend;
+    EXPECT_EQ(followOn(gpu(), plan, pose, kTurned), texels) << "a second time";
+  }
+}
+
+// Of guides beside each other that swing their own ways; in the last groom they differ in particles too.
+TEST_F(FollowStageTest, BlendsAreTheReference) {
+  for (Guides guides : allGuides()) {
+    SCOPED_TRACE(guides.name);
+    for (std::size_t s = 0; s < guides.strands.size(); ++s)  // roots of the last are in the same places
+      for (Vec3d& p : guides.strands[s]) p += Vec3d{0.003, 0, 0.001} * static_cast<double>(s);
+    const Plan plan = planOf(guides, 300, 1), alone = planOf(guides, 300);
+    const auto isOfThree = [](const FollowHair& hair) { return hair.others[1].share > 0.05f; };
+    EXPECT_GT(std::ranges::count_if(plan.hairs, isOfThree), 30);
+    std::vector<Strand> pose;
+    for (std::size_t s = 0; s < guides.strands.size(); ++s) {
+      pose.push_back(posed(guides.strands[s]));
+      const Quatd swing = fromRotationVector(Vec3d{0.2, 0.1, -0.1} * std::sin(2.0 * static_cast<double>(s)));
+      for (Vec3d& p : pose[s]) p = pose[s].front() + rotate(swing, p - pose[s].front());
+    }
+    const auto found = followOn(gpu(), plan, pose, kTurned);
+    EXPECT_LT(largestDifference(plan, pose, kTurned, found), parity::kFollowMetres);
+    const auto unblended = followOn(gpu(), alone, pose, kTurned);
+    EXPECT_GT(countOther(found, unblended), found.size() / 4);
+    Plan none = plan;  // shares of nothing beside one hair that is blended
+    for (std::size_t h = 1; h < none.hairs.size(); ++h) none.hairs[h].others = {};
+    const auto one = followOn(gpu(), none, pose, kTurned);
+    const std::size_t first = plan.guides[none.hairs[0].guide].arcs.size();
+    double largest = 0;
+    for (std::size_t i = first; i < one.size(); ++i)
+      largest = std::max(largest, length(one[i] - unblended[i]));
+    EXPECT_LT(largest, 1e-6);
+  }
 }
 
 // Somewhere about the middle of the strands, or their roots, each turned its own way, so that all press on
@@ -210,37 +250,34 @@ Met metBy(const std::vector<Body>& bodies, const std::vector<Strand>& strands, b
   return met;
 }
 
-std::size_t countOther(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
-  return count;
-}
-
 TEST_F(FollowStageTest, AmongBodiesItIsTheReference) {
   const Guides guides = allGuides().front();
-  const Plan plan = planOf(guides, 300);
   std::vector<Strand> pose;
   for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
   std::vector<Met> all;
   for (const Body& body : parity::sampleBodies()) all.push_back(metBy({body}, pose));
   all.push_back(metBy(parity::sampleBodies(), pose));
   all.push_back(metBy({parity::sampleBodies().front()}, pose, true));
-  const auto alone = followOn(gpu(), plan, pose, kTurned);
   const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
   ASSERT_TRUE(few) << few.error().message;
-  for (const Met& met : all) {
-    SCOPED_TRACE(met.bodies.size() == 1 ? met.bodies.front().name : "all of them");
-    const auto found = followOn(gpu(), plan, pose, kTurned, met);
-    EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
-    EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
-    EXPECT_EQ(followOn(**few, plan, pose, kTurned, met), found) << "storage buffers in place of texels";
+  for (const double blend : {0.0, 0.8}) {
+    const Plan plan = planOf(guides, 300, blend);
+    const auto alone = followOn(gpu(), plan, pose, kTurned);
+    for (const Met& met : all) {
+      SCOPED_TRACE(met.bodies.size() == 1 ? met.bodies.front().name : "all of them");
+      SCOPED_TRACE(blend);
+      const auto found = followOn(gpu(), plan, pose, kTurned, met);
+      EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
+      EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
+      EXPECT_EQ(followOn(**few, plan, pose, kTurned, met), found) << "storage buffers in place of texels";
+    }
   }
 }
 
 // A scalp that bends takes each root its own way, here by up to a centimetre.
 TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
   const Guides guides = allGuides().front();
-  const Plan plan = planOf(guides, 300);
+  Plan plan = planOf(guides, 300);
   std::vector<Strand> pose;
   for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
   std::mt19937 random(3);
@@ -250,16 +287,19 @@ TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
     roots.push_back(pose[hair.guide].front() + Vec3d{any(random), any(random), any(random)});
   const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
   ASSERT_TRUE(few) << few.error().message;
-  for (const Met& met : {Met{}, metBy(parity::sampleBodies(), pose)}) {
-    const auto found = followOn(gpu(), plan, pose, kTurned, met, roots);
-    EXPECT_LT(largestDifference(plan, pose, kTurned, found, met, roots), parity::kFollowMetres);
-    EXPECT_GT(countOther(found, followOn(gpu(), plan, pose, kTurned, met)), found.size() / 20);
-    EXPECT_EQ(followOn(**few, plan, pose, kTurned, met, roots), found) << "storage in place of texels";
-    if (!met.bodies.empty()) continue;
-    double farthest = 0;
-    for (std::size_t h = 0; h < roots.size(); ++h)
-      farthest = std::max(farthest, length(found[h * pose.front().size()] - roots[h]));
-    EXPECT_LT(farthest, 1e-6);
+  for (const double blend : {0.0, 1.0}) {
+    plan = planOf(guides, 300, blend);
+    for (const Met& met : {Met{}, metBy(parity::sampleBodies(), pose)}) {
+      const auto found = followOn(gpu(), plan, pose, kTurned, met, roots);
+      EXPECT_LT(largestDifference(plan, pose, kTurned, found, met, roots), parity::kFollowMetres);
+      EXPECT_GT(countOther(found, followOn(gpu(), plan, pose, kTurned, met)), found.size() / 20);
+      EXPECT_EQ(followOn(**few, plan, pose, kTurned, met, roots), found) << "storage in place of texels";
+      if (!met.bodies.empty()) continue;
+      double farthest = 0;
+      for (std::size_t h = 0; h < roots.size(); ++h)
+        farthest = std::max(farthest, length(found[h * pose.front().size()] - roots[h]));
+      EXPECT_LT(farthest, 1e-6);
+    }
   }
 }
 

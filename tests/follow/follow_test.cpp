@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "reference/equations/body_distance.h"
 #include "reference/follow_guide.h"
+#include "ringlet/follow/near_guides.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/generate.h"
 
@@ -17,6 +19,7 @@ namespace ringlet {
 namespace {
 
 using reference::followGuide;
+using reference::followGuides;
 using reference::GuidePose;
 using reference::poseGuide;
 
@@ -36,6 +39,17 @@ std::vector<GuideRest> restsOf(const std::vector<Strand>& strands) {
   std::vector<GuideRest> rests;
   for (const Strand& strand : strands) rests.push_back(restOfGuide(strand));
   return rests;
+}
+
+// From the same roots, each to where `way` leads.
+template <class Way>
+std::vector<Strand> straight(std::vector<Strand> strands, const Way& way) {
+  for (Strand& strand : strands) {
+    const Vec3d root = strand.front(), led = way(root);
+    for (std::size_t i = 0; i < strand.size(); ++i)
+      strand[i] = root + led * (double(i) / double(strand.size() - 1));
+  }
+  return strands;
 }
 
 const Quatd kTurned = normalized(Quatd{0.2, -0.5, 0.3, 0.8});
@@ -139,6 +153,121 @@ TEST(FollowGuide, DifferencesAreWhatIsAsked) {
   EXPECT_NEAR(length(followGuide({.offset = offset, .spread = 0.5f}, pose)[0] - guide[0]), 0.005, 1e-6);
 }
 
+// A hair that follows its guide and two others, by so much of each.
+FollowHair blendOf(const std::vector<GuideRest>& rests, std::array<std::uint32_t, 3> guides,
+                   std::array<float, 2> shares, Vec3d root) {
+  const auto from = [&](std::uint32_t g) {
+    const MeasuringFrame& frame = rests[g].frame;
+    const Vec3d v = root - rests[g].root;
+    return Vec3f(Vec3d{dot(v, frame.normal), dot(v, frame.binormal), dot(v, frame.tangent)});
+  };
+  FollowHair hair{.guide = guides[0], .offset = from(guides[0])};
+  for (std::size_t k = 0; k < 2; ++k) hair.others[k] = {guides[k + 1], shares[k], from(guides[k + 1])};
+  return hair;
+}
+
+std::vector<GuidePose> posesOf(const std::vector<GuideRest>& rests, const std::vector<Strand>& strands,
+                               Quatd head) {
+  std::vector<GuidePose> poses;
+  for (std::size_t g = 0; g < rests.size(); ++g) poses.push_back(poseGuide(rests[g], strands[g], head));
+  return poses;
+}
+
+std::vector<Strand> swung(const std::vector<Strand>& strands) {
+  std::vector<Strand> all;
+  for (const Strand& strand : strands) all.push_back(swung(strand));
+  return all;
+}
+
+TEST(FollowGuides, NothingOfTheOthersIsTheOneGuideForm) {
+  const auto strands = headOf(20);
+  const auto rests = restsOf(strands);
+  const auto poses = posesOf(rests, swung(strands), kTurned);
+  const Vec3d root = rests[3].root + Vec3d{0.003, 0.002, -0.001};
+  const FollowHair none = blendOf(rests, {3, 5, 8}, {0, 0}, root);
+  const FollowHair least = blendOf(rests, {3, 5, 8}, {1e-30f, 1e-30f}, root);
+  EXPECT_EQ(meanDistance(followGuides(none, poses), followGuide(none, poses[3])), 0);
+  EXPECT_LT(meanDistance(followGuides(least, poses), followGuide(none, poses[3])), 1e-15);
+  // And so is a blend of a guide with itself.
+  const FollowHair itself = blendOf(rests, {3, 3, 3}, {0.3f, 0.4f}, root);
+  EXPECT_LT(meanDistance(followGuides(itself, poses), followGuide(none, poses[3])), 1e-12);
+}
+
+// On a head that turns, and on a scalp that takes roots its own way.
+TEST(FollowGuides, RootsStayOnTheScalp) {
+  const auto strands = headOf(40);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = 400, .blend = 1});
+  ASSERT_TRUE(hairs);
+  const auto atRest = posesOf(rests, strands, Quatd{}), moved = posesOf(rests, swung(strands), kTurned);
+  for (const FollowHair& hair : *hairs) {
+    const Vec3d root = followGuides(hair, atRest).front();
+    EXPECT_LT(length(root - followGuide(hair, atRest[hair.guide]).front()), 1e-9);
+    EXPECT_LT(length(followGuides(hair, moved).front() - rotate(kTurned, root)), 1e-9);
+    const Vec3d bent = rotate(kTurned, root) + Vec3d{0.004, -0.003, 0.002};
+    EXPECT_LT(length(followGuides(hair, moved, {}, {}, bent).front() - bent), 1e-12);
+  }
+}
+
+// Where blended positions lose a quarter of them.
+TEST(FollowGuides, NoCurlIsLost) {
+  const auto strands = headOf(600);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = 1200, .radius = 0, .length = 0, .blend = 1});
+  ASSERT_TRUE(hairs);
+  std::size_t blended = 0;
+  for (const bool isMoved : {false, true}) {
+    const auto guides = isMoved ? swung(strands) : strands;
+    const auto poses = posesOf(rests, guides, isMoved ? kTurned : Quatd{});
+    std::vector<double> radius, turns;
+    int straight = 0, otherHand = 0;
+    for (const FollowHair& hair : *hairs) {
+      const CurlShape own = measureCurl(followGuides(hair, poses)), its = measureCurl(guides[hair.guide]);
+      straight += own.turns == 0;
+      otherHand += own.handedness != its.handedness;
+      radius.push_back(std::abs(own.radius / its.radius - 1));
+      turns.push_back(std::abs(own.turns / its.turns - 1));
+      blended += hair.others[0].share + hair.others[1].share > 0.4f;
+    }
+    EXPECT_EQ(straight, 0);
+    EXPECT_EQ(otherHand, 0);
+    EXPECT_LT(median(radius), 0.05) << isMoved;
+    EXPECT_LT(median(turns), 0.05) << isMoved;
+  }
+  EXPECT_GT(blended, 500u);
+}
+
+// Straight guides, which have no curl of their own, at rest down, and each swung its own way. Roots go in
+// small steps from the front to the back: a nearest guide becomes another at once.
+TEST(FollowGuides, BlendsVaryWithTheRootAsNearestDoesNot) {
+  const std::vector<Strand> strands = straight(headOf(300), [](Vec3d) { return Vec3d{0, -0.2, 0}; });
+  std::size_t number = 0;
+  const std::vector<Strand> pose = straight(strands, [&](Vec3d) {
+    const auto g = static_cast<double>(number++);
+    return Vec3d{0.02 * std::sin(2 * g), -0.2, 0.02 * std::cos(3 * g)};
+  });
+  const auto rests = restsOf(strands);
+  const auto poses = posesOf(rests, pose, Quatd{});
+  const auto farthestStep = [&](double blend, double step) {
+    ScalpRoots roots;
+    for (double angle = -0.5; angle < 0.5; angle += step)
+      roots.places.push_back(Vec3d{0.01, std::cos(angle), std::sin(angle)} * 0.09);
+    roots.ranks.assign(roots.places.size(), 0);
+    std::vector<std::uint32_t> rootOf;
+    const auto hairs = planHairs(
+        rests, roots, {.phase = 0, .radius = 0, .length = 0, .gather = 0, .strayShare = 0, .blend = blend},
+        {}, &rootOf);
+    std::vector<Vec3d> tips(roots.places.size());
+    for (std::size_t h = 0; h < hairs->size(); ++h) tips[rootOf[h]] = followGuides((*hairs)[h], poses).back();
+    double farthest = 0;
+    for (std::size_t i = 1; i < tips.size(); ++i)
+      farthest = std::max(farthest, length(tips[i] - tips[i - 1]));
+    return farthest;
+  };
+  EXPECT_LT(farthestStep(1, 5e-5), 0.12 * farthestStep(1, 5e-4)) << "a tenth of the way, a tenth of the step";
+  EXPECT_GT(farthestStep(0, 5e-5), 0.9 * farthestStep(0, 5e-4));
+}
+
 double distanceFrom(const Body& body, const BodyPose& pose, Vec3d p) {
   const auto y = reference::toEigen<double>(rotate(pose.rotation.conjugate(), p - pose.position));
   return reference::bodyDistance<double>(body, y).distance;
@@ -202,6 +331,89 @@ TEST(FollowGuide, HairsDoNotJumpWhereAGuideGoesThroughABody) {
   }
   // A point moves with the ball's surface, and beside it where its guide's distance counts too.
   EXPECT_LT(farthest, 12 * kStep);
+}
+
+// Of several guides their mean distance counts: where none is inside, the hair is not.
+TEST(FollowGuides, BlendsStayOutOfBodiesWhereTheirGuidesDo) {
+  const std::vector<Strand> strands = headOf(60);
+  const auto rests = restsOf(strands);
+  const auto hairs = planHairs(rests, {.hairCount = 1200, .length = 0, .blend = 1});
+  ASSERT_TRUE(hairs) << hairs.error().message;
+  const Body ball{.name = "ball", .shape = BodyShape::sphere, .radius = 0.11};
+  const BodyPose place{{0, -0.02, 0.02}, Quatd{}};
+  const auto guides = posesOf(rests, strands, Quatd{});
+  std::size_t pressed = 0, through = 0;
+  for (const FollowHair& hair : *hairs) {
+    const auto alone = followGuides(hair, guides);
+    const auto found = followGuides(hair, guides, std::span(&ball, 1), std::span(&place, 1));
+    const double root = distanceFrom(ball, place, alone.front());
+    const auto last = static_cast<double>(alone.size() - 1);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      const double r = reference::risesOver(0.2, static_cast<double>(i) / last);
+      double ofGuides = distanceFrom(ball, place, strands[hair.guide][i]);
+      const double ofOwn = ofGuides;
+      bool areAllOut = ofOwn >= 0;
+      for (const FollowHair::Other& other : hair.others) {
+        const double its = distanceFrom(ball, place, strands[other.guide][i]);
+        ofGuides += double(other.share) * (its - ofOwn);
+        areAllOut = areAllOut && (its >= 0 || other.share == 0);
+      }
+      const double before = distanceFrom(ball, place, alone[i]), after = distanceFrom(ball, place, found[i]);
+      ASSERT_NEAR(after, std::max(before, std::min({0.0, ofGuides, (1 - r) * root})), 1e-9);
+      if (areAllOut && r == 1) {
+        ASSERT_GT(after, -1e-9);
+      }
+      pressed += after > before && areAllOut;
+      through += after < 0 && !areAllOut;
+    }
+  }
+  EXPECT_GT(pressed, 100u) << "the ball must press on hairs";
+  EXPECT_GT(through, 100u) << "and some guides must go through it";
+}
+
+// Each guide swings at its own pace and in its own way: hairs that follow several jerk no more than those.
+TEST(FollowGuides, TipsJerkNoMoreThanTheirGuides) {
+  for (const double turns : {0.0, 4.0}) {
+    const auto strands = headOf(60, turns);
+    const auto rests = restsOf(strands);
+    const auto hairs = planHairs(rests, {.hairCount = 300, .blend = 1});
+    ASSERT_TRUE(hairs);
+    const auto poseAt = [&](double t) {
+      std::vector<Strand> pose = strands;
+      for (std::size_t g = 0; g < pose.size(); ++g) {
+        const double turn = 0.7 * double(g), swing = 0.4 * std::sin(2 * std::numbers::pi * 1.5 * t + turn);
+        const Quatd aside = fromRotationVector(Vec3d{std::cos(turn), 0, std::sin(turn)} * swing);
+        for (Vec3d& p : pose[g]) {
+          const Vec3d fall = p - strands[g].front();
+          p += (rotate(aside, fall) - fall) * std::min(1.0, 20 * length(fall));
+        }
+      }
+      return pose;
+    };
+    std::vector<std::vector<Vec3d>> guideTips, hairTips;  // of three moments
+    double ofGuides = 0, ofHairs = 0;
+    const auto jerk = [](const std::vector<std::vector<Vec3d>>& tips) {
+      double most = 0;
+      for (std::size_t k = 0; k < tips.back().size(); ++k) {
+        const std::size_t n = tips.size();
+        most = std::max(most, length(tips[n - 1][k] - 2.0 * tips[n - 2][k] + tips[n - 3][k]));
+      }
+      return most;
+    };
+    for (int frame = 0; frame < 60; ++frame) {
+      const auto pose = poseAt(frame / 96.0);
+      const auto guides = posesOf(rests, pose, Quatd{});
+      guideTips.emplace_back();
+      for (const Strand& strand : pose) guideTips.back().push_back(strand.back());
+      hairTips.emplace_back();
+      for (const FollowHair& hair : *hairs) hairTips.back().push_back(followGuides(hair, guides).back());
+      if (frame < 2) continue;
+      ofGuides = std::max(ofGuides, jerk(guideTips));
+      ofHairs = std::max(ofHairs, jerk(hairTips));
+    }
+    EXPECT_GT(ofGuides, 1e-4) << turns;
+    EXPECT_LT(ofHairs, 1.5 * ofGuides) << turns;
+  }
 }
 
 TEST(PlanHairs, RootsAreEvenAndNearestToTheirGuide) {
@@ -291,6 +503,60 @@ TEST(PlanHairs, FrizzIsAFactor) {
              plan({.hairCount = 900, .phase = 0.9, .radius = 0.24, .strayShare = 0.2}));
   expectSame(plan({.hairCount = 900, .phase = 2, .radius = 0.5, .strayShare = 0.3, .frizz = 10}),
              plan({.hairCount = 900, .phase = std::numbers::pi, .radius = 0.9, .strayShare = 1}));
+}
+
+// As NearGuides shares them, by so much; nothing else of a hair changes.
+TEST(PlanHairs, BlendIsAShare) {
+  const auto rests = restsOf(straight(headOf(80), [](Vec3d) { return Vec3d{0, -0.2, 0}; }));
+  const auto plan = [&](double blend) { return *planHairs(rests, {.hairCount = 900, .blend = blend}); };
+  const auto none = plan(0), half = plan(0.5), all = plan(1);
+  const NearGuides near(rests);
+  ASSERT_EQ(none.size(), all.size());
+  double most = 0;
+  for (std::size_t h = 0; h < all.size(); ++h) {
+    EXPECT_EQ(none[h].offset, all[h].offset);
+    EXPECT_EQ(none[h].phase, all[h].phase);
+    EXPECT_EQ(none[h].guide, all[h].guide);
+    const GuideRest& guide = rests[all[h].guide];
+    const auto inGroom = [](const MeasuringFrame& frame, Vec3f v) {
+      return frame.normal * double(v.x) + frame.binormal * double(v.y) + frame.tangent * double(v.z);
+    };
+    const Vec3d root = guide.root + inGroom(guide.frame, all[h].offset);
+    const auto shares = near.sharesAt(root);
+    EXPECT_EQ(shares[0].guide, all[h].guide);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const FollowHair::Other& other = all[h].others[k];
+      EXPECT_EQ(none[h].others[k].share, 0);
+      EXPECT_NEAR(other.share, shares[k + 1].share, 1e-4);
+      EXPECT_NEAR(half[h].others[k].share, 0.5 * shares[k + 1].share, 1e-4);
+      if (other.share == 0) continue;
+      EXPECT_EQ(other.guide, shares[k + 1].guide);
+      const GuideRest& its = rests[other.guide];
+      EXPECT_LT(length(its.root + inGroom(its.frame, other.offset) - root), 1e-7);
+    }
+    most = std::max(most, double(all[h].others[0].share));
+  }
+  EXPECT_GT(most, 0.3);
+  EXPECT_LE(most, 0.5 + 1e-6) << "the guide itself is nearest";
+}
+
+// Hair combed to both sides: blends keep to theirs.
+TEST(PlanHairs, GuidesThatPartAreNotBlended) {
+  const auto rests = restsOf(straight(headOf(200), [](Vec3d root) {
+    return Vec3d{root.x < 0 ? -0.1 : 0.1, -0.2, 0};
+  }));
+  const auto hairs = planHairs(rests, {.hairCount = 4000, .blend = 1});
+  ASSERT_TRUE(hairs);
+  std::size_t blended = 0;
+  for (const FollowHair& hair : *hairs) {
+    const bool isLeft = rests[hair.guide].root.x < 0;
+    for (const FollowHair::Other& other : hair.others) {
+      if (other.share == 0) continue;
+      ++blended;
+      EXPECT_EQ(rests[other.guide].root.x < 0, isLeft);
+    }
+  }
+  EXPECT_GT(blended, 2000u);
 }
 
 TEST(PlanHairs, OptionsSayHowHairsDiffer) {

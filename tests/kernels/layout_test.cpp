@@ -293,6 +293,12 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(firstPoint), RINGLET_MEMBER(rootOffset)}};
     }(),
     [] {
+      using S = layout::FollowBlend;
+      return CppStruct{"FollowBlend",
+                       sizeof(S),
+                       {RINGLET_MEMBER(offsets), RINGLET_MEMBER(guides), RINGLET_MEMBER(unused)}};
+    }(),
+    [] {
       using S = layout::NearCount;
       return CppStruct{"NearCount", sizeof(S), {RINGLET_MEMBER(indirect), RINGLET_MEMBER(points)}};
     }(),
@@ -430,7 +436,7 @@ TEST(Layout, TexelRecordsAreWholeTexels) {
        {"ParticleRest",  "StrandRest",   "RootPose",       "BodyRest",       "BodyPose",    "StepAir",
         "StepField",     "WindWave",     "ContactRest",    "ContactPair",    "ContactLife", "ContactForce",
         "ContactSystem", "ContactPlace", "ContactHistory", "VolumeParticle", "VolumeState", "VolumeParcel",
-        "CoreRow",       "FollowGuide",  "FollowHair"})
+        "CoreRow",       "FollowGuide",  "FollowHair",     "FollowBlend"})
     EXPECT_EQ(cppStruct(name)->size % sizeof(layout::vec4), 0u) << name;
 }
 

@@ -323,7 +323,8 @@ TEST_F(Convert, HairsFollowTheStrands) {
   convert({"turned/hair.rgc", "alone.obj", "--frame", "6", "--hairs", "100", "--groom", "h.obj"});
   EXPECT_EQ(readText(folder_ / "alone.obj"), readText(folder_ / "six.obj"))
       << "frames know nothing of others";
-  for (const auto& [option, usual, other] : {std::tuple("--frizz", "1", "3"), {"--clump", "0.25", "0.9"}}) {
+  for (const auto& [option, usual, other] :
+       {std::tuple("--frizz", "1", "3"), {"--clump", "0.25", "0.9"}, {"--blend", "0", "1"}}) {
     const auto with = [&](const char* value) {
       convert({"turned/hair.rgc", "look.obj", "--frame", "6", "--hairs", "100", "--groom", "h.obj", option,
                value});
@@ -422,9 +423,12 @@ TEST_F(Convert, AWrongCommandLineIsSaidAndExit2) {
         Case{{"convert", "out/hair.rgc", "a.obj", "--frame", "0"}, "from 1"},
         Case{{"convert", "out/hair.rgc", "a.rgc", "--hairs", "9"}, "name with --groom the groom"},
         Case{{"convert", "out/hair.rgc", "a.rgc", "--groom", "groom.obj"}, "only --hairs needs it"},
-        Case{{"convert", "out/hair.rgc", "a.rgc", "--frizz", "2"}, "only such hairs have frizz and clumps"},
+        Case{{"convert", "out/hair.rgc", "a.rgc", "--frizz", "2"},
+             "only such hairs have frizz, clumps and blends"},
+        Case{{"convert", "out/hair.rgc", "a.rgc", "--blend", "1"},
+             "only such hairs have frizz, clumps and blends"},
         Case{{"simulate", "groom.obj", "-o", "none", "--clump", "0.5"},
-             "only such hairs have frizz and clumps"},
+             "only such hairs have frizz, clumps and blends"},
         Case{{"render", "out", "-o", "none", "--hairs", "0", "--frizz", "2"}, "0 are no hairs"},
         Case{{"convert", "out/hair.rgc", "a.rgc", "--scene", "scene.toml"}, "only --hairs needs it"},
         Case{

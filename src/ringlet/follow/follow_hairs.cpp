@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "ringlet/follow/near_guides.h"
 #include "ringlet/groom/seeded_random.h"
@@ -20,6 +21,9 @@ constexpr double kReach = 0.75;         // its largest radius, in the median dis
 constexpr std::size_t kMostSeeds = 10;  // tried for each hair
 constexpr double kLoneRadius = 0.0025;  // without neighbours [m]
 constexpr double kGoldenAngle = 2.399963229728653;  // pi (3 - sqrt 5) [rad]
+
+// Guides that part by less [rad] are blended, by more not: a parting stays one.
+constexpr double kBlendedParting = 0.4, kMostParting = 0.8;
 
 // By eye: strays differ in phase and stay off by these factors.
 constexpr double kStrayPhase = 2.5, kStraySpread = 1.4;
@@ -35,6 +39,7 @@ Status checkOptions(std::span<const GuideRest> guides, const FollowOptions& o) {
                 {"the variation of the curl radius", o.radius, 0, kMostRadius},
                 {"the variation of the length", o.length, 0, 0.9},
                 {"the share by which hairs gather", o.gather, 0, 1},
+                {"the share of blended guides", o.blend, 0, 1},
                 {"the share of strays", o.strayShare, 0, 1},
                 {"the frizz of hairs", o.frizz, 0, 10}};
   for (const auto& range : ranges) {
@@ -193,11 +198,35 @@ std::vector<std::size_t> lastHairs(std::size_t guideCount, std::size_t hairCount
   return last;
 }
 
+Vec3f seenFrom(const MeasuringFrame& frame, Vec3d v) {
+  return Vec3f(Vec3d{dot(v, frame.normal), dot(v, frame.binormal), dot(v, frame.tangent)});
+}
+
 // Of a root beside its guide.
 void standOn(const GuideRest& guide, std::size_t number, Vec3d place, FollowHair& hair) {
-  const MeasuringFrame& frame = guide.frame;
   hair.guide = static_cast<std::uint32_t>(number);
-  hair.offset = Vec3f(Vec3d{dot(place, frame.normal), dot(place, frame.binormal), dot(place, frame.tangent)});
+  hair.offset = seenFrom(guide.frame, place);
+}
+
+// 1 for guides side by side, 0 for those that part.
+double togetherness(const GuideRest& a, const GuideRest& b) {
+  const double apart =
+      std::clamp((partingOf(a, b) - kBlendedParting) / (kMostParting - kBlendedParting), 0.0, 1.0);
+  return 1 - apart * apart * (3 - 2 * apart);
+}
+
+// The guides nearest to a hair's root but its own, which is one of the nearest, take their shares of its
+// core.
+void blendWith(std::span<const GuideRest> guides, const std::array<NearGuides::Share, 3>& shares, Vec3d root,
+               double blend, FollowHair& hair) {
+  auto other = hair.others.begin();
+  for (const NearGuides::Share& each : shares) {
+    if (each.guide == hair.guide || other == hair.others.end()) continue;
+    const GuideRest& guide = guides[each.guide];
+    const double share = blend * each.share * togetherness(guides[hair.guide], guide);
+    if (share > 0)
+      *other++ = {each.guide, static_cast<float>(share), seenFrom(guide.frame, root - guide.root)};
+  }
 }
 
 Status checkCount(std::size_t hairCount) {
@@ -218,6 +247,7 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
     FollowHair hair = variedHair(options, factorAt(maps.clump, shares), SeededRandom(options.seed, i));
     const GuideRest& guide = guides[shares[0].guide];
     standOn(guide, shares[0].guide, roots.places[i] - guide.root, hair);
+    if (options.blend > 0) blendWith(guides, shares, roots.places[i], options.blend, hair);
     found.emplace_back(hair, i);
   }
   if (Status some = checkCount(found.size()); !some) return some.error();
@@ -238,6 +268,7 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
   const auto hairCount = static_cast<std::size_t>(options.hairCount);
   const std::vector<std::size_t> last = lastHairs(guides.size(), hairCount, maps.density);
   if (Status some = checkCount(last.back()); !some) return some.error();
+  const std::optional<NearGuides> near = options.blend > 0 ? std::optional<NearGuides>(guides) : std::nullopt;
   std::vector<FollowHair> hairs;
   hairs.reserve(last.back());
   for (std::size_t g = 0; g < guides.size(); ++g) {
@@ -248,6 +279,8 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
       FollowHair hair = variedHair(options, factorAt(maps.clump, g),
                                    SeededRandom(options.seed, guides.size() + hairs.size()));
       standOn(guides[g], g, place, hair);
+      const Vec3d root = guides[g].root + place;
+      if (near) blendWith(guides, near->sharesAt(root), root, options.blend, hair);
       hairs.push_back(hair);
     }
   }

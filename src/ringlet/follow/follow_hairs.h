@@ -2,6 +2,7 @@
 // thousand guides are simulated; what one sees are tens of thousands of hairs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -21,9 +22,18 @@ struct FollowHair {
   float radius = 1;  // of its curl, over the guide's
   float length = 1;  // share of the guide that it follows, in (0, 1]
   float spread = 1;  // what becomes of the offset beyond the root: below 1 hairs of a guide gather
+
+  /// Another guide whose core is blended with the guide's; the hair has its guide's curl.
+  struct Other {
+    std::uint32_t guide = 0;
+    float share = 0;  // of the core, in [0, 1]; what the two leave of 1 is the guide's. 0: nothing
+    Vec3f offset{};   // of the hair's root from this guide's, along its frame [m]
+  };
+  std::array<Other, 2> others{};
 };
 
-/// How hairs of one guide differ.
+/// How hairs of one guide differ. `blend` is of guides side by side: less of those that part at rest by 0.4
+/// to 0.8 radians (partingOf), nothing of others.
 struct FollowOptions {
   int hairCount = 30000;    // in [1, 10000000]
   double reach = 1;         // largest distance of a root from the guide's [m], above 0, to 1000
@@ -32,6 +42,7 @@ struct FollowOptions {
   double length = 0.15;     // share by which the shortest hair is shorter, in [0, 0.9]
   double gather = 0.25;     // mean share by which hairs come together, in [0, 1]
   double strayShare = 0.1;  // share of hairs, in [0, 1], that keep apart and whose phase differs more
+  double blend = 0;         // share, in [0, 1], of what the two next guides have in a hair's core
   double frizz = 1;         // factor on phase, radius and strayShare up to their limits, in [0, 10]
   std::uint64_t seed = 1;
 };

@@ -17,10 +17,13 @@
 #include "ringlet/base/packed.h"
 #include "ringlet/follow/core_weights.h"
 #include "ringlet/gpu/device_buffers.h"
+#include "ringlet_shaders/follow_bodies_blends.h"
 #include "ringlet_shaders/follow_bodies_plain.h"
 #include "ringlet_shaders/follow_core_plain.h"
 #include "ringlet_shaders/follow_frames_plain.h"
 #include "ringlet_shaders/follow_hairs_among_bodies.h"
+#include "ringlet_shaders/follow_hairs_blends.h"
+#include "ringlet_shaders/follow_hairs_blends_among_bodies.h"
 #include "ringlet_shaders/follow_hairs_plain.h"
 
 namespace ringlet {
@@ -34,13 +37,17 @@ struct Compiled {
   std::span<const std::uint32_t> spirv;
 };
 // In the order of a frame.
-std::vector<Compiled> compiled(bool hasBodies) {
+std::vector<Compiled> compiled(bool hasBodies, bool isBlended) {
   std::vector<Compiled> all{{"follow_core", k_follow_core_plain}, {"follow_frames", k_follow_frames_plain}};
+  const auto add = [&](const char* name, std::span<const std::uint32_t> plain,
+                       std::span<const std::uint32_t> blends) {
+    all.push_back({name, isBlended ? blends : plain});
+  };
   if (!hasBodies) {
-    all.push_back({"follow_hairs", k_follow_hairs_plain});
+    add("follow_hairs", k_follow_hairs_plain, k_follow_hairs_blends);
   } else {
-    all.push_back({"follow_hairs", k_follow_hairs_among_bodies});
-    all.push_back({"follow_bodies", k_follow_bodies_plain});
+    add("follow_hairs", k_follow_hairs_among_bodies, k_follow_hairs_blends_among_bodies);
+    add("follow_bodies", k_follow_bodies_plain, k_follow_bodies_blends);
   }
   return all;
 }
@@ -68,6 +75,21 @@ layout::FollowHair recordOf(const FollowHair& hair, std::uint32_t firstPoint, Ve
           .spread = hair.spread,
           .firstPoint = firstPoint,
           .rootOffset = {rootOffset.x, rootOffset.y, rootOffset.z}};
+}
+
+bool followsSeveral(const FollowHair& hair) {
+  return std::ranges::any_of(hair.others, [](const FollowHair::Other& other) { return other.share > 0; });
+}
+
+layout::FollowBlend blendOf(const FollowHair& hair) {
+  layout::FollowBlend blend{};
+  for (std::size_t k = 0; k < hair.others.size(); ++k) {
+    const FollowHair::Other& other = hair.others[k];
+    // A guide that counts for nothing may be any: it is looked up all the same.
+    blend.guides[k] = other.share > 0 ? other.guide : hair.guide;
+    blend.offsets[k] = packed(Vec3d(other.offset), static_cast<double>(other.share));
+  }
+  return blend;
 }
 
 std::uint32_t groupSizeOn(const gpu::Device& device) {
@@ -115,6 +137,26 @@ Status FollowStage::makeGuides(gpu::Device& device, std::span<const GuideRest> g
   return {};
 }
 
+Status FollowStage::makeHairs(gpu::Device& device, std::span<const GuideRest> guides,
+                              std::span<const FollowHair> hairs) {
+  std::vector<layout::FollowHair> records;
+  firstPoint_ = {0};
+  for (const FollowHair& hair : hairs) {
+    records.push_back(recordOf(hair, firstPoint_.back(), {}));
+    firstPoint_.push_back(firstPoint_.back() + static_cast<std::uint32_t>(guides[hair.guide].arcs.size()));
+  }
+  auto filled = createFilled(device, records, "hairs");
+  if (!filled) return filled.error();
+  others_.push_back(std::move(*filled));
+  if (std::ranges::none_of(hairs, followsSeveral)) return {};
+  std::vector<layout::FollowBlend> blends;
+  for (const FollowHair& hair : hairs) blends.push_back(blendOf(hair));
+  auto blended = createFilled(device, blends, "other guides of hairs");
+  if (!blended) return blended.error();
+  blends_.emplace(std::move(*blended));
+  return {};
+}
+
 Status FollowStage::makeNear(gpu::Device& device) {
   if (bodies_.count() == 0) return {};
   const layout::NearCount nothing{.indirect = {0, 1, 1}, .points = 0};
@@ -138,13 +180,14 @@ Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp) {
   bind(layout::kBindGuidePoints, positions_);
   bind(layout::kBindHairPoints, points_);
   for (std::size_t i = 0; i < others_.size(); ++i) bind(kOthers[i], others_[i]);
+  if (blends_) bind(layout::kBindFollowBlends, *blends_);
   if (near_) {
     bind(layout::kBindNearCount, near_->count);
     bind(layout::kBindNearPoints, near_->points);
   }
   const bool texels = std::ranges::all_of(
       table, [&](const auto& entry) { return isSeenAsTexels(device, entry.second.get().bytes()); });
-  for (const auto& [name, spirv] : compiled(bodies_.count() > 0)) {
+  for (const auto& [name, spirv] : compiled(bodies_.count() > 0, blends_.has_value())) {
     gpu::KernelDescription description;
     description.name = name;
     description.spirv = spirv;
@@ -196,16 +239,7 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
   self.stride_ = static_cast<std::uint32_t>(stride);
   if (Status made = self.makeGuides(device, guides); !made) return made.error();
 
-  std::vector<layout::FollowHair> records;
-  self.firstPoint_ = {0};
-  for (const FollowHair& hair : hairs) {
-    records.push_back(recordOf(hair, self.firstPoint_.back(), {}));
-    self.firstPoint_.push_back(self.firstPoint_.back() +
-                               static_cast<std::uint32_t>(guides[hair.guide].arcs.size()));
-  }
-  auto filled = createFilled(device, records, "hairs");
-  if (!filled) return filled.error();
-  self.others_.push_back(std::move(*filled));
+  if (Status made = self.makeHairs(device, guides, hairs); !made) return made.error();
   if (isOnScalp) {
     self.onScalp_.assign(hairs.begin(), hairs.end());
     std::vector<std::uint32_t> first{0};
@@ -253,6 +287,7 @@ void FollowStage::record(gpu::CommandList& list, Quatd head) const {
 std::uint64_t FollowStage::byteCount() const {
   std::uint64_t bytes = positions_.bytes() + points_.bytes() + bodies_.byteCount();
   for (const gpu::Buffer& buffer : others_) bytes += buffer.bytes();
+  if (blends_) bytes += blends_->bytes();
   if (near_) bytes += near_->count.bytes() + near_->none.bytes() + near_->points.bytes();
   return bytes;
 }

@@ -54,6 +54,7 @@ class FollowStage {
  private:
   FollowStage(gpu::Buffer positions, gpu::Buffer points, PosedBodies bodies)
       : positions_(std::move(positions)), points_(std::move(points)), bodies_(std::move(bodies)) {}
+  Status makeHairs(gpu::Device& device, std::span<const GuideRest> guides, std::span<const FollowHair> hairs);
   Status makeGuides(gpu::Device& device, std::span<const GuideRest> guides);
   Status makeNear(gpu::Device& device);
   Status makeKernels(gpu::Device& device, bool isOnScalp);
@@ -67,6 +68,7 @@ class FollowStage {
   PosedBodies bodies_;
   std::optional<Near> near_;  // where there are bodies
   std::vector<gpu::Buffer> others_;
+  std::optional<gpu::Buffer> blends_;      // where hairs follow several guides
   std::vector<gpu::BoundKernel> kernels_;  // in their order; that of bodies only where there are any
   std::vector<FollowHair> onScalp_;        // the hairs, where a scalp carries their roots; else none
   std::vector<std::uint32_t> guideRoots_;  // the particle at the root of each one's guide

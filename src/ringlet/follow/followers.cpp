@@ -49,8 +49,12 @@ Result<Followers> Followers::create(const ComputeDevice& device, const Simulatio
       return Error{fmt::format("strand {} of the groom has no length, so that no hair can follow it", s + 1)};
     guideRests.push_back(restOfGuide(strand));
   }
-  for (const FollowHair& hair : hairs)
-    RINGLET_ASSERT(hair.guide < guideRests.size(), "a hair follows a strand that the groom does not have");
+  for (const FollowHair& hair : hairs) {
+    const auto isThere = [&](std::uint32_t guide) { return guide < guideRests.size(); };
+    RINGLET_ASSERT(isThere(hair.guide), "a hair follows a strand that the groom does not have");
+    for (const FollowHair::Other& other : hair.others)
+      RINGLET_ASSERT(isThere(other.guide), "a hair follows a strand that the groom does not have");
+  }
   auto stage = FollowStage::create(device.gpu(), guideRests, hairs, bodies);
   if (!stage) return stage.error();
   auto recorder = gpu::Recorder::create(device.gpu(), "hairs that follow strands");

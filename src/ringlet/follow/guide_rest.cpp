@@ -13,8 +13,20 @@ GuideRest restOfGuide(std::span<const Vec3d> strand) {
   rest.arcs = arcPositions(strand);
   rest.window = coreWindow(measureCurl(strand), rest.arcs.back());
   rest.root = strand.front();
-  rest.frame = rootFrameOf(smoothCore(strand, rest.arcs, rest.window));
+  const std::vector<Vec3d> core = smoothCore(strand, rest.arcs, rest.window);
+  rest.frame = rootFrameOf(core);
+  for (std::size_t k = 0; k < rest.way.size(); ++k)
+    rest.way[k] = core[(k + 1) * (core.size() - 1) / rest.way.size()] - core.front();
   return rest;
+}
+
+double partingOf(const GuideRest& a, const GuideRest& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.way.size(); ++k) {
+    const Vec3d there = normalizedOr(a.way[k], {}), its = normalizedOr(b.way[k], {});
+    most = std::max(most, length(there - its));
+  }
+  return most;
 }
 
 // Each component's square is a sum of the matrix's diagonal; the largest is divided by.

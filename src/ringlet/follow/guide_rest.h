@@ -1,6 +1,7 @@
 // GuideRest: a guide as it was groomed, for the hairs that follow it.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -14,10 +15,15 @@ struct GuideRest {
   double window = 0;         // what its core is smoothed over [m]
   Vec3d root;                // [m]
   MeasuringFrame frame;      // of its core at the root
+  std::array<Vec3d, 4> way;  // its core from the root to each quarter of the particles [m]
 };
 
 /// Of a strand's rest points [m], at least two and not all in one place. Cost: n log n.
 GuideRest restOfGuide(std::span<const Vec3d> strand);
+
+/// How far two guides part: the angle between where their cores lead, to whichever quarter it is largest
+/// [rad], about; 0 for guides side by side.
+double partingOf(const GuideRest& a, const GuideRest& b);
 
 /// Takes x, y and z to the frame's normal, binormal and tangent.
 Quatd quaternionOf(const MeasuringFrame& frame);

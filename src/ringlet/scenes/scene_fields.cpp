@@ -673,6 +673,14 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "Mean share by which these hairs come together beyond their roots.",
        &O::clump,
        {0, 1}},
+      {"blend",
+       "",
+       "",
+       "Share of what the nearest strands beside a hair's own have in its course; its curl stays that of its "
+       "own. "
+       "1 for straight and wavy hair.",
+       &O::blend,
+       {0, 1}},
       {"clip_frames",
        "",
        "none; hair.usda is one file",

@@ -214,8 +214,8 @@ struct SceneOutput {
   std::optional<double> tipWidth;  // none: strands are as wide everywhere
   std::optional<int> hairs;        // that follow the strands, in animations; none: the strands themselves
   std::string hairScalp;           // name of a body of shape mesh that their roots are on; none: empty
-  std::filesystem::path hairScalpFile;  // in its place: an OBJ file in the groom's axes and unit
-  double frizz = 1, clump = 0.25;       // of these hairs
+  std::filesystem::path hairScalpFile;        // in its place: an OBJ file in the groom's axes and unit
+  double frizz = 1, clump = 0.25, blend = 0;  // of these hairs
   std::vector<std::string> files{"hair.usda", "last.obj", "sheet.png"};
   std::vector<std::string> values;  // that USD files have beside points and widths
   std::string head = "baked";       // into the points; "transform": beside them; "none": left out
