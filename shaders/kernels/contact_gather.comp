@@ -30,7 +30,7 @@ void main() {
       forces[entry].normal.w = 0.0;
       spring = 0.0;
     }
-    momentum += contactMultiply(ContactWeights(spring, force.damping), parameters.friction, normal, v + otherVelocity);
+    momentum += contactMultiply(contactWeights(spring, force.damping, parameters), normal, v + otherVelocity);
   } while (++j < count);
   ContactSystem system = systems[rest.particle];
   float unit = rest.inverseMassUnit;

@@ -3,9 +3,7 @@
 // velocities. Both sides of a contact reckon alike, so momentum is kept. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "shared/contact_buffers.glsl"
-#include "equations/contact_spring.glsl"
-#include "maths/symmetric.glsl"
+#include "shared/contact_terms.glsl"
 
 ContactRest rest;  // this invocation's contact particle
 vec3 x;
@@ -14,9 +12,7 @@ vec3 guess;
 uint list;       // its contacts of this step
 uint count = 0;  // how many
 uint block = 0;  // their last
-Symmetric D = symmetricDiagonal(0.0);
-vec3 push = vec3(0);
-vec3 momentum = vec3(0);
+ContactTerms terms = kNoTerms;
 
 void append(ContactForce force, ContactLife life) {
   if (count % kLiveBlock == 0) {
@@ -38,21 +34,14 @@ void liveOn(ContactLife before) {
   float r0 = before.restLength;
   ContactMeeting meeting =
       contactMeeting(x - positionOf(before.particle), v - velocityOf(before.particle), rest.particle < before.particle);
-  bool touching = isTouching(meeting, r0, parameters.seconds, parameters.seenAhead);
-  vec3 changes = vec3(parameters.ramp, parameters.stiffnessRelease, parameters.dampingRelease);
-  vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, changes, parameters.breakFactor);
+  bool touching = isTouching(meeting, r0, parameters);
+  vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, parameters);
   if (shares == vec2(0)) return;
-  // 2 zeta sqrt(k m_c), m_c by k.
-  float damping =
-      2.0 * parameters.dampingRatio * before.stiffness *
-      sqrt((rest.radius + other.w) / max(parameters.stiffness, 1e-30));
+  float damping = contactDamping(before.stiffness, rest.radius + other.w, parameters);
   float gap = r0 - meeting.distance;
   ContactWeights weights =
-      contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters.seconds);
-  float tangential = parameters.friction * weights.damping;
-  D = addOuter(addDiagonal(D, tangential), weights.spring + weights.damping - tangential, meeting.normal);
-  push += contactPush(weights.spring, gap, parameters.seconds) * meeting.normal;
-  momentum += contactMultiply(weights, parameters.friction, meeting.normal, guess + other.xyz);
+      contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters);
+  addWeights(terms, weights, meeting.normal, gap, guess + other.xyz);
   append(ContactForce(vec4(meeting.normal, weights.spring), before.particle, weights.damping, gap, 0),
          ContactLife(before.particle, lifeOfShares(shares), r0, before.stiffness));
 }
@@ -116,9 +105,5 @@ void main() {
   liveLists[list] = count;
   if (count > control.longestLive) atomicMax(control.longestLive, count);
   if (made != wanted) control.isHalted = kHaltedByTurns;
-
-  float unit = rest.inverseMassUnit;
-  systems[rest.particle].diagonal = vec4(unit * D.d, unit * push.x);
-  systems[rest.particle].offDiagonal = vec4(unit * D.o, unit * push.y);
-  systems[rest.particle].momentum = vec4(unit * (push + momentum), unit * push.z);
+  setSystem(rest, terms);
 }

@@ -29,7 +29,7 @@ bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float 
 }
 
 void take(ContactRest other, float R, float r0) {
-  vec2 constants = contactConstants(0.5 * (rest.mass + other.mass), R, parameters.stiffness, parameters.dampingRatio);
+  vec2 constants = contactConstants(0.5 * (rest.mass + other.mass), R, parameters);
   append(ContactPair(other.particle, r0, constants.x, constants.y));
 }
 

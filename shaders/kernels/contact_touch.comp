@@ -70,7 +70,7 @@ void main() {
       ContactPair pair = pairAt(first + k);
       ContactMeeting meeting =
           contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle), particle < pair.particle);
-      bool touching = isTouching(meeting, pair.restLength, parameters.seconds, parameters.seenAhead);
+      bool touching = isTouching(meeting, pair.restLength, parameters);
       if (touching) bits |= 1u << kListBlock + k;
       bool acts = touching || meeting.distance < parameters.breakFactor * pair.restLength;
       if (acts) bits |= 1u << k;

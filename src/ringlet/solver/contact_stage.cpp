@@ -12,7 +12,7 @@
 
 #include "layout/strands.h"
 #include "ringlet/gpu/device_buffers.h"
-#include "ringlet/rest/material.h"
+#include "ringlet/scene/packed_contacts.h"
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/neighbour_table.h"
 
@@ -30,11 +30,6 @@ constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectC
                         kSample = offsetof(layout::ContactControl, indirectSample),
                         kQuery = offsetof(layout::ContactControl, indirectQuery),
                         kMeeting = offsetof(layout::ContactControl, indirectMeeting);
-
-// What a share of a contact changes by in a step.
-float changeIn(double seconds, double stepSeconds) {
-  return seconds > 0 ? static_cast<float>(stepSeconds / seconds) : 1.0f;
-}
 
 std::vector<layout::ContactRest> contactRests(const RestState& rest, const Settings& settings,
                                               const ContactParticles& particles) {
@@ -243,30 +238,21 @@ double ContactStage::listedAhead() const { return sampleStride_ > 0 ? kDenseAhea
 
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
   const ListRoom live = lives_ ? lives_->room() : ListRoom{};
-  return {.contactCount = static_cast<std::uint32_t>(particles_.size()),
-          .bucketCount = bucketCount_,
-          .blockCount = near_.blocks,
-          .mostBlocks = near_.most,
-          .liveBlockCount = live.blocks,
-          .mostLiveBlocks = live.most,
-          .everyPair = everyPair_ ? 1u : 0u,
-          .step = step,
-          .seconds = static_cast<float>(stepSeconds_),
-          .skin = static_cast<float>(skin()),
-          .largestRadius = largestRadius_,
-          .stiffness = static_cast<float>(settings_.stiffness * kStandardGravity),
-          .dampingRatio = static_cast<float>(settings_.dampingRatio),
-          .friction = static_cast<float>(settings_.friction),
-          .ramp = changeIn(settings_.rampSeconds, stepSeconds_),
-          .stiffnessRelease = changeIn(settings_.stiffnessReleaseSeconds, stepSeconds_),
-          .dampingRelease = changeIn(settings_.dampingReleaseSeconds, stepSeconds_),
-          .reachFactor = static_cast<float>(settings_.listedReach()),
-          .breakFactor = static_cast<float>(settings_.reach()),
-          .seenAhead = static_cast<float>(kContactSeenAhead),
-          .listedAhead = static_cast<float>(listedAhead()),
-          .sampleStride = sampleStride_,
-          .warmth = static_cast<float>(kContactWarmth),
-          .cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())))};
+  layout::ContactParameters p = packed(settings_, stepSeconds_);
+  p.contactCount = static_cast<std::uint32_t>(particles_.size());
+  p.bucketCount = bucketCount_;
+  p.blockCount = near_.blocks;
+  p.mostBlocks = near_.most;
+  p.liveBlockCount = live.blocks;
+  p.mostLiveBlocks = live.most;
+  p.everyPair = everyPair_ ? 1u : 0u;
+  p.step = step;
+  p.skin = static_cast<float>(skin());
+  p.largestRadius = largestRadius_;
+  p.listedAhead = static_cast<float>(listedAhead());
+  p.sampleStride = sampleStride_;
+  p.cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())));
+  return p;
 }
 
 void ContactStage::dispatch(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
