@@ -50,9 +50,6 @@ struct RestState {
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const std::uint32_t> order = {});
 
-/// A strand's springs as the device has them, per mass unit [kg].
-void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit);
-
 /// The groom that a rest state is of, in metres.
 Groom groomOf(const RestState& state);
 

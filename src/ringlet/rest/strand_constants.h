@@ -1,9 +1,11 @@
 // The laws that turn a material in continuum units into one strand's constants, so that a material means the
-// same however finely a strand is cut. Mirrored, independently, by reference/rest_strand.h.
+// same however finely a strand is cut; and how the device gets them. Mirrored, independently, by
+// reference/rest_strand.h.
 #pragma once
 
 #include <span>
 
+#include "layout/strands.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/rest/material.h"
@@ -50,5 +52,8 @@ StrandGeometry strandGeometry(std::span<const Vec3d> points, std::span<const dou
 
 StrandConstants strandConstants(const StrandGeometry& geometry, const Material& material,
                                 const Settings& settings);
+
+/// The constants that depend on the material, as the device has them: per mass unit [kg].
+void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit);
 
 }  // namespace ringlet
