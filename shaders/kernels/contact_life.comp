@@ -1,6 +1,7 @@
-// The contacts of a step with the time taper: every one's life goes on by one step, from positions at its start and
-// from v^0, and its weights are set for the solve's iterations; the first of them is prepared here, from guessed
-// velocities. Both sides of a contact reckon alike, so momentum is kept. Mirrored by reference/kernels/contact_step.h.
+// The contacts of a step with the time taper. Advances the life of each contact by one step, from the positions at the
+// step's start and v^0, and sets its weights for the iterations of the solve. The first iteration is prepared here,
+// from guessed velocities. Both particles of a contact compute the same numbers, so momentum is conserved. Mirrored by
+// reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_terms.glsl"
@@ -9,9 +10,9 @@ ContactRest rest;  // this invocation's contact particle
 vec3 x;
 vec3 v;
 vec3 guess;
-uint list;       // its contacts of this step
-uint count = 0;  // how many
-uint block = 0;  // their last
+uint list;       // where the list of its contacts of this step starts
+uint count = 0;  // contacts in it
+uint block = 0;  // the last block of it
 ContactTerms terms = kNoTerms;
 
 void append(ContactForce force, ContactLife life) {
@@ -19,7 +20,7 @@ void append(ContactForce force, ContactLife life) {
     block = atomicAdd(control.liveBlocks, 1);
     if (count / kLiveBlock < parameters.mostLiveBlocks) liveLists[list + 1 + count / kLiveBlock] = block;
   }
-  // Without room, what is wanted is still counted.
+  // Where there is no room, entries are still counted, so that the host knows how many are needed.
   if (block < parameters.liveBlockCount) {
     uint entry = block * kLiveBlock + count % kLiveBlock;
     forces[entry] = force;
@@ -28,7 +29,7 @@ void append(ContactForce force, ContactLife life) {
   ++count;
 }
 
-// A contact that touches, or did: its shares were `before`.
+// Advances a contact that touches, or did; `before` is its life before this step.
 void liveOn(ContactLife before) {
   vec4 other = guessOf(before.particle);
   float r0 = before.restLength;
@@ -46,8 +47,8 @@ void liveOn(ContactLife before) {
          ContactLife(before.particle, lifeOfShares(shares), r0, before.stiffness));
 }
 
-// Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one
-// must; and loops ask after their body, or it does one turn more.
+// Each choice is a loop of its own, over the bits for which it is true: a driver that runs invocations in lockstep runs
+// an `if` for all of them. Loops test their condition after the body, which saves such a driver one turn.
 void main() {
   if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
@@ -60,17 +61,17 @@ void main() {
   uint listBefore = liveListOf(c, parityBefore);
   uint countBefore = liveLists[listBefore];
 
-  // Contacts of the step before.
-  uint made = 0;  // turns of loops; and how many there should be
+  // Contacts of the last step.
+  uint made = 0;  // turns that the loops made; `wanted` counts those they should make
   if (countBefore > 0) do {
     liveOn(lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, made))));
   } while (++made < countBefore);
 
-  // Neighbours that touch (contact_touch.comp) and did not before.
+  // Neighbours that touch (contact_touch.comp) and are no contacts yet.
   uint neighbourList = listOf(c);
   uint blockCount = (lists[neighbourList] + kListBlock - 1) / kListBlock;
   uint wanted = countBefore + blockCount;
-  uint sought = 0;  // where the last one was found: lists are in like order
+  uint sought = 0;  // where the last one was found: both lists have the same order
   uint b = 0;
   if (blockCount > 0) do {
     uint first = lists[listedBlock(neighbourList, b)] * kListBlock;
@@ -90,7 +91,7 @@ void main() {
         if (isKnown) sought = j + 1;
       } while (++looked < countBefore && !isKnown);
       if (isKnown) fresh &= ~(1u << k);
-      if (!isKnown && looked < countBefore) ++wanted;  // the loop was cut short
+      if (!isKnown && looked < countBefore) ++wanted;  // the driver ended the loop early
     } while (touching != 0);
     wanted += bitCount(fresh);
     if (fresh != 0) do {

@@ -1,5 +1,5 @@
-// The terms that the contacts of a contact particle add to its velocity system in an iteration of the solve: D, push and
-// pair means. Both particles of a contact compute the same numbers, so momentum is conserved. Mirrored by
+// The terms that the contacts of a contact particle add to its velocity system in an iteration of the solve: D, push
+// and pair means. Both particles of a contact compute the same numbers, so momentum is conserved. Mirrored by
 // reference/kernels/contact_step.h.
 #ifndef RINGLET_CONTACT_TERMS
 #define RINGLET_CONTACT_TERMS

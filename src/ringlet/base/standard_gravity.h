@@ -1,4 +1,4 @@
-// The gravity by which a strand's weight is reckoned, whatever the gravity of the scene.
+// The gravity that a strand's weight is computed with, whatever the gravity of the scene.
 #pragma once
 
 namespace ringlet {

@@ -1,5 +1,5 @@
-// What the contact kernels get of the settings. It is written beside the table of these (contact_fields.cpp),
-// so that a setting that goes to the device is said in one file.
+// Packs contact settings for the kernels. It is implemented beside the table of these settings
+// (contact_fields.cpp), so that one file says all about a setting.
 #pragma once
 
 #include "layout/contacts.h"
