@@ -156,11 +156,7 @@ RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double metres
                                     const Settings& settings) {
   RestStrand<double> strand;
   strand.rootCount = static_cast<std::size_t>(settings.rootCount);
-  strand.coreElongationLow = material.coreElongationLow;
-  strand.coreElongationHigh = material.coreElongationHigh;
-  strand.coreRelaxedShare = material.coreRelaxedShare;
-  strand.gravityFactor = material.gravityFactor;
-  strand.inertiaFactor = material.inertiaFactor;
+  strand.material = material;
 
   // Metres are rounded to float, as the solver stores them, so that both start from the same curve.
   std::vector<Vec3d> curve;
@@ -236,17 +232,13 @@ RestStrand<Real> castRestStrand(const RestStrand<double>& from) {
           .bendDamping = scalars(from.bendDamping),
           .coreStiffness = scalars(from.coreStiffness),
           .coreDamping = scalars(from.coreDamping),
-          .coreElongationLow = static_cast<Real>(from.coreElongationLow),
-          .coreElongationHigh = static_cast<Real>(from.coreElongationHigh),
-          .coreRelaxedShare = static_cast<Real>(from.coreRelaxedShare),
-          .gravityFactor = static_cast<Real>(from.gravityFactor),
-          .inertiaFactor = static_cast<Real>(from.inertiaFactor),
           .bendSmoothingShare = static_cast<Real>(from.bendSmoothingShare),
           .coreSmoothingShare = static_cast<Real>(from.coreSmoothingShare),
           .stretchRestLengths = scalars(from.stretchRestLengths),
           .restTargets = field(from.restTargets),
           .coreRestLengths = scalars(from.coreRestLengths),
           .coreLength = static_cast<Real>(from.coreLength),
+          .material = from.material,
           .arcLength = from.arcLength,
           .meanEdgeLength = from.meanEdgeLength,
           .bendSmoothingLength = from.bendSmoothingLength,

@@ -27,9 +27,6 @@ struct RestStrand {
   Scalars<Real> stretchStiffness, stretchDamping;
   Scalars<Real> bendStiffness, bendDamping;
   Scalars<Real> coreStiffness, coreDamping;
-  Real coreElongationLow = 1, coreElongationHigh = 1, coreRelaxedShare = 1;  // [1], see coreScale
-
-  Real gravityFactor = 1, inertiaFactor = 1;  // [1], on gravity and on the inertia of a head that travels
 
   Real bendSmoothingShare = 1, coreSmoothingShare = 1;  // beta_b, beta_c [1]
   Scalars<Real> stretchRestLengths;                     // N-1: |rest edge| less preload [m]
@@ -37,13 +34,17 @@ struct RestStrand {
   Scalars<Real> coreRestLengths;                        // N-1: |b_i| at rest [m]
   Real coreLength = 0;                                  // sum of coreRestLengths [m]
 
-  // What the above was derived from, for reports and tests.
+  // What the above was derived from. Numbers of the material that act as they are, the step reads from here.
+  Material material;                                        // of this strand
   double arcLength = 0;                                     // S [m]
   double meanEdgeLength = 0;                                // l [m]
   double bendSmoothingLength = 0, coreSmoothingLength = 0;  // alpha_b, alpha_c [m]
   bool changesHand = false;                                 // the rest curl has a perversion
   bool coreIsCapped = false;  // K_c was lowered, because the step is too long for it
   double preloadShare = 0;    // max |W across| / (k_b l_i) [1]; above 0.5 is too much
+
+  /// A number of the material.
+  Real of(double Material::*number) const { return static_cast<Real>(material.*number); }
 
   std::size_t particleCount() const { return points.size(); }
   std::size_t edgeCount() const { return edges.size(); }

@@ -26,7 +26,7 @@ struct Report {
   std::uint64_t steps = 0;            // outer steps
   std::uint64_t contacts = 0;         // pairs that touch or have not yet broken, now
   double momentumError = 0;           // of the last step's contacts: |sum| over sum of magnitudes [1]
-  double freeMomentumError = 0;       // without what particles that follow the head got, as a device tells it
+  double freeMomentumError = 0;       // without pinned particles, as a device reports it
 
   double limitedShare() const {
     return edgeSteps > 0 ? static_cast<double>(limitedEdges) / static_cast<double>(edgeSteps) : 0;
@@ -86,7 +86,7 @@ class Simulation {
   const HeadPose& head() const { return head_; }
   const Settings& settings() const { return settings_; }
   const std::vector<RestStrand<Real>>& restStrands() const { return rest_; }
-  /// Between strands, with what the last outer step found; empty unless settings.contacts.on.
+  /// The contacts, with the results of the last outer step; empty unless settings.contacts.on.
   const Contacts<Real>& contacts() const { return contacts_; }
   /// Intermediates of the last outer step, one entry per strand.
   const std::vector<StrandTaps<Real>>& taps() const { return taps_; }
@@ -99,7 +99,7 @@ class Simulation {
  private:
   void placeAtRest();
   void findContacts();
-  // A rigid strand, where its root is and was one step earlier.
+  // A rigid strand, with the pose of its root now and one step earlier.
   void placeRigid(std::size_t s);
 
   // A strand, by the head and its own pose: x = origin + rotation x_groom, relative to the head's origin.

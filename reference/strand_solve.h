@@ -6,7 +6,7 @@
 //     m_i v_i + A_i (v_i - v_{i+1}) + A_{i-1} (v_i - v_{i-1}) = r_i       free i;  no edge beyond the tip
 //     A_i = a_b I + a_s e^ e^T                                            a_b, a_s [kg]
 //
-// Where strands meet, m_i I and r_i have what contacts add; see kernels/contact_step.h.
+// With contacts, m_i I and r_i include their terms; see kernels/contact_step.h.
 // Only neighbours couple: block tridiagonal, 3x3 blocks, symmetric positive definite. Pinned particles are
 // known and stand on the right hand side.
 #pragma once
@@ -32,7 +32,7 @@ struct StrandSystem {
   std::vector<Matrix3<double>> contactWeights;
   Field<double> contactMomenta;
 
-  // And what the air adds; empty without.
+  // The terms of the air; empty without air.
   std::vector<Matrix3<double>> airWeights;
   Field<double> airMomenta;
 

@@ -33,7 +33,7 @@ struct Contact {
   ContactWeights<Real> weights{};
 };
 
-/// Contacts of all strands, from step to step, with what the last step found; fields in groom order.
+/// The contacts of all strands, with the results of the last step; fields in groom order.
 template <class Real>
 struct Contacts {
   RestContacts rest;
@@ -72,7 +72,7 @@ Field<double> pairMomenta(const Contacts<Real>& contacts, const Field<double>& v
 template <class Real>
 bool dropUnmet(const Field<double>& velocities, Contacts<Real>& contacts);
 
-/// After the step's move: what its velocities v [m/s] are to v^0.
+/// After the step's move: stores the change of velocities v [m/s] from v^0.
 template <class Real>
 void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts);
 
@@ -80,7 +80,7 @@ void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts);
 template <class Real>
 void archiveContacts(Archive& archive, Contacts<Real>& contacts);
 
-/// Solves strand s of the system with what contacts add to it; `velocities` are the strand's part [m/s].
+/// Solves strand s of the system with the terms of contacts; `velocities` are those of the strand [m/s].
 using SolveStrand = std::function<void(std::size_t s, std::span<Vector3<double>> velocities)>;
 
 /// Strand-block Jacobi from a guess. `systems` are those of the solve without contacts; what contacts and the

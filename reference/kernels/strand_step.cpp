@@ -62,8 +62,8 @@ void computeForces(const RestStrand<Real>& rest, bool isPaper, StepScratch<Real>
   taps.coreForces.resize(rest.edgeCount());
   scratch.edgeForces.resize(rest.edgeCount());
   const Real elongation = coreElongation(taps.coreEdges, rest.coreLength);
-  taps.coreScale =
-      coreScale(elongation, rest.coreElongationLow, rest.coreElongationHigh, rest.coreRelaxedShare);
+  taps.coreScale = coreScale(elongation, rest.of(&Material::coreElongationLow),
+                             rest.of(&Material::coreElongationHigh), rest.of(&Material::coreRelaxedShare));
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
     taps.stretchForces[i] = stretchForce(rest.stretchStiffness[i], scratch.edges[i], scratch.directions[i],
                                          rest.stretchRestLengths[i]);
@@ -87,7 +87,8 @@ void computeForces(const RestStrand<Real>& rest, bool isPaper, StepScratch<Real>
 template <class Real>
 Vector3<double> pullOn(const RestStrand<Real>& rest, const Settings& settings, OutsideForces forces,
                        std::size_t i) {
-  const Vector3<double> gravity = static_cast<double>(rest.gravityFactor) * toEigen<double>(settings.gravity);
+  const Vector3<double> gravity =
+      static_cast<double>(rest.of(&Material::gravityFactor)) * toEigen<double>(settings.gravity);
   return forces.empty() ? gravity : gravity + forces[i];
 }
 
@@ -292,7 +293,7 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
   const bool isPaper = settings.integrator == Integrator::paper;
 
   // The head's new translation is the new frame of reference.
-  for (Vector3<Real>& v : velocities) v -= rest.inertiaFactor * head.velocityChange;
+  for (Vector3<Real>& v : velocities) v -= rest.of(&Material::inertiaFactor) * head.velocityChange;
 
   if (rest.edgeCount() > 0) {
     measureShape(rest, isPaper, head, positions, velocities, scratch, taps);

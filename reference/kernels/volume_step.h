@@ -22,13 +22,13 @@ struct VolumeFrame {
   bool sorts =
       true;  // particles go to where they are on the grid; else they stay where the step before had them
 
-  /// Velocity of what the head carries rigidly, at x along world axes [m/s].
+  /// Velocity of a point at x that the head carries rigidly, along world axes [m/s].
   Vector3<double> carried(const Vector3<double>& x) const {
     return (next * (now.conjugate() * x) - x) / seconds;
   }
 };
 
-/// A particle of such a strand: one in so many, for as many.
+/// A particle of such a strand: one in a stride, which represents that number of particles.
 struct VolumeParticle {
   std::uint32_t index = 0;             // groom order
   double mass = 0, ownDensity = 0;     // [kg], at rest [kg/m^3]

@@ -5,16 +5,25 @@
 //   d = |x_a - x_b|, n = (x_a - x_b) / d, u_n = n . (v_a - v_b)
 //   touching: d < r0, or seen ahead: d + T u_n < r0
 //   momentum on a: push n - Q (v_a - v_b),  push = T k kappa (r0 - d),  Q = (q_s + q_d) n nᵀ + q_t (1 - n nᵀ)
+//
+// Functions that depend on settings take all of them, so that a setting is read here and nowhere else.
 #ifndef RINGLET_CONTACT_SPRING
 #define RINGLET_CONTACT_SPRING
+
+#include "layout/contacts.h"
 
 /// r0: R, or a little less than the distance at rest, so that rounding does not decide what touches there.
 float contactRestLength(float R, float restDistance) { return max(0.0, min(R, restDistance - 1e-4 * R)); }
 
-/// (k [N/m], c [N s/m]) of two whose mean mass is m_c [kg]; stiffness: k R / m_c [m/s^2].
-vec2 contactConstants(float mass, float R, float stiffness, float dampingRatio) {
-  float k = stiffness * mass / R;
-  return vec2(k, 2.0 * dampingRatio * k * sqrt(R / max(stiffness, 1e-30)));
+/// c = 2 zeta sqrt(k m_c) [N s/m], with m_c by k [N/m].
+float contactDamping(float k, float R, ContactParameters settings) {
+  return 2.0 * settings.dampingRatio * k * sqrt(R / max(settings.stiffness, 1e-30));
+}
+
+/// (k [N/m], c [N s/m]) of two particles whose mean mass is m_c [kg].
+vec2 contactConstants(float mass, float R, ContactParameters settings) {
+  float k = settings.stiffness * mass / R;
+  return vec2(k, contactDamping(k, R, settings));
 }
 
 struct ContactMeeting {
@@ -32,13 +41,14 @@ ContactMeeting contactMeeting(vec3 apart, vec3 parting, bool aIsLower) {
   return meeting;
 }
 
-bool isTouching(ContactMeeting meeting, float restLength, float T, float seenAhead) {
-  return meeting.distance < restLength || (meeting.distance < seenAhead * restLength &&
-                                           meeting.distance + T * meeting.separation < restLength);
+bool isTouching(ContactMeeting meeting, float restLength, ContactParameters settings) {
+  return meeting.distance < restLength || (meeting.distance < settings.seenAhead * restLength &&
+                                           meeting.distance + settings.seconds * meeting.separation < restLength);
 }
 
 /// The distance taper: a contact without memory. delta at distance d; r0 is above 0.
-float dampingAt(float d, float restLength, float end) {
+float dampingAt(float d, float restLength, ContactParameters settings) {
+  float end = settings.breakFactor;
   return clamp((end * restLength - d) / ((end - 1.0) * restLength), 0.0, 1.0);
 }
 
@@ -49,24 +59,28 @@ float lifeOfShares(vec2 shares) { return shares.x > 0.0 ? -shares.x : shares.y; 
 /// A share that falls to nothing, so that rounding does not keep a contact for a step.
 float faded(float share) { return share < 1e-5 ? 0.0 : share; }
 
-/// shares: (kappa, delta); changes: what they may change by in a step, (ramp, release of stiffness, release of
-/// damping).
-vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, vec3 changes, float breakFactor) {
-  if (touching) return vec2(min(1.0, shares.x + changes.x), 1.0);
-  if (distance > breakFactor * restLength) return vec2(0);
-  if (shares.x > 0.0) return vec2(faded(shares.x - changes.y), shares.y);
-  return vec2(0.0, faded(shares.y - changes.z));
+/// The shares (kappa, delta) after a step.
+vec2 nextLife(vec2 shares, bool touching, float distance, float restLength, ContactParameters settings) {
+  if (touching) return vec2(min(1.0, shares.x + settings.ramp), 1.0);
+  if (distance > settings.breakFactor * restLength) return vec2(0);
+  if (shares.x > 0.0) return vec2(faded(shares.x - settings.stiffnessRelease), shares.y);
+  return vec2(0.0, faded(shares.y - settings.dampingRelease));
 }
 
 struct ContactWeights {
-  float spring, damping;  // q_s, q_d [kg]; q_t is friction q_d
+  float spring, damping, tangential;  // q_s, q_d, q_t [kg]
 };
 
-/// lived: the contact was there before this step, which left it `shares`.
+ContactWeights contactWeights(float spring, float damping, ContactParameters settings) {
+  return ContactWeights(spring, damping, settings.friction * damping);
+}
+
+/// `lived`: the contact existed before this step, which left it `shares`.
 ContactWeights contactWeights(vec2 shares, bool lived, bool touching, float gap, float stiffness, float damping,
-    float T) {
-  return ContactWeights(touching ? T * T * stiffness * shares.x : 0.0,
-      lived || gap > 0.0 ? T * damping * shares.y : 0.0);
+    ContactParameters settings) {
+  float T = settings.seconds;
+  return contactWeights(touching ? T * T * stiffness * shares.x : 0.0,
+      lived || gap > 0.0 ? T * damping * shares.y : 0.0, settings);
 }
 
 /// gap: r0 - d [m]. push, along n [kg m/s].
@@ -76,8 +90,8 @@ float contactPush(float spring, float gap, float T) { return spring * gap / T; }
 bool isMet(float gap, float separation, float T) { return !(gap < T * separation); }
 
 /// Q v.
-vec3 contactMultiply(ContactWeights weights, float friction, vec3 normal, vec3 v) {
-  float tangential = friction * weights.damping;
+vec3 contactMultiply(ContactWeights weights, vec3 normal, vec3 v) {
+  float tangential = weights.tangential;
   return (weights.spring + weights.damping - tangential) * dot(normal, v) * normal + tangential * v;
 }
 

@@ -1,5 +1,5 @@
-// Whether the step's lists had room; one invocation. If not, everything stands still until the host has made some. If
-// so, the step has looked at all they hold.
+// Checks that the lists of this step had room; one invocation. If they had not, all contact kernels do nothing until
+// the host has enlarged the buffers. If they had, the step has examined every pair in them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

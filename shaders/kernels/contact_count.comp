@@ -1,10 +1,12 @@
-// The grid, 1 of 5: how many contact particles are in each bucket, and each one's rank there, in any order. Beside a
-// volume those that have nobody to meet near them have empty lists and are in no bucket.
+// The grid, 1 of 5: counts the contact particles in each bucket and gives each a rank in its bucket; the order of ranks
+// is arbitrary. If some hair meets as a volume, contact particles with no possible partner nearby get empty lists and
+// enter no bucket.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
 
-// Whether anybody of another group may be in one of the cells about this one: in the eight regions nearest to it.
+// Whether one of the 27 cells around this one may hold a contact particle of another group. The eight nearest regions
+// are tested in their place.
 bool hasOthersNear(ivec3 cell, uint group) {
   ivec3 nearer = (cell & 1) * 2 - 1;
   bool others = false;

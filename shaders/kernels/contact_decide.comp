@@ -1,7 +1,8 @@
-// Whether this step makes new lists: one invocation, so that no host has to be asked. A list made for reach + skin is
-// good while no two particles can have come closer by more than the skin: that is while none has moved, and would be
-// moved by its change of velocity, by more than half of it. In dense hair that moves as one, lists stay good for
-// longer: there a sample is asked (contact_sample, contact_judge.comp), which needs the grid.
+// Decides whether this step makes new lists; one invocation, so that the host need not be asked. A list made for
+// reach + skin stays valid until two particles may have approached by more than the skin: as long as no particle has
+// moved farther than half of it, the motion by its change of velocity included. In dense hair that moves as a whole,
+// lists stay valid for longer: there a sample of particles decides (contact_sample, contact_judge.comp), which needs
+// the grid.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -45,7 +46,7 @@ void main() {
   control.liveBlocks = 0;
   control.longestLive = 0;
   if (!isGood) {
-    // The furthest a pair of this list may be apart; a little more, for the rounding of cells.
+    // The largest distance of a pair in these lists, and a margin for the rounding of cells.
     float R = 2.0 * parameters.largestRadius;
     float ahead = 2.0 * parameters.seconds * uintBitsToFloat(control.speed);
     control.cellSize =

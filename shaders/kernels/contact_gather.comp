@@ -1,6 +1,6 @@
-// Prepares the next iteration of the solve with contacts of the time taper: pair means of the last one's velocities,
-// sum of Q (v_a + v_b), with the weights contact_life.comp has set. Springs that at the last iterate would hold two
-// together are taken back, on both sides alike. Mirrored by reference/kernels/contact_step.h.
+// Prepares the next iteration of the solve with contacts of the time taper: the pair means of the last iterate's
+// velocities, sum of Q (v_a + v_b), with the weights that contact_life.comp has set. A spring that would hold a pair
+// together at the last iterate is removed, for both particles. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -30,7 +30,7 @@ void main() {
       forces[entry].normal.w = 0.0;
       spring = 0.0;
     }
-    momentum += contactMultiply(ContactWeights(spring, force.damping), parameters.friction, normal, v + otherVelocity);
+    momentum += contactMultiply(contactWeights(spring, force.damping, parameters), normal, v + otherVelocity);
   } while (++j < count);
   ContactSystem system = systems[rest.particle];
   float unit = rest.inverseMassUnit;

@@ -1,4 +1,4 @@
-// What the sample says, and, where new lists are due, their beginning: one invocation.
+// Evaluates the sample and, if new lists are due, resets what they are built from; one invocation.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

@@ -1,29 +1,26 @@
-// The contacts of a step with the time taper: every one's life goes on by one step, from positions at its start and
-// from v^0, and its weights are set for the solve's iterations; the first of them is prepared here, from guessed
-// velocities. Both sides of a contact reckon alike, so momentum is kept. Mirrored by reference/kernels/contact_step.h.
+// The contacts of a step with the time taper. Advances the life of each contact by one step, from the positions at the
+// step's start and v^0, and sets its weights for the iterations of the solve. The first iteration is prepared here,
+// from guessed velocities. Both particles of a contact compute the same numbers, so momentum is conserved. Mirrored by
+// reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "shared/contact_buffers.glsl"
-#include "equations/contact_spring.glsl"
-#include "maths/symmetric.glsl"
+#include "shared/contact_terms.glsl"
 
 ContactRest rest;  // this invocation's contact particle
 vec3 x;
 vec3 v;
 vec3 guess;
-uint list;       // its contacts of this step
-uint count = 0;  // how many
-uint block = 0;  // their last
-Symmetric D = symmetricDiagonal(0.0);
-vec3 push = vec3(0);
-vec3 momentum = vec3(0);
+uint list;       // where the list of its contacts of this step starts
+uint count = 0;  // contacts in it
+uint block = 0;  // the last block of it
+ContactTerms terms = kNoTerms;
 
 void append(ContactForce force, ContactLife life) {
   if (count % kLiveBlock == 0) {
     block = atomicAdd(control.liveBlocks, 1);
     if (count / kLiveBlock < parameters.mostLiveBlocks) liveLists[list + 1 + count / kLiveBlock] = block;
   }
-  // Without room, what is wanted is still counted.
+  // Where there is no room, entries are still counted, so that the host knows how many are needed.
   if (block < parameters.liveBlockCount) {
     uint entry = block * kLiveBlock + count % kLiveBlock;
     forces[entry] = force;
@@ -32,33 +29,26 @@ void append(ContactForce force, ContactLife life) {
   ++count;
 }
 
-// A contact that touches, or did: its shares were `before`.
+// Advances a contact that touches, or did; `before` is its life before this step.
 void liveOn(ContactLife before) {
   vec4 other = guessOf(before.particle);
   float r0 = before.restLength;
   ContactMeeting meeting =
       contactMeeting(x - positionOf(before.particle), v - velocityOf(before.particle), rest.particle < before.particle);
-  bool touching = isTouching(meeting, r0, parameters.seconds, parameters.seenAhead);
-  vec3 changes = vec3(parameters.ramp, parameters.stiffnessRelease, parameters.dampingRelease);
-  vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, changes, parameters.breakFactor);
+  bool touching = isTouching(meeting, r0, parameters);
+  vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, parameters);
   if (shares == vec2(0)) return;
-  // 2 zeta sqrt(k m_c), m_c by k.
-  float damping =
-      2.0 * parameters.dampingRatio * before.stiffness *
-      sqrt((rest.radius + other.w) / max(parameters.stiffness, 1e-30));
+  float damping = contactDamping(before.stiffness, rest.radius + other.w, parameters);
   float gap = r0 - meeting.distance;
   ContactWeights weights =
-      contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters.seconds);
-  float tangential = parameters.friction * weights.damping;
-  D = addOuter(addDiagonal(D, tangential), weights.spring + weights.damping - tangential, meeting.normal);
-  push += contactPush(weights.spring, gap, parameters.seconds) * meeting.normal;
-  momentum += contactMultiply(weights, parameters.friction, meeting.normal, guess + other.xyz);
+      contactWeights(shares, before.shares != 0.0, touching, gap, before.stiffness, damping, parameters);
+  addWeights(terms, weights, meeting.normal, gap, guess + other.xyz);
   append(ContactForce(vec4(meeting.normal, weights.spring), before.particle, weights.damping, gap, 0),
          ContactLife(before.particle, lifeOfShares(shares), r0, before.stiffness));
 }
 
-// Every choice is a loop of its own: a driver that runs invocations in step does for all of them what a single one
-// must; and loops ask after their body, or it does one turn more.
+// Each choice is a loop of its own, over the bits for which it is true: a driver that runs invocations in lockstep runs
+// an `if` for all of them. Loops test their condition after the body, which saves such a driver one turn.
 void main() {
   if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
@@ -71,17 +61,17 @@ void main() {
   uint listBefore = liveListOf(c, parityBefore);
   uint countBefore = liveLists[listBefore];
 
-  // Contacts of the step before.
-  uint made = 0;  // turns of loops; and how many there should be
+  // Contacts of the last step.
+  uint made = 0;  // turns that the loops made; `wanted` counts those they should make
   if (countBefore > 0) do {
     liveOn(lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, made))));
   } while (++made < countBefore);
 
-  // Neighbours that touch (contact_touch.comp) and did not before.
+  // Neighbours that touch (contact_touch.comp) and are no contacts yet.
   uint neighbourList = listOf(c);
   uint blockCount = (lists[neighbourList] + kListBlock - 1) / kListBlock;
   uint wanted = countBefore + blockCount;
-  uint sought = 0;  // where the last one was found: lists are in like order
+  uint sought = 0;  // where the last one was found: both lists have the same order
   uint b = 0;
   if (blockCount > 0) do {
     uint first = lists[listedBlock(neighbourList, b)] * kListBlock;
@@ -101,7 +91,7 @@ void main() {
         if (isKnown) sought = j + 1;
       } while (++looked < countBefore && !isKnown);
       if (isKnown) fresh &= ~(1u << k);
-      if (!isKnown && looked < countBefore) ++wanted;  // the loop was cut short
+      if (!isKnown && looked < countBefore) ++wanted;  // the driver ended the loop early
     } while (touching != 0);
     wanted += bitCount(fresh);
     if (fresh != 0) do {
@@ -116,9 +106,5 @@ void main() {
   liveLists[list] = count;
   if (count > control.longestLive) atomicMax(control.longestLive, count);
   if (made != wanted) control.isHalted = kHaltedByTurns;
-
-  float unit = rest.inverseMassUnit;
-  systems[rest.particle].diagonal = vec4(unit * D.d, unit * push.x);
-  systems[rest.particle].offDiagonal = vec4(unit * D.o, unit * push.y);
-  systems[rest.particle].momentum = vec4(unit * (push + momentum), unit * push.z);
+  setSystem(rest, terms);
 }

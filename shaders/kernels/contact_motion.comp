@@ -1,13 +1,13 @@
-// How far contact particles have come since their lists were made, and how fast the fastest is: what decides whether
-// lists are still good (contact_decide.comp); and the velocities the solve starts from. Contacts change from step to
-// step by little: the step is guessed to change v^0 by most of what the last one did. Reads positions, v^0 and the
-// velocities the last step ended with; writes the control's motion and speed, and the guesses. Mirrored by
-// reference/kernels/contact_step.h.
+// Measures the largest distance that a contact particle has moved since the lists were made, and the largest speed, by
+// which contact_decide.comp decides whether the lists are still valid; and makes the guess from which the solve starts
+// (warm start). Contacts change little from step to step, so this step is expected to change v^0 by most of what the
+// last one did. Reads positions, v^0 and the velocities at the end of the last step; writes motion and speed of the
+// control, and the guesses. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
 
-// Who comes last leaves the same as who comes first.
+// The maximum does not depend on the order of invocations.
 void enter(uint place, uint group) {
   uint groups = grid[place];
   if (groups == group + 1 || groups == kSeveralGroups) return;
@@ -28,7 +28,8 @@ void main() {
   // NaN counts as large.
   if (!(motion < 1e30)) motion = 1e30;
   if (!(speed < 1e30)) speed = 1e30;
-  // Of numbers >= 0 the bits compare as the numbers do. Most are no record, and a look is cheaper than an atomic.
+  // The bits of numbers >= 0 order as the numbers do. Most are below the maximum so far, and a read costs less than an
+  // atomic.
   if (floatBitsToUint(motion) > control.motion) atomicMax(control.motion, floatBitsToUint(motion));
   if (floatBitsToUint(speed) > control.speed) atomicMax(control.speed, floatBitsToUint(speed));
 

@@ -1,5 +1,5 @@
-// The grid, 5 of 5: the order inside a bucket, by index, so that nothing depends on which thread came first; and
-// positions and velocities beside them, in that order, for the query.
+// The grid, 5 of 5: sorts the contact particles of each bucket by index, so that results do not depend on the order of
+// threads, and stores positions and velocities in that order for the query.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -13,7 +13,7 @@ void main() {
   uint end = startOf(bucket + 1);
   uint before = 0;
   uint other = start;
-  do {  // itself is there
+  do {  // at least one turn: the particle itself is in its bucket
     if (grid[gridEntry(other)] < c) ++before;
   } while (++other < end);
   if (other < end) control.isHalted = kHaltedByTurns;

@@ -1,25 +1,25 @@
-// Lists: every contact particle's pairs, from the 27 cells about it, in the order of cells and of contact particles
-// inside one. Pairs of strands that may not touch are left out. Where there is no room the frame stops
-// (contact_check.comp), and the host makes some.
+// Makes the lists: the pairs of each contact particle, from the 27 cells around it, in the order of cells and, within a
+// cell, of contact particles. Pairs of strands that may not touch are left out. Where a list finds no room, the frame
+// stops (contact_check.comp) until the host has enlarged the buffers.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_search.glsl"
 
-uint list;       // where this invocation's starts
+uint list;       // where the list of this invocation starts
 uint count = 0;  // pairs in it
-uint block = 0;  // its last
+uint block = 0;  // the last block of it
 
 void append(ContactPair pair) {
   if (count % kListBlock == 0) {
     block = atomicAdd(control.blocks, 1);
     if (count / kListBlock < parameters.mostBlocks) lists[listedBlock(list, count / kListBlock)] = block;
   }
-  // Without room, what is wanted is still counted.
+  // Where there is no room, pairs are still counted, so that the host knows how many are needed.
   if (block < parameters.blockCount) pairs[block * kListBlock + count % kListBlock] = pair;
   ++count;
 }
 
-// By place, or by how fast the two near each other.
+// A pair is listed for its distance, or for its distance and the speed of its approach.
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0) {
   precise vec3 apart = x - otherPosition;
   precise float squared = apart.x * apart.x + apart.y * apart.y + apart.z * apart.z;
@@ -29,7 +29,7 @@ bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float 
 }
 
 void take(ContactRest other, float R, float r0) {
-  vec2 constants = contactConstants(0.5 * (rest.mass + other.mass), R, parameters.stiffness, parameters.dampingRatio);
+  vec2 constants = contactConstants(0.5 * (rest.mass + other.mass), R, parameters);
   append(ContactPair(other.particle, r0, constants.x, constants.y));
 }
 

@@ -1,5 +1,6 @@
-// Whether lists still hold the pairs that touch, of one contact particle in so many, others in each step: those that
-// the grid finds, less those in its list. Mirrored by nothing: the reference finds all pairs in every step.
+// Checks for a sample of contact particles, another in each step, whether the lists still hold all pairs that touch:
+// counts the pairs that the grid finds and those of them that are not in the particle's list. The reference has no
+// counterpart: it finds all pairs in every step.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_search.glsl"
@@ -8,7 +9,7 @@ uint found = 0;
 
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0) {
   ContactMeeting meeting = contactMeeting(x - otherPosition, v - otherVelocity, rest.particle < otherParticle);
-  return isTouching(meeting, r0, parameters.seconds, parameters.seenAhead);
+  return isTouching(meeting, r0, parameters);
 }
 
 void take(ContactRest other, float R, float r0) { ++found; }

@@ -1,12 +1,12 @@
-// The grid, 2 of 5: where each bucket starts within its block of buckets, a workgroup a block, and the block's sum.
-// Leaves the counts zero for the next time.
+// The grid, 2 of 5: the start of each bucket within its block of buckets, and the sum of the block; one workgroup per
+// block. Resets the counts to zero for the next rebuild.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
 #include "scan/block_sum.glsl"
 
 void main() {
-  uint each = kBucketBlock / gl_WorkGroupSize.x;  // buckets of an invocation
+  uint each = kBucketBlock / gl_WorkGroupSize.x;  // buckets per invocation
   uint first = gl_WorkGroupID.x * kBucketBlock + gl_LocalInvocationID.x * each;
   uint sum = 0;
   for (uint k = 0; k < each; ++k) sum += grid[gridCount(first + k)];

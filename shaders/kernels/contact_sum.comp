@@ -1,4 +1,4 @@
-// The grid, 3 of 5: where each block of buckets starts; one workgroup.
+// The grid, 3 of 5: the start of each block of buckets; one workgroup.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -17,7 +17,7 @@ void main() {
     grid[gridSum(block)] = before;
     before += count;
   }
-  // The bucket beyond the last starts at the end.
+  // The start of the bucket beyond the last is the number of all.
   if (gl_LocalInvocationID.x + 1 == gl_WorkGroupSize.x) {
     grid[gridSum(blockCount)] = before;
     grid[gridStart(parameters.bucketCount)] = 0;

@@ -1,7 +1,8 @@
-// What contacts add to each particle's system in an iteration of the solve after the first, which contact_touch.comp
-// prepares: from positions at the step's start and the velocities of the last iterate. A contact has no memory: its
-// spring acts while the two touch, and its damper fades with their distance. A spring that at the last iterate would
-// hold two together is taken back for the rest of the step. Mirrored by reference/kernels/contact_step.h.
+// The terms that contacts of the distance taper add to each particle's system in the second and later iterations of the
+// solve (contact_touch.comp prepares the first), from the positions at the step's start and the velocities of the last
+// iterate. A contact has no memory: its spring acts while the pair touches, and its damping fades with the distance. A
+// spring that would hold a pair together at the last iterate is removed for the rest of the step. Mirrored by
+// reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_terms.glsl"
@@ -16,7 +17,7 @@ void main() {
 
   uint list = listOf(c);
   uint blockCount = (lists[list] + kListBlock - 1) / kListBlock;
-  bool isWhole = true;  // no loop ended early
+  bool isWhole = true;  // the driver ended no loop early
   uint b = 0;
   if (blockCount > 0) do {
     uint first = lists[listedBlock(list, b)] * kListBlock;

@@ -1,20 +1,20 @@
-// What the neighbours of each contact particle do, as bits beside each list's blocks, and which contact particles have
-// contacts or had some: kernels of later iterations run for those only, and most only stand near others. With the
-// distance taper also what contacts add to the first iteration, from guessed velocities. Mirrored by
-// reference/kernels/contact_step.h.
+// Finds which listed pairs act on each other and which touch, as bits beside the blocks of each list, and collects the
+// contact particles that have contacts or had some: later kernels of the step run for these only, since most contact
+// particles have listed neighbours but no contact. With the distance taper, also computes the terms that contacts add
+// to the first iteration, from guessed velocities. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "equations/contact_spring.glsl"
 #include "shared/contact_buffers.glsl"
 
-uint particle;  // this invocation's
+uint particle;  // of this invocation
 vec3 x;
 vec3 v;
 
-// Whether a contact particle had contacts in the step before; from now on it has some, or none. And the first iteration
-// of those it has.
+// What depends on the taper: whether a contact particle had contacts in the last step (metBefore), whether it has some
+// now (setMeets), and the terms of the first iteration.
 #ifdef RINGLET_TAPER_TIME
-const uint kMeeting = ~((1u << kListBlock) - 1);  // of the bits
+const uint kMeeting = ~((1u << kListBlock) - 1);  // the bits that mean a contact
 bool metBefore(uint c) {
   liveLists[liveListOf(c, control.parity)] = 0;
   return liveLists[liveListOf(c, control.parity ^ 1)] > 0;
@@ -37,7 +37,7 @@ void addTerms(ContactPair pair, ContactMeeting meeting, bool touching) {
 void setTerms(ContactRest rest) { setSystem(rest, terms); }
 #endif
 
-// Who is in cells and regions is told anew in the next step.
+// Clears the groups of cells and regions, which the next step writes anew.
 void emptyCells(uint c) {
   for (uint bucket = c; bucket < parameters.bucketCount; bucket += parameters.contactCount) {
     grid[cellGroups(bucket)] = 0;
@@ -70,7 +70,7 @@ void main() {
       ContactPair pair = pairAt(first + k);
       ContactMeeting meeting =
           contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle), particle < pair.particle);
-      bool touching = isTouching(meeting, pair.restLength, parameters.seconds, parameters.seenAhead);
+      bool touching = isTouching(meeting, pair.restLength, parameters);
       if (touching) bits |= 1u << kListBlock + k;
       bool acts = touching || meeting.distance < parameters.breakFactor * pair.restLength;
       if (acts) bits |= 1u << k;

@@ -1,6 +1,6 @@
-// What a particle of the volume remembers, a step on: its displacement fades and grows by how far it came in the
-// head's frame; what it brings to the nodes in the first iteration, from the velocity its solve is guessed to have, as
-// in contact_motion.comp; and how far the cells reach that all of them are in. Mirrored by
+// Begins a step of the volume. Advances the displacement that each particle remembers: it decays, and grows by the
+// particle's motion in the head's frame. Computes what the particle contributes to the nodes in the first iteration,
+// from the guessed velocity, as in contact_motion.comp; and the box of cells that holds all particles. Mirrored by
 // reference/kernels/volume_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require

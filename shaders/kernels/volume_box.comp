@@ -1,6 +1,7 @@
-// Whether this step puts particles into cells; and then the box of cells about all of them. One invocation decides:
-// every so many steps of the run, however that is cut into frames. Hair that reaches further than there is room for
-// cells has larger ones, of which its own strand fills more: it feels others less.
+// Decides whether this step sorts particles into cells, and then sets the box of cells around all of them; one
+// invocation. It sorts every `sortSteps` steps of the run, however the run is divided into frames. Hair that extends
+// farther than the buffer has cells for gets larger cells. A strand's own particles are a larger share of those, so
+// that other strands act on it less.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
@@ -22,8 +23,8 @@ void main() {
   uvec3 size = uvec3(0);
   bool fits = false;
   do {
-    size = uvec3(greatest - least) + 2;  // a cell more: nodes
-    // One at least stays free: where the last cell ends, another begins.
+    size = uvec3(greatest - least) + 2;  // one more along each axis, for the nodes
+    // At least one cell stays free, since the end of a cell is the start of the next.
     fits = float(size.x) * float(size.y) * float(size.z) < 0.999 * float(parameters.cellCapacity);
     if (!fits) {
       least >>= 1;

@@ -1,5 +1,5 @@
-// What each particle of the volume brings to the nodes in a later iteration, from the velocities of the last. Mirrored
-// by reference/kernels/volume_step.h.
+// Computes what each particle of the volume contributes to the nodes in the second and later iterations, from the
+// velocities of the last iterate. Mirrored by reference/kernels/volume_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

@@ -1,4 +1,5 @@
-// Particles of the volume by cell, 1 of 6: how many are in each cell, and each one's rank there, in any order.
+// Sorts particles of the volume by cell, 1 of 6: counts the particles in each cell and gives each a rank in its cell;
+// the order of ranks is arbitrary.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

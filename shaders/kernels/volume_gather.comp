@@ -1,10 +1,11 @@
-// The grid's nodes: the mean of what particles of the eight cells about a node bring, and the density there. Cells
-// along x follow each other, so that they are four ranges. Mirrored by reference/kernels/volume_step.h.
+// Computes at each node of the grid the mean of the contributions of particles in the eight cells around it, and the
+// density. Neighbouring cells along x are consecutive, so the eight are four ranges. Mirrored by
+// reference/kernels/volume_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
 
-// a / b; exact as long as a is less than 2^21, and faster than a division of integers.
+// a / b; exact for a < 2^21, and faster than an integer division.
 uint quotient(uint a, uint b) { return uint((float(a) + 0.5) / float(b)); }
 
 void main() {
@@ -17,13 +18,13 @@ void main() {
   uvec3 at = uvec3(node - row * size.x, row - z * size.y, z);
   vec4 sum = vec4(0);
   float mass = 0.0;
-  uint wanted = 4;  // turns of the loops; and how many they made
+  uint wanted = 4;  // turns that the loops should make; `made` counts those they made
   uint made = 0;
   uint turn = 0;
   do {
     uint y = at.y - (turn & 1);
     uint z = at.z - (turn >> 1);
-    bool isIn = y < size.y && z < size.z;  // below 0 they are large
+    bool isIn = y < size.y && z < size.z;  // coordinates below 0 wrap to large numbers
     uint last = isIn ? (z * size.y + y) * size.x + at.x : 0;
     uint place = isIn ? startOf(last - min(at.x, 1)) : 0;
     uint end = isIn ? startOf(last + 1) : 0;

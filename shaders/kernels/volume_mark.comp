@@ -1,5 +1,5 @@
-// Where strands are divided among devices: marks the grid's cells with particles stepped here, in a step that puts
-// particles into cells. Mirrored by nothing: the reference has all strands.
+// If strands are divided among devices: marks the cells that hold particles stepped here, in a step that sorts
+// particles into cells. The reference has no counterpart: it has all strands.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

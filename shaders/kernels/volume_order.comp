@@ -1,5 +1,5 @@
-// Particles of the volume by cell, 6 of 6: where each one's parcel is, by index inside a cell, so that no sum depends
-// on which thread came first; and what stands there.
+// Sorts particles of the volume by cell, 6 of 6: gives each particle the place of its parcel, by index within a cell,
+// so that no sum depends on the order of threads; and writes the parcel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
@@ -14,7 +14,7 @@ void main() {
   uint end = cellEntry(startOf(cell + 1));
   uint before = 0;
   uint k = first / 4;
-  do {  // itself is there
+  do {  // at least one turn: the particle itself is in its cell
     uvec4 others = cellNumbers(k);
     for (uint j = 0; j < 4; ++j) {
       uint at = 4 * k + j;

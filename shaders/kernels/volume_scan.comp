@@ -1,12 +1,12 @@
-// Particles of the volume by cell, 2 of 6: where each cell starts within its block of cells, a workgroup a block, and
-// the block's sum. Leaves the counts zero for the next time.
+// Sorts particles of the volume by cell, 2 of 6: the start of each cell within its block of cells, and the sum of the
+// block; one workgroup per block. Resets the counts to zero for the next sort.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
 #include "scan/block_sum.glsl"
 
 void main() {
-  uint each = kBucketBlock / gl_WorkGroupSize.x;  // cells of an invocation
+  uint each = kBucketBlock / gl_WorkGroupSize.x;  // cells per invocation
   uint first = gl_WorkGroupID.x * kBucketBlock + gl_LocalInvocationID.x * each;
   uint sum = 0;
   for (uint k = 0; k < each; ++k) sum += cells[cellCount(first + k)];

@@ -1,4 +1,4 @@
-// Particles of the volume by cell, 5 of 6: in any order inside a cell.
+// Sorts particles of the volume by cell, 5 of 6: puts particles into cells; the order within a cell is arbitrary.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

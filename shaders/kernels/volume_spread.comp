@@ -1,5 +1,5 @@
-// What the volume adds to each particle's velocity system in the next iteration of the solve, from the nodes about it;
-// and the density there, for the next step. Mirrored by reference/kernels/volume_step.h.
+// Computes the terms that the volume adds to each particle's velocity system in the next iteration of the solve, from
+// the nodes around it; and the density at the particle, for the next step. Mirrored by reference/kernels/volume_step.h.
 #version 450
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,6 @@
-// Where strands are divided among devices: what particles of the volume bring that other devices step goes to where the
-// grid looks for it; a step that puts particles into cells takes it there later, and needs the cells that they are in.
-// Mirrored by nothing: the reference has all strands.
+// If strands are divided among devices: stores the contributions of particles that other devices step where the grid
+// reads them. In a step that sorts particles into cells, volume_order.comp stores them, and this extends the box of
+// cells. The reference has no counterpart: it has all strands.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

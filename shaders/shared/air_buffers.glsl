@@ -1,4 +1,4 @@
-// The air hair moves in. Part of strand_buffers.glsl.
+// The buffers of the air that hair moves in. Part of strand_buffers.glsl.
 #ifndef RINGLET_AIR_BUFFERS
 #define RINGLET_AIR_BUFFERS
 

@@ -1,4 +1,4 @@
-// The bodies hair stays out of, and a place's distance from one. Part of strand_buffers.glsl.
+// The bodies that hair collides with, and the distance of a place from one. Part of strand_buffers.glsl.
 #ifndef RINGLET_BODY_BUFFERS
 #define RINGLET_BODY_BUFFERS
 
@@ -31,7 +31,7 @@ BodyPose bodyPose(uint i) {
                   vectorAt(bodyPoseTexels, 4 * i + 2), vectorAt(bodyPoseTexels, 4 * i + 3));
 }
 
-/// y in the body's frame.
+/// Distance and normal at y, in the body's frame.
 Surface bodyDistance(BodyRest body, vec3 y) {
   if (body.shape != kShapeGrid) return solidDistance(body.shape, body.halfExtents, body.rounding, y);
   vec3 counts = vec3(body.cells[0], body.cells[1], body.cells[2]);
@@ -46,7 +46,7 @@ Surface bodyDistance(BodyRest body, vec3 y) {
   return surface;
 }
 
-// A body in a step, and the ways between its frame and the strand's.
+// A body during a step, and transforms between its frame and the strand's.
 struct BodyStep {
   BodyRest rest;
   BodyPose before;  // at the step's start
@@ -61,7 +61,7 @@ vec3 placeAtStart(BodyStep body, vec3 p) {
 vec3 placeAtEnd(BodyStep body, vec3 p) { return rotate(conjugate(body.after.rotation), p - body.after.position); }
 vec3 outOfBody(BodyStep body, vec3 y) { return rotate(body.after.rotation, y) + body.after.position; }
 vec3 outward(BodyStep body, vec3 normal) { return rotate(body.after.rotation, normal); }
-/// Of the place of the body that is at p when the step starts [m/s].
+/// Velocity of the point of the body that is at p at the step's start [m/s].
 vec3 bodyVelocityAt(BodyStep body, vec3 p, float T) {
   return body.after.velocity.xyz + displacement(body.after.turn, p - body.before.position) / T;
 }

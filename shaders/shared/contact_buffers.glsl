@@ -38,16 +38,17 @@ layout(set = 0, binding = kBindLifeTexels) uniform usamplerBuffer lifeTexels;
 layout(set = 0, binding = kBindForceTexels) uniform usamplerBuffer forceTexels;
 layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
-layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of a group do not meet here
+layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of one group do not meet pair by pair
 layout(constant_id = kSpecDivided) const bool kDivided = false;   // other devices step some of the strands
 
 uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
 /// Strands of one group do not meet pair by pair (rest/volume_strands.h).
 uint groupOf(uint strand) { return kInGroups ? neighbourRecord(strand).z : strand; }
-/// Strands elsewhere are met, and have no lists and no contacts here (solver/divided_hair.h).
+/// Strands that another device steps are found as neighbours, but have no lists and no contacts here
+/// (solver/divided_hair.h).
 bool isElsewhere(uint strand) { return kDivided && neighbourRecord(strand).w != 0; }
 
-// Records as they were when the dispatch began.
+// Accessors of records, as these were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
 vec3 lastVelocityOf(uint particle) {
   return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz;
@@ -75,7 +76,7 @@ void setListed(uint c, vec3 x, vec3 v) {
 vec3 predictedBefore(uint c) {
   return kTexels ? vectorAt(historyTexels, 4 * c + 2 + control.parity).xyz : histories[c].predicted[control.parity].xyz;
 }
-/// xyz: guessed velocity; w: radius.
+/// xyz: the guessed velocity [m/s]; w: the radius [m].
 vec4 guessOf(uint particle) { return kTexels ? vectorAt(guessTexels, particle) : guesses[particle]; }
 ContactPair pairAt(uint entry) {
   if (!kTexels) return pairs[entry];
@@ -93,31 +94,34 @@ ContactForce forceAt(uint entry) {
   return ContactForce(vectorAt(forceTexels, 2 * entry), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), 0);
 }
 
-// The grid's buffer, one part after another; its size is reckoned in solver/contact_stage.cpp. Bucket b's contact
-// particles are entries [start of b, start of b + 1).
-uint gridCount(uint bucket) { return bucket; }  // how many are in a bucket; 0 outside a rebuild
-uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }  // within its block; one more than buckets
-uint gridSum(uint block) { return 2 * parameters.bucketCount + 1 + block; }  // before a block; one more than blocks
+// The parts of the grid's buffer, one after another; solver/contact_stage.cpp computes its size. The contact particles
+// of bucket b are the entries [start of b, start of b + 1).
+uint gridCount(uint bucket) { return bucket; }  // contact particles in a bucket; 0 outside a rebuild
+// Start of a bucket within its block; one entry more than there are buckets.
+uint gridStart(uint bucket) { return parameters.bucketCount + bucket; }
+// Sum before a block; one entry more than there are blocks.
+uint gridSum(uint block) { return 2 * parameters.bucketCount + 1 + block; }
 uint gridBucketOf(uint c) { return gridSum(parameters.bucketCount / kBucketBlock + 1) + c; }
-uint gridRank(uint c) { return gridBucketOf(parameters.contactCount) + c; }  // among its bucket's, in any order
-/// The contact particle of a place, in any order inside a bucket.
+// Rank of c in its bucket; the order is arbitrary.
+uint gridRank(uint c) { return gridBucketOf(parameters.contactCount) + c; }
+/// The contact particle at a place; the order within a bucket is arbitrary.
 uint gridEntry(uint place) { return gridRank(parameters.contactCount) + place; }
 
-/// Beside a volume: who is in a cell, and in a region of eight cells; kSeveralGroups tells how.
+/// If some hair meets as a volume: the group in a cell, and in a region of eight cells, as kSeveralGroups describes.
 uint cellGroups(uint bucket) { return gridEntry(parameters.contactCount) + bucket; }
 uint regionGroups(uint bucket) { return cellGroups(parameters.bucketCount) + bucket; }
 bool hasOthers(uint groups, uint group) { return groups != 0 && groups != group + 1; }
-/// How many contact particles are in the grid: beside a volume only those that may have anybody to meet.
+/// Contact particles in the grid: if some hair meets as a volume, only those with a possible partner nearby.
 uint placedCount() {
   return kInGroups ? grid[gridSum(parameters.bucketCount / kBucketBlock)] : parameters.contactCount;
 }
 
 uint startOf(uint bucket) { return grid[gridStart(bucket)] + grid[gridSum(bucket / kBucketBlock)]; }
 
-// Cells of one size, hashed, so that hair may be anywhere. Cells that follow each other along x are in buckets that do,
-// so that three of them are one range. Beyond 2^30 cells all share the last.
-// A product, not a quotient: Vulkan rounds products one way only, and two kernels must find the same cell for one
-// place.
+// The cell of a place. Cells have one size and are hashed, so that hair may be anywhere. Consecutive cells along x have
+// consecutive buckets, so that three of them are one range of entries. Coordinates beyond 2^30 cells are clamped.
+// The coordinate is a product and not a quotient: Vulkan specifies the rounding of products exactly, and two kernels
+// must find the same cell for the same place.
 ivec3 cellOf(vec3 x) {
   float cellsPerMetre = kInGroups ? parameters.cellsPerMetre : control.cellsPerMetre;
   return ivec3(clamp(floor(x * cellsPerMetre), vec3(-1073741824.0), vec3(1073741824.0)));
@@ -128,22 +132,23 @@ uint bucketOf(ivec3 cell) {
   return ((row ^ (row >> 13)) + uint(cell.x)) & (parameters.bucketCount - 1);
 }
 
-// The lists' buffer. Where a contact particle's list starts; there its length stands, then, of each of its blocks,
-// which it is and what its pairs do, as bits: the lower half which of them act on each other, the upper half which
-// touch, or, between iterations, whose springs push.
+// The buffer of lists. listOf: where the list of a contact particle starts. A list is its length, followed by two
+// numbers per block of pairs: the index of the block, and bits. The lower half of the bits marks the pairs that act on
+// each other, the upper half those that touch or, between iterations, those whose springs push.
 uint listOf(uint c) { return c * (1 + 2 * parameters.mostBlocks); }
 uint listedBlock(uint list, uint b) { return list + 1 + 2 * b; }
 uint pairBits(uint list, uint b) { return list + 2 + 2 * b; }
-/// After the lists: contact particles that have contacts or had some, in any order; then whether each has any.
+/// After the lists: the contact particles that have contacts or had some, in arbitrary order; then whether each has
+/// any.
 uint meetingPlace(uint i) { return listOf(parameters.contactCount) + i; }
 uint meetsPlace(uint c) { return meetingPlace(parameters.contactCount) + c; }
-/// Where the list of its contacts starts, that of the step or that of the step before: their number, and blocks.
+/// Where the list of a contact particle's contacts starts, of this step or of the last: their number, then blocks.
 uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters.mostLiveBlocks); }
-/// Where its contact j is, among forces; and among lives.
+/// Index of contact j of a list among the forces, and of such an entry among the lives.
 uint forceEntry(uint list, uint j) { return liveLists[list + 1 + j / kLiveBlock] * kLiveBlock + j % kLiveBlock; }
 uint lifeEntry(uint parity, uint force) { return parity * parameters.liveBlockCount * kLiveBlock + force; }
 
-/// Whether the lists hold all they should.
+/// Whether every list found room for all its pairs.
 bool listsHadRoom() {
   return control.blocks <= parameters.blockCount && control.longestList <= parameters.mostBlocks * kListBlock;
 }

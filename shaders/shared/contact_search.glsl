@@ -1,6 +1,6 @@
-// The search among the 27 cells about a contact particle, in the order of cells and of contact particles inside one,
-// for pairs of strands that may touch. What includes this says which of those near it is after, and what becomes of
-// them.
+// Searches the 27 cells around a contact particle, in the order of cells and, within a cell, of contact particles, for
+// particles of strands that may touch its own. The kernel that includes this defines which of them it wants (isSought)
+// and what is done with them (take).
 #ifndef RINGLET_CONTACT_SEARCH
 #define RINGLET_CONTACT_SEARCH
 
@@ -14,7 +14,7 @@ vec3 v;
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0);
 void take(ContactRest other, float R, float r0);
 
-// own: record of this invocation's strand. As solver/neighbour_table.h fills the table.
+// Looks a strand up in the table that solver/neighbour_table.h fills. own: record of this invocation's strand.
 bool mayTouch(uvec4 own, uint strand) {
   uint bucket = strand * 2654435761u >> 16;
   uint tried = 0;
@@ -34,8 +34,8 @@ bool rowHasOthers(uint first, uint group) {
   return others;
 }
 
-// Of the contact particle in this place of the grid, which must be one. skin: how much further than what may touch
-// within the step isSought looks [m]. False where the device ends loops early.
+// Searches around the contact particle at a place of the grid, which must hold one. skin: distance by which isSought
+// looks farther than the pairs that may touch within the step [m]. Returns false where the driver ended a loop early.
 bool search(uint place, float skin) {
   uvec4 self = placedPosition(place);
   uvec4 moving = placedVelocity(place);
@@ -45,16 +45,16 @@ bool search(uint place, float skin) {
   precise vec3 here = uintBitsToFloat(self.xyz);
   x = here;
   v = uintBitsToFloat(moving.xyz);
-  // No pair's reach is larger: by the radii, and by the fastest there is.
+  // An upper bound of the reach of all pairs: by the largest radius, and by the largest speed.
   float mostR = rest.radius + parameters.largestRadius;
   precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);
   ivec3 cell = cellOf(x);
   uint placed = placedCount();
-  uint wanted = 9;  // turns of the loops below; and how many they made
+  uint wanted = 9;  // turns that the loops below should make; `made` counts those they made
   uint made = 0;
   int row = 0;
   do {
-    // Three cells along x: a range of entries, which may go on from the last bucket to the first.
+    // Three cells along x are one range of entries, which may wrap from the last bucket to the first.
     ivec3 middle = cell + ivec3(0, row % 3 - 1, row / 3 - 1);
     uint first = bucketOf(middle - ivec3(1, 0, 0));
     uint entry = startOf(first);
@@ -64,9 +64,9 @@ bool search(uint place, float skin) {
     if (entries > 0) do {
       if (entry == placed) entry = 0;
       uint looked = min(min(entries, 32), placed - entry);
-      // Three sieves, finer and dearer each, over what is left as bits: a driver that runs invocations in step does for
-      // all of them what a single one must. And it runs the body of a loop that asks before it once more than there
-      // are turns; hence if and do.
+      // Three tests, each finer and costlier than the last, over the bits that the last one left: a driver that runs
+      // invocations in lockstep runs an `if` for all of them. It also runs the body of a loop that tests its condition
+      // first once more than the loop has turns; therefore `if` and `do`.
       uint near = 0;
       uint k = 0;
       do {
@@ -77,7 +77,7 @@ bool search(uint place, float skin) {
         ++made;
       } while (++k < looked);
       wanted += looked + bitCount(near);
-      uint meeting = 0;  // near enough for how fast the two near each other
+      uint meeting = 0;  // pairs that are near enough for the speed of their approach
       if (near != 0) do {
         uint k = findLSB(near);
         near &= near - 1;
@@ -97,7 +97,7 @@ bool search(uint place, float skin) {
         uvec4 found = placedVelocity(entry + k);
         vec3 otherVelocity = uintBitsToFloat(found.xyz);
         ContactRest other = contactOf(found.w);
-        // Other cells may share a bucket, and a bucket may come by twice.
+        // Other cells may share a bucket, and the search may reach a bucket twice.
         ivec3 away = cellOf(foundAt) - middle;
         bool isCandidate = away.y == 0 && away.z == 0 && abs(away.x) <= 1 &&
                            !(rest.inverseMassUnit == 0.0 && other.inverseMassUnit == 0.0);

@@ -1,5 +1,5 @@
-// What the contacts of a contact particle add to its velocity system in an iteration of the solve, with the distance
-// taper: D, push and pair means. Both sides of a contact reckon alike, so momentum is kept. Mirrored by
+// The terms that the contacts of a contact particle add to its velocity system in an iteration of the solve: D, push
+// and pair means. Both particles of a contact compute the same numbers, so momentum is conserved. Mirrored by
 // reference/kernels/contact_step.h.
 #ifndef RINGLET_CONTACT_TERMS
 #define RINGLET_CONTACT_TERMS
@@ -15,15 +15,21 @@ struct ContactTerms {
 };
 const ContactTerms kNoTerms = ContactTerms(Symmetric(vec3(0), vec3(0)), vec3(0), vec3(0));
 
-/// v: the sum of both velocities in the last iterate; pushes: the spring acts, and not the damper alone.
+/// Adds a contact of these weights. gap: r0 - d [m]; v: the sum of both velocities in the last iterate.
+void addWeights(inout ContactTerms terms, ContactWeights weights, vec3 normal, float gap, vec3 v) {
+  float tangential = weights.tangential;
+  terms.D = addOuter(addDiagonal(terms.D, tangential), weights.spring + weights.damping - tangential, normal);
+  terms.push += contactPush(weights.spring, gap, parameters.seconds) * normal;
+  terms.momentum += contactMultiply(weights, normal, v);
+}
+
+/// Adds a contact with the distance taper. pushes: the spring acts as well as the damper.
 void addContact(inout ContactTerms terms, ContactPair pair, ContactMeeting meeting, bool pushes, vec3 v) {
   float T = parameters.seconds;
-  float delta = dampingAt(meeting.distance, pair.restLength, parameters.breakFactor);
-  ContactWeights weights = ContactWeights(pushes ? T * T * pair.stiffness : 0.0, T * pair.damping * delta);
-  float tangential = parameters.friction * weights.damping;
-  terms.D = addOuter(addDiagonal(terms.D, tangential), weights.spring + weights.damping - tangential, meeting.normal);
-  terms.push += contactPush(weights.spring, pair.restLength - meeting.distance, T) * meeting.normal;
-  terms.momentum += contactMultiply(weights, parameters.friction, meeting.normal, v);
+  float delta = dampingAt(meeting.distance, pair.restLength, parameters);
+  ContactWeights weights =
+      contactWeights(pushes ? T * T * pair.stiffness : 0.0, T * pair.damping * delta, parameters);
+  addWeights(terms, weights, meeting.normal, pair.restLength - meeting.distance, v);
 }
 
 void setSystem(ContactRest rest, ContactTerms terms) {

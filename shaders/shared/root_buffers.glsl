@@ -1,5 +1,5 @@
-// What carries the strand: the head, and where strands have poses of their own those as well. Which
-// strand: `strand` and `strandAt` of strand_buffers.glsl.
+// The poses that carry the strand's root: the head's, and the strand's own if strands have some. The strand is `strand`
+// and `strandAt` of strand_buffers.glsl.
 #ifndef RINGLET_ROOT_BUFFERS
 #define RINGLET_ROOT_BUFFERS
 
@@ -33,7 +33,7 @@ vec4 rotationAt(uint pose) {
   if (!kMovingRoots) return stepPose(pose).rotation;
   return rootRotation(pose);
 }
-// From the pose before. A small turn: as the difference of two rotations it would have lost its digits.
+// The turn from the last pose. It is stored, since as the difference of two rotations it would lose its digits.
 vec4 turnTo(uint pose) {
   if (!kMovingRoots) return stepPose(pose).turn;
   return rootTurn(pose);
@@ -43,15 +43,15 @@ vec4 rotationAtStart(uint step) { return rotationAt(step); }
 vec4 rotationAtEnd(uint step) { return rotationAt(step + 1); }
 vec3 headVelocityChange(uint step) { return stepPose(step + 1).velocityChange; }
 
-/// How fast x, as it is at the step's start, goes by the turning in this step.
+/// Velocity of x, a place at the step's start, by the turn in this step [m/s].
 vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), x) / stepSeconds(); }
-/// And in the step before.
+/// The same, by the turn in the last step.
 vec3 turningVelocityBefore(uint step, vec3 x) { return -displacement(conjugate(turnTo(step)), x) / stepSeconds(); }
 
-// Pinned particle k of the strand: it is carried, and its shift beside.
+// Place of pinned particle k of the strand: the carried one and the strand's shift.
 vec3 rootShift() { return vec3(strand.pins[0].w, strand.pins[1].w, strand.pins[2].w); }
 float shiftedShare(uint step) { return stepPose(step).shiftedShare; }
-// From the carried origin of the groom.
+// Relative to the carried origin of the groom.
 vec3 pinArm(uint pose, uint k) {
   return rotate(rotationAt(pose), strand.pins[k].xyz + shiftedShare(pose) * rootShift());
 }

@@ -1,8 +1,9 @@
-// The buffers and parameters of the strand_step kernels (layout/strands.h), and the taps, which only a kernel compiled
-// with RINGLET_TAPS writes. Kernels know of contacts where compiled with RINGLET_CONTACTS, of bodies, air, goals
-// and fields where compiled with RINGLET_SURROUNDINGS: a constant that is false still leaves their buffers bound, and a
-// small device has few. With RINGLET_HEADS the buffers of what moves, and of poses, hold many heads, one behind the
-// other, and a dispatch steps some of them; roots of their own and forces from outside they do not have.
+// The buffers and parameters of the strand_step kernels (layout/strands.h), and the taps, which only kernels compiled
+// with RINGLET_TAPS write. Kernels compiled with RINGLET_CONTACTS have contacts, those with RINGLET_SURROUNDINGS also
+// bodies, air, goals and fields. These are macros, since a buffer that a false specialization constant disables
+// stays bound, and small devices have few bindings. In kernels compiled with
+// RINGLET_HEADS the buffers of poses and of all that moves hold many heads, one behind the other, and a dispatch steps
+// some of them; they have no moving roots and no outside forces.
 #ifndef RINGLET_STRAND_BUFFERS
 #define RINGLET_STRAND_BUFFERS
 
@@ -17,25 +18,25 @@
 #include "shared/workgroup.glsl"
 
 layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorJacobi;
-layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c throughout: smooth once
+layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c: one smoothing does
 layout(constant_id = kSpecResidual) const bool kMeasureResidual = false;
-layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // bendFactor is not 1 along some strand
+layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // some strand has a bendFactor other than 1
 #ifdef RINGLET_CONTACTS
 layout(constant_id = kSpecContacts) const bool kContacts = false;    // the solve is iterated with the contacts' systems
-layout(constant_id = kSpecPairs) const bool kPairs = true;       // of which there are of pairs of contact particles
-layout(constant_id = kSpecVolume) const bool kVolume = false;     // and of hair as a volume
+layout(constant_id = kSpecPairs) const bool kPairs = true;       // some contacts are between pairs of contact particles
+layout(constant_id = kSpecVolume) const bool kVolume = false;     // some hair meets as a volume
 #else
 const bool kContacts = false;
 const bool kPairs = false;
 const bool kVolume = false;
 #endif
 #ifdef RINGLET_SURROUNDINGS
-layout(constant_id = kSpecBodies) const bool kBodies = false;      // there are some
-layout(constant_id = kSpecAir) const bool kAir = false;         // hair feels it
-layout(constant_id = kSpecTurbulent) const bool kTurbulent = false;  // and it has waves
+layout(constant_id = kSpecBodies) const bool kBodies = false;      // there are bodies
+layout(constant_id = kSpecAir) const bool kAir = false;         // there is air
+layout(constant_id = kSpecTurbulent) const bool kTurbulent = false;  // the air is turbulent
 layout(constant_id = kSpecGoals) const bool kGoals = false;       // particles are pulled to places
-layout(constant_id = kSpecFields) const bool kFields = false;     // fields act on them
-layout(constant_id = kSpecGoalShape) const bool kGoalShape = false;  // goals are of edges, in place of particles
+layout(constant_id = kSpecFields) const bool kFields = false;     // force fields act on particles
+layout(constant_id = kSpecGoalShape) const bool kGoalShape = false;  // goals pull edges and not particles
 #else
 const bool kBodies = false;
 const bool kAir = false;
@@ -51,7 +52,7 @@ const bool kForces = false;
 layout(constant_id = kSpecMovingRoots) const bool kMovingRoots = false;  // strands have poses of their own
 layout(constant_id = kSpecForces) const bool kForces = false;            // forces from outside act on particles
 #endif
-layout(constant_id = kSpecFalls) const bool kFalls = false;  // strands are what was cut off: no root carries them
+layout(constant_id = kSpecFalls) const bool kFalls = false;  // strands are cut off and fall: no root carries them
 
 layout(set = 0, binding = kBindPositions) buffer Positions { vec4 positions[]; };
 layout(set = 0, binding = kBindVelocities) buffer Velocities { vec4 velocities[]; };
@@ -95,7 +96,7 @@ uint reportAt(uint s) { return s; }
 StepPose stepPose(uint pose) { return poses[pose]; }
 #endif
 
-// Positions and velocities as they were when the dispatch began.
+// Position and velocity as they were when the dispatch began.
 vec3 positionAtStart(uint i) { return (kTexels ? vectorAt(positionTexels, stateAt(i)) : positions[stateAt(i)]).xyz; }
 vec3 velocityAtStart(uint i) { return (kTexels ? vectorAt(velocityTexels, stateAt(i)) : velocities[stateAt(i)]).xyz; }
 ParticleRest particleRest(uint i) {
@@ -104,7 +105,7 @@ ParticleRest particleRest(uint i) {
   vec4 rest = vectorAt(particleTexels, 2 * i + 1);
   return ParticleRest(spring.xyz, spring.w, rest.x, rest.y, rest.z, rest.w);
 }
-// What pulls on a kilogram of particle i [m/s^2]: gravity, and forces from outside.
+// External acceleration of particle i [m/s^2]: gravity and forces from outside.
 vec3 pullOn(uint i) {
   if (!kForces) return parameters.gravity;
   return parameters.gravity + (kTexels ? vectorAt(forceTexels, i) : forces[i]).xyz;
@@ -130,7 +131,7 @@ layout(set = 0, binding = kBindAddedByVolume) readonly buffer AddedByVolume { ve
 layout(set = 0, binding = kBindAddedByVolumeTexels) uniform usamplerBuffer addedByVolumeTexels;
 vec4 contactSystemPart(uint i, uint part) { return vectorAt(contactSystemTexels, 3 * i + part); }
 vec4 volumeAddedTo(uint i) { return kTexels ? vectorAt(addedByVolumeTexels, i) : addedByVolume[i]; }
-/// What is added to particle i's mass, and to its right-hand side.
+/// The terms that contacts add to particle i's block of the matrix, and to its right-hand side.
 Symmetric contactMass(uint i) {
   Symmetric mass = symmetricDiagonal(kVolume ? volumeAddedTo(i).w : 0.0);
   if (kPairs) {
@@ -157,12 +158,12 @@ vec4 goalAtFrameEnd(uint i) { return kTexels ? vectorAt(goalTexels, i) : goals[i
 #include "shared/field_buffers.glsl"
 #endif
 
-StrandRest strand;  // this invocation's
-uint strandAt;      // and which it is, device order
+StrandRest strand;  // the strand of this invocation
+uint strandAt;      // its index, device order
 
 float stepSeconds() { return parameters.seconds; }
 
-// The strand's constants times this are the edge's.
+// Factor from the strand's constants to those of an edge.
 float edgeScaleOf(float edgeLength) { return kIntegrator == kIntegratorPaper ? 1.0 : 1.0 / edgeLength; }
 
 bool isFiniteVec3(vec3 x) { return !(any(isnan(x)) || any(isinf(x))); }

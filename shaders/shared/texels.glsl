@@ -1,6 +1,6 @@
-// Records of 16 bytes, read as texels where the device sees enough of them, else from storage. The same bytes are bound
-// twice; which way is specialized. A texel costs lavapipe a fifth of a storage record, where it looks lane by lane.
-// For what this dispatch does not write, or reads before it writes.
+// Reads records of 16 bytes as texels if the device's texel buffers are large enough, else from storage. The same bytes
+// are bound both ways; a specialization constant chooses. On lavapipe a texel costs a fifth of a storage record, which
+// it reads lane by lane. Texels are for buffers that the dispatch does not write, or reads before it writes them.
 #ifndef RINGLET_TEXELS
 #define RINGLET_TEXELS
 

@@ -40,7 +40,7 @@ layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
 
-/// The volume particle of this invocation, of those that are stepped here; false where there is none.
+/// Finds the volume particle of this invocation, among those that are stepped here; false if there is none.
 bool findParticleHere(out uint i) {
   i = gl_GlobalInvocationID.x;
   if (halt.isHalted != 0 || i >= parameters.hereCount) return false;
@@ -48,7 +48,7 @@ bool findParticleHere(out uint i) {
   return true;
 }
 
-// Records as they were when the dispatch began.
+// Accessors of records, as these were when the dispatch began.
 vec3 positionOf(uint particle) { return kTexels ? vectorAt(positionTexels, particle).xyz : positions[particle].xyz; }
 vec3 lastVelocityOf(uint particle) {
   return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz;
@@ -68,28 +68,29 @@ VolumeParcel parcelAt(uint place) {
 }
 vec4 memoryOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i) : states[i].memory; }
 vec4 placeOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1) : states[i].place; }
-/// Seen from the head, where this step put it.
+/// Position in the head's frame, as this step has set it.
 vec3 placeBroughtBy(uint i) { return kDivided ? broughtBy(parameters.count + i).xyz : placeOf(i).xyz; }
 vec4 predictedOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 2) : states[i].predicted; }
 
-// The head: pose 0 is the frame's start.
+// Between world axes and the head's frame at the step's start; pose 0 is the frame's start.
 vec3 inHeadFrame(vec3 x) { return rotate(conjugate(poses[parameters.step].rotation), x); }
 vec3 inWorld(vec3 x) { return rotate(poses[parameters.step].rotation, x); }
 /// Velocity of what the head carries rigidly, at x [m/s].
 vec3 carriedVelocity(vec3 x) { return displacement(poses[parameters.step + 1].turn, x) / parameters.seconds; }
 
-// The cells' buffer, one part after another.
-uint cellCount(uint cell) { return cell; }  // how many are in a cell; 0 between two uses
-uint cellStart(uint cell) { return parameters.cellCapacity + cell; }  // its first particle's place
-uint cellSum(uint block) { return 2 * parameters.cellCapacity + block; }  // before a block of cells
+// The parts of the buffer of cells, one after another.
+uint cellCount(uint cell) { return cell; }  // particles in a cell; 0 between two sorts
+uint cellStart(uint cell) { return parameters.cellCapacity + cell; }  // place of a cell's first particle
+uint cellSum(uint block) { return 2 * parameters.cellCapacity + block; }  // sum before a block of cells
 uint cellOf(uint i) { return cellSum(parameters.cellCapacity / kBucketBlock) + i; }
-uint cellRank(uint i) { return cellOf(parameters.count) + i; }  // among its cell's, in any order
-uint cellEntry(uint place) { return cellRank(parameters.count) + place; }  // in any order inside a cell
-// Where strands are divided:
+uint cellRank(uint i) { return cellOf(parameters.count) + i; }  // rank in its cell, in arbitrary order
+// The particle at a place; the order within a cell is arbitrary.
+uint cellEntry(uint place) { return cellRank(parameters.count) + place; }
+// If strands are divided among devices:
 uint cellMark(uint cell) { return cellEntry(parameters.count) + cell; }  // the last sort with a particle stepped here
-uint nodeAsked(uint node) { return cellMark(parameters.cellCapacity) + node; }  // 1 where such a particle asks it
+uint nodeAsked(uint node) { return cellMark(parameters.cellCapacity) + node; }  // 1: such a particle reads it
 
-// As they were when the dispatch began: one number, and four that stand together, from 4 k on.
+// Numbers of that buffer as they were when the dispatch began: one, and four consecutive ones, from 4 k on.
 uint cellNumber(uint at) { return kTexels ? recordAt(cellTexels, at / 4)[at % 4] : cells[at]; }
 uvec4 cellNumbers(uint k) {
   if (kTexels) return recordAt(cellTexels, k);
@@ -97,15 +98,15 @@ uvec4 cellNumbers(uint k) {
 }
 uint startOf(uint cell) { return cellNumber(cellStart(cell)); }
 
-const float kFarthestCell = 1e6;  // from the head; what is further, or no number, is taken for there
+const float kFarthestCell = 1e6;  // from the head [cells]; farther places and NaN are clamped to it
 ivec3 cellAt(vec3 place, float cellsPerMetre) {
   return ivec3(clamp(floor(place * cellsPerMetre), vec3(-kFarthestCell), vec3(kFarthestCell)));
 }
-/// The step's box of cells has the one of this place.
+/// Extends the step's box of cells to the cell of a place.
 void reachTo(vec3 place) {
   ivec3 cell = cellAt(place, 1.0 / parameters.cell);
   for (int axis = 0; axis < 3; ++axis) {
-    // Most are no record, and a look is cheaper than an atomic.
+    // Most cells lie inside the box so far, and a read costs less than an atomic.
     if (cell[axis] < control.least[axis]) atomicMin(control.least[axis], cell[axis]);
     if (cell[axis] > control.greatest[axis]) atomicMax(control.greatest[axis], cell[axis]);
   }
@@ -114,14 +115,14 @@ uvec3 boxSize() { return uvec3(control.size[0], control.size[1], control.size[2]
 vec3 placeInCells(vec3 place) {
   return place * control.cellsPerMetre - vec3(control.low[0], control.low[1], control.low[2]);
 }
-/// The cell of a place in cells; the last along each axis has nodes only.
+/// The cell of a place, which is in units of cells. The last cell along each axis has nodes only.
 uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(boxSize()) - 2.0)); }
 uvec3 cornerOf(uvec3 cell, uint corner) { return cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2); }
 uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
 
-/// kappa; of a mass m o it makes g.
+/// The gain kappa: g is kappa times the mass m o.
 float gain() { return volumeGain(parameters.drag, parameters.stiffness, parameters.seconds); }
-/// What a mass m o brings to the nodes from velocity v at x, along world axes.
+/// What a mass m o at x with velocity v contributes to the nodes, along world axes.
 vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s) {
   vec3 w = inHeadFrame(v - carriedVelocity(x));
   float g = mass * gain();

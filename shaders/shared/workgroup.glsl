@@ -1,5 +1,5 @@
-// The size of workgroups, which the host decides. What names gl_WorkGroupSize includes this: where the size is declared
-// further down, compilers take 1 for it without a word.
+// The size of workgroups, which the host sets. A file that names gl_WorkGroupSize includes this: if the size is
+// declared only further down, compilers silently take it for 1.
 #ifndef RINGLET_WORKGROUP
 #define RINGLET_WORKGROUP
 

@@ -1,4 +1,4 @@
-// Backend: what `ringlet simulate` steps hair with, the GPU's solver or the CPU reference. Thin: both are
+// Backend: the solver that `ringlet simulate` uses, on the GPU or the CPU reference. Thin: both are
 // complete simulations already, and this only gives them one face.
 #pragma once
 
@@ -67,7 +67,7 @@ class Backend {
   virtual Result<ContactReport> contactReport() = 0;
   /// By stage of computing, summed over all frames waited for [ms].
   virtual std::map<std::string, double> stageMilliseconds() const = 0;
-  /// Of the groom's strands, those that are carried rigidly (rest/rigid_strands.h).
+  /// Number of strands that are carried rigidly (rest/rigid_strands.h).
   virtual std::size_t rigidStrandCount() const = 0;
   /// Of the hair and its settings; and of the device: its own watchers', its tuned shapes where they cannot
   /// be read.
@@ -77,11 +77,11 @@ class Backend {
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
   virtual std::string kernel() const = 0;
-  /// Whether shapes were chosen by what `ringlet tune` measured.
+  /// Whether measurements of `ringlet tune` chose the shapes.
   virtual bool isTuned() const { return false; }
-  /// Of making it [ms]; 0 where there is nothing to compile.
+  /// Time of compiling its kernels [ms]; 0 if there are none to compile.
   virtual double compileMilliseconds() const { return 0; }
-  /// Of its buffers on the device; none where there is no device.
+  /// Size of its buffers on the device; none without a device.
   virtual std::optional<std::uint64_t> deviceBytes() const = 0;
 };
 

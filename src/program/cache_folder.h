@@ -1,11 +1,11 @@
-// Where the program keeps what only saves time.
+// The folder of data that only saves time.
 #pragma once
 
 #include <filesystem>
 
 namespace ringlet::program {
 
-/// $RINGLET_CACHE_DIR, else ringlet in $XDG_CACHE_HOME, else in ~/.cache; empty where none of them is known.
+/// $RINGLET_CACHE_DIR, else ringlet in $XDG_CACHE_HOME, else in ~/.cache; empty if none of these is set.
 std::filesystem::path cacheFolder();
 
 }  // namespace ringlet::program

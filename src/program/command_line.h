@@ -1,4 +1,4 @@
-// What the subcommands' options share: checks whose messages tell a person what would be right.
+// Shared by the subcommands: checks of options, whose messages say what is allowed.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ struct Check {
     right,
     wrong,    // the device does not conform
     quirk,    // the driver is wrong where Ringlet does not rely on it
-    skipped,  // the device lacks what would be checked, and Ringlet knows it
+    skipped,  // the device lacks the checked feature, and Ringlet does not use it there
   };
   std::string name;
   Outcome outcome = Outcome::right;

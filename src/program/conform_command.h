@@ -1,4 +1,4 @@
-// `ringlet conform`: holds a device and its driver against the reference, and says what is wrong.
+// `ringlet conform`: compares a device and its driver with the reference and reports faults.
 #pragma once
 
 #include "program/cli_fwd.h"

@@ -16,7 +16,7 @@ struct ContactChoice {
   std::optional<std::string> prune;  // a number of overlaps, or none
   TypedSettings typed;               // all others
 
-  /// Switched on or off; nothing: neither.
+  /// Switched on or off; unset: neither.
   std::optional<bool> on() const { return state ? std::optional(*state != "off") : std::nullopt; }
   /// How, where they are switched on.
   std::optional<ContactMethod> method() const;
@@ -26,7 +26,7 @@ struct ContactChoice {
 /// `choice` must outlive the command.
 void addContactOptions(CLI::App* command, ContactChoice& choice, const std::string& defaultState);
 
-/// Throws CLI11's error for what makes no sense together.
+/// Throws CLI11's error for options that exclude each other.
 void checkContactOptions(const ContactChoice& choice);
 
 /// Throws CLI11's error for an option that says how contacts are, where `reason` says that there are none.

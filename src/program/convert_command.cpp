@@ -79,6 +79,16 @@ bool has(const Typed& typed, const char* value) {
   return std::ranges::find(typed.values, value) != typed.values.end();
 }
 
+// ".usda, .usdc, .rgc, .pc2", with notes or without.
+std::string animationList(bool withNotes) {
+  std::string list;
+  for (const AnimationFormat& format : animationFormats()) {
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", format.extension);
+    if (withNotes && *format.note) list += fmt::format(" ({})", format.note);
+  }
+  return list;
+}
+
 struct FrameRange {
   int first = 1, last = 1;
 };
@@ -168,19 +178,16 @@ void checkOptions(const Typed& typed) {
   const auto kind = kindOf(typed);
   if (!kind)
     throw CLI::ValidationError(
-        "OUT",
-        fmt::format(
-            "'{}' must end in .usda, .usdc, .rgc, .pc2, .obj, .ply or .png, or be a folder for .obj files",
-            typed.output.string()));
+        "OUT", fmt::format("'{}' must end in {}, .obj, .ply or .png, or be a folder for .obj files",
+                           typed.output.string(), animationList(false)));
   const AnimationFormat* format = animationFormatOf(typed.output);
   if (!typed.precision.empty() && !(format && format->hasPrecisions))
     throw CLI::ValidationError("--precision", "only a cache, .rgc, has one");
   const std::string extension = typed.output.extension().string();
-  const bool isUsd = extension == ".usda" || extension == ".usdc";
   if (typed.clips && extension != ".usda") throw CLI::ValidationError("--clips", "only a .usda has clips");
-  if ((!typed.values.empty() || typed.tipWidth) && !isUsd)
+  if ((!typed.values.empty() || typed.tipWidth) && !(format && format->isUsd))
     throw CLI::ValidationError(typed.tipWidth ? "--tip-width" : "--usd-values",
-                               "only .usda and .usdc have it");
+                               "only " + animationEndings(&AnimationFormat::isUsd, "and") + " have it");
   if (has(typed, "velocities") && extension == ".usda" && !typed.clips)
     throw CLI::ValidationError("--usd-values", "velocities are written into .usdc and clips only");
 }
@@ -389,9 +396,9 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->type_name("FILE");
   command
       ->add_option("OUT", typed->output,
-                   "File to write: .usda, .usdc, .rgc, .pc2 (with an .obj beside it), .png (six frames side "
-                   "by side), .obj or "
-                   ".ply (name.0001.obj and so on); or a folder for .obj files")
+                   fmt::format("File to write: {}, .png (six frames side by side), .obj or .ply "
+                               "(name.0001.obj and so on); or a folder for .obj files",
+                               animationList(true)))
       ->type_name("PATH");
   command->add_option("--frames", typed->frames, "First and last frame, from 1 (default: all)")
       ->check(isRange())

@@ -1,11 +1,11 @@
-// `ringlet convert`: an animation as another file, and what is in one.
+// `ringlet convert`: writes an animation in another format, or describes a file.
 #pragma once
 
 #include "program/cli_fwd.h"
 
 namespace ringlet::program {
 
-/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+/// Adds the subcommand; when it runs, `exitCode` receives the exit status of the program.
 void addConvertCommand(CLI::App& app, int& exitCode);
 
 }  // namespace ringlet::program

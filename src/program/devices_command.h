@@ -1,11 +1,11 @@
-// `ringlet devices`: what simulations could run on.
+// `ringlet devices`: lists the devices that simulations can run on.
 #pragma once
 
 #include "program/cli_fwd.h"
 
 namespace ringlet::program {
 
-/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+/// Adds the subcommand; when it runs, `exitCode` receives the exit status of the program.
 void addDevicesCommand(CLI::App& app, int& exitCode);
 
 }  // namespace ringlet::program

@@ -21,7 +21,7 @@ class Film {
   static Result<Film> start(const std::filesystem::path& path, int width, int height, double framesPerSecond);
   Film(Film&&) = default;
   Film& operator=(Film&&) = delete;
-  ~Film();  // leaves nothing where it was not finished
+  ~Film();  // removes a film that was not finished
 
   /// Rows from the top, of red, green and blue bytes.
   Status add(std::span<const std::byte> pixels) { return ffmpeg_.write(pixels); }

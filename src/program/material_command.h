@@ -14,7 +14,7 @@
 
 namespace ringlet::program {
 
-/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+/// Adds the subcommand; when it runs, `exitCode` receives the exit status of the program.
 void addMaterialCommand(CLI::App& app, int& exitCode);
 
 /// Dials as turned on a command line, in the order of dialParameters(); nothing where one is not.

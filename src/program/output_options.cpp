@@ -1,11 +1,15 @@
 // Implements output_options.h.
 #include "program/output_options.h"
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
+#include <string_view>
 
 #include "program/command_line.h"
 #include "program/precision_names.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/scene/setting_field.h"
 #include "ringlet/scenes/scene_fields.h"
 
@@ -14,6 +18,15 @@ namespace {
 
 bool holds(const std::vector<std::string>& names, const char* name) {
   return std::ranges::find(names, name) != names.end();
+}
+
+// The animations of which a flag or --cache is not: "hair.usdc, hair.pc2".
+std::string furtherFiles() {
+  std::string files;
+  for (const AnimationFormat& format : animationFormats())
+    if (!format.hasPrecisions && format.extension != std::string_view(".usda"))
+      files += fmt::format("{}hair{}", files.empty() ? "" : ", ", format.extension);
+  return files;
 }
 
 // As the scene's table says it.
@@ -31,6 +44,13 @@ void addOutputOptions(CLI::App* command, OutputChoice& choice) {
       ->group(group);
   command
       ->add_flag("--usdc", choice.usdc, "Write hair.usdc too, binary USD: a third of the bytes of hair.usda")
+      ->group(group);
+  command
+      ->add_option("--also", choice.also,
+                   "Further animations to write, separated by commas: " + furtherFiles())
+      ->delimiter(',')
+      ->check(oneOf(namesIn(furtherFiles())))
+      ->type_name("LIST")
       ->group(group);
   command->add_flag("--no-usd", choice.noUsd, "Leave out hair.usda")->group(group);
   command->add_flag("--no-last", choice.noLast, "Leave out last.obj")->group(group);
@@ -90,7 +110,10 @@ void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
   leaveOut(choice.noUsd, "hair.usda");
   leaveOut(choice.noLast, "last.obj");
   leaveOut(choice.noSheet, "sheet.png");
-  if (choice.usdc && !holds(output.files, "hair.usdc")) output.files.push_back("hair.usdc");
+  std::vector<std::string> also = choice.also;
+  if (choice.usdc) also.emplace_back("hair.usdc");
+  for (const std::string& file : also)
+    if (!holds(output.files, file.c_str())) output.files.push_back(file);
   if (!choice.cache.empty()) output.cache = choice.cache;
   if (choice.width) output.width = *choice.width;
   if (choice.tipWidth) output.tipWidth = choice.tipWidth;
@@ -139,8 +162,10 @@ Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {
 void chooseOutputs(const SceneOutput& output, RunOptions& options) {
   options.width = output.width;
   options.tipWidth = output.tipWidth;
-  options.writesUsd = holds(output.files, "hair.usda");
-  options.writesUsdc = holds(output.files, "hair.usdc");
+  options.animations.clear();
+  for (const std::string& file : output.files)
+    if (animationFormatOf(file))
+      options.animations.push_back(std::filesystem::path(file).extension().string());
   options.writesLast = holds(output.files, "last.obj");
   options.writesSheet = holds(output.files, "sheet.png");
   if (!output.cache.empty()) options.cache = precisionByName(output.cache);

@@ -20,7 +20,8 @@ struct OutputChoice {
   std::optional<int> clips, hairs;
   HairLook look;  // of these hairs
   std::vector<std::string> values;
-  std::string sheet = "drawn";  // or rendered
+  std::string sheet = "drawn";    // or rendered
+  std::vector<std::string> also;  // further animations
   bool usdc = false, noUsd = false, noLast = false, noSheet = false;
 };
 

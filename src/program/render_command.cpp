@@ -97,7 +97,8 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOpt
   RunOptions options;
   options.folder = typed.output;
   options.up = file.groom.up == "Z" ? UpAxis::z : UpAxis::y;
-  options.writesUsd = options.writesLast = options.writesSheet = false;
+  options.animations.clear();
+  options.writesLast = options.writesSheet = false;
   options.cache = CachePrecision::float32;
   options.opened = device;
   options.leftovers = Leftovers::overwrite;

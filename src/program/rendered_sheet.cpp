@@ -4,13 +4,25 @@
 #include "program/cache_folder.h"
 #include "program/render_run.h"
 #include "program/run_writers.h"
+#include "ringlet/output/animation_reader.h"
 #include "ringlet/output/sheet.h"
 
 namespace ringlet::program {
 
+namespace {
+
+// The last animation that can be read: a cache has the head's motion always and is read fastest.
+std::optional<std::string> readableOf(const RunOptions& options) {
+  std::vector<std::string> names = animationsOf(options);
+  std::erase_if(names, [](const std::string& name) { return !isAnimation(name); });
+  return names.empty() ? std::nullopt : std::optional(names.back());
+}
+
+}  // namespace
+
 Status checkRenderedSheet(const RunOptions& options) {
-  const bool isBaked = options.usdHead == UsdHead::baked && (options.writesUsd || options.writesUsdc);
-  if (options.cache || (isBaked && options.clipFrames == 0)) return {};
+  const bool isBaked = options.usdHead == UsdHead::baked && options.clipFrames == 0;
+  if (options.cache || (isBaked && readableOf(options))) return {};
   return Error{
       "--sheet rendered needs an animation with the head's motion in its points: say --cache float32, or "
       "leave out --no-usd, --head and --clips"};
@@ -26,8 +38,7 @@ Status writeRenderedSheet(const LoadedScene& scene, const RunOptions& options) {
   plan.scene = &scene;
   plan.size = {kPanelWidth, kPanelHeight, 2};
   plan.showProgress = options.showProgress;
-  // A cache, which is last, has the head's motion always and is read fastest.
-  const auto drawn = renderAnimation(options.folder / animationsOf(options).back(), *device, plan);
+  const auto drawn = renderAnimation(options.folder / readableOf(options).value(), *device, plan);
   return drawn ? Status{} : Status{drawn.error()};
 }
 

@@ -89,8 +89,7 @@ void addMaterialFacts(const Material& material, std::vector<RunFact>& facts) {
 
 void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
   const auto add = [&](const char* name, auto value) { facts.push_back({name, fmt::format("{}", value)}); };
-  add("hair.usda", options.writesUsd);
-  add("hair.usdc", options.writesUsdc);
+  add("animations", fmt::format("{}", fmt::join(options.animations, ", ")));
   add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);
   add("sheet.png", options.writesSheet);
   add("width", options.width);

@@ -130,9 +130,12 @@ std::optional<double> Writers::errorBound() const {
 
 std::vector<std::string> animationsOf(const RunOptions& options) {
   std::vector<std::string> names;
-  if (options.writesUsd) names.push_back("hair.usda");
-  if (options.writesUsdc) names.push_back("hair.usdc");
-  if (options.cache) names.push_back("hair.rgc");
+  for (const AnimationFormat& format : animationFormats()) {
+    const bool isWritten = format.hasPrecisions
+                               ? options.cache.has_value()
+                               : std::ranges::count(options.animations, format.extension) > 0;
+    if (isWritten) names.push_back(std::string("hair") + format.extension);
+  }
   return names;
 }
 

@@ -5,7 +5,7 @@
 
 namespace ringlet::program {
 
-/// Adds the subcommand; `exitCode` receives what the program is to return once it has run.
+/// Adds the subcommand; when it runs, `exitCode` receives the exit status of the program.
 void addSimulateCommand(CLI::App& app, int& exitCode);
 
 }  // namespace ringlet::program

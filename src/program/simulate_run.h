@@ -31,10 +31,10 @@ namespace ringlet::program {
 
 /// Where hair is stepped, how long, and what is kept of it.
 struct RunOptions {
-  std::filesystem::path folder;                                  // for the results; empty: nothing is written
-  bool writesUsd = true, writesLast = true, writesSheet = true;  // hair.usda, last.obj, sheet.png
-  bool writesUsdc = false;                                       // hair.usdc
-  std::optional<CachePrecision> cache;                           // of hair.rgc; none: it is not written
+  std::filesystem::path folder;                  // for the results; empty: nothing is written
+  std::vector<std::string> animations{".usda"};  // endings of what is written as hair.*, but for the cache
+  bool writesLast = true, writesSheet = true;    // last.obj, sheet.png
+  std::optional<CachePrecision> cache;           // of hair.rgc; none: it is not written
   int frameCount = 48;
   double preRollSeconds = 0;  // before the first frame, not written
   UpAxis up = UpAxis::y;

@@ -50,7 +50,8 @@ RunOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
   options.folder = folderOf(run, sweep);
   options.writesLast = true;  // the sheet is drawn of it
   if (sweep.lastOnly) {
-    options.writesUsd = options.writesUsdc = options.writesSheet = options.usesGroomPrims = false;
+    options.animations.clear();
+    options.writesSheet = options.usesGroomPrims = false;
     options.cache.reset();
   }
   options.onReference = sweep.onReference;

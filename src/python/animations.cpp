@@ -117,15 +117,16 @@ struct UsdChoice {
 };
 
 UsdExtras usdExtrasOf(const UsdChoice& choice, const std::filesystem::path& path, double metresPerUnit) {
-  const std::string extension = path.extension().string();
-  const bool isText = extension == ".usda";
+  const AnimationFormat* format = animationFormatOf(path);
+  const bool isText = path.extension() == ".usda";
   if (choice.clipFrames < 0 || (choice.clipFrames > 0 && !isText))
     throw py::value_error(fmt::format("clip_frames must be 0 or, of a .usda, more; got {} for {}",
                                       choice.clipFrames, path.filename().string()));
   const bool isAsked = choice.tipWidth || !choice.values.empty() || choice.head != "baked";
-  if (isAsked && !isText && extension != ".usdc")
-    throw py::value_error(
-        fmt::format("tip_width, values and head are of .usda and .usdc; got {}", path.filename().string()));
+  if (isAsked && !(format && format->isUsd))
+    throw py::value_error(fmt::format("tip_width, values and head are of {}; got {}",
+                                      animationEndings(&AnimationFormat::isUsd, "and"),
+                                      path.filename().string()));
 
   UsdExtras extras{.clipFrames = choice.clipFrames};
   if (choice.tipWidth)
@@ -193,9 +194,9 @@ void writePositions(WriterObject& self, const py::object& positions, const py::o
 void addWriter(py::module_& module) {
   py::class_<WriterObject, WriterHandle>(
       module, "AnimationWriter",
-      "An animation on its way into a .usda, .usdc or .rgc file, frame by frame. Until it is finished the "
-      "file is "
-      "PATH.partial, whole at every moment. As a context manager it finishes at the end; after an exception "
+      "An animation on its way into a file, frame by frame; the ending of its name says the format "
+      "(AnimationWriter.formats()). Until it is finished the file is PATH.partial, whole at every moment. As "
+      "a context manager it finishes at the end; after an exception "
       "the .partial stays, with the frames so far:\n\n"
       "    with ringlet.AnimationWriter(\"hair.usda\", groom, frames=48) as animation:\n"
       "        scene.run(lambda frame: animation.write(frame.positions, frame.head), frames=48)")
@@ -225,6 +226,14 @@ void addWriter(py::module_& module) {
           "the head is, a Pose; None: at the world's origin.")
       .def("write_points", &writePoints, py::arg("points"),
            "Adds a frame: (particles, 3) float32 in the world, in the file's unit, as points() gives them.")
+      .def_static(
+          "formats",
+          [] {
+            std::vector<std::string> endings;
+            for (const AnimationFormat& format : animationFormats()) endings.emplace_back(format.extension);
+            return endings;
+          },
+          "The endings of names that files may have: a list.")
       .def("sync", &WriterObject::sync, "Returns when all frames so far are on the disk.")
       .def("finish", &WriterObject::finish, "Closes the file, of one frame at least, and gives it its name.")
       .def_property_readonly("frame_count", &WriterObject::frameCount, "How many frames were added.")
@@ -286,9 +295,11 @@ class FramesObject {
 void addReader(py::module_& module) {
   py::class_<FramesObject>(
       module, "AnimationReader",
-      "The frames of a .usda, .usdc or .rgc file that Ringlet wrote, one after the other: "
-      "`for points in ringlet.AnimationReader(path)` gives (particles, 3) float32 in the "
-      "file's unit. Of a .partial those that are whole. Goes through once.")
+      fmt::format("The frames of a {} file that Ringlet wrote, one after the other: "
+                  "`for points in ringlet.AnimationReader(path)` gives (particles, 3) float32 in the "
+                  "file's unit. Of a .partial those that are whole. Goes through once.",
+                  animationEndings(&AnimationFormat::isRead, "or"))
+          .c_str())
       .def(py::init([](const std::filesystem::path& path) { return std::make_unique<FramesObject>(path); }),
            py::arg("path"),
            "ringlet.Error for a file that is missing or damaged, or that another program wrote.")

@@ -61,20 +61,7 @@ def make_styled_head(style: str, *, strands: int = 1000, particles: int = 64, se
 def write_obj(path: _Path, groom: Groom, points: _Points) -> None: ...
 
 class Material:
-    line_density: float
-    stretch_stiffness: float
-    stretch_damping_time: float
-    bend_stiffness: float
-    bend_damping_ratio: float
-    core_stiffness: float
-    core_damping_ratio: float
-    core_relaxed_share: float
-    gravity_factor: float
-    inertia_factor: float
-    core_elongation_low: float
-    core_elongation_high: float
-    bend_smoothing_length: float | None
-    core_smoothing_length: float | None
+    # attributes of the table
     __hash__: ClassVar[None]  # type: ignore[assignment]
     def __init__(self, **kwargs: Any) -> None: ...
     @staticmethod
@@ -99,31 +86,7 @@ class Material:
     def __repr__(self) -> str: ...
 
 class ContactSettings:
-    on: bool
-    method: str
-    radius: float | None
-    fill_gaps: bool
-    spacing: float
-    detail: float
-    prune_pairs: bool
-    enlargement: float
-    min_overlaps: int
-    max_neighbours: int
-    drop_share: float
-    seed: int
-    stiffness: float
-    damping_ratio: float
-    friction: float
-    taper: str
-    ramp_seconds: float
-    stiffness_release_seconds: float
-    damping_release_seconds: float
-    break_factor: float
-    volume_cell: float | None
-    volume_drag: float
-    volume_stiffness: float
-    volume_memory_seconds: float
-    iterations: int | None
+    # attributes of the table
     __hash__: ClassVar[None]  # type: ignore[assignment]
     def __init__(self, **kwargs: Any) -> None: ...
     def copy(self) -> ContactSettings: ...
@@ -132,15 +95,7 @@ class ContactSettings:
     def __eq__(self, other: object) -> bool: ...
 
 class AirSettings:
-    on: bool
-    fall_speed: float
-    along_share: float
-    wind: tuple[float, float, float]
-    gust: float
-    gust_seconds: float
-    turbulence: float
-    eddy_size: float
-    seed: int
+    # attributes of the table
     __hash__: ClassVar[None]  # type: ignore[assignment]
     def __init__(self, **kwargs: Any) -> None: ...
     def copy(self) -> AirSettings: ...
@@ -149,11 +104,7 @@ class AirSettings:
     def __eq__(self, other: object) -> bool: ...
 
 class GoalSettings:
-    on: bool
-    strength: float
-    tip_share: float
-    damping: float
-    shape: bool
+    # attributes of the table
     def __init__(self, **kwargs: Any) -> None: ...
     def copy(self) -> GoalSettings: ...
     def __copy__(self) -> GoalSettings: ...
@@ -162,18 +113,7 @@ class GoalSettings:
 
 class Settings:
     integrator: str
-    fps: float
-    steps_per_frame: int
-    gravity: tuple[float, float, float]
-    preload: float
-    max_stretch: float
-    teleport_distance: float
-    sleep_speed: float
-    roots: int
-    iterations: int
-    chebyshev: bool
-    force_loops: int
-    damping_loops: int
+    # attributes of the table
     contacts: ContactSettings
     air: AirSettings
     goal: GoalSettings
@@ -468,6 +408,8 @@ class AnimationWriter:
                  metres_per_unit: float | None = None, up: str = "Y", width: float = 0.0005,
                  precision: str = "float32", tip_width: float | None = None, values: Sequence[str] = [],
                  head: str = "baked", clip_frames: int = 0) -> None: ...
+    @staticmethod
+    def formats() -> list[str]: ...
     def write(self, positions: _Points, head: Pose | None = None) -> None: ...
     def write_points(self, points: _Points) -> None: ...
     def sync(self) -> None: ...

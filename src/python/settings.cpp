@@ -68,6 +68,20 @@ py::object toPython(const std::optional<T>& value) {
 py::object toPython(ContactTaper value) { return py::str(nameOf(value)); }
 py::object toPython(ContactMethod value) { return py::str(nameOf(value)); }
 
+// The type of an attribute, as the stubs write it.
+std::string typeOf(const auto&) { return "object"; }  // types that no setting of these tables has
+std::string typeOf(double) { return "float"; }
+std::string typeOf(int) { return "int"; }
+std::string typeOf(std::uint32_t) { return "int"; }
+std::string typeOf(bool) { return "bool"; }
+std::string typeOf(Vec3d) { return "tuple[float, float, float]"; }
+std::string typeOf(ContactTaper) { return "str"; }
+std::string typeOf(ContactMethod) { return "str"; }
+template <class T>
+std::string typeOf(const std::optional<T>&) {
+  return typeOf(T{}) + " | None";
+}
+
 template <class Field>
 void demandRange(const Field& field, double number, const std::string& key) {
   if (field.allowed.contains(number)) return;
@@ -177,6 +191,7 @@ py::dict describeField(const SettingField<Owner>& field) {
   py::dict row;
   row["key"] = fmt::format("{}{}", kTable<Owner>, field.key);
   row["unit"] = field.unit, row["effect"] = field.effect, row["live"] = field.isLive;
+  row["type"] = std::visit([&](auto member) { return typeOf(standard.*member); }, field.member);
   row["default"] = std::visit([&](auto member) { return toPython(standard.*member); }, field.member);
   const bool hasRange = field.allowed != NumberRange{};
   row["low"] = hasRange ? py::object(py::float_(field.allowed.low)) : py::none();
@@ -190,6 +205,7 @@ py::list listFields() {
   py::list list;
   py::dict integrator;
   integrator["key"] = kIntegrator, integrator["unit"] = "", integrator["live"] = false;
+  integrator["type"] = "str";
   integrator["effect"] = "How a step finds the new velocities.";
   integrator["default"] = kIntegrators[0], integrator["low"] = py::none(), integrator["high"] = py::none();
   integrator["choices"] = std::vector<std::string>(std::begin(kIntegrators), std::end(kIntegrators));
@@ -332,11 +348,11 @@ void addSettingsClass(py::module_& module) {
           "Whether and how hair is pulled to the groom: GoalSettings, part of these settings. Takes others, "
           "or a dict.")
       .def_property_readonly("step_seconds", &Settings::stepSeconds, "How long a step is [s].")
-      .def_static(
-          "fields", &listFields,
-          "Every setting: a list of dicts of key, unit, effect, default, low and high (None: no range), "
-          "choices (words), only_with (the integrators or tapers that have it), standard (what holds "
-          "where it is None, in words), live (may change while hair moves).")
+      .def_static("fields", &listFields,
+                  "Every setting: a list of dicts of key, unit, effect, type, default, low and high (None: "
+                  "no range), "
+                  "choices (words), only_with (the integrators or tapers that have it), standard (what holds "
+                  "where it is None, in words), live (may change while hair moves).")
       .def(
           "keys", [](const py::object&) { return allKeys(); }, "The names of all settings: a list.")
       .def(

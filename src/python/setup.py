@@ -37,7 +37,7 @@ class CMakeBuild(build_ext):
             generator = ["-G", "Ninja"] if shutil.which("ninja") and not (folder / "CMakeCache.txt").exists() else []
             self.cmake("-S", ROOT, "-B", folder, *generator, *(f"-D{key}={value}" for key, value in OPTIONS.items()),
                        *shlex.split(os.environ.get("CMAKE_ARGS", "")))
-            self.cmake("--build", folder, "--target", "ringlet_python")
+            self.cmake("--build", folder, "--target", "ringlet_python_stubs")
             self.cmake("--install", folder, "--component", "python", "--prefix", Path(self.build_lib).resolve())
         finally:
             if not kept:

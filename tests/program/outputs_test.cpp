@@ -1,5 +1,7 @@
 // What `ringlet simulate` writes: which files, what is in them, what a killed run leaves of each and how it
 // goes on.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -88,6 +90,8 @@ TEST_F(Outputs, AreThoseThatWereAskedFor) {
        {Case{{}, {"hair.usda", "last.obj", "sheet.png"}}, Case{{"--no-last"}, {"hair.usda", "sheet.png"}},
         Case{{"--no-sheet"}, {"hair.usda", "last.obj"}},
         Case{{"--usdc", "--no-usd", "--no-last", "--no-sheet"}, {"hair.usdc"}},
+        Case{{"--also", "hair.pc2,hair.usdc", "--no-usd", "--no-last", "--no-sheet"},
+             {"hair.obj", "hair.pc2", "hair.usdc"}},
         Case{{"--usdc", "--cache", "16bit"}, {"hair.rgc", "hair.usda", "hair.usdc", "last.obj", "sheet.png"}},
         Case{{"--clips", "2", "--no-last", "--no-sheet"},
              {"hair.usda", "hair_clips/hair.0001.usdc", "hair_clips/hair.0002.usdc",
@@ -103,8 +107,26 @@ TEST_F(Outputs, AreThoseThatWereAskedFor) {
     for (const auto& path : told["outputs"])
       said.insert(fs::path(path.get<std::string>()).lexically_relative("out").string());
     std::set<std::string> atTop = c.files;
-    std::erase_if(atTop, [](const std::string& file) { return file.starts_with("hair_clips"); });
+    // Of formats of several files the one that was asked for.
+    std::erase_if(
+        atTop, [](const std::string& file) { return file.starts_with("hair_clips") || file == "hair.obj"; });
     EXPECT_EQ(said, atTop);
+  }
+}
+
+// Every animation that a run writes is byte by byte what `convert` makes of its cache.
+TEST_F(Outputs, AreWhatConvertMakesOfTheCache) {
+  std::vector<std::string> files;
+  for (const AnimationFormat& format : animationFormats())
+    if (!format.hasPrecisions) files.push_back(std::string("hair") + format.extension);
+  std::ofstream(folder_ / "scene.toml")
+      << "[groom]\nfile = 'groom.obj'\n[output]\ncache = 'float32'\nfiles = ['"
+      << fmt::format("{}", fmt::join(files, "', '")) << "']\n";
+  const auto result = simulate("scene.toml", {"-o", "out"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  for (const std::string& file : files) {
+    ASSERT_EQ(run({"convert", "out/hair.rgc", file}).exitCode, 0) << file;
+    EXPECT_TRUE(readText(folder_ / file) == readText(folder_ / "out" / file)) << file;
   }
 }
 
@@ -274,7 +296,8 @@ TEST_F(Outputs, AWrongCommandLineIsSaid) {
 // What a killed run leaves in every format that simulate writes is refused by the next, and gone on with from
 // a checkpoint to the bytes of a run without a break.
 TEST_F(Outputs, AKilledRunGoesOnInEveryFormat) {
-  const std::vector<std::string> all{"--usdc", "--cache", "float32", "--usd-values", "id,velocities"};
+  const std::vector<std::string> all{"--usdc",  "--also",       "hair.pc2",     "--cache",
+                                     "float32", "--usd-values", "id,velocities"};
   for (const std::vector<std::string>& ways :
        {std::vector<std::string>{}, {"--clips", "3"}, {"--hairs", "40"}}) {
     std::vector<std::string> arguments{"simulate", "groom.obj", "--backend", "reference",    "--motion",

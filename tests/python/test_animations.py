@@ -28,6 +28,14 @@ def test_points_are_read_as_they_were_written(tmp_path, swatch, name):
     assert list(reader) == []  # it goes through once
 
 
+def test_every_format_is_listed_and_written(tmp_path, swatch):
+    assert {".usda", ".usdc", ".rgc", ".pc2"} <= set(ringlet.AnimationWriter.formats())
+    for ending in ringlet.AnimationWriter.formats():
+        with ringlet.AnimationWriter(tmp_path / ("hair" + ending), swatch) as animation:
+            animation.write_points(swatch.points)
+        assert (tmp_path / ("hair" + ending)).stat().st_size > 2 * len(swatch.points), ending
+
+
 def test_16_bits_are_as_near_as_they_say(tmp_path, swatch):
     with ringlet.AnimationWriter(tmp_path / "hair.rgc", swatch, precision="16bit") as animation:
         for points in frames_of(swatch):

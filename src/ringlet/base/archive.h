@@ -2,9 +2,9 @@
 //
 //   void Part::archive(Archive& a) { a.value(count_); a.list(points_); }
 //
-// Values are kept as the machine has them in memory: what reads them is the same program on such a machine.
-// Whoever keeps the bytes guards them against damage (output/checkpoint_file.h); a reader checks only their
-// number.
+// Values have the bytes of the machine's memory: they are read by the same program on the same kind of
+// machine. Whoever keeps the bytes guards them against damage (output/checkpoint_file.h); a reader checks
+// only their number.
 #pragma once
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class Archive {
  public:
   /// Into bytes, which take() gives.
   static Archive writing() { return Archive(); }
-  /// From bytes that live as long.
+  /// Reads from bytes, which must live as long.
   static Archive reading(std::span<const std::byte> bytes) {
     Archive archive;
     archive.from_ = bytes;
@@ -44,7 +44,7 @@ class Archive {
   template <class T>
   requires std::is_trivially_copyable_v<T>
   void values(std::span<T> values) { bytes(std::as_writable_bytes(values)); }
-  /// Their number, and they: a list that is read is as long as it was.
+  /// The number of elements, and the elements; reading restores the length.
   template <class T>
   void list(std::vector<T>& list) {
     std::uint64_t count = list.size();
@@ -71,7 +71,7 @@ class Archive {
     from_ = from_.subspan(bytes.size());
   }
 
-  // For what fills or reads its own memory: so many bytes to be filled, or that were.
+  // For memory that the caller fills or reads itself: this number of bytes.
   std::span<std::byte> room(std::size_t count) {
     written_.resize(written_.size() + count);
     return std::span(written_).last(count);

@@ -22,10 +22,10 @@ struct Box {
   Vec3d centre, halfSize;
 };
 
-/// Boxes may be anywhere, of any size, empty, or in one place. Those that are not finite overlap nothing.
+/// Boxes may be anywhere, of any size, empty, or in one place. A box that is not finite overlaps no other.
 class BoxPairs {
  public:
-  /// Keeps what it needs. Cost: linear.
+  /// Copies the data it needs. Cost: linear.
   explicit BoxPairs(std::span<const Box> boxes);
 
   /// Calls visit(j) for boxes j != i that box i overlaps, always in the same order. Over all i every
@@ -84,7 +84,7 @@ class BoxPairs {
   static bool overlap(const Box& a, const Box& b) {
     // A little generous: a caller's own test of the pair must not be beaten by rounding here.
     const Vec3d gap = a.centre - b.centre, reach = (a.halfSize + b.halfSize) * (1 + 1e-12);
-    // All three at once: most boxes looked at do not overlap, and a branch that cannot be foretold is dear.
+    // All three comparisons at once: most boxes do not overlap, and a branch would be mispredicted often.
     const int inX = std::abs(gap.x) <= reach.x, inY = std::abs(gap.y) <= reach.y,
               inZ = std::abs(gap.z) <= reach.z;
     return (inX & inY & inZ) != 0;
@@ -114,7 +114,8 @@ void BoxPairs::visitCompared(std::size_t i, Compare&& compare) const {
     if (levels_[i] == kNoLevel || grid.level > levels_[i]) break;  // finer boxes look up this one
     const Cell centre = cellOf(box.centre, grid.cellSize);
     const bool own = grid.level == levels_[i];
-    // Within a grid each pair of cells is looked at from one side only: 13 of the 26 beside, and itself.
+    // Within a grid each pair of cells is visited from one side only: 13 of the 26 neighbours, and the cell
+    // itself.
     for (int around = own ? 13 : 0; around < 27; ++around) {
       const Slot& slot =
           grid.slotOf({centre.x + around / 9 - 1, centre.y + around / 3 % 3 - 1, centre.z + around % 3 - 1});

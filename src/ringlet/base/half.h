@@ -6,7 +6,7 @@
 
 namespace ringlet {
 
-/// The nearest half, to even where two are; what is too large becomes infinity.
+/// Rounds to the nearest half, ties to even; numbers that are too large become infinity.
 inline std::uint16_t halfBits(float value) {
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(value), sign = bits >> 16 & 0x8000u;
   const std::uint32_t magnitude = bits & 0x7fffffffu;

@@ -11,7 +11,7 @@
 namespace ringlet {
 
 /// Runs work() on `threadCount` threads, this one among them; on fewer where the system has no more. Returns
-/// when all have ended. What any of them throws (std::bad_alloc, say) is thrown here.
+/// when all have ended. An exception of any of them (such as std::bad_alloc) is rethrown here.
 template <class Work>
 void inParallel(unsigned threadCount, const Work& work) {
   std::mutex mutex;

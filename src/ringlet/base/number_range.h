@@ -1,4 +1,4 @@
-// NumberRange: what a number may be.
+// NumberRange: the allowed values of a number.
 #pragma once
 
 namespace ringlet {

@@ -1,4 +1,4 @@
-// Result<T>: a value, or the message a person needs to mend what went wrong.
+// Result<T>: a value, or a message that tells a person what failed and what to do.
 // For the world's fault (file, device, memory, settings); the caller's own fault is an assert (assert.h).
 #pragma once
 
@@ -61,7 +61,7 @@ class [[nodiscard]] Result {
   Error error_;
 };
 
-/// The Result of something that yields nothing: `Status{}` is success.
+/// The Result of an operation without a value: `Status{}` is success.
 template <>
 class [[nodiscard]] Result<void> {
  public:

@@ -1,4 +1,4 @@
-// A stylised head for generated grooms: what makeHead's hair grows on and falls about.
+// A stylised head for generated grooms, on which makeHead's hair grows.
 #pragma once
 
 #include "ringlet/bodies/triangle_mesh.h"

@@ -17,7 +17,7 @@ namespace ringlet {
 /// breaks `v` or `f`; a file without triangles, an unreadable one, more than memory holds.
 Result<TriangleMesh> readObjMesh(const std::filesystem::path& path, double metresPerUnit);
 
-/// The same from the bytes of a file; `path` is for messages. Throws nothing but std::bad_alloc.
+/// The same from the bytes of a file; `path` is for messages. Throws std::bad_alloc only.
 Result<TriangleMesh> readObjMesh(std::span<const std::byte> bytes, const std::filesystem::path& path,
                                  double metresPerUnit);
 

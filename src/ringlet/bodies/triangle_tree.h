@@ -21,7 +21,7 @@ namespace ringlet {
 
 class TriangleTree {
  public:
-  /// Keeps what it needs of a mesh that has passed checkMesh. Cost: n log n.
+  /// Copies the data it needs of a mesh that has passed checkMesh. Cost: n log n.
   explicit TriangleTree(const TriangleMesh& mesh);
 
   struct Nearest {

@@ -23,7 +23,8 @@ class Allocation {
 
   VkDeviceMemory memory() const { return piece_.memory; }
   VkDeviceSize offset() const { return piece_.offset; }
-  /// Where the host sees it, as long as it is there. `attempt` completes "could not ...".
+  /// Maps the memory; returns its host address, valid as long as this lives. `attempt` completes "could not
+  /// ...".
   Result<std::byte*> map(const std::string& attempt);
 
  private:

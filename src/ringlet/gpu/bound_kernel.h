@@ -22,7 +22,7 @@ class BoundKernel {
     return BoundKernel(std::move(*kernel), std::move(*bindings));
   }
 
-  /// As many workgroups as have so many invocations.
+  /// Dispatches as many workgroups as this number of invocations needs.
   template <PushConstants T>
   void dispatch(CommandList& list, const T& pushConstants, std::uint32_t invocations) const {
     const std::uint32_t size = kernel_->groupSize();

@@ -15,8 +15,8 @@
 namespace ringlet::gpu {
 
 enum class BufferKind {
-  storage,  // close to the device; for what kernels read and write
-  stream,   // close to the host, always mapped, coherent; for what crosses often
+  storage,  // close to the device; for data that kernels read and write
+  stream,   // close to the host, always mapped, coherent; for data that is often transferred
 };
 
 class Buffer {
@@ -58,9 +58,9 @@ class Buffer {
   Status bind(std::uint64_t offset);
   std::string attempt() const;  // completes "could not ..."
 
-  Device* device_ = nullptr;  // held open by what follows
+  Device* device_ = nullptr;  // held open by the members below
   std::shared_ptr<Allocation> memory_;
-  std::shared_ptr<void> counted_;  // among what is taken of the device's memory
+  std::shared_ptr<void> counted_;  // counts the bytes as taken from the device's memory
   OwnedBuffer buffer_;
   std::byte* mapped_ = nullptr;
   std::uint64_t bytes_ = 0;

@@ -12,7 +12,7 @@ namespace ringlet::gpu {
 /// "VK_ERROR_DEVICE_LOST" and the like; "VkResult 123" for one not known here.
 std::string resultName(VkResult result);
 
-/// "could not <attempt>: vkAllocateMemory failed with VK_ERROR_...", and what to do where that is known.
+/// "could not <attempt>: vkAllocateMemory failed with VK_ERROR_...", and advice where there is some.
 /// `call` is the call's text; its name is cut out of it.
 Error vulkanError(std::string_view call, VkResult result, std::string_view attempt);
 

@@ -94,12 +94,13 @@ class CommandList {
   /// a stage.
   void cut();
 
-  /// Times what stands up to endStage; stages do not nest.
+  /// Times the commands up to endStage; stages do not nest.
   void beginStage(const std::string& name);
   void endStage();
 
-  /// What follows has nothing to do with anything that stands before. The n-th barrier from here is the n-th
-  /// of what stands before. Stages and cuts no longer count: the whole is one submission, and not timed.
+  /// Declares the following commands independent of all earlier ones. The n-th barrier from here on is the
+  /// same barrier as the n-th of the earlier commands. Stages and cuts are ignored from then on: the list is
+  /// one submission and is not timed.
   void beside();
 
   /// In the order in which it goes into a command buffer.

@@ -1,5 +1,5 @@
-// Device: an open Vulkan device with one queue for compute, and what it can do. Buffers, kernels and
-// recorders hold their device open, so it closes with the last of them.
+// Device: an open Vulkan device with one compute queue, and its properties. Buffers, kernels and recorders
+// hold their device open; it closes with the last of them.
 #pragma once
 
 #include <array>
@@ -44,9 +44,9 @@ struct DeviceProperties {
   std::uint32_t driverId = 0;       // VkDriverId; 0: the driver does not say
   std::uint32_t driverVersion = 0;  // packed as the driver likes
   std::uint32_t vendorId = 0, deviceId = 0;
-  std::uint32_t subgroupSize = 1;          // invocations; what kernels get that ask for no other width
-  std::uint32_t reportedSubgroupSize = 1;  // what the driver gives where nobody asks
-  std::uint32_t minSubgroupSize = 1;       // the driver's range; both as reported where it states none
+  std::uint32_t subgroupSize = 1;          // invocations; of kernels that ask for no width
+  std::uint32_t reportedSubgroupSize = 1;  // the driver's default
+  std::uint32_t minSubgroupSize = 1;       // the driver's range; both as reported if it states none
   std::uint32_t maxSubgroupSize = 1;
   bool canChooseSubgroupSize = false;       // a kernel can ask for any power of two of the range
   bool hasSubgroupShuffle = false;          // basic and shuffle operations in compute kernels
@@ -56,7 +56,7 @@ struct DeviceProperties {
   std::uint64_t maxStorageBufferRange = 0;  // [bytes] largest buffer a kernel can see
   std::uint64_t maxUniformBufferRange = 0;  // [bytes]
   std::uint64_t maxTexelRecords = 0;        // 16-byte records a kernel can see as texels
-  std::uint64_t memoryBytes = 0;            // of its own heaps; of all where it has none
+  std::uint64_t memoryBytes = 0;            // of its own heaps; of all heaps if it has none
   std::uint64_t maxAllocationBytes = 0;     // [bytes] largest single piece of memory
   std::uint32_t maxStorageBuffers = 0;      // bound to one kernel
   std::uint32_t maxGroupCount = 0;          // workgroups of one dispatch, along x
@@ -109,7 +109,7 @@ struct HostAllocator {
   std::function<void(const HostAllocation&)> free{};
 };
 
-/// A device that a host opened, and closes when everything made on it is gone.
+/// A device that a host opened. The host closes it after everything made on it is destroyed.
 struct HostDevice {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;
@@ -121,11 +121,11 @@ struct HostDevice {
   bool subgroupSizeControl = false;   // features that the device was opened with
   bool computeFullSubgroups = false;  // likewise
   bool atomicInt64 = false;           // shaderInt64 and shaderBufferInt64Atomics
-  std::mutex* queueMutex = nullptr;   // held while something is handed to the queue; none: nobody else does
+  std::mutex* queueMutex = nullptr;   // locked during submissions to the queue; null: nobody else submits
   HostAllocator allocator{};
 };
 
-/// What a device must be opened with, to be adopted: all it has of what kernels use.
+/// The extensions and features with which a host should open a device: all that kernels use and it has.
 struct DeviceNeeds {
   std::vector<std::string> extensions;
   bool subgroupSizeControl = false;
@@ -146,7 +146,7 @@ class Device : public std::enable_shared_from_this<Device> {
                                               const std::filesystem::path& cacheFolder = {});
   /// All devices, by index. Empty where there is no Vulkan.
   static std::vector<DeviceListing> list();
-  /// Works on a host's device. Fails where the solver needs what the device, or its queue, lacks.
+  /// Works on a host's device. Fails if the device or its queue lacks a feature that the solver needs.
   static Result<std::shared_ptr<Device>> adopt(const HostDevice& host,
                                                const std::filesystem::path& cacheFolder = {});
   /// Of a host's instance. Fails where the device cannot run the solver.
@@ -170,7 +170,7 @@ class Device : public std::enable_shared_from_this<Device> {
   VkDevice handle() const { return device_; }
   VkInstance instance() const { return instance_->handle(); }
   VkPhysicalDevice physical() const { return physical_; }
-  /// Whoever submits to it himself does so while nobody else submits.
+  /// Callers that submit to the queue themselves must not do so while others submit.
   VkQueue queue() const { return queue_; }
   const HostAllocator& hostAllocator() const { return hostAllocator_; }
   std::uint32_t queueFamily() const { return queueFamily_; }
@@ -180,18 +180,18 @@ class Device : public std::enable_shared_from_this<Device> {
   /// Where it is kept; empty: nowhere.
   const std::filesystem::path& pipelineCacheFile() const { return pipelineCacheFile_; }
   const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
-  /// What is left of a heap [bytes]: of this process's budget where the driver tells it, else of all there is
-  /// what this device has not taken.
+  /// Bytes left in a heap: of this process's budget if the driver states one, else of the whole heap less the
+  /// bytes that this device has taken.
   std::uint64_t availableBytes(std::uint32_t heap) const;
-  /// Counts bytes of a heap as taken for as long as what it returns is kept.
+  /// Counts bytes of a heap as taken until the returned object is destroyed.
   std::shared_ptr<void> countBytes(std::uint32_t heap, std::uint64_t bytes);
   /// Hands command buffers to the queue, each a submission of its own; the fence is for all. Any thread may.
   VkResult submit(std::span<const VkCommandBuffer> parts, VkFence fence);
   /// Submissions so far.
   std::uint64_t submissionCount() const { return submissionCount_; }
-  /// Of waits for submissions: notes when one ended, and tells when the one before it did. Any thread may.
+  /// Notes when a wait for a submission ended, and returns when the last one did. Thread-safe.
   std::chrono::steady_clock::time_point noteWait(std::chrono::steady_clock::time_point now);
-  /// Names an object in validation messages; does nothing where the layer is off.
+  /// Names an object in validation messages; has no effect if the layer is off.
   void nameObject(VkObjectType type, std::uint64_t handle, const std::string& name) const;
 
  private:

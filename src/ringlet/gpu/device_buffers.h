@@ -45,7 +45,7 @@ Result<std::vector<T>> downloadAll(const gpu::Buffer& buffer, std::size_t count,
   return values;
 }
 
-/// All of a buffer to an archive, or from one; nothing where that is too short.
+/// Archives a whole buffer, or restores it from an archive that is long enough.
 inline Status archiveBuffer(Archive& archive, gpu::Buffer& buffer) {
   const auto bytes = static_cast<std::size_t>(buffer.bytes());
   if (!archive.isReading()) return buffer.download(archive.room(bytes));

@@ -7,7 +7,7 @@
 
 namespace ringlet::gpu {
 
-/// What the device lacks of what the solver needs, in words with numbers; empty: nothing.
+/// The needs of the solver that the device does not meet, in words with numbers; empty: none.
 std::string findLack(const DeviceProperties& p, const DeviceOptions& options);
 
 }  // namespace ringlet::gpu

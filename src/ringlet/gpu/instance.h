@@ -1,4 +1,4 @@
-// Instance: the way to the drivers, and to the validation layer where it was asked for.
+// Instance: a Vulkan instance, with the validation layer if it was asked for.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class Instance {
   /// missing. `extensions`: to be switched on besides; an Error where one is missing.
   static Result<std::unique_ptr<Instance>> create(bool validation,
                                                   std::span<const std::string> extensions = {});
-  /// One that a host made, and destroys when this is gone. apiVersion: the host's VkApplicationInfo's.
+  /// An instance that a host made and destroys after this. apiVersion: the host's VkApplicationInfo's.
   static Result<std::unique_ptr<Instance>> adopt(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
                                                  VkInstance instance, std::uint32_t apiVersion);
   ~Instance();
@@ -43,7 +43,7 @@ class Instance {
   VkInstance handle() const { return instance_; }
   /// The highest version this instance lets a device be used with.
   std::uint32_t apiVersion() const { return apiVersion_; }
-  /// Empty unless validation is on. Outlives the instance, so that what is said of leaks can be read.
+  /// Empty unless validation is on. It outlives the instance, so that messages about leaks can be read.
   const std::shared_ptr<ValidationLog>& validationLog() const { return validationLog_; }
 
  private:

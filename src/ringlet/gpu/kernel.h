@@ -40,7 +40,7 @@ class Kernel {
   /// Compiles the kernel, once a device: whoever describes the same kernel again shares it, whatever its name
   /// (kernel_cache.h). Holds the device open, as long as it is kept.
   static Result<std::shared_ptr<const Kernel>> create(Device& device, const KernelDescription& description);
-  /// Whether create would have nothing to compile.
+  /// Whether the kernel is compiled already, so that create compiles nothing.
   static bool isCompiled(const Device& device, const KernelDescription& description);
   Kernel(const Kernel&) = delete;
 

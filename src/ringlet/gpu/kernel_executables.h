@@ -1,4 +1,4 @@
-// What a driver tells of the machine code it compiled a kernel to (VK_KHR_pipeline_executable_properties).
+// A driver's statistics of the machine code of a kernel (VK_KHR_pipeline_executable_properties).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Which of a device's memories a buffer is made in, best first, and what is done where one is full.
+// The memory types that a buffer may be made in, best first, and the fallback if one is full.
 #pragma once
 
 #include <cstdint>

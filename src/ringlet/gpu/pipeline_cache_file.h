@@ -13,7 +13,8 @@ namespace ringlet::gpu {
 inline constexpr std::size_t kLargestPipelineCache = std::size_t{64}
                                                      << 20;  // [bytes]; larger is neither read nor written
 
-/// Whose compiled kernels: what Vulkan's header of a pipeline cache says, and the driver's version.
+/// The device and driver that compiled the kernels: Vulkan's header of a pipeline cache, and the driver's
+/// version.
 struct PipelineCacheOwner {
   std::uint32_t vendor = 0, device = 0, driverVersion = 0;
   std::array<std::uint8_t, 16> uuid{};

@@ -17,16 +17,16 @@
 
 namespace ringlet::gpu {
 
-/// Commands are added between begin and submit; what they use must live until the last wait.
+/// Commands are added between begin and submit; all they use must live until the last wait.
 class Recorder : public CommandList {
  public:
   /// `name` is for messages.
   static Result<Recorder> create(Device& device, const std::string& name);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
-  ~Recorder();  // waits for what is under way
+  ~Recorder();  // waits for submissions in progress
 
-  /// Forgets what was recorded. What follows sees the finished work of earlier submissions.
+  /// Clears the recording. The new commands see the finished work of earlier submissions.
   Status begin();
 
   /// Hands the recording to the device, part by part. What it writes can be read by the host after wait.

@@ -1,5 +1,5 @@
-// ContactQuality: how deep hairs are in each other, and what pruning misses: from positions alone, over all
-// pairs of contact particles, whatever the solver knew of them.
+// ContactQuality: the depth of overlaps between hairs, and the overlaps that pruning misses, computed from
+// positions alone, over all pairs of contact particles.
 #pragma once
 
 #include <cstdint>

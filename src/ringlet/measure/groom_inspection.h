@@ -1,5 +1,5 @@
-// GroomInspection: what a groom is like before anything is done with it: sizes, curl, which unit and axis it
-// may have, and what is wrong with it.
+// GroomInspection: properties of a groom as it was read: sizes, curl, its likely unit and up axis, and its
+// faults.
 #pragma once
 
 #include <cstddef>

@@ -32,7 +32,7 @@ struct StrandMotion {
   StrandMeasure last;  // of the last frame; tipRotation unwrapped over all frames
   WorstMeasure worst;
   std::optional<double> bounceHz, swayHz;  // while the head does not drive it (tip_motion.h)
-  std::optional<double> settleSeconds;     // since the head stopped driving it; nothing: not settled
+  std::optional<double> settleSeconds;     // since the head stopped driving it; unset: not settled
   double peakEnergy = 0;                   // kinetic, seen from the root [J]
   double energyRatio = 0;  // mean over the closing frames / peak; 0 if its tip never moved, but for rounding
 };
@@ -118,8 +118,8 @@ struct CurlNumbers {
   double tipRotation = 0;          // worst strand of the last frame, signed, unwrapped [degrees]
   std::optional<double> bounceHz;  // mean over the strands that bounce
   std::optional<double> swayHz;    // mean over the strands that sway
-  std::optional<double> settleSeconds;  // the last strand to settle; nothing if any has not
-  std::optional<double> energyRatio;    // of the whole groom; nothing without motion to measure
+  std::optional<double> settleSeconds;  // of the last strand to settle; unset if one has not
+  std::optional<double> energyRatio;    // of the whole groom; unset without motion
   double worstDroop = 0;                // greatest magnitude over strands and frames, signed [m]
   double worstCoreElongation = 1;       // largest over strands and frames
   double worstTipRotation = 0;          // greatest magnitude over strands and frames, signed [degrees]
@@ -129,9 +129,9 @@ struct CurlNumbers {
 /// place may wander a little.
 inline constexpr double kHandKeptShare = 0.95;
 
-/// Of one pose: no frames, nothing of motion.
+/// The report of one pose, without frames and motion.
 CurlNumbers curlNumbers(const GroomRuler& ruler, std::span<const StrandMeasure> measures);
-/// Of a motion.
+/// The report of a motion.
 CurlNumbers curlNumbers(const GroomRuler& ruler, const MotionReport& report);
 
 }  // namespace ringlet

@@ -1,4 +1,4 @@
-// PoseNumbers: what of a pose is measured at next to no cost: how far tips hang, how far hair is stretched.
+// PoseNumbers: cheap measures of a pose: how far tips hang, how far hair is stretched.
 #pragma once
 
 #include <span>

@@ -20,9 +20,9 @@ struct StrandMeasure {
   double droop = 0;            // how far the tip is below its place at rest, along up [m]; negative: above
   double relativeDroop = 0;    // droop / rest arc length
   double chord = 0;            // root to tip [m]
-  double chordElongation = 1;  // chord / rest chord; 1 where that is nothing
+  double chordElongation = 1;  // chord / rest chord; 1 if the rest chord is 0
   double coreLength = 0;       // length of the core (core.h) [m]
-  double coreElongation = 1;   // core length / rest core length; 1 where that is nothing
+  double coreElongation = 1;   // core length / rest core length; 1 if that is 0
   double arcDrift = 0;         // sum of edge lengths / that at rest - 1
   double maxEdgeStretch = 1;   // largest edge length / rest edge length; edges shorter than a thousandth of
                                // the mean do not count, their length is rounding

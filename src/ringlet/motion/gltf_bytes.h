@@ -1,4 +1,4 @@
-// gltf_bytes: makes the bytes of a glTF file safe for TinyGLTF 2.7 to read, which trusts some of them.
+// gltf_bytes: checks those bytes of a glTF file that TinyGLTF 2.7 trusts, so that it reads any file safely.
 #pragma once
 
 #include <cstddef>

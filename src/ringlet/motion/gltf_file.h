@@ -72,7 +72,7 @@ struct GltfMesh {
   std::vector<Influence> influences;            // point after point
   std::vector<std::uint32_t> influencesBefore;  // of point p: from [p] to [p + 1]; none: its node carries it
   std::uint32_t jointCount = 0;                 // that a skin must have at least
-  std::vector<std::string> warnings;            // what of it was left out
+  std::vector<std::string> warnings;            // about parts that were left out
   std::optional<Error> problem;                 // why it could not be read; then it is empty
 };
 

@@ -49,9 +49,8 @@ bool holdsAnimation(const fs::path& path) {
 Result<AnimationReader> AnimationReader::open(const fs::path& path) {
   if (!isAnimation(path)) {
     return Error{
-        fmt::format("{}: cannot read an animation: its name must end in .usda, .usdc or .rgc, or in one of "
-                    "these and .partial",
-                    path.string())};
+        fmt::format("{}: cannot read an animation: its name must end in {}, or in one of these and .partial",
+                    path.string(), animationEndings(&AnimationFormat::isRead, "or"))};
   }
   const std::string extension = finishedName(path).extension().string();
   const auto made = [&](auto reader) -> Result<AnimationReader> {

@@ -1,6 +1,5 @@
-// AnimationReader: the frames of an animation that an AnimationWriter wrote, whichever its format; finished
-// or
-// `.partial`.
+// AnimationReader: the frames of an animation that an AnimationWriter wrote, of any format that can be read;
+// finished or `.partial`.
 #pragma once
 
 #include <cstdint>

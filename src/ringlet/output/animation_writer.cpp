@@ -1,6 +1,8 @@
 // Implements output/animation_writer.h: the table of formats.
 #include "ringlet/output/animation_writer.h"
 
+#include <vector>
+
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/pc2_writer.h"
 #include "ringlet/output/usd_clips_writer.h"
@@ -45,14 +47,44 @@ Result<Writer> resumePc2(const std::filesystem::path& path, const Groom& topolog
   return owned(Pc2Writer::resume(path, topology, o, frameCount));
 }
 
-constexpr AnimationFormat kFormats[] = {{".usda", false, true, resumeUsd},
-                                        {".usdc", false, true, resumeUsdc},
-                                        {".rgc", true, true, resumeCache},
-                                        {".pc2", false, false, resumePc2}};
+constexpr AnimationFormat kFormats[] = {{.extension = ".usda",
+                                         .note = "",
+                                         .hasPrecisions = false,
+                                         .isRead = true,
+                                         .isUsd = true,
+                                         .resume = resumeUsd},
+                                        {.extension = ".usdc",
+                                         .note = "",
+                                         .hasPrecisions = false,
+                                         .isRead = true,
+                                         .isUsd = true,
+                                         .resume = resumeUsdc},
+                                        {.extension = ".rgc",
+                                         .note = "",
+                                         .hasPrecisions = true,
+                                         .isRead = true,
+                                         .isUsd = false,
+                                         .resume = resumeCache},
+                                        {.extension = ".pc2",
+                                         .note = "with an .obj beside it",
+                                         .hasPrecisions = false,
+                                         .isRead = false,
+                                         .isUsd = false,
+                                         .resume = resumePc2}};
 
 }  // namespace
 
 std::span<const AnimationFormat> animationFormats() { return kFormats; }
+
+std::string animationEndings(bool AnimationFormat::*property, const char* last) {
+  std::vector<std::string> endings;
+  for (const AnimationFormat& format : kFormats)
+    if (format.*property) endings.emplace_back(format.extension);
+  std::string text = endings.front();
+  for (std::size_t i = 1; i < endings.size(); ++i)
+    text += (i + 1 < endings.size() ? ", " : " " + std::string(last) + " ") + endings[i];
+  return text;
+}
 
 const AnimationFormat* animationFormatOf(const std::filesystem::path& path) {
   for (const AnimationFormat& format : kFormats)

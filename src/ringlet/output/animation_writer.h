@@ -74,10 +74,13 @@ struct AnimationOptions {
   UsdExtras usd{};                                     // of USD files
 };
 
+/// A row of the table of formats, of which options, keys of scene files, help and messages are made.
 struct AnimationFormat {
   const char* extension;  // with its dot
+  const char* note;       // for help, in brackets behind the extension; "" for none
   bool hasPrecisions;
   bool isRead;  // by AnimationReader; of others points go out only
+  bool isUsd;   // looks at AnimationOptions::usd
   /// Goes on with PATH.partial after its first `frameCount` frames, to the bytes of a file written in one go;
   /// with 0 it begins anew. Only the topology's strand lengths are used. Errors: the file is not that of such
   /// an animation, or has fewer whole frames.
@@ -85,8 +88,10 @@ struct AnimationFormat {
                                                      const AnimationOptions& options, int frameCount);
 };
 
-/// .usda, .usdc, .rgc and .pc2.
 std::span<const AnimationFormat> animationFormats();
+/// The endings of those that have a property, for sentences: ".usda, .usdc or .rgc". `last`: the word before
+/// the last of them.
+std::string animationEndings(bool AnimationFormat::*property, const char* last);
 /// By the ending of the name; null for one that is none of theirs.
 const AnimationFormat* animationFormatOf(const std::filesystem::path& path);
 

@@ -26,8 +26,8 @@ struct Checkpoint {
   std::vector<RunFact> facts;       // of the run
   int everyFrames = 0;              // there is one
   int frame = 0;                    // frames done
-  std::vector<std::byte> computed;  // state of what computes frames; of frame 0 none
-  std::vector<std::byte> written;   // and of what looks at and writes them
+  std::vector<std::byte> computed;  // state of the solver; empty for frame 0
+  std::vector<std::byte> written;   // state of the writers and measures
 };
 
 /// Replaces the file; it is on the disk when this returns. A crash at any time leaves the one before or this
@@ -37,7 +37,8 @@ Status writeCheckpoint(const std::filesystem::path& path, Checkpoint checkpoint)
 /// Errors: no such file, no checkpoint, one of another version, damaged.
 Result<Checkpoint> readCheckpoint(const std::filesystem::path& path);
 
-/// What differs between two runs, as "simulation.fps is 30 and was 24; ...", the first few; empty: nothing.
+/// The first few differences between two runs, as "simulation.fps is 30 and was 24; ..."; empty if they are
+/// equal.
 std::string differencesOf(const std::vector<RunFact>& now, const std::vector<RunFact>& before);
 
 }  // namespace ringlet

@@ -1,5 +1,5 @@
 // Sheet: a first look at a run. Six frames side by side in one picture, strands drawn as shaded lines. It
-// shows what numbers do not: tangles, uncurled strands, hair where no hair should be.
+// shows faults that numbers do not: tangles, uncurled strands, hair in wrong places.
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // value clips beside it, crates of so many frames each.
 //
 //   hair.usda                     the prim, and which clip holds which time
-//   hair_clips/manifest.usda      what the clips hold
+//   hair_clips/manifest.usda      the attributes of the clips
 //   hair_clips/hair.0001.usdc     frames 1 to N; 0002: N + 1 to 2 N; ...
 #pragma once
 

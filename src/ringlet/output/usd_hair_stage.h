@@ -1,4 +1,4 @@
-// The stage of an animation of hair: which prims it has, and what is said of them.
+// The stage of an animation of hair: its prims and their attributes.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
-// ContactGraph: which strands may touch, decided once in the rest pose. Iben et al. 2012, section 4: a node
-// per strand; radii are enlarged, overlaps of spheres counted, weak edges of the graph dropped, then some at
-// random, because their neighbours carry the interaction. Interactions are pruned, never hairs.
+// ContactGraph: the pairs of strands that may touch, chosen once in the rest pose. Iben et al. 2012, section
+// 4: a graph with a strand per node. Overlaps of spheres of enlarged radii are counted; pairs with few
+// overlaps are dropped, then some pairs at random, because their neighbours carry the interaction. Strands
+// are never dropped.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 
 namespace ringlet {
 
-/// Two strands (device order) and how many pairs of their enlarged spheres overlap at rest.
+/// Two strands (device order) and the number of pairs of their enlarged spheres that overlap at rest.
 struct StrandOverlap {
   std::uint32_t a, b;  // a < b
   std::uint32_t
@@ -26,12 +27,12 @@ struct StrandOverlap {
 struct ContactGraph {
   bool everyPair = false;  // no pruning: any two strands may touch, and the two arrays are empty
   std::vector<std::uint32_t> firstNeighbour;  // strandCount + 1 entries, into:
-  std::vector<std::uint32_t> neighbours;  // of each strand, device order, ascending; both ends know the other
-  std::uint64_t pairsUnpruned = 0;        // of strands that overlap at rest, enlarged
-  std::uint64_t pairs = 0;                // of those, that may touch
-  std::uint64_t overlapsUnpruned = 0;     // pairs of spheres in pairsUnpruned
-  std::uint64_t overlaps = 0;             // and in pairs
-  std::vector<std::string> warnings;      // for the user: that nothing can touch
+  std::vector<std::uint32_t> neighbours;      // of each strand, device order, ascending
+  std::uint64_t pairsUnpruned = 0;            // pairs of strands that overlap at rest, enlarged
+  std::uint64_t pairs = 0;                    // those of them that may touch
+  std::uint64_t overlapsUnpruned = 0;         // pairs of spheres in pairsUnpruned
+  std::uint64_t overlaps = 0;                 // those in `pairs`
+  std::vector<std::string> warnings;          // for the user: no strands may touch
 
   /// Whether two different strands (device order) may touch.
   bool allows(std::uint32_t a, std::uint32_t b) const;
@@ -42,9 +43,10 @@ struct ContactGraph {
 std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactParticles& particles,
                                          double enlargement);
 
-/// Keeps pairs of at least minOverlaps; of these, those that are among the maxNeighbours strongest of both
-/// strands (by count, then by the other's place in the groom); of these, all but dropShare, by the seed and
-/// both places in the groom. So the order of strands in memory changes nothing.
+/// Keeps the pairs with minOverlaps or more. Of these it keeps those that are among the maxNeighbours
+/// strongest of both strands (by count, then by the other's place in the groom), and of these all but a
+/// random dropShare, by the seed and both places in the groom. The result does not depend on the order of
+/// strands in memory.
 ContactGraph pruneStrandPairs(std::span<const StrandOverlap> overlaps, const RestState& rest,
                               const ContactSettings& settings);
 

@@ -23,14 +23,14 @@ struct ContactParticles {
   std::vector<std::uint32_t> firstOfStrand;  // strandCount + 1 entries, into the two above
   std::vector<float> radii;                  // of each strand [m]
   std::vector<float> masses;                 // m_c of each strand: its mass over its contact particles [kg]
-  double baseRadius = 0;                     // what strands of factor 1 have that are cut finely enough [m]
+  double baseRadius = 0;                     // of strands of factor 1 whose edges are short enough [m]
   std::vector<std::string> warnings;         // for the user: gaps, or raised radii, with numbers
 
   std::size_t strandCount() const { return radii.size(); }
 };
 
-/// The radius of all strands where no setting says it: half the mean distance from a root to its nearest
-/// other root; where that is nothing, half the mean edge [m].
+/// The default radius of all strands: half the mean distance from a root to the nearest other root; where
+/// that is 0, half the mean edge [m].
 double radiusOfRoots(const RestState& rest);
 
 /// The radius of all strands: the setting; else half the mean distance from a root to its nearest other root;
@@ -38,13 +38,13 @@ double radiusOfRoots(const RestState& rest);
 ///
 /// Then strand by strand: the root is a contact particle, and from contact particle i the first j > i with
 /// |p_i - p_j| >= s R, or the one before j where j is further than R and not i's neighbour. Hair can slip
-/// between two that are further apart than R, as on strands with longer edges: settings.fillGaps raises such
-/// a strand's radius to half its longest; else a warning says so. (Raised radii on a dense head: 64 partners
-/// a particle instead of 14.) Cost: n log n in strands, linear in particles.
+/// between two that are farther apart than R, as on strands with longer edges: settings.fillGaps raises the
+/// radius of such a strand to half its longest edge; without it a warning says so. (Raised radii on a dense
+/// head: 64 partners a particle instead of 14.) Cost: n log n in strands, linear in particles.
 ContactParticles chooseContactParticles(const RestState& rest, const ContactSettings& settings);
 
 /// Of each dense strand one contact particle in q = round(1 / settings.detail), at most half of them all;
-/// which one first, by the seed and the strand's place in the groom. Its radius grows by
+/// the first of them is chosen by the seed and the strand's place in the groom. Its radius grows by
 /// q^kThinnedRadiusPower; each of those that stay is as heavy as q and pushes for q: q^2 of the mass. Cost:
 /// linear.
 ContactParticles thinWhereDense(const ContactParticles& all, const RestState& rest, const DenseStrands& dense,

@@ -1,5 +1,5 @@
-// DenseStrands: which strands have much other hair about them, decided once in the rest pose. What is right
-// for a strand among many, to meet them as a volume or by fewer particles, lets sparse hair slip.
+// DenseStrands: the strands with much other hair around them, found once in the rest pose. Only these may
+// meet as a volume, or by fewer contact particles: strands of sparse hair would pass through each other.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,22 @@ namespace ringlet {
 
 /// Device order.
 struct DenseStrands {
-  /// Of dense strands: the first of all that hang together by cells that both are in; of others: the strand
-  /// itself.
+  /// Of a dense strand: the first strand of its component; strands that share cells are connected. Of any
+  /// other strand: itself.
   std::vector<std::uint32_t> groups;
-  std::vector<bool> isIn;  // of each strand: it is dense
+  std::vector<bool> isIn;  // of each strand: whether it is dense
 };
 
-/// The density of a strand is the harmonic mean over its particles of what is about them over what its own
-/// strand is, in cells as they are without a setting. Strands of half of kDenseStrands and more that share
-/// cells hang together; if the median of those has kDenseStrands, they are dense. Cost: linear in particles.
+/// The density of a strand is the harmonic mean over its particles of the density of all hair over that of
+/// the strand alone, in cells of the default size. Strands with half of kDenseStrands or more that share
+/// cells are connected. If the median strand of a component has kDenseStrands or more, the component is
+/// dense. Cost: linear in particles.
 DenseStrands findDenseStrands(const RestState& rest);
 
 DenseStrands noDenseStrands(const RestState& rest);
 
-/// Cells for hair of contact particles of `radius` [m]: no smaller than particles along a strand want them
-/// (kVolumeSpacing).
+/// Default cell size for hair with contact particles of `radius` [m]; not smaller than the spacing of
+/// particles along a strand allows (kVolumeSpacing).
 double volumeCellFor(const RestState& rest, double radius);
 
 }  // namespace ringlet

@@ -1,5 +1,5 @@
-// DensityGrid: what particles weigh about a place, by a grid of cells, trilinear. For densities at rest; a
-// step's are the device's (shaders/kernels/volume_gather.comp).
+// DensityGrid: density of particles at a place, by trilinear weights on a grid of cells. For densities at
+// rest; those of a step are computed on the device (shaders/kernels/volume_gather.comp).
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class DensityGrid {
   /// cell: [m], more than 0.
   explicit DensityGrid(double cell) : cell_(cell) {}
 
-  /// The cell a place is in, as a key: places further than a million cells from the origin share some.
+  /// Key of the cell of a place. Places farther than a million cells from the origin share keys.
   static std::uint64_t cellOf(Vec3f place, double cell) {
     const auto part = [&](float x) {
       return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell))) & kMask;
@@ -25,11 +25,11 @@ class DensityGrid {
     return part(place.x) | part(place.y) << 21 | part(place.z) << 42;
   }
 
-  /// `mass` [kg] at a place [m].
+  /// Adds a mass [kg] at a place [m].
   void add(Vec3f place, double mass) {
     eachNode(place, [&](std::uint64_t node, double weight) { nodes_[node] += weight * mass; });
   }
-  /// [kg/m^3]
+  /// Density at a place [kg/m^3].
   double at(Vec3f place) const {
     double sum = 0;
     eachNode(place, [&](std::uint64_t node, double weight) {

@@ -1,4 +1,4 @@
-// Goals: places that hair is pulled to, or ways its edges are to lie.
+// Goals: places that hair is pulled to, or directions for its edges.
 #pragma once
 
 #include <cmath>
@@ -17,13 +17,13 @@ inline double goalStiffness(double strength) { return strength * kStandardGravit
 /// Damping c [1/s] of a stiffness; a ratio of 1 is critical.
 inline double goalDamping(double stiffness, double ratio) { return 2 * ratio * std::sqrt(stiffness); }
 
-/// The groom as a goal, one entry a particle, groom order.
+/// The groom as a goal: one entry per particle, groom order.
 struct GroomGoal {
   std::vector<Vec3f> places;  // in the groom's axes [m]
-  std::vector<float> shares;  // of its strand's arc, root 0 to tip 1
+  std::vector<float> shares;  // of the strand's arc: 0 at the root, 1 at the tip
 };
 GroomGoal goalOf(const Groom& groom);
-/// One a particle, for Simulation::setGoals.
+/// The strength of each particle, for Simulation::setGoals.
 std::vector<float> strengthsOf(const GroomGoal& goal, const GoalSettings& settings);
 
 }  // namespace ringlet

@@ -1,4 +1,5 @@
-// GoalUnits: what a goal's strength and damping ratio come to, for each particle or edge.
+// GoalUnits: conversion of a goal's strength and damping ratio to stiffness and damping, per particle or
+// edge.
 #pragma once
 
 #include <vector>
@@ -8,8 +9,8 @@
 
 namespace ringlet {
 
-/// Of a strength and a damping ratio of 1. Stiffness goes with the strength; damping with the ratio and the
-/// strength's root.
+/// Stiffness and damping of strength 1 and damping ratio 1. Stiffness is proportional to the strength,
+/// damping to the ratio and to the root of the strength.
 struct GoalUnit {
   double stiffness;  // k [1/s^2]
   double damping;    // c [1/s]

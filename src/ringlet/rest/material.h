@@ -13,11 +13,10 @@
 #include <optional>
 #include <vector>
 
+#include "ringlet/base/standard_gravity.h"
 #include "ringlet/groom/seeded_random.h"
 
 namespace ringlet {
-
-inline constexpr double kStandardGravity = 9.81;  // [m/s^2], used for w even where the scene has no gravity
 
 /// A factor that changes from root to tip: straight lines from point to point, level before the first point
 /// and after the last.

@@ -23,7 +23,7 @@ void MaterialExtremes::add(const StrandConstants& strand, double stiffest, doubl
     ++cappedStrands;
     smallestCoreShare = std::min(smallestCoreShare, strand.coreStiffness / strand.coreStiffnessAsked);
   }
-  if (settings.stepSeconds() > longestBendStep(strand, stiffest)) ++feedingStrands;
+  if (settings.stepSeconds() > longestBendStep(strand, stiffest)) ++unstableStrands;
   longestCalmStep = std::min(longestCalmStep, longestCalmStepOf(strand, stiffest));
   if (load > 0.5) ++overloadedStrands;
   if (load > largestLoad) largestLoad = load, largestLoadStrand = groomIndex;
@@ -40,11 +40,11 @@ std::vector<std::string> MaterialExtremes::warnings(std::size_t strandCount, con
                     "{} steps per frame give it in full",
                     cappedStrands, strandCount, 100 * smallestCoreShare, settings.stepsPerFrame, needed));
   }
-  if (feedingStrands > 0) {
+  if (unstableStrands > 0) {
     sentences.push_back(fmt::format(
         "{} steps per frame are too few for the bending of {} of {} strands, which may not come to rest; "
         "{} steps per frame are enough, or a softer or more smoothed material",
-        settings.stepsPerFrame, feedingStrands, strandCount, needed));
+        settings.stepsPerFrame, unstableStrands, strandCount, needed));
   }
   if (settings.integrator != Integrator::paper && material.bendDampingRatio < kLeastBendDampingRatio) {
     sentences.push_back(fmt::format("a bend damping ratio of {} may not come to rest; {} and more does",

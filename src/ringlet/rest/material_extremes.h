@@ -1,4 +1,5 @@
-// MaterialExtremes: the worst that a material and a step do to any strand, and the warnings of it.
+// MaterialExtremes: the extreme values of a material and a step over all strands, and the warnings about
+// them.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ namespace ringlet {
 struct MaterialExtremes {
   std::size_t cappedStrands = 0;
   double smallestCoreShare = 1;
-  std::size_t feedingStrands = 0;  // the step is too long for their bending
-  double longestCalmStep = 1;      // [s]
+  std::size_t unstableStrands = 0;  // strands whose bending gains energy, since the step is too long
+  double longestCalmStep = 1;       // [s]
   std::size_t overloadedStrands = 0;
   double largestLoad = 0;
   std::size_t largestLoadStrand = 0;
@@ -24,16 +25,16 @@ struct MaterialExtremes {
   void add(const StrandConstants& strand, double stiffest, double load, std::size_t groomIndex,
            const Settings& settings);
 
-  /// For the user, a sentence each. `strandCount`: those that were added.
+  /// Warnings for the user, a sentence each. `strandCount`: number of strands that were added.
   std::vector<std::string> warnings(std::size_t strandCount, const Material& material,
                                     const Settings& settings) const;
 };
 
-/// The longest outer step that needs no warning of this strand, whose bend stiffness profile is at most
+/// The longest outer step without a warning about this strand, whose bend stiffness profile is at most
 /// `stiffest` [s].
 double longestCalmStepOf(const StrandConstants& strand, double stiffest);
 
-/// Steps a frame that are no longer than this [s].
+/// Number of steps per frame of which each is at most this long [s].
 int stepsOf(double longestStep, const Settings& settings);
 
 }  // namespace ringlet

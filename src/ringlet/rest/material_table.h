@@ -13,14 +13,14 @@ namespace ringlet {
 /// Every key a material may have, below a table of that name ("" for a file of its own).
 std::vector<KnownKey> knownMaterialKeys(const std::string& table);
 
-/// Works the keys of a table into a material; those that are not there stay as they are, but `preset`
-/// replaces all. Keys that nobody knows go unseen at the table's own level, so that it may have others, and
-/// are problems below it. Adds no warnings.
+/// Reads the keys of a table into a material. Numbers without a key keep their values; the key `preset`
+/// replaces all. Unknown keys are ignored at the table's own level, since other readers may know them, and
+/// are problems in its sub-tables. Adds no warnings.
 void readMaterialTable(const toml::table& table, const std::string& name, LoadedMaterial& loaded,
                        TomlProblems& problems);
 
-/// What of a material is not Material's default, and of its dials, as a table of that name; a comment above
-/// every number. "" where all is.
+/// The numbers of a material and its dials that differ from the default, as a table of that name, with a
+/// comment above each; "" if none differs.
 std::string materialTableText(const Material& material, const MaterialDials& dials, const std::string& name);
 
 }  // namespace ringlet

@@ -1,4 +1,4 @@
-// Bodies as kernels have them.
+// Bodies in the layout of the kernels.
 #pragma once
 
 #include <span>
@@ -10,11 +10,11 @@
 namespace ringlet {
 
 struct PackedBodies {
-  std::vector<layout::BodyRest> rests;  // one a body
+  std::vector<layout::BodyRest> rests;  // one per body
   std::vector<layout::uvec4> cells;     // of all grids: a cell's eight distances as halves, see gridDistance
 };
 
-/// The bodies pass checkBody. Cost: with the cells of their grids.
+/// The bodies must pass checkBody. Cost: linear in the cells of their grids.
 PackedBodies packBodies(std::span<const Body> bodies);
 
 }  // namespace ringlet

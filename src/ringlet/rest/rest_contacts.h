@@ -1,5 +1,6 @@
-// RestContacts: who may touch whom, decided once in the rest pose; what the solver, the measures and the
-// reports of contacts all start from. Iben et al. 2012, section 4. Mirrored by reference/rest_contacts.h.
+// RestContacts: contact particles and the pairs of strands that may touch, found once in the rest pose. The
+// solver, the measures and the reports of contacts use it. Iben et al. 2012, section 4. Mirrored by
+// reference/rest_contacts.h.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,7 @@
 
 namespace ringlet {
 
-/// Which ways of contact a run has.
+/// The kinds of contact in a run.
 struct ContactKinds {
   bool pairs = false;   // strands meet pair by pair
   bool volume = false;  // some hair meets as a volume
@@ -24,20 +25,21 @@ struct ContactKinds {
 
 /// Device order, as RestState.
 struct RestContacts {
-  ContactParticles particles;  // by which the solver lets strands meet
+  ContactParticles particles;  // of the solver
   ContactGraph graph;
   VolumeStrands volume;
-  std::optional<ContactParticles> unthinned;  // where dense strands are thinned: what there was before
+  std::optional<ContactParticles> unthinned;  // if dense strands are thinned: all contact particles
 
-  /// By which what strands do is measured.
+  /// The contact particles by which contacts are measured.
   const ContactParticles& allParticles() const { return unthinned ? *unthinned : particles; }
 
   ContactKinds kinds() const { return {meetPairByPair(volume, graph), volume.count > 0}; }
-  /// For the user, a sentence each: of gaps or raised radii, and of pruning that leaves nothing.
+  /// Warnings for the user, a sentence each: about gaps or raised radii, and about pruning that leaves no
+  /// pair.
   std::vector<std::string> warnings() const;
 };
 
-/// Cost: of countOverlaps, which is nearly all of it.
+/// Cost: that of countOverlaps, mostly.
 RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings);
 
 }  // namespace ringlet

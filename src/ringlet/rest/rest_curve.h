@@ -12,8 +12,7 @@ namespace ringlet {
 /// Edges smoothed with weight beta from the first edge. One per edge.
 std::vector<Vec3d> smoothEdges(std::span<const Vec3d> edges, double beta);
 
-/// The frame each edge is held in, F_{i-1}: the identity for the first, then carried along the smoothed
-/// edges.
+/// The frame F_{i-1} of each edge i: the identity for the first, then transported along the smoothed edges.
 std::vector<Quatd> framesBeforeEdges(std::span<const Vec3d> smoothedEdges, Vec3d firstEdge);
 
 }  // namespace ringlet

@@ -1,4 +1,4 @@
-// A part of a groom, for hair that several devices simulate.
+// A part of a groom, for hair that is divided among several devices.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,13 @@
 
 namespace ringlet {
 
-/// Of each strand of a groom of so many: whether it is among `part`. Errors: as restrictTo. Cost: linear.
+/// For each strand of a groom of this number of strands: whether it is in `part`. Errors: as restrictTo.
+/// Cost: linear.
 Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::size_t strandCount);
 
-/// Leaves of the strands that are simulated those of `part`, groom order; of the others the rest points stay
-/// (RestState::elsewhere). Numbers of the whole groom stay as they are. Errors: a strand that the groom does
-/// not have, or that is there twice. Cost: linear.
+/// Keeps the simulated strands that are in `part`, groom order. Of the others only the rest points are kept
+/// (RestState::elsewhere). Members about the whole groom do not change. Errors: a strand that the groom does
+/// not have, or one that is listed twice. Cost: linear.
 Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
 
 }  // namespace ringlet

@@ -335,16 +335,6 @@ RestState assemble(const Groom& groom, const Material& material, const Settings&
 
 }  // namespace
 
-void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit) {
-  const auto perMass = [&](double x) { return static_cast<float>(x / massUnit); };
-  rest.stretchStiffness = perMass(constants.stretchStiffness);
-  rest.stretchDamping = perMass(constants.stretchDamping);
-  rest.bendStiffness = perMass(constants.bendStiffness);
-  rest.bendDamping = perMass(constants.bendDamping);
-  rest.coreStiffness = perMass(constants.coreStiffness);
-  rest.coreDamping = perMass(constants.coreDamping);
-}
-
 Groom groomOf(const RestState& state) {
   Groom groom;
   groom.metresPerUnit = 1;

@@ -1,5 +1,4 @@
-// RestState: everything about a groom that does not change while it moves, as the device reads it. Built
-// once, shareable.
+// RestState: the constant data of a groom, in the layout of the device.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +22,9 @@ struct RigidStrand {
   std::vector<Vec3f> points;  // rest positions [m]
 };
 
-/// Arrays in device order, of the strands that are simulated: strands by rising particle count, so that
-/// strands of one length class lie together and short ones do not pay for long ones; among equals groom
-/// order, or that asked for.
+/// Arrays in device order, of the simulated strands. Strands are ordered by rising particle count, so that
+/// strands of similar length are dispatched together; strands of the same count are in groom order, or in the
+/// order asked for.
 struct RestState {
   std::vector<layout::StrandRest> strands;
   std::vector<layout::ParticleRest> particles;
@@ -34,13 +33,13 @@ struct RestState {
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle
   std::vector<RigidStrand> rigid;            // those carried rigidly, in groom order
   std::size_t groomStrandCount = 0, groomParticleCount = 0;
-  // Of the whole groom, where only a part of it is here (rest/rest_part.h):
-  std::vector<std::uint32_t> wholeCounts;  // particles of each strand that is simulated anywhere, rising
-  bool oneSmoothing = false;               // bendBeta is coreBeta in all of them
+  // About the whole groom, even if only a part of it is simulated here (rest/rest_part.h):
+  std::vector<std::uint32_t> wholeCounts;  // particles of every simulated strand, here or not, rising
+  bool oneSmoothing = false;               // bendBeta equals coreBeta for all of them
   std::vector<RigidStrand> elsewhere;      // strands that are simulated elsewhere, in groom order
   double longestCalmStep = 0;              // longest outer step that needs no warning [s]
-  std::vector<std::string> warnings;       // for the user: what the step or the load changed, with numbers
-  std::size_t materialWarningCount = 0;    // the first of them, which another material would not have
+  std::vector<std::string> warnings;       // for the user, with numbers
+  std::size_t materialWarningCount = 0;    // number of the first of them, which depend on the material
 };
 
 /// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and
@@ -50,19 +49,16 @@ struct RestState {
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
                                  std::span<const std::uint32_t> order = {});
 
-/// A strand's springs as the device has them, per mass unit [kg].
-void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit);
-
 /// The groom that a rest state is of, in metres.
 Groom groomOf(const RestState& state);
 
-/// The fewest outer steps per frame that resolve the motion (1/192 s each; `paper` 1/720 s, its own) and need
-/// no warning: the core spring in full, bending calm, of all strands but those too quick to be simulated
-/// (rest/rigid_strands.h). At most four times what the motion needs; a groom that
-/// wants more is warned of. Fails as buildRestState does. Cost: two passes over the groom.
+/// The fewest outer steps per frame that resolve the motion (1/192 s each; `paper`: 1/720 s) and cause no
+/// warning: the core spring acts in full and bending is stable, for all strands but those too quick to be
+/// simulated (rest/rigid_strands.h). The result is at most four times the number that the motion needs; a
+/// groom that needs more causes a warning. Fails as buildRestState does. Cost: two passes over the groom.
 Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings);
 
-/// The sentence that says what is wrong with the settings or material, if anything is.
+/// Fails, with a sentence, if a number of the settings or the material is out of range.
 Status checkSettings(const Settings& settings, const Material& material);
 
 }  // namespace ringlet

@@ -7,8 +7,8 @@
 //   too quick  short, at most one strand in a hundred, needs more than twice the steps a frame that the other
 //              99 need, and more than the run takes
 //
-// A strand that is not short is never carried rigidly for its steps, and for its edges only where floats
-// leave nothing of its shape: where a groom is far from its origin it is simulated, and warned of.
+// A strand that is not short is never carried rigidly for the steps it needs, and for its edges only if
+// rounding destroys its shape. The strands of a groom far from its origin are simulated, with a warning.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@
 
 namespace ringlet {
 
-/// A strand at rest, relative to the head's origin [m]. Roots that poses of their own carry further away (a
-/// scalp's) lose digits there that nobody has counted.
+/// A strand at rest, relative to the head's origin [m]. Root poses (as of a scalp) that carry a strand
+/// farther away cost further digits, which are not considered.
 struct StrandSize {
   double length = 0;
   double meanEdge = 0, shortestEdge = 0;  // the shortest as the stretch limit takes it (kShortestEdge)
@@ -35,28 +35,28 @@ StrandSize sizeOfStrand(std::span<const Vec3f> points);
 /// two spacings together, and one is at most 2^-23 of the number.
 inline double edgeRounding(double distance) { return distance * 0x1p-22; }
 
-/// A strand this long [m] has a shape that is simulated.
+/// A strand must be longer than this [m] to be simulated.
 inline constexpr double kLeastStrandLength = 1e-6;
 
-/// Of all strands; `sizes` is not empty.
+/// The median over all strands [m]; `sizes` is not empty.
 double medianLength(std::span<const StrandSize> sizes);
 
 /// The strands of `sizes` that are too fine, ascending.
 std::vector<std::uint32_t> tooFineStrands(std::span<const StrandSize> sizes, double maxStretch);
 
-/// The strands that are too quick for steps of stepSeconds, ascending. longestSteps: each one's longest calm
-/// step, no longer than the motion asks for; 0: it is carried anyway [s].
+/// The strands that are too quick for steps of stepSeconds, ascending. longestSteps: the longest stable step
+/// of each, at most the step that resolves the motion; 0: the strand is carried rigidly already [s].
 std::vector<std::uint32_t> tooQuickStrands(std::span<const StrandSize> sizes,
                                            std::span<const double> longestSteps, double stepSeconds);
 
-/// A sentence each, with strands and figures; none where there is nothing to say.
+/// Warnings, a sentence each, with strands and numbers.
 std::vector<std::string> tooFineWarnings(std::span<const StrandSize> sizes,
                                          std::span<const std::uint32_t> tooFine);
 std::vector<std::string> tooQuickWarnings(std::span<const StrandSize> sizes,
                                           std::span<const std::uint32_t> tooQuick,
                                           std::span<const double> longestSteps, const Settings& settings);
-/// Of a groom that is far from its origin for its edges; else of strands that are simulated although rounding
-/// is more than a hundredth of an edge of theirs.
+/// The warning about a groom that is far from its origin compared with its edges; else about strands that are
+/// simulated although rounding is more than a hundredth of one of their edges.
 std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,
                                           std::span<const std::uint32_t> tooFine);
 

@@ -1,4 +1,4 @@
-// How close the roots of a groom stand: what a contact radius is taken from.
+// Mean spacing of the roots of a groom, from which the default contact radius follows.
 #pragma once
 
 #include <span>
@@ -7,8 +7,8 @@
 
 namespace ringlet {
 
-/// Mean over points of the distance to the nearest other point; 0 for fewer than two. Points in one place are
-/// 0 apart. Their order changes no bit. Cost: n log n.
+/// Mean over points of the distance to the nearest other point; 0 for fewer than two points. The order of
+/// points changes no bit. Cost: n log n.
 double meanNearestDistance(std::span<const Vec3d> points);
 
 }  // namespace ringlet

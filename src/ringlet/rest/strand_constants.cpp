@@ -111,4 +111,14 @@ StrandConstants strandConstants(const StrandGeometry& geometry, const Material& 
   return c;
 }
 
+void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit) {
+  const auto perMass = [&](double x) { return static_cast<float>(x / massUnit); };
+  rest.stretchStiffness = perMass(constants.stretchStiffness);
+  rest.stretchDamping = perMass(constants.stretchDamping);
+  rest.bendStiffness = perMass(constants.bendStiffness);
+  rest.bendDamping = perMass(constants.bendDamping);
+  rest.coreStiffness = perMass(constants.coreStiffness);
+  rest.coreDamping = perMass(constants.coreDamping);
+}
+
 }  // namespace ringlet

@@ -1,9 +1,11 @@
 // The laws that turn a material in continuum units into one strand's constants, so that a material means the
-// same however finely a strand is cut. Mirrored, independently, by reference/rest_strand.h.
+// same however finely a strand is cut; and how the device gets them. Mirrored, independently, by
+// reference/rest_strand.h.
 #pragma once
 
 #include <span>
 
+#include "layout/strands.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/rest/material.h"
@@ -26,22 +28,23 @@ struct StrandConstants {
   double longestBendStep = 0;     // longest outer step at which targets held over it cannot feed bending [s]
 };
 
-/// An edge's constants and limit take it for no shorter than this share of the mean: a file's coincident
-/// points would otherwise be springs of infinite stiffness.
+/// The least length of an edge in its constants and its stretch limit, as a share of the mean edge. Without
+/// it, coincident points of a file would give springs of infinite stiffness.
 inline constexpr double kShortestEdge = 0.01;
 
 /// The smoothing length below which the bending of one helix may feed on itself [unit of the shape].
 double smoothingLengthOf(const CurlShape& shape, double arcLength);
 
-/// The same for a real strand, whose curl varies: enough for nine tenths of its curled length, a turn at a
-/// time and without its perversions, which are flat for half a turn and would ask for any length [unit].
+/// The same for a real strand, whose curl varies: the length that suffices for nine tenths of its curled
+/// length, turn by turn. Perversions are left out: they are flat for half a turn, for which the rule gives
+/// any length [unit].
 double smoothingLengthOf(const CurlAlong& curl, double arcLength);
 
-/// What of a strand's shape at rest its constants depend on.
+/// The properties of a strand's rest shape that its constants depend on.
 struct StrandGeometry {
   double arcLength = 0;         // S [m]
   double meanEdgeLength = 0;    // l, of the chords [m]
-  double smoothingLength = 0;   // that its curl asks for [m]
+  double smoothingLength = 0;   // by its curl [m]
   bool hasPerversions = false;  // its curl changes hand
 };
 
@@ -50,5 +53,8 @@ StrandGeometry strandGeometry(std::span<const Vec3d> points, std::span<const dou
 
 StrandConstants strandConstants(const StrandGeometry& geometry, const Material& material,
                                 const Settings& settings);
+
+/// Packs the constants that depend on the material for the device: per mass unit [kg].
+void setSprings(layout::StrandRest& rest, const StrandConstants& constants, double massUnit);
 
 }  // namespace ringlet

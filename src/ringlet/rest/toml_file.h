@@ -1,5 +1,5 @@
-// What readers of TOML files share: parsing that no text can break, values in words, the topmost problem of a
-// file, advice on unknown keys. Private to the library: it shows toml++.
+// Shared by readers of TOML files: safe parsing of any text, values in words, the topmost problem of a file,
+// suggestions for unknown keys. Private to the library: it shows toml++.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@
 
 namespace ringlet {
 
-inline constexpr std::uintmax_t kLargestTomlFile = 1 << 20;  // [bytes] what it may be; more is another file
+inline constexpr std::uintmax_t kLargestTomlFile = 1 << 20;  // [bytes] a larger file is refused
 
 /// `name` stands for the file in messages, `what` says what it should hold ("a material"). Errors: too large,
 /// nested too deeply, no TOML.
@@ -55,7 +55,7 @@ struct KnownKey {
   std::string fullName() const { return table.empty() ? key : table + "." + key; }
 };
 
-/// Of several problems of a file the topmost is told.
+/// Collects the problems of a file and reports the topmost.
 class TomlProblems {
  public:
   void add(std::uint32_t line, std::string message);

@@ -1,6 +1,6 @@
-// VolumeStrands: which strands meet as a volume and not pair by pair, decided once in the rest pose. A strand
-// among many others feels their mean; which of them it touches changes from step to step and matters little.
-// In sparse hair every pair matters.
+// VolumeStrands: the strands that meet as a volume and not pair by pair, chosen once in the rest pose. A
+// strand among many others feels their mean; its individual partners change from step to step and matter
+// little. In sparse hair every pair matters.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,25 @@
 
 namespace ringlet {
 
-/// Device order. Strands of one group do not meet pair by pair: those that hang together in the volume, and
-/// those of a bundle, which is not in the volume. A group is named by its first strand.
+/// Device order. Strands of one group do not meet pair by pair. A group is a connected part of the volume, or
+/// a bundle, which is not in the volume. Its first strand names it.
 struct VolumeStrands : DenseStrands {
-  std::size_t count = 0;  // of those in the volume
+  std::size_t count = 0;  // strands in the volume
   double cell = 0;        // of the volume's grid [m]
   bool hasBundles = false;
 
-  /// Whether some strands do not meet pair by pair.
+  /// Whether there are groups.
   bool hasGroups() const { return count > 0 || hasBundles; }
-  /// Whether two different strands are of one bundle, and so pass through each other.
+  /// Whether two different strands are in one bundle, so that they pass through each other.
   bool inOneBundle(std::size_t a, std::size_t b) const { return groups[a] == groups[b] && !isIn[a]; }
 };
 
-/// In the volume are, with the method `volume`, all strands, in one group; with `auto`, those that are dense;
-/// bundles are not.
+/// With the method `volume` all strands are in the volume, in one group; with `auto` the dense ones are.
+/// Bundles never are.
 VolumeStrands chooseVolumeStrands(const RestState& rest, const ContactParticles& particles,
                                   const DenseStrands& dense, const ContactSettings& settings);
 
-/// Whether any two strands that may touch are not of one group; always where there is no volume.
+/// Whether some two strands that may touch are of different groups; true if there is no volume.
 bool meetPairByPair(const VolumeStrands& volume, const ContactGraph& graph);
 
 }  // namespace ringlet

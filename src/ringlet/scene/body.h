@@ -23,8 +23,8 @@ enum class BodyShape {
   grid,     // the places where `grid` is negative
 };
 
-/// How the device reckons distances, numbered as kShape... of shaders/layout/bodies.h: a sphere and a capsule
-/// are boxes without width, rounded off.
+/// How the device computes distances, numbered as kShape... of shaders/layout/bodies.h: a sphere and a
+/// capsule are boxes without width, rounded off.
 enum class DeviceForm { box, plane, grid };
 
 /// A place and an orientation: world (or head) from body.

@@ -31,10 +31,10 @@ struct ForceField {
   double axial = 0;        // along the axis
   double radial = 0;       // away from the place, or from the axis
   double around = 0;       // about the axis, right-handed
-  double core = 0.02;      // distance within which radial and around fade to nothing [m], 0 to 1000
+  double core = 0.02;      // distance below which radial and around fade to 0 [m], 0 to 1000
   double reach = 0;        // distance at which the field ends [m], 0 to 1000; 0: it does not
   double drag = 0;         // how fast the air takes hair along [1/s], 0 to 1e6; 0: no air, but accelerations
-  double front = 0;        // distance of a shell, outside of which nothing acts [m]
+  double front = 0;        // distance of a shell, outside of which the field is 0 [m]
   double thickness = 0;    // half of the shell's [m], 0 to 1000; 0: there is no shell
   std::shared_ptr<const VelocityGrid> grid{};
   double gridShare = 1;  // factor on the grid's velocities

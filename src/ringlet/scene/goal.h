@@ -5,7 +5,7 @@ namespace ringlet {
 
 /// Ranges are checked by checkSettings (rest/rest_state.h).
 struct GoalSettings {
-  bool on = false;      // false: nothing holds hair to the groom
+  bool on = false;      // hair is pulled to the groom
   double strength = 1;  // at the root, weights of the hair a centimetre from its place; 0 to 1e7
   double tipShare = 1;  // at the tip, as a share of that, evenly between; 0 to 100
   double damping = 1;   // ratio about its place; 1 is critical; 0 to 100

@@ -1,4 +1,4 @@
-// SettingField: a setting, said once: where it is, its name, type, unit, range, default, and what it does.
+// SettingField: the description of a setting: its member, name, type, unit, range, default and effect.
 // Scene files, options, checks and lists go through tables of these (settings_fields.h,
 // scenes/scene_fields.h).
 #pragma once
@@ -23,7 +23,7 @@ template <class Owner>
 struct SettingField {
   const char* key;
   const char* unit;      // of numbers; "" for none
-  const char* standard;  // what holds without the key, in words; "" for the Owner's own default
+  const char* standard;  // the default in words; "" for the Owner's own default
   const char* effect;    // one sentence
   std::variant<double Owner::*, std::optional<double> Owner::*, int Owner::*, std::optional<int> Owner::*,
                std::uint32_t Owner::*, bool Owner::*, std::string Owner::*, std::filesystem::path Owner::*,

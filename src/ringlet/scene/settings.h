@@ -1,4 +1,4 @@
-// Settings: how a scene is stepped. Everything here holds for a whole run; what a hair is made of is in
+// Settings: how a scene is stepped. Everything here holds for a whole run; the properties of hair are in
 // rest/material.h.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The wind AirSettings asks for: the even one with its gusts, and the modes whose sum is the turbulence. The
-// same for everybody who has the same settings.
+// The wind of AirSettings: the uniform wind with its gusts, and the modes whose sum is the turbulence. The
+// same settings give the same wind.
 #pragma once
 
 #include <vector>

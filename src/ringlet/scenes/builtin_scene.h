@@ -16,7 +16,7 @@
 
 namespace ringlet {
 
-/// What may be asked of any scene; what is left out is the scene's own.
+/// Options of every scene; an option that is left out has the scene's own value.
 struct SceneOptions {
   std::optional<int> particles{};  // of each strand, in [2, 65536]
   std::optional<int> strands{};    // in [1, 100000]: copies side by side; swatches, of which a scene may have
@@ -41,11 +41,11 @@ struct BuiltinScene {
   Motion motion;
   std::vector<Vec3d> rootShifts{};  // of each strand's root beside the head (InitialState::rootShifts) [m],
                                     // or none
-  std::vector<Body> bodies{};  // what hair stays out of: in walk_head the generated head (bodies/head_mesh.h)
+  std::vector<Body> bodies{};       // in walk_head the generated head (bodies/head_mesh.h)
   double seconds = 0;
-  bool showsContacts = false;         // what it shows is hair that meets hair (measure/contact_watch.h)
-  bool showsFrames = false;           // what it shows is how strand frames turn (measure/frame_turn.h)
-  std::vector<std::string> warnings;  // for the user: what the options spoil, a sentence each
+  bool showsContacts = false;         // it shows contacts between hairs (measure/contact_watch.h)
+  bool showsFrames = false;           // it shows the turn of strand frames (measure/frame_turn.h)
+  std::vector<std::string> warnings;  // for the user: effects that the options prevent, a sentence each
 
   int frameCount() const;  // whole frames, at least one
 };

@@ -6,6 +6,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/groom/hair_styles.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/scene/body_forms.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scenes/scene_maps.h"
@@ -24,6 +25,15 @@ constexpr NumberRange kBindFrames{1, 1e6};
 constexpr const char* kGenerated = "curl, swatch, head";
 constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";
+// The files that a run may write: animations, but for the cache, whose precision is a key of its own; and
+// others.
+std::string outputFiles() {
+  std::string files;
+  for (const AnimationFormat& format : animationFormats())
+    if (!format.hasPrecisions) files += std::string("hair") + format.extension + ", ";
+  return files + "last.obj, sheet.png";
+}
+
 // A setting of a run as scene files have it, which may leave it open: then it is `standard`.
 SceneField<SceneSimulation> as(std::string_view key, auto member, const char* standard = "") {
   const auto* found = fieldNamed(settingsFields(), key);
@@ -622,13 +632,7 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "Diameter at the tip in USD files, metres: strands are evenly thinner from the root on.",
        &O::tipWidth,
        {1e-9, 1}},
-      {"files",
-       "",
-       "hair.usda, last.obj, sheet.png",
-       "Files to write.",
-       &O::files,
-       {},
-       "hair.usda, hair.usdc, last.obj, sheet.png"},
+      {"files", "", "hair.usda, last.obj, sheet.png", "Files to write.", &O::files, {}, outputFiles()},
       {"values",
        "",
        "none",

@@ -12,7 +12,7 @@ namespace ringlet {
 template <class Owner>
 std::string typeOf(const SceneField<Owner>& field);
 
-/// "from 0 to 1 m"; "" for what has no range.
+/// "from 0 to 1 m"; "" if there is no range.
 std::string rangeOf(const NumberRange& allowed, const char* unit);
 
 /// Both, for a message: "a number from 0 to 1 m".

@@ -10,7 +10,7 @@
 namespace ringlet {
 namespace {
 
-// lavapipe's compiler does. A CPU device whose driver does not say its name is taken for it.
+// True of lavapipe's compiler. A CPU device whose driver does not state its name is treated as lavapipe.
 bool endsLoopsEarly(const gpu::DeviceProperties& p) {
   return p.driverId == VK_DRIVER_ID_MESA_LLVMPIPE || (p.driverId == 0 && p.type == "cpu");
 }

@@ -29,7 +29,7 @@ struct Compiled {
   std::span<const std::uint32_t> spirv;
 };
 
-// As ContactKernel counts them, with the distance taper.
+// In the order of ContactKernel, with the distance taper.
 const Compiled kCompiled[contactKernelCount(ContactTaper::distance)] = {
     {"contact_motion", k_contact_motion_plain}, {"contact_decide", k_contact_decide_plain},
     {"contact_count", k_contact_count_plain},   {"contact_scan", k_contact_scan_plain},

@@ -28,13 +28,13 @@ enum class ContactKernel {
   next,
   life  // between touch and check
 };
-/// How many of them there are.
+/// Number of these kernels.
 constexpr std::size_t contactKernelCount(ContactTaper taper) {
   const auto life = static_cast<std::size_t>(ContactKernel::life);
   return taper == ContactTaper::time ? life + 1 : life;
 }
 
-/// Invocations of a workgroup.
+/// Invocations per workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
 /// inGroups: some strands do not meet pair by pair, see VolumeStrands; texels: records are read as texels

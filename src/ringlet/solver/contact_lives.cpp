@@ -10,7 +10,7 @@
 namespace ringlet {
 namespace {
 
-// Blocks to begin with: of one contact particle, and for how many contact particles one.
+// The initial room: blocks of one contact particle, and contact particles per block of the store.
 constexpr std::uint32_t kFirstMostBlocks = 4, kParticlesPerBlock = 4;
 
 }  // namespace
@@ -25,7 +25,7 @@ Result<ContactLives> ContactLives::create(const ListMaker& maker, int room) {
 }
 
 Status ContactLives::createLists() {
-  parts_.clear();  // before the new ones are made
+  parts_.clear();  // frees them before the new ones are made
   const ListMaker::Part parts[] = {{"live contacts' lists", headCount() * sizeof(std::uint32_t)},
                                    {"live contacts", 2 * rowCount() * sizeof(layout::ContactLife)},
                                    {"contact forces", rowCount() * sizeof(layout::ContactForce)}};

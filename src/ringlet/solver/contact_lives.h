@@ -1,6 +1,6 @@
-// ContactLives: what contacts of the time taper remember from step to step, on the device (contact_life.comp,
-// contact_gather.comp). Each contact particle has a list of its contacts of this step and one of the step
-// before. Mirrored by reference/kernels/contact_step.h.
+// ContactLives: the state that contacts of the time taper keep from step to step, on the device
+// (contact_life.comp, contact_gather.comp). Each contact particle has a list of its contacts of this step and
+// one of those of the last step. Mirrored by reference/kernels/contact_step.h.
 #pragma once
 
 #include <cstddef>
@@ -24,15 +24,15 @@ class ContactLives {
   std::uint64_t bytes() const;
   void addTo(gpu::BufferTable& table) const;
 
-  /// Makes room for what the step wanted that stopped, keeping the contacts of the step before it.
+  /// Enlarges the lists to what the interrupted step needed, and keeps the contacts of the step before it.
   Status makeRoom(const layout::ContactControl& control);
   Status forget();
-  /// Contacts and their room.
+  /// Number of contacts and the room for them.
   Status archive(Archive& archive);
 
-  /// Contacts of all contact particles in the step of this parity, both sides counted.
+  /// Number of contacts in the step of this parity; a contact counts once for each of its two particles.
   Result<std::uint64_t> count(std::uint32_t parity) const;
-  /// Tells each of them: (contact particle, its life).
+  /// Calls tell(contact particle, life) for each of them.
   Status each(std::uint32_t parity,
               const std::function<void(std::size_t, const layout::ContactLife&)>& tell) const;
 

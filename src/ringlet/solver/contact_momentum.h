@@ -1,4 +1,4 @@
-// What hair gave to hair in the last step, summed: nothing, but for what the iteration left.
+// The sum of the momenta that contacts exchanged in the last step: 0 but for the error of the iteration.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,9 @@
 
 namespace ringlet {
 
-/// Sums of J_a = what pairs and the volume add to the right-hand side, less (2 D + g) v of the last iterate,
-/// over the strands (device order) that are here. What a pinned particle received is not known, and left out.
+/// Sums J_a, the terms that pairs and the volume add to the right-hand side minus (2 D + g) v of the last
+/// iterate, over the strands (device order) that are stepped here. Pinned particles are left out, since what
+/// they received is unknown.
 /// Cost: linear in particles, on the host.
 Result<ContactMomentum> contactMomentum(const DeviceChunk& hair, const RestState& rest, ContactKinds kinds,
                                         const std::function<bool(std::size_t)>& isHere);

@@ -12,7 +12,7 @@
 
 #include "layout/strands.h"
 #include "ringlet/gpu/device_buffers.h"
-#include "ringlet/rest/material.h"
+#include "ringlet/scene/packed_contacts.h"
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/neighbour_table.h"
 
@@ -20,21 +20,16 @@ namespace ringlet {
 namespace {
 
 constexpr std::uint32_t kGroupSize = kContactGroupSize;
-// Blocks of a contact particle's lists at most, to begin with.
+// Initial limit of the blocks in a contact particle's list.
 constexpr std::uint32_t kFirstMostBlocks = 4;
 
-// Where the device writes how many workgroups run.
+// Offsets of the group counts that the device writes for indirect dispatches.
 constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectContacts),
                         kPerBlock = offsetof(layout::ContactControl, indirectBuckets),
                         kOne = offsetof(layout::ContactControl, indirectOne),
                         kSample = offsetof(layout::ContactControl, indirectSample),
                         kQuery = offsetof(layout::ContactControl, indirectQuery),
                         kMeeting = offsetof(layout::ContactControl, indirectMeeting);
-
-// What a share of a contact changes by in a step.
-float changeIn(double seconds, double stepSeconds) {
-  return seconds > 0 ? static_cast<float>(stepSeconds / seconds) : 1.0f;
-}
 
 std::vector<layout::ContactRest> contactRests(const RestState& rest, const Settings& settings,
                                               const ContactParticles& particles) {
@@ -54,13 +49,15 @@ std::vector<layout::ContactRest> contactRests(const RestState& rest, const Setti
   return rests;
 }
 
-// In hair whose contact particles have more neighbours than this at rest, nearer than 1.5 R, lists are kept
-// as long as a sample says that they may be.
+// Hair is dense if its contact particles have more neighbours than this at rest, nearer than 1.5 R. There a
+// sample of contact particles decides how long lists are kept.
 constexpr double kDenseNeighbours = 16;
-// Of r0: how far ahead lists look there. What comes faster is found one step later; looking costs its cube.
+// Reach of the lists there, in r0. Pairs that approach faster are found one step later. The cost of the
+// search grows with its cube.
 constexpr double kDenseAhead = 1.3;
 
-// One contact particle in so many; 0 where hair is not dense. Overlaps are counted with enlarged radii.
+// The sample is one contact particle in this number; 0 if hair is not dense. Overlaps were counted with
+// enlarged radii.
 std::uint32_t sampleStride(const RestContacts& contacts, const ContactSettings& settings) {
   const ContactGraph& graph = contacts.graph;
   const auto overlaps = static_cast<double>(graph.everyPair ? graph.overlapsUnpruned : graph.overlaps);
@@ -71,7 +68,7 @@ std::uint32_t sampleStride(const RestContacts& contacts, const ContactSettings& 
                                        : 0;
 }
 
-// The contact particle of each particle; 0 where there is none.
+// The contact particle of each particle; 0 if it has none.
 std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactParticles& particles) {
   std::vector<std::uint32_t> indices((rest.points.size() + 3) / 4 * 4);
   for (std::size_t c = 0; c < particles.particles.size(); ++c)
@@ -92,7 +89,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.stepSeconds_ = settings.stepSeconds();
   self.particles_ = particles.particles;
   self.everyPair_ = contacts.graph.everyPair;
-  // Of hair that meets as a volume few touch others, and of those a sample may have none.
+  // If some hair meets as a volume, few contact particles touch others, and a sample may hold none of these.
   const bool inGroups = contacts.volume.hasGroups();
   self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
   self.largestRadius_ = *std::max_element(particles.radii.begin(), particles.radii.end());
@@ -183,7 +180,7 @@ Status ContactStage::writeControl() {
   return groom_->contactControl.upload(std::as_bytes(std::span(&control_, 1)));
 }
 
-// As large as `near_` says. Those there were are gone before the new ones are made.
+// Makes the lists, as large as `near_` says. The old ones are freed first.
 Status ContactStage::createLists() {
   lists_.clear();
   const ListMaker::Part parts[] = {
@@ -195,7 +192,7 @@ Status ContactStage::createLists() {
   return {};
 }
 
-// What the kernels see of the lists.
+// The lists in the table of bindings.
 Status ContactStage::bindLists() {
   bindings_.clear();
   for (const auto& kernel : kernels_) {
@@ -206,7 +203,7 @@ Status ContactStage::bindLists() {
   return {};
 }
 
-// What contact kernels see: as storage, and as texels.
+// The table of bindings: buffers as storage, and some of them as texels too.
 gpu::BufferTable ContactStage::bufferTable() const {
   using namespace layout;
   const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
@@ -243,30 +240,21 @@ double ContactStage::listedAhead() const { return sampleStride_ > 0 ? kDenseAhea
 
 layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
   const ListRoom live = lives_ ? lives_->room() : ListRoom{};
-  return {.contactCount = static_cast<std::uint32_t>(particles_.size()),
-          .bucketCount = bucketCount_,
-          .blockCount = near_.blocks,
-          .mostBlocks = near_.most,
-          .liveBlockCount = live.blocks,
-          .mostLiveBlocks = live.most,
-          .everyPair = everyPair_ ? 1u : 0u,
-          .step = step,
-          .seconds = static_cast<float>(stepSeconds_),
-          .skin = static_cast<float>(skin()),
-          .largestRadius = largestRadius_,
-          .stiffness = static_cast<float>(settings_.stiffness * kStandardGravity),
-          .dampingRatio = static_cast<float>(settings_.dampingRatio),
-          .friction = static_cast<float>(settings_.friction),
-          .ramp = changeIn(settings_.rampSeconds, stepSeconds_),
-          .stiffnessRelease = changeIn(settings_.stiffnessReleaseSeconds, stepSeconds_),
-          .dampingRelease = changeIn(settings_.dampingReleaseSeconds, stepSeconds_),
-          .reachFactor = static_cast<float>(settings_.listedReach()),
-          .breakFactor = static_cast<float>(settings_.reach()),
-          .seenAhead = static_cast<float>(kContactSeenAhead),
-          .listedAhead = static_cast<float>(listedAhead()),
-          .sampleStride = sampleStride_,
-          .warmth = static_cast<float>(kContactWarmth),
-          .cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())))};
+  layout::ContactParameters p = packed(settings_, stepSeconds_);
+  p.contactCount = static_cast<std::uint32_t>(particles_.size());
+  p.bucketCount = bucketCount_;
+  p.blockCount = near_.blocks;
+  p.mostBlocks = near_.most;
+  p.liveBlockCount = live.blocks;
+  p.mostLiveBlocks = live.most;
+  p.everyPair = everyPair_ ? 1u : 0u;
+  p.step = step;
+  p.skin = static_cast<float>(skin());
+  p.largestRadius = largestRadius_;
+  p.listedAhead = static_cast<float>(listedAhead());
+  p.sampleStride = sampleStride_;
+  p.cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())));
+  return p;
 }
 
 void ContactStage::dispatch(gpu::CommandList& list, ContactKernel kernel, std::uint32_t step,
@@ -340,8 +328,8 @@ Status ContactStage::setSample(const Sample& sample) {
   return writeControl();
 }
 
-// The step begins anew, from the contacts of the step before, in larger buffers. Lists that had room are
-// kept: what they hold must not depend on how much room there was.
+// Prepares to repeat the step, from the contacts of the last step, in larger buffers. Lists that had room are
+// kept, so that their content does not depend on the room there was.
 Status ContactStage::makeRoom() {
   layout::ContactControl& c = control_;
   if (lives_) {
@@ -352,7 +340,7 @@ Status ContactStage::makeRoom() {
     c.isListed = c.listed = 0;
     --c.rebuilds;
     if (Status status = createLists(); !status) return status;
-    // Nobody is known to have met any more, so nobody's system would be cleared.
+    // The new lists do not say which particles had contacts, so no kernel would clear their systems.
     if (Status status = groom_->chunks[0].contactSystems.fillZero(); !status) return status;
   }
   if (Status status = bindLists(); !status) return status;
@@ -401,8 +389,8 @@ Status ContactStage::archive(Archive& archive) {
   return writeControl();
 }
 
-// Of each block of each list: its contact particle, which block of pairs it is, how many of those are in it,
-// and what they do, as bits.
+// Calls tell(contact particle, index of the block, number of pairs in it, bits of the pairs) for each block
+// of each list.
 Status ContactStage::eachBlock(const EachBlock& tell) const {
   auto heads = downloadAll<std::uint32_t>(lists_[kHeads], particles_.size() * (1 + 2 * near_.most));
   if (!heads) return heads.error();
@@ -435,7 +423,7 @@ Result<std::vector<ListedContact>> ContactStage::listed(const RestState& rest) c
       downloadAll<layout::ContactPair>(lists_[kPairs], std::size_t{near_.blocks} * layout::kListBlock);
   if (!pairs) return pairs.error();
 
-  // Contacts first: of a pair that is in both lists, the contact stays.
+  // Contacts come first: if a pair is also in a list, unique() keeps the contact.
   const std::vector<std::uint32_t> inGroom = groomIndices(rest);
   std::vector<ListedContact> contacts;
   const auto add = [&](std::size_t c, std::uint32_t other, float stiffnessShare, float dampingShare) {

@@ -6,8 +6,8 @@
 //                      ->  first: who touches; weights, momenta               -> solve -> v^1
 //                      ->  next: unmet springs dropped, pair means of v^1      -> solve -> v^2 ... -> move
 //
-// With the distance taper a contact is what two particles' places say; with the time taper it has a life
-// (contact_lives.h).
+// With the distance taper a contact follows from the positions of its two particles; with the time taper it
+// has a state of its own (contact_lives.h).
 #pragma once
 
 #include <cstddef>
@@ -44,53 +44,53 @@ class ContactStage {
                                      const RestContacts& contacts, const std::vector<bool>& isHere,
                                      DeviceGroom& groom, int room);
 
-  /// Kernels that this stage was the first on its device to ask for.
+  /// Number of kernels that no other simulation on this device had made before.
   std::size_t newKernelCount() const { return newKernels_.size(); }
-  /// Those, without work: so that they are compiled before they are needed.
+  /// Dispatches these without work, so that the driver compiles them before they are needed.
   void recordNothing(gpu::CommandList& list) const;
 
-  /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
-  /// say.
+  /// Records the parts of a step, in order. The caller records the barriers before and after each.
   void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordFirst(gpu::CommandList& list, SubmissionPace& pace) const;
   void recordNext(gpu::CommandList& list, SubmissionPace& pace) const;
 
-  /// After a frame and before all that follows here: what it left in the control block.
+  /// Reads the control block that a frame left. To be called after a frame, before the functions below.
   void readControl();
-  /// Whether it stopped for want of room, and at which step.
+  /// The step at which the frame stopped for want of room, if it did.
   bool isHalted() const { return control_.isHalted != 0; }
   std::uint32_t haltedStep() const { return control_.step; }
-  /// Of hair in several parts: what a sample says after recordGrid is summed over them before recordLists.
+  /// Of hair in several parts: the counts of the sample after recordGrid, to be summed over the parts before
+  /// recordLists.
   struct Sample {
-    std::uint32_t sampled = 0, missed = 0;  // as ContactControl has them
+    std::uint32_t sampled = 0, missed = 0;  // see ContactControl
   };
   bool samples() const { return sampleStride_ > 0; }
   Sample sample() const { return {control_.sampled, control_.missed}; }
   Status setSample(const Sample& sample);
-  /// Makes longer lists, keeping what contacts remember; recordings made before are no longer good.
+  /// Enlarges the lists and keeps the state of contacts. Invalidates earlier recordings.
   Status makeRoom();
 
-  /// Of the buffers made once, and of the lists [bytes].
+  /// Size of the constant buffers, and of the lists [bytes].
   std::uint64_t bytes() const;
   std::uint64_t listBytes() const;
 
-  /// Pairs looked at since the simulation began, in all steps, both sides counted.
+  /// Number of pairs that the search has tested since the simulation began; each counts for both particles.
   std::uint64_t pairTests() const { return pairTests_; }
   std::uint64_t rebuilds() const { return control_.rebuilds; }
-  /// Pairs in the lists, and contacts that live, each on both sides.
+  /// Number of pairs in the lists, and of contacts; each counts for both particles.
   std::uint64_t listedSides() const { return control_.listed; }
   Result<std::uint64_t> contactSides() const;
-  /// What may change while hair moves; recordings made before are no longer good. Other springs need other
+  /// Changes the live settings. Invalidates earlier recordings; another stiffness or damping ratio also the
   /// lists.
   Status setSettings(const Settings& settings);
-  /// Forgets lists and lives: the hair was put somewhere else.
+  /// Clears lists and contacts, after the hair was moved to another state.
   Status forget();
-  /// All that the next step depends on beside positions, velocities and what the solve left. Where the
-  /// archive is read, recordings made before are no longer good.
+  /// Archives the state that the next step depends on besides positions, velocities and the result of the
+  /// last solve. Reading invalidates earlier recordings.
   Status archive(Archive& archive);
 
-  /// All pairs that are near or contacts, a < b, each once, sorted.
+  /// All listed pairs and contacts, a < b, each once, sorted.
   Result<std::vector<ListedContact>> listed(const RestState& rest) const;
 
  private:
@@ -125,7 +125,7 @@ class ContactStage {
   std::optional<Buffers> buffers_;
   std::vector<gpu::Buffer> lists_;     // of who is near, by ListPart
   std::optional<ContactLives> lives_;  // with the time taper
-  std::uint64_t largestList_ = 0;      // [bytes] a buffer of the lists may have
+  std::uint64_t largestList_ = 0;      // limit of a buffer of the lists [bytes]
   layout::ContactControl control_{};   // as the device has it between frames
   std::uint64_t pairTests_ = 0;
   ContactSettings settings_;

@@ -11,7 +11,7 @@ namespace {
 
 float inverseOr0(double x) { return x > 0 ? static_cast<float>(1 / x) : 0; }
 
-// In a step that begins with the head at `head`, which travels so fast [m/s].
+// The field in a step that begins with the head at `head`, which moves at this velocity [m/s].
 layout::StepField packedField(const ForceField& field, std::uint32_t firstNode, const HeadPose& head,
                               Vec3d travel) {
   layout::StepField out{};

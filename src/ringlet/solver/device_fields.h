@@ -1,4 +1,4 @@
-// DeviceFields: the fields that the hair of one head is in; nothing where it was built without.
+// DeviceFields: the force fields on the hair of one head; empty if the hair was built without.
 #pragma once
 
 #include <algorithm>
@@ -21,18 +21,18 @@ namespace ringlet {
 
 class DeviceFields {
  public:
-  /// With as many steps a frame at most. `slots`: frames in flight. Fails where checkForceField does, and
-  /// when the device lacks memory.
+  /// `mostSteps`: of a frame; `slots`: frames in flight. Fails where checkForceField does, and if the device
+  /// lacks memory.
   static Result<DeviceFields> create(gpu::Device& device, std::span<const ForceField> fields, int mostSteps,
                                      std::size_t slots);
 
-  /// As they are now.
+  /// The fields as they are now.
   std::span<const ForceField> now() const { return from_; }
   std::size_t count() const { return to_.size(); }
-  /// Whether these have buffers here: as many, with the same grids.
+  /// Whether these fields fit the buffers: the same number, with the same grids.
   bool hasRoomFor(std::span<const ForceField> fields) const;
 
-  /// As strand kernels bind them.
+  /// Bindings of the strand kernels.
   gpu::BufferTable bufferTable() const {
     using namespace layout;
     return {{kBindFields, steps_.seen()},
@@ -42,18 +42,18 @@ class DeviceFields {
   }
   std::uint64_t largestBuffer() const { return std::max(steps_.bytes(), nodes_.bytes()); }
   std::uint64_t bytes() const { return steps_.bytes() + nodes_.bytes(); }
-  /// The host's part, for frames in flight.
+  /// Host memory for frames in flight [bytes].
   std::uint64_t writtenBytes() const { return steps_.writtenBytes(); }
 
-  /// At the next frame's start and end; there is room for them.
+  /// Sets the fields at the next frame's start and end. They must fit the buffers.
   void set(std::span<const ForceField> from, std::span<const ForceField> to);
-  /// Whether they are in the next frame what they were in the one before.
+  /// Whether the fields are the same in the next frame as in the last one.
   bool areQuiet() const { return from_ == to_; }
-  /// For the frame of a slot. heads[0] is the head at the frame's start, heads[1 + k] at the end of step k.
+  /// Writes a slot's frame. heads[0] is the head at the frame's start, heads[1 + k] at the end of step k.
   void writeFrame(std::size_t slot, std::span<const HeadPose> heads, double stepSeconds);
-  /// A frame that is not stepped.
+  /// Ends a frame that is not stepped.
   void endFrame() { from_ = to_; }
-  /// A frame of this slot begins with it.
+  /// Records the copy to the device with which a frame of this slot begins.
   void record(gpu::CommandList& list, std::size_t slot) const { steps_.record(list, slot); }
 
  private:

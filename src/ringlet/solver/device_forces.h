@@ -1,4 +1,4 @@
-// DeviceForces: forces from outside on the particles of one head; nothing where its hair was built without.
+// DeviceForces: external forces on the particles of one head; empty if the hair was built without.
 #pragma once
 
 #include <cstddef>
@@ -19,27 +19,27 @@ namespace ringlet {
 
 class DeviceForces {
  public:
-  /// None act at first. `slots`: frames in flight. Fails when the device lacks memory.
+  /// All forces are 0 at first. `slots`: frames in flight. Fails if the device lacks memory.
   static Result<DeviceForces> create(gpu::Device& device, const RestState& rest, bool areThere,
                                      std::span<const GroomChunk> chunks, std::size_t slots);
 
   bool areThere() const { return areThere_; }
 
-  /// Of a chunk, as strand kernels bind them.
+  /// Bindings of the strand kernels, of a chunk.
   gpu::BufferTable bufferTable(std::size_t chunk) const {
     return {{layout::kBindOutsideForces, inputs_[chunk].seen()},
             {layout::kBindOutsideForceTexels, inputs_[chunk].seen()}};
   }
   std::uint64_t largestBuffer() const { return largestOf(inputs_); }
   std::uint64_t bytes() const { return bytesOf(inputs_); }
-  /// The host's part, for frames in flight.
+  /// Host memory for frames in flight [bytes].
   std::uint64_t writtenBytes() const { return writtenBytesOf(inputs_); }
 
-  /// On each kilogram of every particle, groom order [m/s^2], from the next frame written on.
+  /// Sets the force per kilogram of every particle, groom order [m/s^2], from the next written frame on.
   void set(std::span<const Vec3f> forces);
-  /// For the frame of a slot.
+  /// Writes the frame of a slot.
   void writeFrame(std::size_t slot);
-  /// A frame of this slot begins with it.
+  /// Records the copy to the device with which a frame of this slot begins.
   void record(gpu::CommandList& list, std::size_t slot) const {
     for (const FrameInput& input : inputs_) input.record(list, slot);
   }
@@ -52,7 +52,7 @@ class DeviceForces {
   std::vector<FrameInput> inputs_;           // of each chunk
   std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
   std::vector<layout::vec4> now_;            // in device order
-  std::vector<bool> isWritten_;              // whether a slot has these
+  std::vector<bool> isWritten_;              // of each slot: it has these forces
 };
 
 }  // namespace ringlet

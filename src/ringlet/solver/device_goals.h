@@ -1,4 +1,4 @@
-// DeviceGoals: places that the particles of one head are pulled to; nothing where its hair was built without.
+// DeviceGoals: places that the particles of one head are pulled to; empty if the hair was built without.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,15 @@ namespace ringlet {
 
 class DeviceGoals {
  public:
-  /// None pulls at first. `units`: goalUnits, which must outlive this, or null for hair without goals.
-  /// `slots`: frames in flight. Fails when the device lacks memory.
+  /// All strengths are 0 at first. `units`: goalUnits, which must outlive this, or null for hair without
+  /// goals. `slots`: frames in flight. Fails when the device lacks memory.
   static Result<DeviceGoals> create(gpu::Device& device, const RestState& rest,
                                     const std::vector<GoalUnit>* units, std::span<const GroomChunk> chunks,
                                     std::size_t slots);
 
   bool areThere() const { return units_ != nullptr; }
 
-  /// Of a chunk, as strand kernels bind them.
+  /// Bindings of the strand kernels, of a chunk.
   gpu::BufferTable bufferTable(std::size_t chunk) const {
     return {{layout::kBindGoalsBefore, before_[chunk].seen()},
             {layout::kBindGoals, after_[chunk].seen()},
@@ -37,15 +37,15 @@ class DeviceGoals {
   }
   std::uint64_t largestBuffer() const { return largestOf(after_); }
   std::uint64_t bytes() const { return bytesOf(before_) + bytesOf(after_); }
-  /// The host's part, for frames in flight.
+  /// Host memory for frames in flight [bytes].
   std::uint64_t writtenBytes() const { return writtenBytesOf(before_) + writtenBytesOf(after_); }
 
-  /// As Simulation::setGoals: at the end of the next frame written and from then on.
+  /// As Simulation::setGoals: the goals at the end of the next written frame, and from then on.
   void set(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
            std::span<const Vec3f> from);
-  /// For the frame of a slot.
+  /// Writes the frame of a slot.
   void writeFrame(std::size_t slot);
-  /// A frame of this slot begins with it.
+  /// Records the copy to the device with which a frame of this slot begins.
   void record(gpu::CommandList& list, std::size_t slot) const {
     for (const auto* inputs : {&before_, &after_})
       for (const FrameInput& input : *inputs) input.record(list, slot);
@@ -61,8 +61,8 @@ class DeviceGoals {
   std::vector<std::uint32_t> groomIndices_;  // of each particle, in device order
   const std::vector<GoalUnit>* units_;       // of each particle, in device order
   std::vector<layout::vec4> start_, end_;    // of the next frame, in device order
-  bool move_ = false;                        // in the next frame
-  std::vector<bool> isWritten_;              // whether a slot has these
+  bool move_ = false;                        // goals move in the next frame
+  std::vector<bool> isWritten_;              // of each slot: it has these goals
 };
 
 }  // namespace ringlet

@@ -58,7 +58,7 @@ void DeviceRoots::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
   RINGLET_ASSERT(poses.empty() || poses.size() == (heads.size() - 2) * groomStrandCount_,
                  "every strand has a pose in every step");
   if (count == 0) return;
-  std::vector<BodyPose> before(count);  // what carried the strand one pose earlier
+  std::vector<BodyPose> before(count);  // the pose that carried the strand one pose earlier
   for (std::size_t s = 0; s < count; ++s) before[s] = carriedBy(heads[0].rotation, oneStepEarlier_[s]);
   for (std::size_t pose = 0; pose + 1 < heads.size(); ++pose) {
     if (pose > 0) {

@@ -1,4 +1,4 @@
-// DeviceRoots: strands' poses of their own, beside the head's, on a device; nothing where there are none.
+// DeviceRoots: the poses of the strands' roots, in the head's frame, on a device; empty if strands have none.
 #pragma once
 
 #include <cstddef>
@@ -21,58 +21,58 @@
 
 namespace ringlet {
 
-/// What carries a strand that has this pose in the head's frame: relative to the head's origin, along world
-/// axes.
+/// The pose that carries a strand whose root has this pose in the head's frame: relative to the head's
+/// origin, along world axes.
 BodyPose carriedBy(Quatd headRotation, const BodyPose& root);
 
 class DeviceRoots {
  public:
-  /// Poses are BodyPose{} at first. `slots`: frames in flight. Fails when the device lacks memory.
+  /// All poses are BodyPose{} at first. `slots`: frames in flight. Fails if the device lacks memory.
   static Result<DeviceRoots> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                     bool areMoving, std::span<const GroomChunk> chunks, std::size_t slots);
 
   bool areMoving() const { return areMoving_; }
 
-  /// Of a chunk, as strand kernels bind them.
+  /// Bindings of the strand kernels, of a chunk.
   gpu::BufferTable bufferTable(std::size_t chunk) const {
     return {{layout::kBindRootPoses, poses_[chunk].seen()},
             {layout::kBindRootPoseTexels, poses_[chunk].seen()}};
   }
   std::uint64_t largestBuffer() const { return largestOf(poses_); }
   std::uint64_t bytes() const { return bytesOf(poses_); }
-  /// The host's part, for frames in flight.
+  /// Host memory for frames in flight [bytes].
   std::uint64_t writtenBytes() const { return writtenBytesOf(poses_); }
 
   /// Poses of strand s, device order, in the head's frame.
   const BodyPose& now(std::size_t s) const { return now_[s]; }
   const BodyPose& oneStepEarlier(std::size_t s) const { return oneStepEarlier_[s]; }
 
-  /// Steps of another length: roots are as fast and turning as before.
+  /// Adapts to another step length: the velocities of the roots stay.
   void setStepSeconds(double seconds);
-  /// Before the next step and one step before that, in groom order.
+  /// Sets the poses before the next step and one step earlier, in groom order.
   void place(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
-  /// Poses of the frame of a slot. heads[0] is the head one step before the frame's start, heads[1] at its
-  /// start, heads[2 + k] at the end of step k; `poses` as Simulation::stepFrame takes them, or none: then
-  /// they stay.
+  /// Writes the poses of the frame of a slot. heads[0] is the head one step before the frame's start,
+  /// heads[1] at its start, heads[2 + k] at the end of step k; `poses` as Simulation::stepFrame takes them;
+  /// without any they stay.
   void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses);
-  /// Whether they stay where they are in a frame, `poses` as above.
+  /// Whether all roots stay at rest in a frame, `poses` as above.
   bool areStill(std::span<const BodyPose> poses) const;
-  /// A frame of this slot begins with it.
+  /// Records the copy to the device with which a frame of this slot begins.
   void record(gpu::CommandList& list, std::size_t slot) const {
     for (const FrameInput& poses : poses_) poses.record(list, slot);
   }
-  /// Where roots are now, and were one step earlier.
+  /// The poses now and one step earlier.
   void archive(Archive& archive) {
     archive.values(std::span(now_));
     archive.values(std::span(oneStepEarlier_));
   }
-  /// A frame that is not stepped: roots are at once where they end, and still there, seen from the head.
+  /// Ends a frame that is not stepped: roots are at their last poses, at rest relative to the head.
   void endFrame(std::span<const BodyPose> poses);
 
  private:
   DeviceRoots(double stepSeconds, bool areMoving, std::size_t groomStrandCount)
       : stepSeconds_(stepSeconds), areMoving_(areMoving), groomStrandCount_(groomStrandCount) {}
-  // Of one step, all strands in groom order, to device order.
+  // Reorders the poses of one step from groom order to device order.
   std::vector<BodyPose> inOrder(std::span<const BodyPose> poses) const;
 
   std::vector<GroomChunk> chunks_;

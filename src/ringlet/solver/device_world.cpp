@@ -65,7 +65,7 @@ void DeviceWorld::writeFrame(std::size_t slot, std::span<const HeadPose> heads,
       const BodyPose next = poses.empty() ? bodies_[b].poseAt(0, heads[k]) : poses[(k - 1) * count + b];
       const Vec3d from = now_[b].position - heads[k - 1].position, to = next.position - heads[k].position;
       const Quatd turn = next.rotation * now_[b].rotation.conjugate();
-      // Its origin, and what is furthest from that by the turn.
+      // The motion of its origin, and of the point farthest from that by the turn.
       const layout::vec4& bounds = packed_[b].bounds;
       const double arm = length(Vec3d{bounds.x, bounds.y, bounds.z}) + bounds.w;
       const double moves = length(to - from) + 2 * arm * length(Vec3d{turn.x, turn.y, turn.z});
@@ -89,7 +89,7 @@ void DeviceWorld::endFrame(const HeadPose& head, std::span<const BodyPose> poses
     now_[b] = poses.empty() ? bodies_[b].poseAt(0, head) : poses[poses.size() - count + b];
 }
 
-// Of a step the air at its end, where the head was when it began: that is where positions are from.
+// A step uses the air at its end, about the place of the head at its start, to which positions are relative.
 void DeviceWorld::writeAir(std::span<layout::StepAir> out, std::span<const HeadPose> heads,
                            double seconds) const {
   for (std::size_t k = 0; k + 1 < heads.size(); ++k) {

@@ -1,4 +1,4 @@
-// DeviceWorld: what hair meets beside itself, on a device: bodies with their distance grids, and the air.
+// DeviceWorld: bodies with their distance grids, and the air, on a device.
 #pragma once
 
 #include <algorithm>
@@ -27,11 +27,11 @@ class DeviceWorld {
 
   std::size_t bodyCount() const { return bodies_.size(); }
   const std::vector<Body>& bodies() const { return bodies_; }
-  /// Where they are now, in the world.
+  /// The poses of bodies now, in the world.
   const std::vector<BodyPose>& places() const { return now_; }
   bool isTurbulent() const { return !waves_.empty(); }
 
-  /// As strand kernels bind them.
+  /// Bindings of the strand kernels.
   gpu::BufferTable bufferTable() const {
     using namespace layout;
     return {{kBindBodies, rests_},         {kBindBodyPoses, poses_.seen()},
@@ -44,31 +44,31 @@ class DeviceWorld {
   std::uint64_t bytes() const {
     return rests_.bytes() + poses_.bytes() + cells_.bytes() + air_.bytes() + waveBuffer_.bytes();
   }
-  /// The host's part, for frames in flight.
+  /// Host memory for frames in flight [bytes].
   std::uint64_t writtenBytes() const { return poses_.writtenBytes() + air_.writtenBytes(); }
 
-  /// Where bodies are before the next step, in the world.
+  /// Sets the poses of bodies before the next step, in the world.
   void placeBodies(std::span<const BodyPose> poses) { now_.assign(poses.begin(), poses.end()); }
-  /// Other steps, and other air; its turbulence stays.
+  /// Sets another step length and other air; the turbulence stays.
   void setSettings(const Settings& settings) {
     airSettings_ = settings.air;
     stepSeconds_ = settings.stepSeconds();
   }
-  /// Poses and air of the frame of a slot. heads[0] is the head at the frame's start, heads[1 + k] at the end
-  /// of step k; `poses` as bodyPosesOf gives them, or none: then the head carries all. `seconds`: since the
-  /// simulation began.
+  /// Writes poses and air of the frame of a slot. heads[0] is the head at the frame's start, heads[1 + k] at
+  /// the end of step k; `poses` as bodyPosesOf gives them, or none: then the head carries all. `seconds`:
+  /// since the simulation began.
   void writeFrame(std::size_t slot, std::span<const HeadPose> heads, std::span<const BodyPose> poses,
                   double seconds);
-  /// A frame of this slot begins with it.
+  /// Records the copy to the device with which a frame of this slot begins.
   void record(gpu::CommandList& list, std::size_t slot) const {
     poses_.record(list, slot);
     air_.record(list, slot);
   }
-  /// Where bodies are now.
+  /// The poses of bodies now.
   void archive(Archive& archive) { archive.values(std::span(now_)); }
-  /// Whether bodies stay where they are in a frame, `poses` as above, in air that does not change.
+  /// Whether bodies stay at rest in a frame, `poses` as above, and the air does not change.
   bool isQuiet(std::span<const BodyPose> poses) const;
-  /// A frame that is not stepped: bodies are at once where they end, `poses` as above.
+  /// Ends a frame that is not stepped: bodies are at their last poses, `poses` as above.
   void endFrame(const HeadPose& head, std::span<const BodyPose> poses);
 
  private:

@@ -11,38 +11,38 @@
 namespace ringlet {
 namespace {
 
-// A little below where such a device ends loops. Others have no such limit; theirs is a dispatch short enough
-// not to be taken for a hang.
+// Loop turns of a dispatch: a little fewer than those after which such a device ends loops. Other devices
+// have no such limit; theirs keeps a dispatch so short that it does not pass for a hang.
 std::uint64_t loopBudget(const DeviceLimits& limits) { return limits.endsLoopsEarly ? 65000 : 4'000'000; }
 
-// Turns of loops, at most: what one step costs besides its solve's outer loops, and what one of those costs.
+// Upper bounds of loop turns.
 struct LoopCost {
-  std::uint64_t step = 0;
+  std::uint64_t step = 0;  // of a step, but for its solve loops
   std::uint64_t perSolveLoop = 0;
-  std::uint64_t solveLoops = 0;
-  std::uint64_t pressed = 0;  // more for a step, where a whole strand is pressed onto bodies
+  std::uint64_t solveLoops = 0;  // of a step
+  std::uint64_t pressed = 0;     // in addition, of a step in which a whole strand is pressed onto bodies
 };
 
-// Of a scan over lanes, and what it squares over the run's digits; one lane has none.
+// Turns of a scan over lanes and of its squarings over the bits of the run; one lane needs none.
 std::uint64_t scanCost(const StrandShape& shape) {
   return shape.lanes == 1 ? 0 : std::countr_zero(shape.lanes) + std::bit_width(shape.particlesPerLane) + 2;
 }
 
 LoopCost loopCost(const StrandRange& range, const Settings& settings, std::size_t bodyCount) {
-  // Loops over a run count in full, though in registers drivers unroll them; lavapipe counts a turn more.
+  // Loops over a run count in full, although drivers unroll them in registers; lavapipe counts one turn more.
   const bool inMemory = range.shape.inMemory;
   const std::uint64_t run = range.shape.particlesPerLane + (inMemory ? 1 : 8);
   LoopCost cost;
-  // In memory: the sweeps of a step, among them those over 12 waves of turbulent wind; with bodies those of
+  // Sweeps over the run. In memory these include 12 over waves of turbulent wind and, with bodies, those of
   // two more solves and of one round after the move.
   const std::uint64_t sweeps = inMemory ? 24 + (settings.air.on ? 14 : 0) + (bodyCount > 0 ? 20 : 0) : 20;
-  // Of a body in the way: in registers 17 looks at most for each particle and each edge, and as many in each
-  // of eight rounds after the move; of more than four bodies no run is in the way of all. A long run's
-  // particles are seldom all at it at once. Where they are, there are 45 more sweeps in the other seven
-  // rounds, and for each body 42 turns a particle for the solve and 24 in every round.
+  // A body near the run costs, in registers, up to 17 evaluations per particle and per edge, and the same in
+  // each of eight rounds after the move; a run is never near more than four bodies. In memory runs are long,
+  // and rarely all of their particles are at the body. If they are, the other seven rounds take 45 more
+  // sweeps, and each body takes 42 turns per particle in the solve and 24 in every round.
   const std::uint64_t inTheWay = std::min<std::uint64_t>(bodyCount, 4);
   cost.step = sweeps * run + inTheWay * run * (inMemory ? 24 : 178) + 30 * bodyCount;
-  // Four scans that square, and up to a dozen others.
+  // Four scans with squarings, and up to twelve others.
   if (inMemory) cost.step += 10 * scanCost(range.shape) * (bodyCount > 0 ? 2 : 1);
   if (inMemory && bodyCount > 0) cost.pressed = run * (45 + inTheWay * (42 + 8 * 24));
   if (settings.integrator == Integrator::pointJacobi) {
@@ -70,7 +70,7 @@ Error tooLong(const StrandRange& range, const Settings& settings, std::uint64_t 
       range.longest, turns, budget, remedy)};
 }
 
-// Cuts a frame's steps for one range into pieces within the budget, of several steps where they fit.
+// Cuts a frame's steps for one range into pieces within the budget, each of as many steps as fit.
 Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const DeviceLimits& limits,
                                                const Settings& settings, std::size_t bodyCount,
                                                std::uint64_t mostParticleSteps) {
@@ -79,7 +79,7 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
   const std::uint64_t whole = cost.step + cost.solveLoops * cost.perSolveLoop;
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   if (whole > budget) return tooLong(range, settings, whole, budget);
-  // A strand that a step alone may be too long for goes step by step.
+  // If a single step may exceed the budget, each piece is one step.
   const std::uint64_t stepsThatFit = std::max<std::uint64_t>(1, budget / (whole + cost.pressed));
   const std::uint64_t particles = std::uint64_t{range.end - range.begin} * range.longest;
   const std::uint64_t bound =
@@ -91,7 +91,7 @@ Result<std::vector<PlannedDispatch>> planSteps(const StrandRange& range, const D
   return pieces;
 }
 
-// A range's pieces for as many strands at once as the device takes groups, and a bound takes particles.
+// The pieces of a range, each of as many strands as the device has groups and `mostParticleSteps` allows.
 void spreadOverGroups(std::vector<PlannedDispatch>& plan, const StrandRange& range, std::uint32_t index,
                       const DeviceLimits& limits, std::uint32_t groupSize,
                       std::span<const PlannedDispatch> pieces, std::uint64_t mostParticleSteps) {
@@ -135,7 +135,7 @@ Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> range
   for (std::uint32_t r = 0; r < ranges.size(); ++r) {
     const std::uint64_t turns = 2 * loopCost(ranges[r], settings, bodyCount).step;
     if (turns > loopBudget(limits)) return tooLong(ranges[r], settings, turns, loopBudget(limits));
-    // A lane keeps nothing from solve to solve, and computes forces anew.
+    // A lane keeps no state between solves and computes forces again.
     const PlannedDispatch piece{
         .stepBegin = pass.step,
         .stepEnd = pass.step + (pass.goesOn ? 2 : 1),

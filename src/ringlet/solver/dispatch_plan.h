@@ -1,5 +1,5 @@
-// How a groom's ranges (shape_plan.h) are cut into dispatches: how many steps each may do. Pure arithmetic,
-// no device.
+// Cuts the ranges of a groom (shape_plan.h) into dispatches, by the number of steps each may do. Pure
+// arithmetic, no device.
 #pragma once
 
 #include <cstdint>
@@ -25,26 +25,26 @@ struct PlannedDispatch {
 std::uint32_t groupCountOf(const PlannedDispatch& dispatch, const StrandShape& shape, std::uint32_t groupSize,
                            std::uint32_t heads = 1);
 
-/// One solve with contacts on: which step, what it does, and whether it goes on to the next step's first
-/// solve.
+/// One solve of a step with contacts.
 struct SolvePass {
   std::uint32_t step = 0;
-  bool withContacts = false;  // else the first solve, without
-  bool moves = false;         // it is the step's last
-  bool goesOn = false;        // and the first of the step after follows
+  bool withContacts = false;  // false: the step's first solve, without them
+  bool moves = false;         // it is the last solve of the step, and strands move
+  bool goesOn = false;        // the first solve of the next step follows in the same dispatch
 };
 
-/// No bound on a dispatch but the device's.
+/// No bound on a dispatch besides the device's.
 inline constexpr std::uint64_t kAnyParticleSteps = ~std::uint64_t{0};
 
-/// Particles of a dispatch, as long as its range's longest strand, times its steps.
+/// Particle steps of a dispatch: its strands times the particles of the range's longest strand times its
+/// steps.
 std::uint64_t particleStepsOf(const PlannedDispatch& dispatch, std::span<const StrandRange> ranges);
 
-/// Whether the later of two dispatches that follow each other needs what the earlier one wrote. Others may
-/// run at the same time.
+/// Whether the later of two consecutive dispatches reads the results of the earlier one. If not, they may run
+/// at the same time.
 bool sharesStrands(const PlannedDispatch& a, const PlannedDispatch& b);
 
-/// The dispatches of one pass, in order, as for planFrame. Fails where a step is too long for the device.
+/// The dispatches of one solve pass, in order, as planFrame's. Fails if a step is too long for the device.
 Result<std::vector<PlannedDispatch>> planPass(std::span<const StrandRange> ranges, const DeviceLimits& limits,
                                               const Settings& settings, std::size_t bodyCount,
                                               std::uint32_t groupSize, const SolvePass& pass,

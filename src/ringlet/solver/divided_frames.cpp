@@ -1,5 +1,5 @@
-// Implements the frames of divided hair (divided_hair.h): a frame is several submissions, and between them
-// parts hand each other what their strands do. They are recorded as they run.
+// Implements the frames of divided hair (divided_hair.h). A frame is several submissions, each recorded when
+// it is due; between them the parts exchange the rows of their strands.
 #include <utility>
 
 #include "layout/contacts.h"
@@ -7,7 +7,8 @@
 
 namespace ringlet {
 
-// One submission: others' rows come in, work is done, own rows go out to the host.
+// Records and runs one submission: the other parts' rows are uploaded, `work` is done, the own rows are
+// downloaded.
 template <class Work>
 Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Recorder& recorder,
                                               std::optional<DividedHair::Rows> in,
@@ -29,8 +30,8 @@ Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Record
   return buffers.control().isHalted == layout::kHaltedByTurns ? Status{Error{kTooManyNear}} : Status{};
 }
 
-// A step up to its solve's first iteration. Where this part's lists have no room it does so once more: of the
-// others it asks nothing then that they have not said.
+// A step up to the first iteration of its solve. If this part's lists find no room, the part repeats this; it
+// has all data of the other parts by then.
 template <class Solve>
 Status Simulation::Implementation::meetFirst(FrameRecording& frame, gpu::Recorder& recorder,
                                              std::uint32_t step, const Solve& solve,

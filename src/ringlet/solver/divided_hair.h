@@ -1,7 +1,7 @@
-// DividedHair: hair in contact whose strands several devices step. Every part holds all strands and steps its
-// own; lists and contacts it has of its own strands only, with any strand, and of the volume what its own
-// particles bring and take. The grids in which strands find each other all parts make alike. What a part's
-// strands do goes to the others over a PartLink, twice a step:
+// DividedHair: hair with contacts whose strands are divided among several devices. Each part holds all
+// strands and steps its own. It has lists and contacts of its own strands only, with strands of any part, and
+// computes the volume's terms for its own particles. All parts build the same search grids. Parts exchange
+// the rows of their strands over a PartLink, twice a step:
 //
 //   v^0 -> rows of the step -> lists, contacts, volume -> solve -> v^1 -> rows of the solve -> ... -> move
 #pragma once
@@ -24,19 +24,19 @@
 
 namespace ringlet {
 
-/// Of each strand, device order: whether it is among `part`, groom order. Errors: as restrictTo.
+/// For each strand, device order: whether it is in `part`, groom order. Errors: as restrictTo.
 Result<std::vector<bool>> strandsHere(const RestState& rest, std::span<const std::uint32_t> part);
 
-/// The runs of strands that are here, of whole ranges.
+/// The ranges, cut to the consecutive strands that are stepped here.
 std::vector<StrandRange> rangesHere(std::span<const StrandRange> ranges, const RestState& rest,
                                     const std::vector<bool>& isHere);
 
 class DividedHair {
  public:
-  /// What crosses: at a step's start, or after one of its solves.
+  /// The rows that are exchanged: at a step's start, or after one of its solves.
   enum class Rows { step, solve };
 
-  /// Rows of a buffer, a vec4 for each particle, from a row on.
+  /// Rows of a buffer, one vec4 per particle, from a first row on.
   struct Field {
     const gpu::Buffer* buffer = nullptr;
     std::size_t firstRow = 0;
@@ -51,14 +51,14 @@ class DividedHair {
                                     const Fields& ofHair, const std::optional<RestVolume>& volume,
                                     const Fields& ofVolume);
 
-  /// The own rows to the host, after a barrier; and the others' rows to the device, before one.
+  /// Records the download of the own rows, after a barrier, and the upload of the others', before one.
   void recordOut(gpu::CommandList& list, Rows rows) const;
   void recordIn(gpu::CommandList& list, Rows rows) const;
-  /// Between the two, on the host.
+  /// Exchanges rows on the host, between the two.
   Status exchange(Rows rows);
-  /// Of all parts.
+  /// The sum over all parts.
   Result<ContactStage::Sample> sum(const ContactStage::Sample& own);
-  /// This part has failed.
+  /// Tells the other parts that this one has failed.
   void fail(const Error& why) { link_->fail(why); }
 
   std::uint64_t bytes() const { return crossing_->bytes(); }
@@ -67,12 +67,12 @@ class DividedHair {
   struct Run {
     std::size_t first = 0, end = 0;  // rows
   };
-  // Some rows of a buffer, and where they are in crossing_ [bytes].
+  // Rows of a buffer, and their place in crossing_ [bytes].
   struct Piece {
     const gpu::Buffer* buffer = nullptr;
     std::size_t inBuffer = 0, inCrossing = 0, bytes = 0;
   };
-  // Of either kind of rows: its place in crossing_ [bytes], and a section for each part.
+  // For each kind of rows: its place in crossing_ [bytes], and a section per part.
   struct Crossing {
     std::size_t begin = 0;
     std::vector<std::size_t> ends;  // from begin on
@@ -86,7 +86,7 @@ class DividedHair {
   const Crossing& of(Rows rows) const { return rows == Rows::step ? step_ : solve_; }
 
   PartLink* link_;
-  // Rows of the step stay as they came until its lists have room.
+  // Rows of the step are kept as they came until its lists have room.
   Crossing step_, solve_;
   std::optional<gpu::Buffer> crossing_;
 };

@@ -1,6 +1,6 @@
-// FrameInput: what the host says anew for every frame. Kernels see one buffer; each frame in flight has a
-// copy of its own in the host's memory, which it begins by taking over: so the host writes the next frame's
-// while the device still reads this one's.
+// FrameInput: data that the host writes for every frame. Kernels read one buffer; each frame in flight has
+// its own copy in host memory, from which its commands first fill that buffer. So the host can write the next
+// frame's data while the device still reads this frame's.
 #pragma once
 
 #include <cstddef>
@@ -18,25 +18,25 @@ namespace ringlet {
 
 class FrameInput {
  public:
-  /// For `slots` frames in flight. No bytes are fine.
+  /// For `slots` frames in flight; `bytes` may be 0.
   static Result<FrameInput> create(gpu::Device& device, std::uint64_t bytes, std::size_t slots,
                                    const std::string& name);
   /// Kernels are to see `seen`.
   static Result<FrameInput> create(gpu::Device& device, gpu::Buffer seen, std::size_t slots,
                                    const std::string& name);
 
-  /// What kernels see.
+  /// The buffer that kernels read.
   const gpu::Buffer& seen() const { return seen_; }
   std::uint64_t bytes() const { return seen_.bytes(); }
-  /// Of all frames' copies.
+  /// Size of all frames' copies [bytes].
   std::uint64_t writtenBytes() const { return written_.size() * seen_.bytes(); }
-  /// What the host writes for the frame of this slot, while that is not submitted.
+  /// The copy of this slot's frame, to be written while that frame is not submitted.
   template <class T>
   std::span<T> of(std::size_t slot) const {
     const auto bytes = written_[slot].mapped();
     return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
-  /// Takes it over, at the frame's start; a barrier must follow.
+  /// Records the copy into the kernels' buffer, at the frame's start; a barrier must follow.
   void record(gpu::CommandList& list, std::size_t slot) const {
     list.copyBuffer(written_[slot], seen_, seen_.bytes());
   }
@@ -48,7 +48,7 @@ class FrameInput {
   std::vector<gpu::Buffer> written_;  // by slot
 };
 
-/// Of one input for each chunk of a groom.
+/// Sizes of the inputs of all chunks of a groom [bytes].
 std::uint64_t largestOf(std::span<const FrameInput> inputs);
 std::uint64_t bytesOf(std::span<const FrameInput> inputs);
 std::uint64_t writtenBytesOf(std::span<const FrameInput> inputs);

@@ -1,4 +1,4 @@
-// FrameSlot: a place for a frame in flight: its recording, and where its positions come back to.
+// FrameSlot: a place for a frame in flight: its recorded commands and the host memory for its positions.
 #pragma once
 
 #include <cstdint>
@@ -18,24 +18,24 @@
 namespace ringlet {
 
 struct FrameSlot {
-  std::vector<gpu::Buffer> positions;  // of each chunk, as the frame left them, in the host's memory; or none
-  std::vector<Vec3f> rigid{};          // positions of rigid strands then, as RigidHair gives them
-  gpu::Recorder recorder;              // goes first, waiting for what it writes
+  std::vector<gpu::Buffer> positions;  // of each chunk at the frame's end, in host memory; or none
+  std::vector<Vec3f> rigid{};          // positions of rigid strands at that time, as RigidHair gives them
+  gpu::Recorder recorder;              // destroyed first: it waits for the commands that write the others
   enum class Recorded { nothing, frame, sleep };
   Recorded recorded = Recorded::nothing;  // sleep: a frame without steps
   double particleSteps = 0;               // of strands, in what is recorded
-  bool isHosts = false;  // the frame is in others' commands (hair_frames.h): they say when it is over
+  bool isHosts = false;  // the frame is in a host's commands (hair_frames.h), which tell when it is over
 
   /// Fails when the device lacks memory.
   static Result<FrameSlot> create(gpu::Device& device, const DeviceGroom& groom, bool readsBack);
 
-  /// Brings positions back, at the frame's end, where they are to come back.
+  /// Records the read-back of positions at the frame's end, if they are read back.
   void recordPositions(gpu::CommandList& list, const DeviceGroom& groom) const;
-  /// Brings them back now, after a frame that is not recorded.
+  /// Reads positions back now, after a frame that is not recorded.
   Status downloadPositions(const DeviceGroom& groom);
   std::vector<Vec3f> inGroomOrder(const RestState& rest, const DeviceGroom& groom,
                                   const RigidHair& rigidHair) const;
-  /// As they came back, chunk by chunk, in device order; none where they do not.
+  /// The positions read back, by chunk, in device order; empty if they are not read back.
   std::vector<std::span<const layout::vec4>> readPositions() const;
   std::uint64_t bytes() const;
 };

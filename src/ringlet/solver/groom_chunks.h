@@ -1,7 +1,7 @@
-// How much memory a groom takes on a device, and how it is cut into chunks where no kernel sees all of it: a
-// device bounds what one binding shows (maxStorageBufferRange, 128 MiB on many), which is 4 million
-// particles. Every chunk has buffers of its own, so that no binding needs an offset and one that is all of
-// the groom is as before. Pure arithmetic, no device.
+// The memory that a groom needs on a device, and how a groom is cut into chunks. A device limits the size of
+// a bound buffer (maxStorageBufferRange, 128 MiB on many), which is 4 million particles; a larger groom needs
+// several chunks. Each chunk has its own buffers, so that bindings need no offsets. Pure arithmetic, no
+// device.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace ringlet {
 
-/// Bytes of one particle and of one strand in each of their buffers; 0: it is not needed.
+/// Bytes per particle or per strand in each of the buffers; 0: the buffer is not needed.
 struct GroomRecords {
   std::uint64_t position = 0, velocity = 0, particleRest = 0, taps = 0, solved = 0;
   std::uint64_t contactSystem = 0, addedByVolume = 0, force = 0, goals = 0;
@@ -27,8 +27,8 @@ struct GroomRecords {
     return position + velocity + particleRest + taps + solved + contactSystem + addedByVolume + force + goals;
   }
   std::uint64_t perStrand() const { return strandRest + report + rootPoses; }
-  // And for each frame in flight, in the host's memory: positions read back, forces, goals and poses taken
-  // over.
+  // In addition for each frame in flight, in host memory: positions read back; forces, goals and poses
+  // written.
   std::uint64_t perParticleOfFrame() const { return position + force + goals; }
   std::uint64_t perStrandOfFrame() const { return rootPoses; }
 };
@@ -45,14 +45,14 @@ struct GroomChunk {
   std::uint32_t particleCount() const { return particleEnd - particleBegin; }
 };
 
-/// The fewest chunks of whole strands, in device order, of which no buffer has more than `mostBytes`. Fails,
-/// with the numbers, where one strand has more; and where there is more than one chunk and `wholeFor`, which
-/// needs all strands in one, is not empty. No strands are one chunk of nothing.
+/// Cuts strands, in device order, into the fewest chunks of which no buffer exceeds `mostBytes`. Fails, with
+/// the numbers, if one strand alone exceeds it, or if several chunks are needed and `wholeFor` names a
+/// feature that needs all strands in one. No strands make one empty chunk.
 Result<std::vector<GroomChunk>> cutGroom(std::span<const std::uint32_t> particleCounts,
                                          const GroomRecords& records, std::uint64_t mostBytes,
                                          const std::string& wholeFor = "");
 
-/// The same ranges, none of strands of two chunks: begin and end are within the range's chunk.
+/// The ranges, cut at the borders of chunks; begin and end then count within the range's chunk.
 std::vector<StrandRange> cutRanges(std::span<const StrandRange> ranges, std::span<const GroomChunk> chunks);
 
 /// Fails, with the numbers, where `what` needs more bytes than the device has left.

@@ -30,8 +30,8 @@ std::uint64_t lanesOf(std::span<const StrandRange> ranges) {
   return lanes;
 }
 
-// Planned for the whole groom, so that a strand's bits do not depend on which others are here. All strands
-// may be rigid, and then none is on the device.
+// Plans for the whole groom, so that the bits of a strand do not depend on which others are stepped here.
+// There are no ranges if all strands are rigid.
 Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
                                           std::span<const std::uint32_t> wholeCounts,
                                           const DeviceLimits& limits, const KernelChoice& choice,
@@ -63,7 +63,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     return Error{"goals need the integrator jacobi; this run has another"};
   if (choice.fields && settings.integrator != Integrator::jacobi)
     return Error{"fields need the integrator jacobi; this run has another"};
-  // Strands that may meet stand near each other in memory.
+  // Order in which strands that may touch are near each other in memory.
   std::vector<std::uint32_t> order;
   if (settings.contacts.on) order = orderAlongCurve(groom);
   auto rest = buildRestState(groom, material, settings, order);
@@ -144,13 +144,13 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const std::uint64_t lanes = lanesOf(self->ranges);
   self->groupSize = strandGroupSize(*limits, self->places ? lanes * self->places->headsOfRow() : lanes);
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
-  if (!plan) return plan.error();  // before anything is made for it
+  if (!plan) return plan.error();  // before anything else is made
   for (const GroomChunk& chunk : *chunks) {
     auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles, chunk);
     if (!constants) return constants.error();
     self->constants.push_back(std::move(*constants));
   }
-  self->rest.particles = {};  // the device has them
+  self->rest.particles = {};  // they are on the device
   return HairAsset(std::move(self));
 }
 

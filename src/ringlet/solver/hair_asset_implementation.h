@@ -17,8 +17,8 @@
 
 namespace ringlet {
 
-/// Whether hair with these settings may be divided (KernelChoice::part, link): nothing may ask all of its
-/// strands, and what couples them takes a link.
+/// Whether hair with these settings can be divided (KernelChoice::part, link): no feature may need all of its
+/// strands, and contacts need a link.
 Status checkPart(const Settings& settings, const PartLink* link);
 
 struct HairAsset::Implementation {
@@ -27,15 +27,14 @@ struct HairAsset::Implementation {
   Settings settings;
   KernelChoice choice;
   BodyUse bodies = BodyUse::none;
-  DeviceLimits limits;                   // the device's, with the subgroups that were chosen
-  std::uint32_t groupSize = 0;           // of strand kernels
-  RestState rest;                        // its particles are on the device
-  std::vector<bool> isHere;              // of strands, device order, where others step some; none: all are
+  DeviceLimits limits;                   // of the device, with the chosen subgroup width
+  std::uint32_t groupSize = 0;           // workgroup size of strand kernels
+  RestState rest;                        // without its particles, which are on the device
+  std::vector<bool> isHere;              // of each strand, device order; empty: no other device steps some
   std::optional<RestContacts> contacts;  // with contacts
-  std::optional<RestVolume> volume;      // where strands meet as one
+  std::optional<RestVolume> volume;      // if some strands meet as a volume
   std::vector<StrandRange> ranges;
-  std::vector<StrandRange>
-      firstRanges;  // as a step's first solve has them, where that has kernels of its own
+  std::vector<StrandRange> firstRanges;  // of the first solve of a step, if that has kernels of its own
   GroomRecords records;
   std::vector<ConstantChunk> constants;
   std::shared_ptr<HeadPlaces> places;              // of many small heads; none: each has its own buffers

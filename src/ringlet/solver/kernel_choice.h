@@ -25,21 +25,21 @@ struct KernelChoice {
   // lanes: runs in registers; memory: in memory, for long strands; serial: the same in one lane
   enum class Form { automatic, lanes, memory, serial };
   Form form = Form::automatic;
-  int particlesPerLane = 0;  // see longestRun in shape_plan.h; 0: choose
-  int lanes = 0;             // of a strand, a power of two; 0: choose
-  int subgroupSize = 0;      // see subgroupSizes in subgroup_choice.h; 0: choose
+  int particlesPerLane = 0;  // see longestRun in shape_plan.h; 0: chosen by the plan
+  int lanes = 0;             // of a strand, a power of two; 0: chosen by the plan
+  int subgroupSize = 0;      // see subgroupSizes in subgroup_choice.h; 0: chosen by device
   std::span<const ShapeCost>
       measured{};            // on this device, read until build or create returns; none: a cost model is used
   bool manyKernels = false;  // the best shape for every strand, however long kernels take to compile
   // Expected number of heads with this hair. For many heads a long compilation pays. With 2 or more, heads of
   // hair by itself stand together on the device, and one dispatch steps many (hair_frames.h).
   int heads = 1;
-  // Strands, groom order, that are simulated here, where others are elsewhere: these have the bits they have
-  // in the whole groom, and of the others no position is known here. Without sleep only, and with contacts
-  // only as `link` says. Read until build or create returns; empty: all
+  // The strands, groom order, that are simulated here, if other devices simulate the rest. They have the same
+  // bits as in the whole groom; positions of the others are unknown here. Not with sleep, and with contacts
+  // only by `link`. Read until build or create returns; empty: all.
   std::span<const std::uint32_t> part{};
-  // With contacts, in place of `part`: what this part and the others, each simulated at the same time, hand
-  // each other. One simulation at a time; must live as long.
+  // In place of `part` for hair with contacts: the exchange with the other parts, which are simulated at the
+  // same time. For one simulation at a time; must live as long.
   PartLink* link = nullptr;
   CompileObserver* observer = nullptr;  // must live as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower

@@ -1,5 +1,5 @@
-// The table of who may touch whom, as contact_query.comp looks it up: hashed, so that a look costs the same
-// for any number of neighbours.
+// The hash table of pairs of strands that may touch, for contact_query.comp. A look-up has the same cost for
+// any number of neighbours.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 
 namespace ringlet {
 
-/// A record for each strand: (first of its buckets, their number less one, its group, 1 where `isHere` says
-/// that another device steps it; none: all are here); then the buckets, each four strands or
-/// layout::kNoStrand. A strand s is in the first bucket with room from (s * 2654435761
-/// >> 16) on, modulo their number, a power of two; buckets are at most half full on average, so one with room
-/// always comes. No buckets for a graph that allows every pair. Cost: linear in neighbours; 8 to 16 bytes
+/// A record per strand: (its first bucket, the number of its buckets minus 1, its group, 1 if another device
+/// steps it by `isHere`, of which an empty one means that none does); then the buckets, each of four strands
+/// or layout::kNoStrand. Neighbour s is in the first bucket with a free place, from bucket (s * 2654435761 >>
+/// 16) on, modulo the number of buckets, which is a power of two; at most half of the places are taken, so
+/// there is one. A graph that allows every pair has no buckets. Cost: linear in neighbours; 8 to 16 bytes
 /// each.
 std::vector<std::array<std::uint32_t, 4>> neighbourTable(const ContactGraph& graph,
                                                          const VolumeStrands& volume,

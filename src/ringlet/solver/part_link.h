@@ -1,5 +1,5 @@
-// PartLink: how the parts of divided hair hand each other what strands in contact need of one another
-// (KernelChoice::link). Over threads of a process: shared_link.h.
+// PartLink: the exchange of data between the parts of divided hair with contacts (KernelChoice::link).
+// Between threads of one process: shared_link.h.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,22 @@
 
 namespace ringlet {
 
-/// Every part has one of its own. Parts have the same groom, settings and frames, and devices of one kind;
-/// then each strand has the bits that it has undivided.
+/// Each part has its own. If all parts have the same groom, settings and frames, and devices of one kind,
+/// each strand has the same bits as in undivided hair.
 class PartLink {
  public:
   virtual ~PartLink() = default;
 
-  /// Strands of each part, groom order; every strand is in one.
+  /// The strands of each part, groom order; each strand is in exactly one part.
   const std::vector<std::vector<std::uint32_t>>& parts() const { return parts_; }
-  /// Which of them this is.
+  /// The index of this part.
   std::size_t own() const { return own_; }
 
-  /// `all` has a section for each part; section k ends at `ends[k]` [bytes]. The own one is filled; on return
-  /// all are. Every part calls it as often, with the same ends, and waits for the others. Fails where one has
-  /// failed.
+  /// Exchanges sections. `all` has a section per part; section k ends at `ends[k]` [bytes]. The caller has
+  /// filled its own; on return all are filled. All parts call this equally often, with the same ends, and
+  /// wait for each other. Fails if a part has failed.
   virtual Status exchange(std::span<std::byte> all, std::span<const std::size_t> ends) = 0;
-  /// This part has failed: others do not wait for it any more.
+  /// Tells the others that this part has failed, so that they stop waiting for it.
   virtual void fail(const Error& why) = 0;
 
  protected:

@@ -1,4 +1,4 @@
-// RigidHair: the strands that are carried by their roots and never on the device (rest/rigid_strands.h).
+// RigidHair: the strands that their roots carry rigidly; they are not on the device (rest/rigid_strands.h).
 #pragma once
 
 #include <span>
@@ -14,33 +14,33 @@ namespace ringlet {
 
 class RigidHair {
  public:
-  /// Takes the strands. They have no poses of their own and no shifts at first.
+  /// Of these strands, at first without root poses and shifts.
   RigidHair(std::vector<RigidStrand> strands, std::size_t groomStrandCount);
 
   std::size_t strandCount() const { return strands_.size(); }
 
-  /// As InitialState has them.
+  /// Sets shifts as in InitialState.
   void setRootShifts(std::span<const Vec3d> shifts);
-  /// Strands' own poses before the next step and one step before that, of all strands in groom order.
+  /// Sets root poses before the next step and one step earlier, of all strands in groom order.
   void placeRoots(std::span<const BodyPose> now, std::span<const BodyPose> oneStepEarlier);
-  /// Poses of a frame's steps as Simulation::stepFrame takes them, or none: then they stay.
+  /// Moves by the poses of a frame's steps, as Simulation::stepFrame takes them; without any, strands stay.
   void endFrame(std::span<const BodyPose> poses);
-  /// The same of a frame that is not stepped: roots are still, seen from the head.
+  /// The same of a frame that is not stepped: afterwards roots are at rest relative to the head.
   void jump(std::span<const BodyPose> poses);
 
-  /// Steps are now this share as long: roots are as fast and turning as before.
+  /// Adapts to steps that are this share as long: the velocities of the roots stay.
   void rescale(double share) {
     for (Poses& p : poses_) p.oneStepEarlier = interpolate(p.now, p.oneStepEarlier, share);
   }
-  /// Where roots are now, and were one step earlier.
+  /// The root poses now and one step earlier.
   void archive(Archive& archive) { archive.values(std::span(poses_)); }
 
-  /// Relative to the head's origin, along world axes, strand after strand [m].
+  /// Positions relative to the head's origin, along world axes, strand by strand [m].
   std::vector<Vec3f> positions(const HeadPose& now) const;
-  /// And relative to its translation [m/s].
+  /// Velocities relative to the head's translation [m/s].
   std::vector<Vec3f> velocities(const HeadPose& now, const HeadPose& oneStepEarlier,
                                 double stepSeconds) const;
-  /// Puts such values where the strands are among those of all particles, in groom order.
+  /// Copies such values to the places of these strands among all particles, in groom order.
   void scatter(std::span<const Vec3f> values, std::vector<Vec3f>& inGroomOrder) const;
 
  private:

@@ -1,4 +1,4 @@
-// Measured costs of strand shapes as a file, a table a device:
+// A file of measured costs of strand shapes, one table per device:
 //
 //   [[device]]
 //   name = "llvmpipe (LLVM 15.0.6, 256 bits)"
@@ -20,23 +20,23 @@
 
 namespace ringlet {
 
-/// What was measured once, hair alone, and what it is true of.
+/// One measurement, of hair alone, and the device and kernels it holds for.
 struct DeviceCosts {
   std::string device, driver;  // ComputeDevice::name, driver
   std::string kernels;         // strandKernelHash
   std::vector<ShapeCost> costs;
-  std::uint32_t subgroupSize = 0;  // they were measured at; 0: the device's default
+  std::uint32_t subgroupSize = 0;  // at which it was measured; 0: the device's default
 
   bool isOf(const DeviceCosts& other) const {
     return device == other.device && driver == other.driver && kernels == other.kernels;
   }
 };
 
-/// Errors, with the line: as for readWholeFile; no TOML, more than 1 MiB, a value that is missing or out of
-/// range, as `subgroup` is in files of older versions. Keys it does not know it leaves alone.
+/// Errors: as for readWholeFile; and, with the line, invalid TOML, more than 1 MiB, a value that is missing
+/// or out of range, as `subgroup` is in files of older versions. Unknown keys are ignored.
 Result<std::vector<DeviceCosts>> readShapeCosts(const std::filesystem::path& path);
 
-/// Replaces the file, whole or not at all, and makes its folder. Errors: as for writeWholeFile.
+/// Replaces the file as a whole and creates its folder. Errors: as for writeWholeFile.
 Status writeShapeCosts(const std::filesystem::path& path, const std::vector<DeviceCosts>& devices);
 
 }  // namespace ringlet

@@ -13,22 +13,22 @@
 namespace ringlet {
 namespace {
 
-// The model of what a strand of a shape takes for a step [ns]: of each lane, its particles, whether real or
-// not, and the join of the lanes (shaders/scan/star_join.glsl). Up to four lanes, or four stretches of lanes,
-// are joined in rounds, one fewer than they are; a stretch is made of lanes by doublings.
+// Model of the time that a strand of a shape takes for a step [ns]: the particles of each lane, idle ones
+// included, and the join of the lanes (shaders/scan/star_join.glsl). Up to four lanes, or four groups of
+// lanes, are joined in rounds, one fewer than there are; a group of lanes is joined by doublings.
 struct WorkModel {
-  double particle;   // in one of several lanes
-  double ofTwo;      // in one of two
-  double alone;      // in a strand's only lane, which has nothing to do twice
+  double particle;   // of one of several lanes
+  double ofTwo;      // of one of two lanes
+  double alone;      // of a single lane, which computes nothing twice
   double round;      // of the join
   double doubling;   // of the join
-  double longRun;    // how much dearer a particle is for each one a run has above four
-  double longerRun;  // and how much more for each doubling: its registers are taken from the run
-  double inMemory;   // a particle in a strand's only lane, its run in memory
+  double longRun;    // additional cost of a particle per particle of the run above four
+  double longerRun;  // additional cost of that per doubling, whose registers the run lacks
+  double inMemory;   // of a single lane whose run is in memory
 };
 struct CostModel {
   WorkModel hairAlone, plain, bodies;
-  double perKernel, perRun;  // a kernel more, and each particle of its run, on every step: see below
+  double perKernel, perRun;  // per step, of another kernel and of each particle of its run: see below
 };
 
 // CPU devices: fitted to what `ringlet tune` measures on lavapipe 22.3 (two quiet cores, 16 to 128
@@ -63,11 +63,11 @@ constexpr CostModel kGpu{.hairAlone = {0.5, 0.38, 0.36, 0.26, 0.62, 0.15, 0.12, 
                          .perKernel = 5'000,
                          .perRun = 3'000};
 
-// Longer runs are faster still on a CPU device, but a kernel of 64 particles a lane takes lavapipe 5 s to
-// make for the first time: only where they are asked for, or were measured.
+// Longer runs are even faster on a CPU device, but lavapipe compiles a kernel of 64 particles per lane in 5
+// s. They are used only where they are asked for or were measured.
 constexpr std::uint32_t kLongestUnaskedRun = 32;
 
-constexpr double kLastResort = 1e6;  // times dearer than anything else
+constexpr double kLastResort = 1e6;  // factor that makes a shape costlier than any other
 
 const CostModel& modelOf(const DeviceLimits& limits) { return limits.isCpu ? kCpu : kGpu; }
 
@@ -77,19 +77,19 @@ double modelCost(const StrandShape& shape, const CostModel& model, StrandWork wo
   const WorkModel& of = isFromEnds(work)             ? model.hairAlone
                         : work == StrandWork::bodies ? model.bodies
                                                      : model.plain;
-  const int doublings = std::max(0, std::countr_zero(shape.lanes) - 2);  // until four stretches are left
+  const int doublings = std::max(0, std::countr_zero(shape.lanes) - 2);  // until four groups are left
   const std::uint32_t rounds = std::min(shape.lanes, 4u) - 1;
   const double longRun = of.longRun + doublings * of.longerRun;
   const double inRegisters = shape.lanes == 1 ? of.alone : shape.lanes == 2 ? of.ofTwo : of.particle;
-  // Where a particle is dearer in one of several lanes it is so in memory too.
+  // The additional cost of several lanes is the same in memory.
   const double particle = shape.inMemory
                               ? of.inMemory * (inRegisters / of.alone)
                               : inRegisters * (1 + longRun * (shape.particlesPerLane - kShortestRun));
   return shape.lanes * (shape.particlesPerLane * particle + rounds * of.round + doublings * of.doubling);
 }
 
-// Of a kernel, on every step. lavapipe clears a run in memory particle by particle, which it compiles as long
-// for as code.
+// Cost of a kernel per step. lavapipe clears a run in memory particle by particle; compiling that takes as
+// long as compiling code.
 double preparingCost(const StrandShape& shape, const CostModel& model) {
   return model.perKernel + model.perRun * shape.particlesPerLane;
 }
@@ -102,7 +102,7 @@ std::vector<ShapeCost> registerCandidates(const DeviceLimits& limits, const Kern
                                           StrandWork work) {
   const auto measured = work == StrandWork::hairAlone ? choice.measured : std::span<const ShapeCost>{};
   std::vector<ShapeCost> costs = shapeCosts(limits, work, measured);
-  costs.pop_back();  // any serial one
+  costs.pop_back();  // kAnySerialShape
   const bool mayBeLong =
       choice.lanes > 0 || choice.particlesPerLane > 0 || choice.form == KernelChoice::Form::lanes;
   std::erase_if(costs, [&](const ShapeCost& c) {
@@ -114,7 +114,7 @@ std::vector<ShapeCost> registerCandidates(const DeviceLimits& limits, const Kern
   return costs;
 }
 
-// Runs in memory: so many that little of them is idle, and no more kernels than there must be.
+// Shapes with runs in memory: enough that little of a run is idle, and no more kernels than necessary.
 std::vector<std::uint32_t> runsInMemory(const KernelChoice& choice) {
   if (choice.particlesPerLane > 0) return {static_cast<std::uint32_t>(choice.particlesPerLane)};
   std::vector<std::uint32_t> runs;
@@ -127,8 +127,8 @@ bool hasMeasuredSerial(const KernelChoice& choice, StrandWork work) {
          std::ranges::find(choice.measured, kAnySerialShape, &ShapeCost::shape) != choice.measured.end();
 }
 
-// Unasked as many lanes as a subgroup has: their runs are short, and soon compiled; of one lane, which is a
-// little faster, a GPU's private memory would not hold the runs.
+// By default they have as many lanes as a subgroup: their runs are short and compile quickly. A single lane
+// is a little faster, but a GPU's private memory cannot hold its run.
 bool isOffered(std::uint32_t lanes, const DeviceLimits& limits, const KernelChoice& choice) {
   if (lanes > 1 && !limits.hasSubgroupShuffle) return false;
   if (choice.form == KernelChoice::Form::serial) return lanes == 1;
@@ -139,8 +139,9 @@ bool isOffered(std::uint32_t lanes, const DeviceLimits& limits, const KernelChoi
 std::vector<ShapeCost> memoryCandidates(const DeviceLimits& limits, const KernelChoice& choice,
                                         StrandWork work) {
   const auto measured = work == StrandWork::hairAlone ? choice.measured : std::span<const ShapeCost>{};
-  const double unit = shapeCosts(limits, work, measured).back().nanoseconds /
-                      modelCost({1, 1, true}, modelOf(limits), work);  // what was measured, over the model
+  const double unit =
+      shapeCosts(limits, work, measured).back().nanoseconds /
+      modelCost({1, 1, true}, modelOf(limits), work);  // ratio of measured cost to the model's
   std::vector<ShapeCost> costs;
   for (std::uint32_t lanes = 1; lanes <= limits.subgroupSize; lanes *= 2) {
     if (!isOffered(lanes, limits, choice) && !(lanes == 1 && hasMeasuredSerial(choice, work))) continue;
@@ -152,7 +153,7 @@ std::vector<ShapeCost> memoryCandidates(const DeviceLimits& limits, const Kernel
   return costs;
 }
 
-// What may be chosen from, as asked for, by rising capacity.
+// The candidates, as asked for, by rising capacity.
 std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
   using Form = KernelChoice::Form;
   std::vector<ShapeCost> costs;
@@ -165,22 +166,22 @@ std::vector<ShapeCost> candidates(const DeviceLimits& limits, const KernelChoice
   const bool isStated = choice.form == Form::automatic && (choice.lanes > 0 || choice.particlesPerLane > 0);
   for (ShapeCost c : memoryCandidates(limits, others, work)) {
     if (c.shape.capacity() <= held && !(c.shape.serial() && hasMeasuredSerial(choice, work))) continue;
-    if (isStated) c.nanoseconds *= kLastResort;  // only for what does not fit
+    if (isStated) c.nanoseconds *= kLastResort;  // only for strands that fit nothing else
     costs.push_back(c);
   }
   std::ranges::stable_sort(costs, {}, [](const ShapeCost& c) { return c.shape.capacity(); });
   return costs;
 }
 
-// Of the ways to cut the strands at the candidates' capacities the cheapest, from the shortest strands on.
-// best[j]: up to candidate j's capacity, which is the last in use.
+// The cheapest way to cut the strands at the candidates' capacities, by dynamic programming from the shortest
+// strands on. best[j]: up to the capacity of candidate j, which is the last in use.
 struct Cut {
   double cost = std::numeric_limits<double>::infinity();
-  std::size_t end = 0;         // strands it covers
+  std::size_t end = 0;         // number of strands covered
   std::ptrdiff_t before = -1;  // the candidate in use for shorter strands
 };
 
-// Of so many strands in one shape, on every step. A subgroup is as slow with idle lanes.
+// Cost of this number of strands in one shape, per step. Idle lanes of a subgroup cost as much as others.
 double rangeCost(const ShapeCost& cost, std::size_t strands, const DeviceLimits& limits) {
   const std::size_t each = limits.subgroupSize / cost.shape.lanes;
   RINGLET_ASSERT(each > 0, "more lanes than a subgroup has");
@@ -223,7 +224,7 @@ std::vector<StrandRange> cheapestRanges(std::span<const std::uint32_t> counts,
   return ranges;
 }
 
-// What the device does not have at all, by name.
+// The error of a choice that the device does not have.
 Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, StrandWork work) {
   const int run = choice.particlesPerLane;
   const bool isInMemory =
@@ -244,7 +245,7 @@ Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, Stran
   return {};
 }
 
-// In the widest shape there is.
+// The capacity of the widest shape.
 Error isTooLong(std::uint32_t particleCount, const StrandShape& widest) {
   return Error{fmt::format(
       "a strand of {} particles does not fit this device: {} {} of {} in memory hold {}; cut the strand into "

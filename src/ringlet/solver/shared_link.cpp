@@ -9,7 +9,7 @@
 
 namespace ringlet {
 
-// Where all wait for the last, as often as they like.
+// A reusable barrier: all wait for the last.
 struct SharedLink::Meeting {
   explicit Meeting(std::size_t partCount) : sections(partCount) {}
 
@@ -30,7 +30,7 @@ struct SharedLink::Meeting {
   std::size_t arrived = 0;
   std::uint64_t round = 0;
   std::optional<Error> failure;
-  std::vector<std::span<const std::byte>> sections;  // each part's own
+  std::vector<std::span<const std::byte>> sections;  // of each part
 };
 
 std::vector<std::unique_ptr<SharedLink>> SharedLink::connect(

@@ -19,14 +19,14 @@
 namespace ringlet {
 namespace {
 
-// A CPU's driver has nobody who watches it. [s]
+// Limit of a submission [s]; 0 for a CPU device, which no desktop watches.
 double longestSubmission(const KernelChoice& choice, const DeviceLimits& limits) {
   constexpr double kOnGpus = 0.3;
   if (choice.longestSubmissionSeconds > 0) return choice.longestSubmissionSeconds;
   return limits.isCpu ? 0 : kOnGpus;
 }
 
-// The strands of a head whose roots move beside it.
+// The strands, with the shifts of their roots beside the head.
 std::vector<layout::StrandRest> shiftedStrands(const RestState& rest, std::span<const Vec3d> shifts) {
   if (shifts.empty()) return {};
   RINGLET_ASSERT(shifts.size() == rest.groomStrandCount, "every strand has a root shift");
@@ -154,7 +154,7 @@ Status Simulation::Implementation::addContacts() {
   return {};
 }
 
-// The hair was put somewhere else.
+// Clears contacts and the volume's displacements, after the hair was moved to another state.
 Status Simulation::Implementation::forgetContacts() {
   if (contacts) {
     if (Status status = contacts->forget(); !status) return status;
@@ -162,13 +162,13 @@ Status Simulation::Implementation::forgetContacts() {
   return volume ? volume->forget() : Status{};
 }
 
-// Access for changes outside a frame. It makes what was read back invalid.
+// Access for changes outside a frame; invalidates the positions that were read back.
 DeviceGroom& Simulation::Implementation::changed() {
   isReadBack = false;
   return buffers;
 }
 
-// Rigidly: seen from the head nothing changes.
+// Moves all hair rigidly with the head.
 Status Simulation::Implementation::carryTo(const HeadPose& end) {
   const Quatd turned = normalized(end.rotation * head.now.rotation.conjugate());
   const bool turns = length(Vec3d{turned.x, turned.y, turned.z}) > 1e-12;
@@ -184,7 +184,7 @@ Status Simulation::Implementation::carryTo(const HeadPose& end) {
   return {};
 }
 
-// The rest pose carried by the head and the roots, moving with them.
+// Sets the rest pose, carried by the head and the roots and moving with them.
 Status Simulation::Implementation::placeAtRest() {
   const auto nowAt = [&](std::size_t s) {
     return carriedBy(head.now.rotation, roots.areMoving() ? roots.now(s) : BodyPose{});

@@ -1,4 +1,4 @@
-// What a Simulation holds, for the files that implement it: simulation_frames.cpp, divided_frames.cpp
+// The members of a Simulation, for the files that implement it: simulation_frames.cpp, divided_frames.cpp
 // and hair_frames.cpp, its frames; simulation_settings.cpp, what changes between them; simulation_cuts.cpp,
 // cuts; simulation.cpp, all else.
 #pragma once
@@ -45,16 +45,16 @@ inline constexpr const char* kTooManyNear =
     "more contact particles are near one another than this device can look through; use a smaller contact "
     "radius or volume cell, or fewer strands in one place";
 
-// Where the head is and was one outer step before.
+// The head's pose now and one outer step earlier.
 struct HeadHistory {
   HeadPose oneStepEarlier, now;
 
-  // Steps are now this share as long: as fast and turning as before.
+  // Adapts to steps that are this share as long: the velocity stays.
   void rescale(double share) { oneStepEarlier = interpolate(now, oneStepEarlier, share); }
 
   Vec3d velocity(double T) const { return (now.position - oneStepEarlier.position) / T; }
   Quatd turn() const { return now.rotation * oneStepEarlier.rotation.conjugate(); }
-  // To a place elsewhere, as fast and turning as before, seen from the head.
+  // Moves to another pose; the velocity relative to the head stays.
   void jump(const HeadPose& to) {
     const Quatd turned = normalized(to.rotation * now.rotation.conjugate());
     const Vec3d step = rotate(turned, now.position - oneStepEarlier.position);
@@ -64,7 +64,7 @@ struct HeadHistory {
   }
 };
 
-// What a frame is recorded into, from which slot's input, and how it is cut into submissions.
+// The recording of a frame: its commands, the slot of its input, and its cuts into submissions.
 struct FrameRecording {
   gpu::CommandList& list;
   SubmissionPace& pace;
@@ -81,12 +81,12 @@ struct BoundHeads {
   std::vector<gpu::Bindings> bindings;  // one a range
 };
 
-// Kernels of strands, in the shapes of these ranges.
+// Strand kernels in the shapes of these ranges.
 struct StrandKernels {
   const std::vector<StrandRange>& ranges;
-  std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one a shape
-  std::vector<std::size_t> kernelOf{};                        // each range's
-  std::vector<gpu::Bindings> bindings{};                      // one a range
+  std::vector<std::shared_ptr<const gpu::Kernel>> kernels{};  // one per shape
+  std::vector<std::size_t> kernelOf{};                        // of each range
+  std::vector<gpu::Bindings> bindings{};                      // one per range
   bool areOfHeads = false;                                    // StrandKernelOptions::heads
   std::map<std::uint32_t, BoundHeads> ofHeads{};              // by how many; of one: bindings
 
@@ -129,12 +129,12 @@ struct Simulation::Implementation {
   const KernelChoice& choice;
   const std::vector<StrandRange>& ranges;
 
-  Settings settings;  // at first the asset's
+  Settings settings;  // initially the asset's
   Material material;  // likewise
   std::vector<std::string> warnings;
   std::vector<layout::StrandRest> strands{};   // of a head whose roots are shifted; none: the asset's
   std::optional<LiveMaterial> liveMaterial{};  // once it has changed
-  bool readsBack = true;                       // every frame
+  bool readsBack = true;                       // after every frame
 
   HeadHistory head;
 
@@ -147,7 +147,7 @@ struct Simulation::Implementation {
   RigidHair rigidHair;
   SubmissionPace pace;
   StrandKernels strandKernels;
-  StrandKernels firstSolveKernels;  // of a step's first solve; none: the same
+  StrandKernels firstSolveKernels;  // of the first solve of a step; none: the kernels above
 
   std::vector<StrandPart> parts{};   // of strands, device order, once some were cut; none: all of them
   bool falls = false;                // what was cut off; each part begins with the particle before it
@@ -156,12 +156,12 @@ struct Simulation::Implementation {
 
   std::optional<ContactStage> contacts{};  // of strands that meet pair by pair
   std::optional<VolumeStage> volume{};     // of strands that meet as a volume
-  std::optional<DividedHair> divided{};    // where other devices step some of these strands
-  ContactReport contactReport{};           // what is known of the rest pose
+  std::optional<DividedHair> divided{};    // if other devices step some of the strands
+  ContactReport contactReport{};           // of the rest pose
 
   Stillness stillness{};
   std::uint64_t stepsDone = 0;
-  std::uint64_t stepsBefore = 0;  // done when a step became as long as it is, after so many seconds
+  std::uint64_t stepsBefore = 0;  // steps and seconds before the present step length
   double secondsBefore = 0;
   // Since the simulation began.
   double seconds() const {
@@ -174,8 +174,8 @@ struct Simulation::Implementation {
   // Frame n has slot n % kFramesInFlight: submitted to the device, finished by it, waited for by the caller.
   std::uint64_t submitted = 0, finished = 0, waited = 0;
   bool isReadBack = false;           // the last frame's positions are those on the device
-  std::optional<Error> lostFrame{};  // after which nothing can be told of any
-  std::vector<FrameSlot> slots{};    // go first, waiting for what still uses the rest
+  std::optional<Error> lostFrame{};  // after which the state is unknown
+  std::vector<FrameSlot> slots{};    // destroyed first: they wait for commands that use the rest
 
   // simulation_kernels.cpp
   Status makeKernels();
@@ -236,11 +236,11 @@ struct Simulation::Implementation {
   }
   bool isQuiet(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                std::span<const BodyPose> rootPoses) const;
-  // What they hold has changed.
+  // Recordings are invalid.
   void forgetRecordings() {
     for (FrameSlot& slot : slots) slot.recorded = FrameSlot::Recorded::nothing;
   }
-  // The hair is another than they left.
+  // Read-back positions are invalid.
   void forgetFrames() {
     isReadBack = false;
     forgetRecordings();

@@ -1,4 +1,4 @@
-// Implements the strand kernels of solver/simulation.h: which there are, how they are made and bound.
+// Implements the strand kernels of solver/simulation.h: their choice, creation and bindings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace ringlet {
 namespace {
 
-// Ranges of one shape stand together.
+// Ranges of one shape are consecutive.
 std::vector<StrandShape> shapesOf(std::span<const StrandRange> ranges) {
   std::vector<StrandShape> shapes;
   for (const StrandRange& range : ranges) {
@@ -27,14 +27,14 @@ std::string describe(std::span<const StrandShape> shapes, std::uint32_t subgroup
   return fmt::format("{} (subgroup {})", text, subgroupSize);
 }
 
-// The width kernels are to ask the driver for; 0 where that is the device's default, or nothing can be asked.
+// The subgroup width that kernels ask the driver for; 0 for the device's default.
 std::uint32_t askedWidth(const gpu::DeviceProperties& device, const KernelChoice& choice) {
   const auto width = static_cast<std::uint32_t>(choice.subgroupSize);
   return device.canChooseSubgroupSize && width != device.subgroupSize ? width : 0;
 }
 
-// Tells the observer, where there is one and something to compile, of a beginning and, whatever happens, of
-// an end.
+// Notifies the observer, if there are one and a kernel to compile, of the beginning and, even on failure, of
+// the end.
 class CompileNotice {
  public:
   CompileNotice(CompileObserver* observer, std::size_t kernelCount)
@@ -82,7 +82,7 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
   return options;
 }
 
-// Shapes whose kernels a simulation before has not made on this device.
+// The shapes whose kernels no earlier simulation has made on this device.
 std::vector<std::size_t> Simulation::Implementation::newKernels(const StrandKernels& of,
                                                                 const StrandKernelOptions& options) const {
   const std::vector<StrandShape> shapes = shapesOf(of.ranges);
@@ -93,7 +93,7 @@ std::vector<std::size_t> Simulation::Implementation::newKernels(const StrandKern
   return found;
 }
 
-// Several at a time.
+// Compiles several kernels at a time.
 Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelOptions& options) const {
   if (of.ranges.empty()) return {};
   const std::vector<StrandShape> shapes = shapesOf(of.ranges);
@@ -106,8 +106,8 @@ Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelO
   return {};
 }
 
-// Made, and compiled by a dispatch of nothing: some drivers compile only then. Kernels that a simulation
-// before has made on this device are ready.
+// Makes the kernels and compiles them by an empty dispatch, since some drivers compile only then. Kernels
+// that an earlier simulation has made on this device are ready.
 Status Simulation::Implementation::makeKernels() {
   if (ranges.empty()) return {};
   const auto start = std::chrono::steady_clock::now();

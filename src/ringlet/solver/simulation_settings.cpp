@@ -1,4 +1,4 @@
-// Implements what may change of solver/simulation.h between frames.
+// Implements the changes between frames of solver/simulation.h.
 #include <fmt/format.h>
 
 #include "layout/strands.h"
@@ -10,7 +10,7 @@
 namespace ringlet {
 namespace {
 
-constexpr double kRounding = 1 + 1e-9;  // of two ways to say one step
+constexpr double kRounding = 1 + 1e-9;  // between two expressions for one step length
 
 }  // namespace
 
@@ -87,7 +87,7 @@ Status Simulation::Implementation::change(std::span<const Body> bodies, std::spa
   const auto plan = planFrame(ranges, asset->limits, settings, bodies.size(), asset->groupSize);
   if (!plan) return plan.error();
   if (Status status = finishFrames(); !status) return status;
-  // As many steps a frame as there may ever be, and the air as it is.
+  // For the largest number of steps per frame, and the present air.
   Settings largest = settings;
   largest.stepsPerFrame = asset->settings.stepsPerFrame;
   auto made = DeviceWorld::create(device.gpu(), bodies, largest, head.now, kFramesInFlight);

@@ -1,4 +1,4 @@
-// How a strand may lie over a device, and what that costs: data for the choice in shape_plan.h.
+// Layouts of a strand on a device and their costs: data for the choice in shape_plan.h.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace ringlet {
 /// shape_plan.h); in memory: a CPU device keeps 8 such runs, 3 MB, on the stack of a thread.
 inline constexpr std::uint32_t kShortestRun = 4, kLongestRun = 64, kLongestRunInMemory = 1024;
 
-/// What the plan must know of a device.
+/// The properties of a device that the plan depends on.
 struct DeviceLimits {
   std::uint32_t subgroupSize = 1;  // the strand kernels are planned for, and ask for where they can
   bool hasSubgroupShuffle = false;
   bool isCpu = false;  // costs are those of a CPU device
   std::uint32_t maxGroupCount = 65535;
-  bool endsLoopsEarly = false;  // ends all loops of an invocation after 65,535 turns together, without a word
+  bool endsLoopsEarly = false;  // silently ends the loops of an invocation after 65,535 turns in all
   std::uint32_t minSubgroupSize = 0, maxSubgroupSize = 0;  // the powers of two that can be asked for; 0: none
                                                            // but subgroupSize
 };
@@ -34,17 +34,17 @@ struct StrandShape {
   bool operator==(const StrandShape&) const = default;
 };
 
-/// In place of all serial shapes, where a cost is that of a particle.
+/// Stands for all serial shapes; its cost is that of a particle.
 inline constexpr StrandShape kAnySerialShape{.lanes = 1, .particlesPerLane = 0, .inMemory = true};
 
-/// Device time, strands being many.
+/// Device time, for many strands.
 struct ShapeCost {
   StrandShape shape;
   double nanoseconds = 0;  // of one outer step of one strand, however long; kAnySerialShape: of a particle
 };
 
-/// Of the code of the strand kernels for hair alone, 16 hexadecimal digits: with other code measured costs
-/// mean nothing.
+/// Hash of the code of the strand kernels for hair alone, 16 hexadecimal digits. Measured costs hold for this
+/// code only.
 std::string strandKernelHash();
 
 }  // namespace ringlet

@@ -9,9 +9,9 @@
 namespace ringlet {
 namespace {
 
-// Of a dispatch while nothing is known: on a slow device with costly settings still short.
+// Limit of a dispatch while no time is known: it is short even on a slow device with costly settings.
 constexpr std::uint64_t kFirstParticleSteps = 1 << 17;
-// Work shorter than this share of a submission does not matter, however much it changes.
+// Changes of work below this share of a submission do not matter.
 constexpr double kNegligibleShare = 1.0 / 64;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// SubmissionPace: how frames are cut into submissions. A desktop takes a device that works on one submission
-// for seconds for hung, and does not draw meanwhile. How long work takes is known from the frame before.
+// SubmissionPace: cuts frames into submissions. A desktop considers a device hung that works on one
+// submission for seconds, and does not draw meanwhile. The duration of work is known from the last frame.
 #pragma once
 
 #include <cstdint>
@@ -18,33 +18,34 @@ class SubmissionPace {
  public:
   static constexpr const char* kStrandStage = "strand_step";
 
-  /// `longestSeconds`: of one submission; 0: a frame is one, however long.
+  /// `longestSeconds`: limit of a submission; 0: a frame is one submission.
   explicit SubmissionPace(double longestSeconds) : target_(longestSeconds / 2) {}
 
-  /// Particles times outer steps that one dispatch of the strand kernel may do.
+  /// Limit of particles times outer steps in one dispatch of the strand kernel.
   std::uint64_t mostParticleSteps() const;
 
-  /// A recording begins, and with it its first submission.
+  /// Begins a recording and its first submission.
   void beginRecording() { openSeconds_ = 0; }
-  /// Whether work that follows is to begin a new submission. Of so many particles times steps of strands:
+  /// Whether the next work, of this number of particles times steps, must begin a new submission.
   bool cutsBeforeStrands(double particleSteps) { return cutsBefore(particleSteps * strandRate_); }
-  /// Begins a stage, in a new submission where the open one would become too long.
+  /// Begins a stage, in a new submission if the open one would become too long.
   void beginStage(gpu::CommandList& list, const std::string& name);
 
-  /// Of a recording that has run: its stages and their times [ms], and the particles times steps of those
-  /// named kStrandStage. Whether recordings are to be made anew: nothing was known when they were made, or
-  /// something takes twice what it took then.
+  /// Takes the times of a recording that has run: its stages [ms], and the particles times steps of those
+  /// named kStrandStage. Returns whether recordings must be made again: no time was known when they were
+  /// made, or a stage takes twice as long as then.
   bool learn(std::span<const std::pair<std::string, double>> stageMilliseconds, double particleSteps);
 
  private:
   bool cutsBefore(double seconds);
   double secondsOf(const std::string& stage) const;
 
-  double target_;  // [s] what submissions are planned for: half of what they may take. 0: anything
-  // What the recordings there are were made with; infinite: not known, and then all work is submitted alone.
-  double strandRate_ = std::numeric_limits<double>::infinity();  // [s] of a particle and step
+  double target_;  // planned duration of a submission, half its limit [s]; 0: no limit
+  // The times that the present recordings were made with. Infinite: unknown; then each piece of work is a
+  // submission.
+  double strandRate_ = std::numeric_limits<double>::infinity();  // [s] per particle and step
   std::map<std::string, double> stageSeconds_;                   // longest of each other stage
-  double openSeconds_ = 0;                                       // planned in the open submission
+  double openSeconds_ = 0;                                       // of the open submission, as planned
 };
 
 }  // namespace ringlet

@@ -28,7 +28,7 @@ struct Compiled {
   std::span<const std::uint32_t> spirv;
 };
 
-// As VolumeKernel counts them.
+// In the order of VolumeKernel.
 const Compiled kCompiled[kVolumeKernelCount] = {
     {"volume_begin", k_volume_begin_plain},     {"volume_box", k_volume_box_plain},
     {"volume_count", k_volume_count_plain},     {"volume_scan", k_volume_scan_plain},

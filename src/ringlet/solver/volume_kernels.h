@@ -30,7 +30,7 @@ enum class VolumeKernel {
 inline constexpr std::size_t kVolumeKernelCount = 14;
 inline constexpr std::size_t kVolumeDividedKernelCount = 3;  // of them, the last
 
-/// Invocations of a workgroup.
+/// Invocations per workgroup.
 inline constexpr std::uint32_t kVolumeGroupSize = 64;
 
 /// texels: records are read as texels (gpu::BindingKind); divided: other devices step some of the strands.

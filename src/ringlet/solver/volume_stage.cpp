@@ -19,7 +19,7 @@
 namespace ringlet {
 namespace {
 
-// Of the grid; hair that reaches further than so many cells has larger ones.
+// Limit of the grid's cells; hair that extends farther gets larger cells.
 constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
 
 constexpr std::uint64_t kPerParticle = offsetof(layout::VolumeControl, indirectParticles),
@@ -46,7 +46,7 @@ std::vector<layout::VolumeParticle> volumeParticles(const RestState& rest, const
   return particles;
 }
 
-// Of hair that was just put where it is.
+// The state of hair that was just placed.
 std::vector<layout::VolumeState> unknownStates(const std::vector<float>& densities) {
   std::vector<layout::VolumeState> states(densities.size());
   for (std::size_t i = 0; i < states.size(); ++i) states[i].memory.w = densities[i];
@@ -59,7 +59,7 @@ layout::VolumeControl emptyControl() {
   return control;
 }
 
-// Volume particles, those of strands that are here before the others; and how many those are.
+// Indices of volume particles, those of strands that are stepped here first; and the number of these.
 std::pair<std::vector<std::uint32_t>, std::uint32_t> hereFirst(const RestVolume& volume,
                                                                const std::vector<bool>& isHere) {
   std::vector<std::uint32_t> particles(volume.strands.size());
@@ -125,7 +125,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (!states) return states.error();
   auto brought = createZero(device, (divided ? 2 : 1) * count * sizeof(layout::vec4), "volume brought");
   if (!brought) return brought.error();
-  std::vector<std::uint32_t> particlesHere{0};  // not asked for where all are
+  std::vector<std::uint32_t> particlesHere{0};  // unused if all are
   if (divided) std::tie(particlesHere, self.parameters_.hereCount) = hereFirst(volume, isHere);
   auto here = createFilled(device, particlesHere, "volume particles here");
   if (!here) return here.error();

@@ -1,5 +1,5 @@
 // VolumeStage: strands that meet as a volume, on one device, between the strand kernel's solves
-// (shaders/equations/volume.glsl). Which strands those are is decided in rest/volume_strands.h. Mirrored by
+// (shaders/equations/volume.glsl). rest/volume_strands.h chooses these strands. Mirrored by
 // reference/kernels/volume_step.h.
 //
 //   v^0 of all strands ->  brought: displacements, guesses; particles by cell
@@ -31,34 +31,36 @@ class VolumeStage {
  public:
   /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk, and must
   /// live as long, in one place.
-  /// isHere: of each strand, device order; what others bring comes from elsewhere; none: all are here.
+  /// isHere: of each strand, device order; contributions of the others come from other devices; empty: all
+  /// are here.
   static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                     const RestVolume& volume, const std::vector<bool>& isHere,
                                     DeviceGroom& groom);
 
-  /// Kernels that this stage was the first on its device to ask for.
+  /// Number of kernels that no other simulation on this device had made before.
   std::size_t newKernelCount() const { return newKernels_.size(); }
-  /// Those, without work: so that they are compiled before they are needed.
+  /// Dispatches these without work, so that the driver compiles them before they are needed.
   void recordNothing(gpu::CommandList& list) const;
 
-  /// Parts of a step, in order; each begins and ends with nothing to wait for but what the caller's barriers
-  /// say. Nothing happens where contacts of pairs have halted.
-  /// What the particles here bring in an iteration, the first of a step or a later one.
+  /// Records the parts of a step, in order. The caller records the barriers before and after each. The
+  /// kernels do nothing if contacts of pairs have halted. Contributions of the particles here in an
+  /// iteration, the first of a step or a later one.
   void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
-  /// Where strands are divided, after it: what all bring, once `brought` has it.
+  /// If strands are divided, after that: takes the contributions of all, once they are in `brought`.
   void recordTake(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
-  /// Once a step, then the means of what was brought.
+  /// Once per step, and then the means of the contributions.
   void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
 
-  /// What the particles bring, and after it where they are: a vec4 each (layout::kBindVolumeBrought).
+  /// Contributions of the particles, followed by their places: a vec4 each (layout::kBindVolumeBrought).
   const gpu::Buffer& brought() const { return buffers_->brought; }
 
-  /// What may change while hair moves; recordings made before are no longer good.
+  /// Changes the live settings. Invalidates earlier recordings.
   void setSettings(const Settings& settings);
-  /// Forgets displacements: the hair was put somewhere else.
+  /// Clears displacements, after the hair was moved to another state.
   Status forget();
-  /// All that the next step depends on beside positions, velocities and what the solve left.
+  /// Archives the state that the next step depends on besides positions, velocities and the result of the
+  /// last solve.
   Status archive(Archive& archive);
 
   std::uint64_t bytes() const;
