@@ -26,18 +26,40 @@ struct HairOnGuide {
   uint tag;                  // of the point
 };
 
+// Where on its guide a hair's point is: behind particle `after` - 1, and how far of the way to `after`.
+struct AlongGuide {
+  uint after;
+  float between;
+};
+AlongGuide alongGuide(uint i, FollowHair hair, FollowGuide guide) {
+  uint last = guide.particleCount - 1;
+  // A shorter hair lags behind its guide, but for the root.
+  float along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, float(i) / float(last)));
+  uint k = min(uint(along), last - 1);
+  float between = along - float(k);
+  if (beginsPiece(guide.firstParticle + k + 1)) between = between < 0.5 ? 0.0 : 1.0;  // beside a cut
+  return AlongGuide(k + 1, between);
+}
+
+// Whether the guide is cut between points i and i + 1 of a hair, which are at most a particle apart.
+bool isCutAfter(uint i, AlongGuide here, FollowHair hair, FollowGuide guide) {
+  AlongGuide next = alongGuide(i + 1, hair, guide);
+  uint at = here.after - (here.between < 1.0 ? 1 : 0);
+  uint nextAt = next.after - (next.between < 1.0 ? 1 : 0);
+  return at < nextAt && isCutBeyond(guide.firstParticle + nextAt - 1);
+}
+
 /// Point i of hair h, where i is below the guide's particleCount.
 HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
   uint last = guide.particleCount - 1;
   float share = float(i) / float(last);
-  // A shorter hair lags behind its guide, but for the root.
-  float along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
-  uint k = min(uint(along), last - 1);
-  uint at = guide.firstParticle + k;
+  AlongGuide along = alongGuide(i, hair, guide);
+  uint at = guide.firstParticle + along.after - 1;
+  bool isEnd = i == last || kCutGuides && isCutAfter(i, along, hair, guide);
   vec3 rootOffset = kOnScalp ? vec3(hair.rootOffset[0], hair.rootOffset[1], hair.rootOffset[2])
                              : rotate(multiply(parameters.head, guide.restFrame), hair.offset);
-  return HairOnGuide(hair, guide, rootOffset, share, placeAt(at), placeAt(at + 1), along - float(k),
-                     i == last ? h | kHairEnd : h);
+  return HairOnGuide(hair, guide, rootOffset, share, placeAt(at), placeAt(at + 1), along.between,
+                     isEnd ? h | kHairEnd : h);
 }
 
 /// Where it is, were there no bodies [m].
