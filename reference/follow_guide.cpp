@@ -27,7 +27,9 @@ struct Beside {
 };
 Beside besideOf(const GuidePose& guide, double along, double weight) {
   const std::size_t k = std::min(static_cast<std::size_t>(along), guide.places.size() - 2);
-  return {weight, &guide.places[k], &guide.places[k + 1], along - static_cast<double>(k)};
+  double between = along - static_cast<double>(k);
+  if (std::ranges::count(guide.pieces, k + 1) > 0) between = between < 0.5 ? 0 : 1;  // beside a cut
+  return {weight, &guide.places[k], &guide.places[k + 1], between};
 }
 
 // A point of a hair, a share of the way along it.
@@ -58,13 +60,39 @@ Vector3<double> outOfBodies(const HairPoint& point, std::span<const Body> bodies
   return x;
 }
 
+// Where on its guide point i of a hair is [particles]. A shorter hair lags behind its guide, but for the
+// root.
+double alongGuide(std::size_t i, const FollowHair& hair, std::size_t last) {
+  const double share = static_cast<double>(i) / static_cast<double>(last);
+  return static_cast<double>(i) * (1 + (static_cast<double>(hair.length) - 1) * risesOver(0.2, share));
+}
+
 }  // namespace
+
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points) {
+  std::size_t i = 0;
+  while (i < points && alongGuide(i, hair, points - 1) < static_cast<double>(begin) - 0.5) ++i;
+  return i;
+}
 
 GuidePose poseGuide(const GuideRest& rest, std::span<const Vec3d> positions, Quatd head) {
   const MeasuringFrame root = rotated(rest.frame, head);
-  const std::vector<Vec3d> core = smoothCore(positions, rest.arcs, rest.window);
-  const std::vector<MeasuringFrame> frames = framesAlong(core, root);
-  GuidePose pose{{}, rotationOf(root)};
+  std::vector<Vec3d> core;
+  std::vector<MeasuringFrame> frames;
+  for (const GuidePiece& piece : piecesOf(rest)) {
+    const auto own = positions.subspan(piece.begin, piece.end - piece.begin);
+    const MeasuringFrame before = frames.empty() ? root : frames.back();
+    if (piece.window == 0) {  // nothing says which way it goes
+      core.insert(core.end(), own.begin(), own.end());
+      frames.resize(piece.end, before);
+      continue;
+    }
+    const std::vector<Vec3d> smooth = smoothCore(own, arcsOf(rest, piece), piece.window);
+    const std::vector<MeasuringFrame> along = framesAlong(smooth, before);
+    core.insert(core.end(), smooth.begin(), smooth.end());
+    frames.insert(frames.end(), along.begin(), along.end());
+  }
+  GuidePose pose{{}, rotationOf(root), rest.pieces};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec3d curl = positions[i] - core[i];
     const MeasuringFrame& frame = frames[i];
@@ -87,9 +115,7 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide, s
   std::vector<Vec3d> points;
   for (std::size_t i = 0; i <= last; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(last);
-    // A shorter hair lags behind its guide, but for the root.
-    const double along =
-        static_cast<double>(i) * (1 + (static_cast<double>(hair.length) - 1) * risesOver(0.2, share));
+    const double along = alongGuide(i, hair, last);
     HairPoint point{{}, root, share, {besideOf(guide, along, 1)}};
     const GuidePlace<double> own = point.guides.front().place();
     point.x = followedPoint(hair, own, rootOffset, share);

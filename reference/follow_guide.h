@@ -17,6 +17,7 @@ namespace ringlet::reference {
 struct GuidePose {
   std::vector<GuidePlace<double>> places;  // one a particle
   Rotation<double> rootFrame;              // the frame at rest, carried by the head
+  std::vector<std::uint32_t> pieces{};     // GuideRest's
 };
 
 /// `positions` [m]: one a particle, in the world or relative to the head's origin alike. `head`: how the head
@@ -37,5 +38,9 @@ std::vector<Vec3d> followGuide(const FollowHair& hair, const GuidePose& guide,
 std::vector<Vec3d> followGuides(const FollowHair& hair, std::span<const GuidePose> guides,
                                 std::span<const Body> bodies = {}, std::span<const BodyPose> poses = {},
                                 std::optional<Vec3d> rootOnScalp = std::nullopt);
+
+/// How many points of a hair, of as many as its guide has, are before the piece of the guide that begins with
+/// particle `begin`.
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points);
 
 }  // namespace ringlet::reference

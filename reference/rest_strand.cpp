@@ -110,10 +110,56 @@ void setEdgeConstants(const Material& material, const PaperMaterial& paper, cons
   }
 }
 
-// Rest lengths and targets, with the share `settings.gravityPreload` of gravity balanced edge by edge:
-// edge i carries W_i, the weight of all particles beyond it; the part along the edge shortens
-// the stretch spring's rest length, the part across it moves the target.
-void setRestShape(const Settings& settings, RestStrand<double>& strand) {
+// Rest lengths of the stretch springs and, returned, targets in the groom's axes, with the share
+// `settings.gravityPreload` of gravity balanced edge by edge: edge i carries W_i, the weight of all particles
+// beyond it; the part along the edge shortens the stretch spring's rest length, the part across it moves the
+// target.
+Field<double> setRestSprings(const Settings& settings, RestStrand<double>& strand) {
+  const std::size_t edgeCount = strand.edgeCount();
+  const Vector3<double> gravity = settings.gravityPreload * toEigen<double>(settings.gravity);
+  strand.stretchRestLengths.resize(edgeCount);
+  Field<double> targets(edgeCount);
+  Vector3<double> weight = Vector3<double>::Zero();
+  for (std::size_t i = edgeCount; i-- > 0;) {
+    weight += strand.masses[i + 1] * gravity;
+    const Vector3<double>& edge = strand.edges[i];
+    const Vector3<double> direction = directionOr(edge, Vector3<double>::Zero());
+    const double along = weight.dot(direction);
+    const Vector3<double> across = weight - along * direction;
+    const double stretch = strand.stretchStiffness[i], bend = strand.bendStiffness[i];
+    // A spring without stiffness can carry nothing.
+    strand.stretchRestLengths[i] = edge.norm() - (stretch > 0 ? along / stretch : 0);
+    targets[i] = edge - (bend > 0 ? Vector3<double>(across / bend) : Vector3<double>::Zero());
+    if (bend > 0)
+      strand.preloadShare = std::max(strand.preloadShare, across.norm() / (bend * strand.edgeLengths[i]));
+  }
+  return targets;
+}
+
+template <class T>
+void keepOnly(const StrandPiece& piece, std::size_t count, std::vector<T>& values) {
+  values.erase(values.begin() + static_cast<std::ptrdiff_t>(std::min(piece.begin + count, values.size())),
+               values.end());
+  values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(piece.begin));
+}
+
+// What is left of the strand, with its springs. What falls feels gravity as it is, and no head.
+void keepOnly(const StrandPiece& piece, RestStrand<double>& strand, Field<double>& targets) {
+  const std::size_t count = std::min(piece.end, strand.particleCount()) - piece.begin;
+  keepOnly(piece, count, strand.points);
+  keepOnly(piece, count, strand.masses);
+  for (Field<double>* field : {&strand.edges, &targets}) keepOnly(piece, count - 1, *field);
+  for (Scalars<double>* values :
+       {&strand.edgeLengths, &strand.stretchStiffness, &strand.stretchDamping, &strand.bendStiffness,
+        &strand.bendDamping, &strand.coreStiffness, &strand.coreDamping, &strand.stretchRestLengths})
+    keepOnly(piece, count - 1, *values);
+  if (piece.begin == 0) return;
+  strand.rootCount = 0;
+  strand.gravityFactor = strand.inertiaFactor = 1;
+}
+
+// What the strand's frames and smoothed curves are at rest, which begin with its first edge.
+void setRestFrames(const Field<double>& targets, RestStrand<double>& strand) {
   const std::size_t edgeCount = strand.edgeCount();
   const Vector3<double> start = edgeCount > 0 ? strand.edges[0] : Vector3<double>::Zero();
   Field<double> smoothedEdges, coreEdges;
@@ -129,31 +175,14 @@ void setRestShape(const Settings& settings, RestStrand<double>& strand) {
     strand.coreLength += b.norm();
   }
 
-  const Vector3<double> gravity = settings.gravityPreload * toEigen<double>(settings.gravity);
-  strand.stretchRestLengths.resize(edgeCount);
-  strand.restTargets.resize(edgeCount);
-  Vector3<double> weight = Vector3<double>::Zero();
-  for (std::size_t i = edgeCount; i-- > 0;) {
-    weight += strand.masses[i + 1] * gravity;
-    const Vector3<double>& edge = strand.edges[i];
-    const Vector3<double> direction = directionOr(edge, Vector3<double>::Zero());
-    const double along = weight.dot(direction);
-    const Vector3<double> across = weight - along * direction;
-    const double stretch = strand.stretchStiffness[i], bend = strand.bendStiffness[i];
-    // A spring without stiffness can carry nothing.
-    strand.stretchRestLengths[i] = edge.norm() - (stretch > 0 ? along / stretch : 0);
-    const Vector3<double> target =
-        edge - (bend > 0 ? Vector3<double>(across / bend) : Vector3<double>::Zero());
-    strand.restTargets[i] = frameBefore(i, rootFrame, frames).conjugate() * target;
-    if (bend > 0)
-      strand.preloadShare = std::max(strand.preloadShare, across.norm() / (bend * strand.edgeLengths[i]));
-  }
+  for (std::size_t i = 0; i < edgeCount; ++i)
+    strand.restTargets.push_back(frameBefore(i, rootFrame, frames).conjugate() * targets[i]);
 }
 
 // The rest state in double. `points` in the groom's unit, root first.
 RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double metresPerUnit,
                                     const Material& material, const PaperMaterial& paper,
-                                    const Settings& settings) {
+                                    const Settings& settings, const StrandPiece& piece) {
   RestStrand<double> strand;
   strand.rootCount = static_cast<std::size_t>(settings.rootCount);
   strand.material = material;
@@ -204,7 +233,9 @@ RestStrand<double> deriveRestStrand(std::span<const Vec3f> points, double metres
   strand.coreSmoothingShare = smoothingShare(strand.meanEdgeLength, strand.coreSmoothingLength);
 
   setEdgeConstants(material, paper, settings, ruleLength, middles, strand);
-  setRestShape(settings, strand);
+  Field<double> targets = setRestSprings(settings, strand);
+  if (piece.begin > 0 || piece.end < strand.particleCount()) keepOnly(piece, strand, targets);
+  setRestFrames(targets, strand);
   return strand;
 }
 
@@ -252,14 +283,15 @@ RestStrand<Real> castRestStrand(const RestStrand<double>& from) {
 
 template <class Real>
 RestStrand<Real> makeRestStrand(std::span<const Vec3f> points, double metresPerUnit, const Material& material,
-                                const PaperMaterial& paper, const Settings& settings) {
-  return castRestStrand<Real>(deriveRestStrand(points, metresPerUnit, material, paper, settings));
+                                const PaperMaterial& paper, const Settings& settings,
+                                const StrandPiece& piece) {
+  return castRestStrand<Real>(deriveRestStrand(points, metresPerUnit, material, paper, settings, piece));
 }
 
 #define RINGLET_INSTANTIATE(Real)                                                                \
   template RestStrand<Real> makeRestStrand(std::span<const Vec3f> points, double metresPerUnit,  \
                                            const Material& material, const PaperMaterial& paper, \
-                                           const Settings& settings)
+                                           const Settings& settings, const StrandPiece& piece)
 RINGLET_INSTANTIATE(float);
 RINGLET_INSTANTIATE(double);
 #undef RINGLET_INSTANTIATE

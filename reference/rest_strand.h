@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "reference/fields.h"
@@ -15,7 +16,7 @@ namespace ringlet::reference {
 /// What a strand is at rest. Particles 0..N-1, edges 0..N-2. Lengths in metres, in the groom's own axes.
 template <class Real>
 struct RestStrand {
-  std::size_t rootCount = 1;  // particles that follow the head
+  std::size_t rootCount = 1;  // particles that follow the head; 0: it was cut off and falls
   Field<Real> points;         // N: p_i [m]
   Field<Real> edges;          // N-1: p_{i+1} - p_i [m]
   Scalars<Real> masses;       // N: m_i [kg]; 1 for Integrator::paper
@@ -46,14 +47,26 @@ struct RestStrand {
   /// A number of the material.
   Real of(double Material::*number) const { return static_cast<Real>(material.*number); }
 
+  // Of what falls: how its rest shape was turned when it was cut. Its frames and filters begin along its own
+  // first edge.
+  Rotation<double> restTurn = Rotation<double>::Identity();
+
+  bool falls() const { return rootCount == 0; }
   std::size_t particleCount() const { return points.size(); }
   std::size_t edgeCount() const { return edges.size(); }
   std::size_t pinnedCount() const { return std::min(rootCount, particleCount()); }
 };
 
-/// The rest state of one strand for Settings, derived in double and rounded to Real last.
+/// Of a strand's particles those that cuts left together, [begin, end).
+struct StrandPiece {
+  std::size_t begin = 0, end = std::numeric_limits<std::size_t>::max();
+};
+
+/// The rest state of one strand for Settings, derived in double and rounded to Real last. A piece of it has
+/// the springs, masses and shape of the whole.
 template <class Real>
 RestStrand<Real> makeRestStrand(std::span<const Vec3f> points, double metresPerUnit, const Material& material,
-                                const PaperMaterial& paper, const Settings& settings);
+                                const PaperMaterial& paper, const Settings& settings,
+                                const StrandPiece& piece = {});
 
 }  // namespace ringlet::reference

@@ -26,8 +26,10 @@ Simulation<Real>::Simulation(const Groom& groom, const Material& material, const
   for (const Body& body : bodies_) bodyPoses_.push_back(body.poseAt(0, start));
   if (settings.air.on) windModes_ = windModes(settings.air);
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    rest_.push_back(makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit, materialOfStrand(material, s),
-                                         paper, settings));
+    strandInGroom_.push_back(static_cast<std::uint32_t>(s));
+    pieces_.push_back({0, groom.strand(s).size()});
+    restTurns_.push_back(Rotation<double>::Identity());
+    rest_.push_back(restOf(groom, material, settings, s));
   }
   rootShifts_.assign(groom.strandCount(), Vector3<double>::Zero());
   rootPoses_.assign(groom.strandCount(), BodyPose{});
@@ -41,12 +43,47 @@ Simulation<Real>::Simulation(const Groom& groom, const Material& material, const
 }
 
 template <class Real>
-void Simulation<Real>::change(const Groom& groom, const Material& material, const Settings& settings) {
+RestStrand<Real> Simulation<Real>::restOf(const Groom& groom, const Material& material,
+                                          const Settings& settings, std::size_t s) const {
   Settings balanced = settings;
   balanced.gravity = balancedGravity_;
-  for (std::size_t s = 0; s < rest_.size(); ++s)
-    rest_[s] = makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit, materialOfStrand(material, s),
-                                    paper_, balanced);
+  const std::uint32_t strand = strandInGroom_[s];
+  auto rest = makeRestStrand<Real>(groom.strand(strand), groom.metresPerUnit,
+                                   materialOfStrand(material, strand), paper_, balanced, pieces_[s]);
+  rest.restTurn = restTurns_[s];
+  return rest;
+}
+
+template <class Real>
+void Simulation<Real>::cut(const Groom& groom, const Material& material, std::span<const StrandCut> cuts) {
+  RINGLET_ASSERT(!settings_.contacts.on, "hair with contacts is not cut");
+  const auto doubled = [](auto& values, std::size_t at) {
+    values.insert(values.begin() + static_cast<std::ptrdiff_t>(at), values[at]);
+  };
+  if (whole_.empty()) whole_ = rest_;
+  for (const StrandCut& cut : cuts) {
+    const auto s =
+        static_cast<std::size_t>(std::ranges::find(strandInGroom_, cut.strand) - strandInGroom_.begin());
+    if (isRigid_[s]) continue;
+    RINGLET_ASSERT(cut.keep > 0 && cut.keep < pieces_[s].end, "a cut is within what is left of the strand");
+    doubled(strandInGroom_, s), doubled(pieces_, s), doubled(restTurns_, s), doubled(rest_, s);
+    doubled(rootShifts_, s), doubled(rootPoses_, s), doubled(previousRootPoses_, s);
+    isRigid_.insert(isRigid_.begin() + static_cast<std::ptrdiff_t>(s), false);
+    pieces_[s].end = pieces_[s + 1].begin = cut.keep;
+    restTurns_[s + 1] = toEigen<double>(head_.rotation);
+    firstPoint_.insert(firstPoint_.begin() + static_cast<std::ptrdiff_t>(s) + 1, firstPoint_[s] + cut.keep);
+    for (const std::size_t piece : {s, s + 1}) rest_[piece] = restOf(groom, material, settings_, piece);
+  }
+  systems_.assign(rest_.size(), {});
+  taps_.assign(rest_.size(), {});
+}
+
+template <class Real>
+void Simulation<Real>::change(const Groom& groom, const Material& material, const Settings& settings) {
+  for (std::size_t s = 0; s < rest_.size(); ++s) rest_[s] = restOf(groom, material, settings, s);
+  for (std::size_t s = 0; s < whole_.size(); ++s)
+    whole_[s] = makeRestStrand<Real>(groom.strand(s), groom.metresPerUnit, materialOfStrand(material, s),
+                                     paper_, settings);
   settings_ = settings;
   if (settings.air.on) windModes_ = windModes(settings.air);
   if (settings.goal.on) aimAtGroom(groom);
@@ -73,17 +110,17 @@ void Simulation<Real>::carryRigidly(std::span<const std::uint32_t> strands) {
 template <class Real>
 void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                                  std::span<const BodyPose> rootPoses) {
-  RINGLET_ASSERT(rootPoses.empty() || rootPoses.size() == stepPoses.size() * rest_.size(),
+  RINGLET_ASSERT(rootPoses.empty() || rootPoses.size() == stepPoses.size() * wholeStrands().size(),
                  "every strand has a pose in every step");
   const std::vector<BodyPose> carried =
       bodyPoses.empty() ? bodyPosesOf(bodies_, stepPoses, std::vector<double>(stepPoses.size()))
                         : std::vector<BodyPose>(bodyPoses.begin(), bodyPoses.end());
   RINGLET_ASSERT(carried.size() == stepPoses.size() * bodies_.size(), "every body has a pose in every step");
   if (settings_.jumps(length(stepPoses.back().position - head_.position))) {
+    RINGLET_ASSERT(whole_.empty(), "the head of hair that was cut does not jump");
     carryTo(stepPoses.back());
     bodyPoses_.assign(carried.end() - static_cast<std::ptrdiff_t>(bodies_.size()), carried.end());
-    if (!rootPoses.empty())
-      rootPoses_.assign(rootPoses.end() - static_cast<std::ptrdiff_t>(rest_.size()), rootPoses.end());
+    if (!rootPoses.empty()) rootPoses_ = ofPieces(rootPoses.last(wholeStrands().size()));
     previousRootPoses_ = rootPoses_;
     for (std::size_t s = 0; s < rest_.size(); ++s) placeRigid(s);
     report_.steps += stepPoses.size();
@@ -92,15 +129,20 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
   }
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const std::vector<BodyPose> roots =
-        rootPoses.empty()
-            ? rootPoses_
-            : std::vector<BodyPose>(rootPoses.begin() + static_cast<std::ptrdiff_t>(k * rest_.size()),
-                                    rootPoses.begin() + static_cast<std::ptrdiff_t>((k + 1) * rest_.size()));
+        rootPoses.empty() ? rootPoses_
+                          : ofPieces(rootPoses.subspan(k * wholeStrands().size(), wholeStrands().size()));
     stepOnce(k, stepPoses.size(), stepPoses[k],
              std::span(carried).subspan(k * bodies_.size(), bodies_.size()), roots);
   }
   goalsBefore_ = goals_;
   fieldsBefore_ = fields_;
+}
+
+template <class Real>
+std::vector<BodyPose> Simulation<Real>::ofPieces(std::span<const BodyPose> poses) const {
+  std::vector<BodyPose> all;
+  for (const std::uint32_t strand : strandInGroom_) all.push_back(poses[strand]);
+  return all;
 }
 
 template <class Real>
@@ -149,17 +191,19 @@ void Simulation<Real>::setGoals(std::span<const Vec3f> places, std::span<const f
     goalStiffness_.push_back(goalStiffness(strengths[i]));
     goalDamping_.push_back(goalDamping(goalStiffness_.back(), dampingRatio));
   }
-  for (std::size_t s = 0; settings_.goal.shape && s < rest_.size(); ++s) {
-    const RestStrand<Real>& rest = rest_[s];
+  std::size_t first = 0;
+  for (const RestStrand<Real>& rest : wholeStrands()) {
+    if (!settings_.goal.shape) break;
     const double mass = std::accumulate(rest.masses.begin(), rest.masses.end(), 0.0);
     const double arc = std::accumulate(rest.edgeLengths.begin(), rest.edgeLengths.end(), 0.0);
     for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
-      const std::size_t at = firstPoint_[s] + i;
+      const std::size_t at = first + i;
       const double weight = mass * kStandardGravity, strength = strengths[at];
       const double edgeMass = static_cast<double>(rest.edgeLengths[i]) * static_cast<double>(rest.masses[i]);
       goalStiffness_[at] = strength * weight / edgeMass;
       goalDamping_[at] = dampingRatio * arc * std::sqrt(strength * weight * mass / arc) / edgeMass;
     }
+    first += rest.particleCount();
   }
   if (isFirst) goalsBefore_ = goals_;
   if (from.empty()) return;
@@ -191,10 +235,10 @@ void Simulation<Real>::aimAtGroom(const Groom& groom) {
   std::vector<float> strengths;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     double arc = 0;
-    for (const Real edge : rest_[s].edgeLengths) arc += static_cast<double>(edge);
+    for (const Real edge : wholeStrands()[s].edgeLengths) arc += static_cast<double>(edge);
     double along = 0;
     for (std::size_t i = 0; i < groom.strand(s).size(); ++i) {
-      if (i > 0) along += static_cast<double>(rest_[s].edgeLengths[i - 1]);
+      if (i > 0) along += static_cast<double>(wholeStrands()[s].edgeLengths[i - 1]);
       const double share = arc > 0 ? along / arc : 0;
       const double atTip = settings_.goal.strength * settings_.goal.tipShare;
       strengths.push_back(static_cast<float>((1 - share) * settings_.goal.strength + share * atTip));
@@ -207,8 +251,8 @@ void Simulation<Real>::aimAtGroom(const Groom& groom) {
 template <class Real>
 GoalStep Simulation<Real>::goalStep(std::size_t s, std::size_t k, std::size_t steps) const {
   GoalStep step;
+  if (goals_.empty() || rest_[s].falls()) return step;
   step.isShape = settings_.goal.shape;
-  if (goals_.empty()) return step;
   const double n = static_cast<double>(steps), begin = static_cast<double>(k) / n,
                end = static_cast<double>(k + 1) / n;
   for (std::size_t i = firstPoint_[s]; i < firstPoint_[s + 1]; ++i) {
@@ -403,6 +447,12 @@ void Simulation<Real>::archive(Archive& archive) {
   archive.values(std::span(previousRootPoses_));
   archive.values(std::span(rootPoses_));
   archive.values(std::span(bodyPoses_));
+  if (!whole_.empty()) {
+    for (std::size_t s = 0; s < rest_.size(); ++s) {
+      archive.values(std::span(restTurns_[s].coeffs().data(), 4));
+      rest_[s].restTurn = restTurns_[s];
+    }
+  }
   archive.values(numbersOf(positions_));
   archive.values(numbersOf(velocities_));
   archive.value(report_);

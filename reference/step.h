@@ -13,6 +13,7 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
+#include "ringlet/scene/strand_cut.h"
 
 namespace ringlet::reference {
 
@@ -79,13 +80,20 @@ class Simulation {
   /// balanced against the gravity it began with.
   void change(const Groom& groom, const Material& material, const Settings& settings);
 
+  /// As Simulation::cut of the solver has it, of the groom and material it has: what is cut off is a strand
+  /// of its own from then on, behind the one that it was cut from. Later heads do not jump.
+  void cut(const Groom& groom, const Material& material, std::span<const StrandCut> cuts);
+
   /// These strands are carried by their roots in their rest shape, and take no part in anything. The list is
   /// the caller's (RestState::rigid). Before all else; puts the hair at rest.
   void carryRigidly(std::span<const std::uint32_t> strands);
 
   const HeadPose& head() const { return head_; }
   const Settings& settings() const { return settings_; }
+  /// Pieces of a strand that was cut are strands of their own here and in taps().
   const std::vector<RestStrand<Real>>& restStrands() const { return rest_; }
+  /// Of each of them, groom order, and one more.
+  const std::vector<std::uint32_t>& firstPoint() const { return firstPoint_; }
   /// The contacts, with the results of the last outer step; empty unless settings.contacts.on.
   const Contacts<Real>& contacts() const { return contacts_; }
   /// Intermediates of the last outer step, one entry per strand.
@@ -117,6 +125,13 @@ class Simulation {
                 const std::vector<BodyPose>& roots);
 
   void aimAtGroom(const Groom& groom);
+  // Before any was cut.
+  const std::vector<RestStrand<Real>>& wholeStrands() const { return whole_.empty() ? rest_ : whole_; }
+  // Poses of strands as poses of pieces.
+  std::vector<BodyPose> ofPieces(std::span<const BodyPose> poses) const;
+
+  RestStrand<Real> restOf(const Groom& groom, const Material& material, const Settings& settings,
+                          std::size_t s) const;
 
   AirStep<Real> airStep(const HeadPose& next) const;
   // Of strand s, in step k of the frame's.
@@ -141,7 +156,10 @@ class Simulation {
   HeadPose previousHead_, head_;                         // poses n - 1 and n
   Field<double> rootShifts_;                             // at HeadPose::shift 1 [m]
   std::vector<BodyPose> previousRootPoses_, rootPoses_;  // of strands in the head's frame, n - 1 and n
-  std::vector<std::uint32_t> firstPoint_;                // as in Groom
+  std::vector<std::uint32_t> firstPoint_;                // as in Groom, of pieces
+  std::vector<std::uint32_t> strandInGroom_;             // of each piece
+  std::vector<StrandPiece> pieces_;                      // likewise, of that strand
+  std::vector<Rotation<double>> restTurns_;              // likewise, RestStrand::restTurn
   std::vector<bool> isRigid_;                            // of each strand
   std::vector<Body> bodies_;
   std::vector<WindMode> windModes_;
@@ -151,6 +169,7 @@ class Simulation {
   std::vector<ForceField> fieldsBefore_, fields_;  // at the frame's start and end
   std::vector<BodyPose> bodyPoses_;                // at pose n, in the world
   std::vector<RestStrand<Real>> rest_;
+  std::vector<RestStrand<Real>> whole_;  // once some were cut
   Field<Real> positions_, velocities_;
   std::vector<StrandSystem> systems_;  // of the current step
   std::vector<StrandTaps<Real>> taps_;

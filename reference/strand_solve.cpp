@@ -24,7 +24,8 @@ Matrix3<double> StrandSystem::edgeBlock(std::size_t i) const {
 }
 
 Matrix3<double> StrandSystem::particleBlock(std::size_t i) const {
-  Matrix3<double> block = massBlock(i) + edgeBlock(i - 1);
+  Matrix3<double> block = massBlock(i);
+  if (i > 0) block += edgeBlock(i - 1);
   if (i + 1 < particleCount()) block += edgeBlock(i);
   return block;
 }
@@ -38,11 +39,11 @@ void solveStrand(const StrandSystem& system, SolveScratch& scratch, FieldView<do
   Field<double>& y = scratch.reduced;
 
   for (std::size_t i = first; i < n; ++i) {
-    const Matrix3<double> above = system.edgeBlock(i - 1);
+    const Matrix3<double> above = i > 0 ? system.edgeBlock(i - 1) : Matrix3<double>::Zero();
     Matrix3<double> pivot = system.particleBlock(i);
     y[i] = system.rightSide(i);
     if (i == first) {
-      y[i] += above * velocities[i - 1];
+      if (i > 0) y[i] += above * velocities[i - 1];
     } else {
       pivot -= above * pivots[i - 1].solve(above);
       y[i] += above * pivots[i - 1].solve(y[i - 1]);

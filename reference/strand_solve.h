@@ -53,7 +53,7 @@ struct SolveScratch {
 /// Exact: block Cholesky from the root,
 ///     S_i = D_i - A_{i-1} S_{i-1}^-1 A_{i-1},   y_i = r_i + A_{i-1} S_{i-1}^-1 y_{i-1},
 ///     then v_i = S_i^-1 (y_i + A_i v_{i+1})
-/// velocities: pinned ones given, free ones found [m/s].
+/// A strand without a root begins with S_0 = D_0. velocities: pinned ones given, free ones found [m/s].
 void solveStrand(const StrandSystem& system, SolveScratch& scratch, FieldView<double> velocities);
 
 /// A bound on the spectral radius of the plain point iteration [1]: with lambda_i the largest eigenvalue of

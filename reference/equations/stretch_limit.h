@@ -17,8 +17,8 @@
 namespace ringlet::reference {
 
 /// Shortens the edges i >= rootCount - 1 to maxStretch (s_max) times edgeLengths (l_i) [m]; movedEdges [m]
-/// are those between the given positions. Velocities follow the shift over T [s]. Returns how many edges were
-/// too long.
+/// are those between the given positions. Without a root the first particle stays. Velocities follow the
+/// shift over T [s]. Returns how many edges were too long.
 template <class Real>
 std::size_t limitStretch(std::size_t rootCount, Real maxStretch, Real stepSeconds,
                          const Scalars<Real>& edgeLengths, const Field<Real>& movedEdges,
@@ -26,7 +26,7 @@ std::size_t limitStretch(std::size_t rootCount, Real maxStretch, Real stepSecond
   if (positions.size() <= rootCount) return 0;
   std::size_t limitedCount = 0;
   Vector3<Real> shift = Vector3<Real>::Zero();
-  for (std::size_t i = rootCount - 1; i + 1 < positions.size(); ++i) {
+  for (std::size_t i = rootCount > 0 ? rootCount - 1 : 0; i + 1 < positions.size(); ++i) {
     const Vector3<Real>& edge = movedEdges[i];
     const Real length = edge.norm(), limit = maxStretch * edgeLengths[i];
     if (length > limit) {

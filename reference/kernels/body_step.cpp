@@ -12,15 +12,16 @@ namespace {
 template <class Real>
 Vector3<Real> strandDirection(FieldView<Real> positions, std::size_t i) {
   const Vector3<Real> zero = Vector3<Real>::Zero();
-  Vector3<Real> sum = directionOr<Real>(positions[i] - positions[i - 1], zero);
+  Vector3<Real> sum = i > 0 ? directionOr<Real>(positions[i] - positions[i - 1], zero) : zero;
   if (i + 1 < positions.size()) sum += directionOr<Real>(positions[i + 1] - positions[i], zero);
   return directionOr<Real>(sum, zero);
 }
 
-// How many of its first particles are under the body's skin.
+// How many of its first particles are under the body's skin. What falls has no root that may be there.
 template <class Real>
-std::size_t buriedCount(const BodyStep<Real>& step, FieldView<Real> positions) {
+std::size_t buriedCount(const RestStrand<Real>& rest, const BodyStep<Real>& step, FieldView<Real> positions) {
   std::size_t count = 0;
+  if (rest.falls()) return 0;
   while (count < std::min(kMostBuried, positions.size()) &&
          bodyDistance(*step.body, step.atStart(positions[count])).distance < Real(-kOutside))
     ++count;
@@ -65,8 +66,8 @@ bool findPushes(const RestStrand<Real>& rest, const std::vector<BodyStep<Real>>&
     const Real T = step.seconds, friction = static_cast<Real>(body.friction);
     const auto start = [&](std::size_t i) { return step.atStart(positions[i]); };
     const auto end = [&](std::size_t i) { return step.atEnd(positions[i] + T * free[i]); };
-    for (std::size_t i = std::max(rest.pinnedCount(), buriedCount(step, positions)); i < rest.particleCount();
-         ++i) {
+    for (std::size_t i = std::max(rest.pinnedCount(), buriedCount(rest, step, positions));
+         i < rest.particleCount(); ++i) {
       const Touch<Real> touch = traceParticle(body, start(i), end(i));
       if (!touch.found) continue;
       const bool isDeep = touch.surface.distance < Real(-kDeep);

@@ -33,20 +33,25 @@ void measureShape(const RestStrand<Real>& rest, bool isPaper, const HeadStep<Rea
   }
 
   // The filters start from the rest first edge as the head carries it, and from that edge's velocity; the
-  // paper's from the strand's own first edge.
-  const Vector3<Real> carried = head.rotation() * rest.edges[0];
+  // paper's, and those of what falls, from the strand's own first edge.
+  Rotation<Real> rootFrame = head.rotation();
+  Vector3<Real> carried = rootFrame * rest.edges[0];
   Vector3<Real> edgeStart = carried, velocityStart = head.carriedEdgeVelocityBefore(rest.edges[0]);
-  if (isPaper) {
+  if (isPaper || rest.falls()) {
     edgeStart = scratch.edges[0];
     velocityStart = scratch.velocityDifferences[0];
+  }
+  if (rest.falls()) {  // from the rest shape as it was cut the shortest way along that edge
+    const Rotation<Real> turn = rest.restTurn.template cast<Real>();
+    rootFrame = smallestRotation<Real>(turn * rest.edges[0], edgeStart) * turn;
+    carried = edgeStart;
   }
   smooth(scratch.edges, rest.bendSmoothingShare, edgeStart, taps.smoothedEdges);
   smooth(scratch.edges, rest.coreSmoothingShare, edgeStart, taps.coreEdges);
   smooth(scratch.velocityDifferences, rest.coreSmoothingShare, velocityStart,
          scratch.smoothedVelocityDifferences);
 
-  transportFrames(head.rotation(), carried, taps.smoothedEdges, taps.frames);
-  const Rotation<Real> rootFrame = head.rotation();
+  transportFrames(rootFrame, carried, taps.smoothedEdges, taps.frames);
   taps.targets.resize(rest.edgeCount());
   for (std::size_t i = 0; i < rest.edgeCount(); ++i) {
     taps.targets[i] = frameBefore(i, rootFrame, taps.frames) * rest.restTargets[i];
@@ -298,6 +303,8 @@ void prepareStrand(const RestStrand<Real>& rest, const Settings& settings, const
   if (rest.edgeCount() > 0) {
     measureShape(rest, isPaper, head, positions, velocities, scratch, taps);
     computeForces(rest, isPaper, scratch, taps);
+  } else {
+    scratch.directions.clear();
   }
 
   if (!isPaper) addAir<Real>(rest, air, scratch.directions, head.seconds, positions, velocities, system);

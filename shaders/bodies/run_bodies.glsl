@@ -204,7 +204,7 @@ bool findPushes(uint step) {
   if (b < parameters.bodyCount) do {
     BodyStep body = bodyStep(step, parameters.bodyCount, b);
     float roomBefore = 0.0;  // what is left to the body when particle k - 1 has gone its way
-    bool isBuried = lane == 0;
+    bool isBuried = lane == 0 && !kFalls;  // what falls has no root that may be in a body
     vec3 placeBefore = vec3(0);
     uint part = 0;
     do {

@@ -23,7 +23,7 @@ void main() {
   vec3 here = before;
   do {
     vec3 next = coreAt(min(i + 1, last));
-    vec3 along = next - before;
+    vec3 along = (beginsPiece(min(i + 1, last)) ? here : next) - (beginsPiece(i) ? here : before);
     vec3 turnedTo = dot(along, along) > 0.0 ? normalize(along) : tangent;
     frame = renormalized(turned(smallestTurn(tangent, turnedTo), frame));
     tangent = turnedTo;

@@ -18,8 +18,8 @@ void main() {
   uint i = p - hair.firstPoint;
   vec3 a = uintBitsToFloat(record.xyz);
   vec3 b = hairPoint(p + 1);
-  vec3 before = hairPoint(i > 0 ? p - 1 : p);
-  vec3 after = hairPoint(i + 2 < hair.pointCount ? p + 2 : p + 1);
+  vec3 before = i > 0 && (pointRecord(p - 1).w & kHairEnd) == 0 ? hairPoint(p - 1) : a;
+  vec3 after = (pointRecord(p + 1).w & kHairEnd) == 0 ? hairPoint(p + 2) : b;
 
   uint stride = picture.side * picture.width;
   vec2 place = vec2(at % stride, at / stride) + 0.5 + vec2(0, bandTop());

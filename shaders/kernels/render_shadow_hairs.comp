@@ -13,7 +13,9 @@ void main() {
   DrawnHair hair = drawnHair(h);
   if (i + 1 >= hair.pointCount) return;
   uint p = hair.firstPoint + i;
-  vec3 from = hairPoint(p);
+  uvec4 record = pointRecord(p);
+  if ((record.w & kHairEnd) != 0) return;
+  vec3 from = uintBitsToFloat(record.xyz);
   vec3 edge = hairPoint(p + 1) - from;
   float share = (float(i) + 0.5) / float(hair.pointCount - 1);
   float width = 2.0 * radiusAt(hair, share) * picture.shadowOpacity * float(picture.shadowStride);

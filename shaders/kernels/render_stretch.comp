@@ -17,6 +17,7 @@ void main() {
   StretchStrand strand = strands[h];
   float most = 0.0;
   for (uint i = strand.firstPoint; i + 1 < strand.firstPoint + strand.pointCount; ++i) {
+    if ((points[i].w & kHairEnd) != 0) continue;  // cut
     float now = distance(uintBitsToFloat(points[i].xyz), uintBitsToFloat(points[i + 1].xyz));
     most = max(most, now / lengths[i] - 1.0);
   }

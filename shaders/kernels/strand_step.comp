@@ -83,7 +83,12 @@ void measureEdges() {
     degenerateEdges += squared <= 1e-30 && isEdge(k) ? 1 : 0;
     maxStretch = max(maxStretch, eLength[k] * inverseLength[k]);
   }
-  if (isCutEdge(0)) e[0] = e[kSecond], dv[0] = dv[kSecond], eHat[0] = eHat[kSecond];  // smoothing begins with it
+  if (isCutEdge(0)) {  // smoothing begins with the edge after it; a single particle has none
+    bool goesOn = isEdge(kSecond);
+    e[0] = goesOn ? e[kSecond] : vec3(0);
+    dv[0] = goesOn ? dv[kSecond] : vec3(0);
+    eHat[0] = goesOn ? eHat[kSecond] : vec3(0);
+  }
 }
 
 // The smoothed curves: directions and normals of the frames from one, forces of the core spring from the other. Two
@@ -184,10 +189,7 @@ void coreForces() {
     if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(core, 0));
     force[k] += core;
   }
-  if (isCutEdge(0)) {  // smoothed in its place was the edge after it; it has no other force
-    force[kSecond] += force[0];
-    force[0] = vec3(0);
-  }
+  if (isCutEdge(0)) force[0] = vec3(0);  // where smoothing begins is held, as a root's edge is
 }
 
 #ifdef RINGLET_SURROUNDINGS

@@ -11,7 +11,8 @@ namespace ringlet::layout {
 
 // Bindings of the follow_* kernels: hairs that follow guides (equations/follow.glsl). Bodies have those of bodies.h,
 // with one pose each.
-RINGLET_CONSTANT uint kBindGuidePoints = 0;   // vec4[guide particles]: position [m], 0
+RINGLET_CONSTANT uint kBindGuidePoints = 0;   // vec4[guide particles]: position [m], -1 where the strand is cut
+                                              // beyond it, else 0
 RINGLET_CONSTANT uint kBindCoreRows = 1;      // CoreRow[guide particles]
 RINGLET_CONSTANT uint kBindCoreWeights = 2;   // vec4[records of four weights]
 RINGLET_CONSTANT uint kBindCores = 3;         // vec4[guide particles]: the guide's core there [m], 0
@@ -26,6 +27,7 @@ RINGLET_CONSTANT uint kBindNearPoints = 11;   // uint[points near bodies]: the i
 RINGLET_CONSTANT uint kBindFollowBlends = 12; // FollowBlend[hairs], where hairs follow several guides
 // Whether roots are where FollowHair::rootOffset says, on a scalp that bends, and not where the head carries them.
 RINGLET_CONSTANT uint kSpecOnScalp = 2;
+RINGLET_CONSTANT uint kSpecCutGuides = 3;  // some guide is cut at some time
 // The same as texels, these numbers further:
 RINGLET_CONSTANT uint kFollowTexels = 40;
 
@@ -34,7 +36,7 @@ struct CoreRow {
   uint firstParticle;  // of the sum
   uint firstRecord;    // of its weights, four to a record; those past the sum's end are 0
   uint recordCount;
-  uint unused;
+  uint beginsPiece;  // 1: it is the first of a piece that is cut off at some time
 };
 
 // Constant per guide.

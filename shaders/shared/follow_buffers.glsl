@@ -8,6 +8,7 @@
 #include "shared/workgroup.glsl"
 
 layout(constant_id = kSpecOnScalp) const bool kOnScalp = false;
+layout(constant_id = kSpecCutGuides) const bool kCutGuides = false;
 
 layout(set = 0, binding = kBindGuidePoints) readonly buffer GuidePoints { vec4 guidePoints[]; };
 layout(set = 0, binding = kBindCoreRows) readonly buffer CoreRows { CoreRow coreRows[]; };
@@ -35,6 +36,8 @@ CoreRow coreRow(uint i) {
   uvec4 row = recordAt(coreRowTexels, i);
   return CoreRow(row.x, row.y, row.z, row.w);
 }
+bool beginsPiece(uint i) { return kCutGuides && coreRow(i).beginsPiece != 0; }
+bool isCutBeyond(uint i) { return (kTexels ? vectorAt(guidePointTexels, i) : guidePoints[i]).w < 0.0; }
 FollowGuide followGuide(uint i) {
   if (!kTexels) return followGuides[i];
   uvec4 count = recordAt(followGuideTexels, 2 * i + 1);

@@ -21,10 +21,21 @@ struct GuideBeside {
   GuidePlace before, after;  // the guide's particles,
   float between;             // and where between them
 };
-GuideBeside besideOf(FollowGuide guide, float along) {
+// Behind a guide's particle `after` - 1, and how far of the way to `after`.
+struct AlongGuide {
+  uint after;
+  float between;
+};
+AlongGuide placeAlong(FollowGuide guide, float along) {
   uint k = min(uint(along), guide.particleCount - 2);
-  uint at = guide.firstParticle + k;
-  return GuideBeside(placeAt(at), placeAt(at + 1), along - float(k));
+  float between = along - float(k);
+  if (beginsPiece(guide.firstParticle + k + 1)) between = between < 0.5 ? 0.0 : 1.0;  // beside a cut
+  return AlongGuide(k + 1, between);
+}
+GuideBeside besideOf(FollowGuide guide, float along) {
+  AlongGuide place = placeAlong(guide, along);
+  uint at = guide.firstParticle + place.after - 1;
+  return GuideBeside(placeAt(at), placeAt(at + 1), place.between);
 }
 GuidePlace placeOf(GuideBeside beside) { return placeBetween(beside.before, beside.after, beside.between); }
 
@@ -56,6 +67,21 @@ void besideOther(uint k, FollowBlend blend, vec3 root, inout HairOnGuide point) 
 }
 #endif
 
+// Where point i of a hair is on its guide, in edges. A shorter hair lags behind its guide, but for the root.
+float alongGuide(uint i, FollowHair hair, FollowGuide guide) {
+  float share = float(i) / float(guide.particleCount - 1);
+  return float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, share));
+}
+
+// Whether the guide is cut between points i and i + 1 of a hair, which are at most a particle apart.
+bool isCutAfter(uint i, FollowHair hair, FollowGuide guide) {
+  AlongGuide here = placeAlong(guide, alongGuide(i, hair, guide));
+  AlongGuide next = placeAlong(guide, alongGuide(i + 1, hair, guide));
+  uint at = here.after - (here.between < 1.0 ? 1 : 0);
+  uint nextAt = next.after - (next.between < 1.0 ? 1 : 0);
+  return at < nextAt && isCutBeyond(guide.firstParticle + nextAt - 1);
+}
+
 /// Point i of hair h, where i is below the guide's particleCount.
 HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
   HairOnGuide point;
@@ -63,12 +89,11 @@ HairOnGuide hairOnGuide(uint h, uint i, FollowHair hair, FollowGuide guide) {
   point.hair = hair;
   point.guide = guide;
   point.share = float(i) / float(last);
-  // A shorter hair lags behind its guide, but for the root.
-  point.along = float(i) * (1.0 + (hair.lengthShare - 1.0) * risesOver(0.2, point.share));
+  point.along = alongGuide(i, hair, guide);
   point.rootOffset = kOnScalp ? vec3(hair.rootOffset[0], hair.rootOffset[1], hair.rootOffset[2])
                               : rotate(multiply(parameters.head, guide.restFrame), hair.offset);
   point.own = besideOf(guide, point.along);
-  point.tag = i == last ? h | kHairEnd : h;
+  point.tag = i == last || kCutGuides && isCutAfter(i, hair, guide) ? h | kHairEnd : h;
 #ifdef RINGLET_BLENDS
   FollowBlend blend = followBlend(h);
   vec3 root = guidePoint(guide.firstParticle) + point.rootOffset;

@@ -257,6 +257,16 @@ void setSampleFields(Hair& hair, const ParityCase& c, const HeadPose& head, doub
   (void)hair.setFields(sampleFields(head.position, to), sampleFields(head.position, from));
 }
 
+// On both sides.
+template <class Real>
+Status makeCuts(const ParityCase& c, Simulation& simulation, reference::Simulation<Real>& expected) {
+  for (const std::vector<StrandCut>& cuts : c.cuts) {
+    if (Status cut = simulation.cut(cuts); !cut) return cut;
+    expected.cut(c.groom, c.material, cuts);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<ForceField> sampleFields(const Vec3d& about, double seconds) {
@@ -314,6 +324,10 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
                                        c.kernel);
   if (!simulation) return {failed("create", simulation.error())};
   if (Status set = simulation->setState(start); !set) return {failed("setState", set.error())};
+  ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
+  if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
+  expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
+  if (Status cut = makeCuts(c, *simulation, expected); !cut) return {failed("cut", cut.error())};
   const std::vector<Vec3f> forces = randomForces(c);
   if (!forces.empty()) {
     if (Status set = simulation->setForces(forces); !set) return {failed("setForces", set.error())};
@@ -329,9 +343,6 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   if (!found) return {failed("state", found.error())};
   if (report) *report = *simulation->report();
 
-  ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
-  if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
-  expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
   if (!forces.empty()) expected.setForces(forces);
   for (const auto& places : {goals.first, goals.second}) goals.set(expected, places);
   setSampleFields(expected, c, head.now, 0, T);
@@ -348,19 +359,20 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   Comparison cSmoothed("smoothed edges"), cCore("core edges"), cFrames("frames"), cTargets("targets"),
       cStretch("stretch forces"), cBend("bend forces"), cCoreForce("core forces"),
       cSolved("solved velocities"), cPositions("positions"), cVelocities("velocities");
-  for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
+  for (std::size_t s = 0; s < expected.restStrands().size(); ++s) {
     const auto& rest = expected.restStrands()[s];
     const auto& taps = expected.taps()[s];
     const double edge = rest.meanEdgeLength;
     const double unit = c.settings.integrator == Integrator::paper ? 1 : c.material.lineDensity * edge;
     for (std::size_t i = 0; i < rest.particleCount(); ++i) {
-      const std::size_t g = c.groom.firstPoint[s] + i;
+      const std::size_t g = expected.firstPoint()[s] + i;
       const auto v = [](const auto& x) { return Eigen::VectorXd(x.template cast<double>()); };
-      cSolved.add(s, i, largestSpeed, v(taps.solvedVelocities[i]), three(solved[g]));
       cPositions.add(s, i, rest.arcLength, v(expected.positions()[g]),
                      v(reference::toEigen<float>(found->positions[g])));
       cVelocities.add(s, i, largestSpeed, v(expected.velocities()[g]),
                       v(reference::toEigen<float>(found->velocities[g])));
+      if (rest.falls()) continue;
+      cSolved.add(s, i, largestSpeed, v(taps.solvedVelocities[i]), three(solved[g]));
       if (i >= rest.edgeCount()) continue;
       cSmoothed.add(s, i, edge, v(taps.smoothedEdges[i]), three(smoothed[g]));
       cCore.add(s, i, edge, v(taps.coreEdges[i]), three(core[g]));
@@ -400,6 +412,7 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
   if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
   if (Status set = simulation->setState(start); !set) return failed("setState", set.error());
   expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
+  if (Status cut = makeCuts(c, *simulation, expected); !cut) return failed("cut", cut.error());
   const std::vector<Vec3f> forces = randomForces(c);
   if (!forces.empty()) {
     if (Status set = simulation->setForces(forces); !set) return failed("setForces", set.error());
@@ -432,9 +445,9 @@ FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int f
   if (!found) return failed("positions", found.error());
 
   Comparison comparison("positions");
-  for (std::size_t s = 0; s < c.groom.strandCount(); ++s) {
-    for (std::size_t i = 0; i < c.groom.strand(s).size(); ++i) {
-      const std::size_t g = c.groom.firstPoint[s] + i;
+  for (std::size_t s = 0; s < expected.restStrands().size(); ++s) {
+    for (std::size_t i = 0; i < expected.restStrands()[s].particleCount(); ++i) {
+      const std::size_t g = expected.firstPoint()[s] + i;
       comparison.add(s, i, expected.restStrands()[s].arcLength, expected.positions()[g],
                      reference::toEigen<double>((*found)[g]));
     }

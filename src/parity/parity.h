@@ -56,6 +56,8 @@ struct ParityCase {
   // force of a few times its weight, with kernel.goals a place that it is pulled to, at random; with
   // kernel.fields, sampleFields().
   std::vector<Body> bodies{};
+  // Made one after the other before the first step. Of what falls positions and velocities are compared.
+  std::vector<std::vector<StrandCut>> cuts{};
 };
 
 /// All fields of one step, device against reference::Simulation<float>, from the same random state. `report`:

@@ -136,24 +136,24 @@ Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
 
 // Hair that follows the strands of IN, where it is asked for.
 Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest, double metresPerUnit,
-                                           const LoadedScene* scene = nullptr) {
+                                           const CutList& cuts = {}, const LoadedScene* scene = nullptr) {
   if (!typed.hairs) return std::optional<FullHair>();
   const auto ground = scene ? hairGroundOf(*scene, typed.look) : hairGroundOf(typed.look, metresPerUnit);
   if (!ground) return ground.error();
   auto hair = FullHair::make(rest, metresPerUnit, typed.look.of({.hairCount = *typed.hairs}),
-                             scene ? scene->bodies : std::vector<Body>(), *ground);
+                             scene ? scene->bodies : std::vector<Body>(), *ground, cuts);
   if (!hair) return hair.error();
   return std::optional(std::move(*hair));
 }
 
 // The same, of an animation.
-Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit,
+Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerUnit, const CutList& cuts,
                                            const std::optional<LoadedScene>& scene) {
   if (!typed.hairs) return std::optional<FullHair>();
-  if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, &*scene);
+  if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, cuts, &*scene);
   const auto rest = readGroom(typed.groom);
   if (!rest) return rest.error();
-  return fullHairOf(typed, rest->groom, metresPerUnit);
+  return fullHairOf(typed, rest->groom, metresPerUnit, cuts);
 }
 
 // Throws CLI11's error for what makes no sense together.
@@ -347,7 +347,9 @@ Status runConvert(const Typed& typed) {
   if (Status free = checkOutput(typed); !free) return free;
   const auto scene = sceneOf(typed);
   if (!scene) return scene.error();
-  auto hair = fullHairOf(typed, source->header().metresPerUnit, *scene);
+  const auto cuts = CutList::beside(typed.input);
+  if (!cuts) return cuts.error();
+  auto hair = fullHairOf(typed, source->header().metresPerUnit, *cuts, *scene);
   if (!hair) return hair.error();
   const auto outcome = convert(
       *source,
@@ -359,6 +361,7 @@ Status runConvert(const Typed& typed) {
        .usd = usdExtras(typed, source->header().metresPerUnit),
        .hair = *hair ? &**hair : nullptr,
        .scene = *scene ? &**scene : nullptr,
+       .cuts = *hair ? (*hair)->cutsOfHairs(*cuts) : *cuts,
        .showProgress = !typed.quiet});
   if (!outcome) return outcome.error();
   const Groom& written = *hair ? (*hair)->groom() : source->groom();

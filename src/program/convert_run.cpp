@@ -70,13 +70,15 @@ Status toAnimation(AnimationReader& source, const ConvertPlan& plan) {
                              writer.frameCount(), partial),
                  added.error().fault};
   }
+  if (Status written = plan.cuts.from(plan.firstFrame).write(plan.output); !written) return written;
   return writer.finish();
 }
 
 Status toSheet(AnimationReader& source, const ConvertPlan& plan) {
   Sheet sheet(shownGroom(source, plan), frameCountOf(plan), source.header().up);
   const auto offer = [&](int frame) -> Status {
-    sheet.offer(frame - plan.firstFrame + 1, shownGroom(source, plan).points);
+    const Groom& shown = shownGroom(source, plan);
+    sheet.offer(frame - plan.firstFrame + 1, shown.points, {}, plan.cuts.cutBeyond(frame, shown.firstPoint));
     return {};
   };
   if (Status seen = forEachFrame(source, plan, offer); !seen) return seen;

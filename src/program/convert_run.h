@@ -22,6 +22,7 @@ struct ConvertPlan {
   UsdExtras usd{};
   FullHair* hair = nullptr;            // that follows the animation, and is written in its place
   const LoadedScene* scene = nullptr;  // whose bodies that hair stays out of
+  CutList cuts{};                      // of what is written, in the animation's frames
   bool showProgress = true;
 };
 

@@ -65,7 +65,7 @@ std::vector<Vec3d> FollowPlan::rootsAt(double t, const HeadPose& head) const {
 }
 
 Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
-                                    const HairGround& ground) {
+                                    const HairGround& ground, const CutList& cuts) {
   FollowPlan plan;
   plan.metresPerUnit_ = metresPerUnit;
   plan.firstPoint_ = rest.firstPoint;
@@ -77,6 +77,10 @@ Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, con
                       "`ringlet info --fix` drops such strands",
                       s + 1)};
     plan.guides_.push_back(restOfGuide(strand));
+    if (cuts.all().empty()) continue;
+    plan.guides_.back().pieces = cuts.piecesOf(static_cast<std::uint32_t>(s));
+    std::erase_if(plan.guides_.back().pieces,
+                  [&](std::uint32_t first) { return first == 0 || first >= strand.size(); });
   }
   if (Status planted = plan.plant(options, ground); !planted) return planted.error();
 

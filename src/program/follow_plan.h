@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "program/cut_list.h"
 #include "program/hair_ground.h"
 #include "ringlet/base/result.h"
 #include "ringlet/follow/follow_hairs.h"
@@ -21,8 +22,9 @@ class FollowPlan {
   /// `rest`: the strands as they were groomed, in units of `metresPerUnit`. Errors: the options' and the
   /// ground's; a strand that cannot be followed, as it has no length; hairs of more points than can be
   /// numbered.
+  /// `cuts`: of the strands.
   static Result<FollowPlan> make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
-                                 const HairGround& ground = {});
+                                 const HairGround& ground = {}, const CutList& cuts = {});
 
   /// Whether `groom` can be a pose of those strands: as many, with as many particles, not of another scale.
   Status checkPose(const Groom& groom) const;

@@ -13,8 +13,8 @@
 namespace ringlet::program {
 
 Result<FullHair> FullHair::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
-                                std::span<const Body> bodies, const HairGround& ground) {
-  auto plan = FollowPlan::make(rest, metresPerUnit, options, ground);
+                                std::span<const Body> bodies, const HairGround& ground, const CutList& cuts) {
+  auto plan = FollowPlan::make(rest, metresPerUnit, options, ground, cuts);
   if (!plan) return plan.error();
   FullHair hair(std::move(*plan), bodies);
   hair.groom_.metresPerUnit = rest.metresPerUnit;
@@ -65,6 +65,19 @@ void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> b
       return reference::followGuides(hair, poses, met, bodies, root);
     });
   });
+}
+
+CutList FullHair::cutsOfHairs(const CutList& cuts) const {
+  std::vector<FrameCut> all;
+  for (const FrameCut& each : cuts.all()) {
+    const std::size_t strand = each.cut.strand, points = plan_.guides()[strand].arcs.size();
+    for (std::size_t h = firstHair_[strand]; h < firstHair_[strand + 1]; ++h) {
+      const std::size_t keep = reference::pointsBefore(each.cut.keep, plan_.hairs()[h], points);
+      if (keep < points)
+        all.push_back({each.frame, {static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(keep)}});
+    }
+  }
+  return CutList(std::move(all));
 }
 
 std::vector<std::uint32_t> FullHair::strandOf() const {

@@ -15,7 +15,8 @@ class FullHair {
  public:
   /// As FollowPlan::make. `bodies`: that hairs stay out of where their strands do.
   static Result<FullHair> make(const Groom& rest, double metresPerUnit, const FollowOptions& options,
-                               std::span<const Body> bodies = {}, const HairGround& ground = {});
+                               std::span<const Body> bodies = {}, const HairGround& ground = {},
+                               const CutList& cuts = {});
 
   Status checkPose(const Groom& groom) const { return plan_.checkPose(groom); }
 
@@ -30,6 +31,8 @@ class FullHair {
   const Groom& groom() const { return groom_; }
   /// Of each hair, the strand that it follows.
   std::vector<std::uint32_t> strandOf() const;
+  /// Where hairs are cut as the strands are cut that they follow.
+  CutList cutsOfHairs(const CutList& cuts) const;
 
  private:
   FullHair(FollowPlan plan, std::span<const Body> bodies)

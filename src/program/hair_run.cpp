@@ -254,7 +254,8 @@ Status HairRun::makeSink() {
                                        input_.groom.metresPerUnit);
       if (!ground) return ground.error();
       auto made = FullHair::make(input_.groom, input_.groom.metresPerUnit,
-                                 options_.look.of({.hairCount = options_.hairs}), input_.bodies, *ground);
+                                 options_.look.of({.hairCount = options_.hairs}), input_.bodies, *ground,
+                                 {input_.cuts, input_.settings.framesPerSecond, options_.frameCount});
       if (!made) return made.error();
       hairs.emplace(std::move(*made));
     }

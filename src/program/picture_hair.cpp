@@ -32,10 +32,12 @@ UsualHairs usualHairs(std::size_t strands, std::size_t particles) {
 
 Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom& rest, const Groom& first,
                                         double metresPerUnit, const PictureHairChoice& choice,
-                                        std::span<const Body> bodies, const HairGround& ground) {
+                                        std::span<const Body> bodies, const HairGround& ground,
+                                        const CutList& cuts) {
   PictureHair self;
   self.metresPerUnit_ = metresPerUnit;
   self.firstOfStrand_ = first.firstPoint;
+  self.cuts_ = cuts;
   const UsualHairs usual = usualHairs(first.strandCount(), first.firstPoint.back());
   const FollowOptions options =
       choice.look.of(choice.hairs ? FollowOptions{.hairCount = *choice.hairs} : usual.options);
@@ -44,7 +46,7 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
     if (!lines) return lines.error();
     self.lines_.emplace(std::move(*lines));
   } else {
-    auto plan = FollowPlan::make(rest, metresPerUnit, options, ground);
+    auto plan = FollowPlan::make(rest, metresPerUnit, options, ground, cuts);
     if (!plan) return plan.error();
     if (Status belongs = plan->checkPose(first); !belongs) return belongs.error();
     auto stage = FollowStage::create(device.gpu(), plan->guides(), plan->hairs(), bodies, plan->isOnScalp());
@@ -59,13 +61,14 @@ Result<PictureHair> PictureHair::create(const ComputeDevice& device, const Groom
 }
 
 Status PictureHair::setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies,
-                            std::span<const Vec3d> roots) {
-  if (lines_) return lines_->setPose(points, metresPerUnit_);
+                            std::span<const Vec3d> roots, int frame) {
+  const std::vector<std::uint32_t> cutBeyond = cuts_.cutBeyond(frame, firstOfStrand_);
+  if (lines_) return lines_->setPose(points, metresPerUnit_, cutBeyond);
   std::vector<Vec3d> metres;
   metres.reserve(points.size());
   for (const Vec3f& p : points) metres.push_back(Vec3d(p) * metresPerUnit_);
   hairs_->setBodies(bodies);
-  return hairs_->setPose(metres, roots);
+  return hairs_->setPose(metres, roots, cutBeyond);
 }
 
 Quatd PictureHair::headOf(std::span<const Vec3f> points) const {

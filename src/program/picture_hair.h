@@ -33,11 +33,13 @@ class PictureHair {
   /// memory.
   static Result<PictureHair> create(const ComputeDevice& device, const Groom& rest, const Groom& first,
                                     double metresPerUnit, const PictureHairChoice& choice,
-                                    std::span<const Body> bodies = {}, const HairGround& ground = {});
+                                    std::span<const Body> bodies = {}, const HairGround& ground = {},
+                                    const CutList& cuts = {});
 
-  /// The strands of the next moment, in their unit, one pose a body, and rootsAt. Nothing may be under way.
+  /// The strands of the next moment, in their unit, one pose a body, and rootsAt; of the strands' cuts those
+  /// up to `frame` are made. Nothing may be under way.
   Status setPose(std::span<const Vec3f> points, std::span<const BodyPose> bodies = {},
-                 std::span<const Vec3d> roots = {});
+                 std::span<const Vec3d> roots = {}, int frame = 1);
   /// As FollowPlan::rootsAt.
   std::vector<Vec3d> rootsAt(double t, const HeadPose& head) const {
     return plan_ ? plan_->rootsAt(t, head) : std::vector<Vec3d>();
@@ -70,6 +72,7 @@ class PictureHair {
   double metresPerUnit_ = 0.01, width_ = 0;
   std::vector<std::uint32_t> firstOfStrand_;
   std::vector<Vec3d> restRoots_;
+  CutList cuts_;
   std::optional<FollowPlan> plan_;
   std::optional<FollowStage> hairs_;  // one of the two
   std::optional<StrandPoints> lines_;

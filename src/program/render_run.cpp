@@ -55,7 +55,7 @@ class Rendering {
 
   /// `first`: frame 1, which hairs follow as if it were at rest, unless the plan has the strands at rest.
   /// Then every frame is seen, and then it is made ready.
-  Status start(const Groom& first);
+  Status start(const Groom& first, const CutList& cuts = {});
   void see(const Points& points);
   Status prepare(PictureFiles& files);
   Status drawFrame(int frame, const Points& before, const Points& points);
@@ -90,13 +90,13 @@ Bounds Rendering::boxOf(const Points& points) const {
   return boundsOf(points, subject_.metresPerUnit, hair_->follows() ? kFollowMargin : kStrandMargin);
 }
 
-Status Rendering::start(const Groom& first) {
+Status Rendering::start(const Groom& first, const CutList& cuts) {
   rest_ = plan_.rest ? *plan_.rest : first;
   const auto ground = plan_.scene ? hairGroundOf(*plan_.scene, plan_.hair.look)
                                   : hairGroundOf(plan_.hair.look, subject_.metresPerUnit);
   if (!ground) return ground.error();
   auto hair = PictureHair::create(device_, rest_, first, subject_.metresPerUnit, plan_.hair,
-                                  plan_.scene ? plan_.scene->bodies : std::vector<Body>(), *ground);
+                                  plan_.scene ? plan_.scene->bodies : std::vector<Body>(), *ground, cuts);
   if (!hair) return hair.error();
   hair_.emplace(std::move(*hair));
   return {};
@@ -176,7 +176,7 @@ Status Rendering::drawMoment(int frame, double share, const Points& before, cons
   const double at = frame - 1 + share;
   const auto bodies = plan_.scene ? bodiesAtFrame(*plan_.scene, at) : std::vector<BodyPose>();
   const auto roots = plan_.scene ? hairRootsAtFrame(*plan_.scene, *hair_, at) : std::vector<Vec3d>();
-  if (Status set = hair_->setPose(pose, bodies, roots); !set) return set;
+  if (Status set = hair_->setPose(pose, bodies, roots, frame); !set) return set;
   const Quatd head = hair_->headOf(pose);
   const Bounds here = boxOf(pose);
   const int span = plan_.lastFrame - plan_.firstFrame;
@@ -253,7 +253,9 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
   if (Status read = seen->readFrame(1); !read) return read.error();
   Rendering rendering({drawn->groom(), header.metresPerUnit, directionOf(header.up), header.framesPerSecond},
                       device, plan);
-  if (Status started = rendering.start(seen->groom()); !started) return started.error();
+  const auto cuts = CutList::beside(animation);
+  if (!cuts) return cuts.error();
+  if (Status started = rendering.start(seen->groom(), *cuts); !started) return started.error();
   const std::vector<int> frames = framesOf(plan);
   if (plan.isSheet) plan.target.panels = static_cast<int>(frames.size());
   for (const int frame : frames) {

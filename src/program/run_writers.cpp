@@ -29,7 +29,11 @@ std::vector<SheetPlace> placesOf(std::span<const BodyPose> bodies) {
 
 Writers::Writers(const RunInput& input, const RunOptions& options, std::optional<FullHair> hairs,
                  int frameCount)
-    : input_(input), options_(options), hairs_(std::move(hairs)), frameCount_(frameCount) {
+    : input_(input),
+      options_(options),
+      cuts_(input.cuts, input.settings.framesPerSecond, options.frameCount),
+      hairs_(std::move(hairs)),
+      frameCount_(frameCount) {
   if (options.writesSheet)
     sheet_.emplace(input.groom, options.frameCount, options.up, solidsOf(input.bodies));
 }
@@ -49,6 +53,7 @@ Status Writers::open() {
                                                   frameCount_);
     if (!writer) return writer.error();
     animations_.push_back(std::move(*writer));
+    if (Status written = (hairs_ ? hairs_->cutsOfHairs(cuts_) : cuts_).write(path); !written) return written;
   }
   isOpen_ = true;
   return {};
@@ -80,7 +85,7 @@ Status Writers::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& h
   if (!isOpen_) {
     if (Status opened = open(); !opened) return opened;
   }
-  if (sheet_) sheet_->offer(frame, points, placesOf(bodies));
+  if (sheet_) sheet_->offer(frame, points, placesOf(bodies), cuts_.cutBeyond(frame, input_.groom.firstPoint));
   lastPoints_ = std::move(points);
   const UsdTransform place = rigidTransform(head.rotation, head.position / input_.groom.metresPerUnit);
   if (hairs_ && !animations_.empty()) {

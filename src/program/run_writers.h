@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "program/cut_list.h"
 #include "program/full_hair.h"
 #include "program/simulate_run.h"
 #include "ringlet/base/archive.h"
@@ -48,6 +49,7 @@ class Writers {
 
   const RunInput& input_;
   const RunOptions& options_;
+  CutList cuts_;  // of strands
   std::optional<FullHair> hairs_;
   int frameCount_;
   bool isOpen_ = false;

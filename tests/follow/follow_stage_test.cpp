@@ -94,15 +94,29 @@ struct Met {
   std::vector<BodyPose> poses;
 };
 
+// Whether a hair's edge from point i on crosses a cut of its guide.
+bool isCutAfter(const Plan& plan, const std::vector<std::uint32_t>& cutBeyond, std::uint32_t hair,
+                std::size_t i) {
+  std::size_t first = 0;  // of the guide's particles
+  for (std::uint32_t g = 0; g < plan.hairs[hair].guide; ++g) first += plan.guides[g].arcs.size();
+  const std::size_t points = plan.guides[plan.hairs[hair].guide].arcs.size();
+  for (const std::uint32_t particle : cutBeyond) {
+    if (particle < first || particle >= first + points) continue;
+    if (reference::pointsBefore(particle + 1 - first, plan.hairs[hair], points) == i + 1) return true;
+  }
+  return false;
+}
+
 // The points that the device finds, in the order of hairs.
 std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::vector<Strand>& pose,
-                            Quatd head, const Met& met = {}, const std::vector<Vec3d>& roots = {}) {
+                            Quatd head, const Met& met = {}, const std::vector<Vec3d>& roots = {},
+                            const std::vector<std::uint32_t>& cutBeyond = {}) {
   auto stage = FollowStage::create(device, plan.guides, plan.hairs, met.bodies, !roots.empty());
   EXPECT_TRUE(stage) << stage.error().message;
   stage->setBodies(met.poses);
   std::vector<Vec3d> positions;
   for (const Strand& strand : pose) positions.insert(positions.end(), strand.begin(), strand.end());
-  EXPECT_TRUE(stage->setPose(positions, roots));
+  EXPECT_TRUE(stage->setPose(positions, roots, cutBeyond));
   auto recorder = gpu::Recorder::create(device, "follow");
   EXPECT_TRUE(recorder->begin());
   stage->record(*recorder, head);
@@ -115,7 +129,8 @@ std::vector<Vec3d> followOn(gpu::Device& device, const Plan& plan, const std::ve
     points.push_back(
         {std::bit_cast<float>(record.x), std::bit_cast<float>(record.y), std::bit_cast<float>(record.z)});
     const bool isEnd = i + 1 == stage->firstPoint()[hair + 1];
-    EXPECT_EQ(record.w, isEnd ? hair | layout::kHairEnd : hair) << i;
+    const bool isCut = isCutAfter(plan, cutBeyond, hair, i - stage->firstPoint()[hair]);
+    EXPECT_EQ(record.w, isEnd || isCut ? hair | layout::kHairEnd : hair) << i;
     hair += isEnd;
   }
   EXPECT_EQ(hair, plan.hairs.size());
@@ -230,6 +245,34 @@ TEST_F(FollowStageTest, BlendsAreTheReference) {
     for (std::size_t i = first; i < one.size(); ++i)
       largest = std::max(largest, length(one[i] - unblended[i]));
     EXPECT_LT(largest, 1e-6);
+  }
+}
+
+// Guides in up to three pieces, the last of a single particle, of which every other is cut by now.
+TEST_F(FollowStageTest, PiecesOfCutGuidesAreTheReference) {
+  const auto few = gpu::Device::open("", {.mostTexelRecords = 16});
+  ASSERT_TRUE(few) << few.error().message;
+  for (const Guides& guides : allGuides()) {
+    SCOPED_TRACE(guides.name);
+    Plan plan = planOf(guides, 300);
+    std::vector<Strand> pose;
+    std::vector<std::uint32_t> cutBeyond;
+    std::uint32_t first = 0;
+    for (std::size_t g = 0; g < guides.strands.size(); ++g) {
+      Strand& strand = pose.emplace_back(posed(guides.strands[g]));
+      const auto count = static_cast<std::uint32_t>(strand.size());
+      if (count > 4 && g % 3 > 0) plan.guides[g].pieces = {count / 2 + 1};
+      if (count > 4 && g % 3 == 2) plan.guides[g].pieces.push_back(count - 1);
+      for (const std::uint32_t begin : plan.guides[g].pieces) {
+        if (g % 2 == 0) continue;
+        for (std::uint32_t i = begin; i < count; ++i) strand[i] -= Vec3d{0.02, 0.1, -0.03};
+        cutBeyond.push_back(first + begin - 1);
+      }
+      first += count;
+    }
+    const auto found = followOn(gpu(), plan, pose, kTurned, {}, {}, cutBeyond);
+    EXPECT_LT(largestDifference(plan, pose, kTurned, found), parity::kFollowMetres);
+    EXPECT_EQ(followOn(**few, plan, pose, kTurned, {}, {}, cutBeyond), found) << "storage for texels";
   }
 }
 

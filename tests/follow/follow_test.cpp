@@ -85,6 +85,28 @@ TEST(FollowGuide, AHairThatDiffersInNothingIsItsGuide) {
   }
 }
 
+// What is cut off goes its own way, and nothing of a hair stands between or is drawn out.
+TEST(FollowGuide, AHairIsCutAsItsGuideIs) {
+  const Strand strand = headOf(3)[1];
+  GuideRest rest = restOfGuide(strand);
+  rest.pieces = {25};
+  Strand cut = strand;
+  const Vec3d fell{0.01, -0.4, 0.02};
+  for (std::size_t i = 25; i < cut.size(); ++i) cut[i] += fell;
+  for (const float length : {1.f, 0.93f, 0.71f}) {
+    const FollowHair hair{.offset = {0.004f, 0.003f, 0}, .phase = 0.6f, .radius = 0.8f, .length = length};
+    const Strand whole = followGuide(hair, poseGuide(rest, strand, Quatd{}));
+    const Strand parted = followGuide(hair, poseGuide(rest, cut, Quatd{}));
+    const std::size_t kept = reference::pointsBefore(25, hair, strand.size());
+    EXPECT_GT(kept, 24u);
+    EXPECT_LT(kept, strand.size() - 1);
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      const Vec3d expected = whole[i] + (i < kept ? Vec3d{} : fell);
+      EXPECT_LT(ringlet::length(parted[i] - expected), 1e-12) << i << " of a hair of " << length;
+    }
+  }
+}
+
 TEST(FollowGuide, RootsGoWithTheHead) {
   const auto strands = headOf(30);
   const auto rests = restsOf(strands);
@@ -557,6 +579,23 @@ TEST(PlanHairs, GuidesThatPartAreNotBlended) {
     }
   }
   EXPECT_GT(blended, 2000u);
+}
+
+// Each piece of a guide goes its own way once it is cut.
+TEST(PlanHairs, GuidesThatAreCutAreNotBlended) {
+  auto rests = restsOf(headOf(100));
+  for (std::size_t g = 0; g < rests.size(); g += 3) rests[g].pieces = {4};
+  const auto hairs = planHairs(rests, {.hairCount = 2000, .blend = 1});
+  ASSERT_TRUE(hairs);
+  std::size_t blended = 0;
+  for (const FollowHair& hair : *hairs) {
+    for (const FollowHair::Other& other : hair.others) {
+      if (other.share == 0) continue;
+      ++blended;
+      EXPECT_TRUE(rests[hair.guide].pieces.empty() && rests[other.guide].pieces.empty());
+    }
+  }
+  EXPECT_GT(blended, 500u);
 }
 
 TEST(PlanHairs, OptionsSayHowHairsDiffer) {

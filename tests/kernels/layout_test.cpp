@@ -275,7 +275,7 @@ const std::vector<CppStruct> kCppStructs = {
       return CppStruct{"CoreRow",
                        sizeof(S),
                        {RINGLET_MEMBER(firstParticle), RINGLET_MEMBER(firstRecord),
-                        RINGLET_MEMBER(recordCount), RINGLET_MEMBER(unused)}};
+                        RINGLET_MEMBER(recordCount), RINGLET_MEMBER(beginsPiece)}};
     }(),
     [] {
       using S = layout::FollowGuide;

@@ -53,6 +53,33 @@ TEST(SheetFrames, AreEvenWithFirstAndLast) {
   EXPECT_EQ(sheetFrames(2'000'000'000).back(), 2'000'000'000);
 }
 
+// A strand of three edges, whose middle one is no more.
+TEST(Sheet, DrawsNoEdgeAtACut) {
+  const Groom groom = strands({{{0, 0, 0}, {0, -1, 0}, {0, -2, 0}, {0, -3, 0}}});
+  const auto rowsDrawn = [&](const std::vector<std::uint32_t>& cutBeyond) {
+    Sheet sheet(groom, 1, UpAxis::y);
+    sheet.offer(1, groom.points, {}, cutBeyond);
+    Archive out = Archive::writing();
+    sheet.archive(out);
+    Sheet again(groom, 1, UpAxis::y);
+    const auto bytes = out.take();
+    Archive in = Archive::reading(bytes);
+    again.archive(in);
+    Picture picture = again.draw();
+    int rows = 0;
+    for (int y = 0; y < kPanelHeight - 40; ++y) {
+      bool isDrawn = false;
+      for (int x = 1; x < kPanelWidth; ++x)
+        isDrawn = isDrawn || picture.at(x, y) != picture.at(kPanelWidth / 2, 2);
+      rows += isDrawn;
+    }
+    return rows;
+  };
+  const int whole = rowsDrawn({});
+  EXPECT_NEAR(rowsDrawn({1}), whole * 2 / 3, 8);  // ends are round
+  EXPECT_NEAR(rowsDrawn({0, 1}), whole / 3, 16);
+}
+
 TEST(Sheet, DrawsSixPanelsFilledAndCentred) {
   const Groom groom = strands({{{0, 0, 0}, {0, -1, 0}, {0, -2, 0}}});
   Sheet sheet(groom, 48, UpAxis::y);

@@ -304,6 +304,37 @@ TEST_F(HairRendererTest, SizesOutOfTheirRangeAreRefused) {
   }
 }
 
+// Where a strand is cut neither hair nor its shadow is seen.
+TEST_F(HairRendererTest, NothingIsDrawnAcrossACut) {
+  Scene scene;
+  scene.addStrand({{-0.3f, 0, 0}, {-0.25f, 0, 0}, {0.25f, 0, 0}, {0.3f, 0, 0}});
+  scene.width = 0.02;
+  const auto seen = [&](const std::vector<std::uint32_t>& cutBeyond) {
+    auto strands = StrandPoints::create(gpu(), scene.firstPoint);
+    EXPECT_TRUE(strands->setPose(scene.points, 1, cutBeyond));
+    auto renderer = HairRenderer::create(gpu(), {strands->points(), strands->firstPoint(), scene.width}, {},
+                                         {kWidth, kHeight, 2}, {});
+    EXPECT_TRUE(renderer) << renderer.error().message;
+    EXPECT_TRUE(renderer->setFrame(scene.camera, scene.bounds, scene.places));
+    auto recorder = gpu::Recorder::create(gpu(), "picture");
+    EXPECT_TRUE(recorder->begin());
+    renderer->record(*recorder, true);
+    EXPECT_TRUE(recorder->submitAndWait());
+    return *renderer->picture();
+  };
+  const auto whole = seen({}), cut = seen({1}), none = seen({0, 1, 2});
+  const auto countOf = [&](const std::vector<std::uint32_t>& picture) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i) count += picture[i] != none[i];
+    return static_cast<double>(count);
+  };
+  EXPECT_GT(countOf(whole), 50);
+  EXPECT_NEAR(countOf(cut) / countOf(whole), 0.1 / 0.6, 0.06);
+  const std::size_t middle = static_cast<std::size_t>(kHeight / 2) * kWidth + kWidth / 2;
+  EXPECT_NE(whole[middle], none[middle]);
+  EXPECT_EQ(cut[middle], none[middle]);
+}
+
 // A preview is the same picture, but for noise: as bright, with hair where hair is.
 TEST_F(HairRendererTest, APreviewLooksLikeThePicture) {
   const Scene scene = headScene();
@@ -427,6 +458,8 @@ TEST_F(HairRendererTest, StretchIsTheColourOfTheLongestEdge) {
   EXPECT_NEAR(half[1], 0, 1e-3);
   EXPECT_NEAR(half[2], 0.5, 1e-3);
   EXPECT_EQ(pigments(0.01)[0], 1) << "no more than all";
+  ASSERT_TRUE(strands->setPose(scene.points, 1, std::vector<std::uint32_t>{3}));
+  EXPECT_NEAR(pigments(0.05)[0], 0, 1e-3) << "an edge at a cut does not count";
 }
 
 }  // namespace

@@ -31,14 +31,17 @@ TEST(SceneCuts, ParticlesBeyondTheirPlaceFall) {
       "[[group]]\nname = \"right\"\nstrands = \"1\"\n"
       "[[cut]]\ntime = 2\nat = 0\nstrands = \"right\"\n"  // two particles stay
       "[[cut]]\ntime = 1\nat = 0.6\n"
-      "[[cut]]\ntime = 1\nat = 0.7\n"    // the shorter of two at a time
-      "[[cut]]\ntime = 3\nat = 0.9\n");  // nothing is left there
+      "[[cut]]\ntime = 1\nat = 0.8\n"                      // the shorter of two at a time
+      "[[cut]]\ntime = 3\nat = 0.9\n"                      // nothing is left there
+      "[[cut]]\ntime = 0\nat = 0.75\nstrands = \"0\"\n");  // where a particle is: it falls
   ASSERT_TRUE(cuts) << cuts.error().message;
-  ASSERT_EQ(cuts->size(), 2u);
-  EXPECT_EQ((*cuts)[0].seconds, 1);
-  EXPECT_EQ((*cuts)[0].cuts, (std::vector<StrandCut>{{0, 3}, {1, 3}}));
-  EXPECT_EQ((*cuts)[1].seconds, 2);
-  EXPECT_EQ((*cuts)[1].cuts, (std::vector<StrandCut>{{1, 2}}));
+  ASSERT_EQ(cuts->size(), 3u);
+  EXPECT_EQ((*cuts)[0].seconds, 0);
+  EXPECT_EQ((*cuts)[0].cuts, (std::vector<StrandCut>{{0, 3}}));
+  EXPECT_EQ((*cuts)[1].seconds, 1);
+  EXPECT_EQ((*cuts)[1].cuts, (std::vector<StrandCut>{{1, 3}}));  // strand 0 is as short
+  EXPECT_EQ((*cuts)[2].seconds, 2);
+  EXPECT_EQ((*cuts)[2].cuts, (std::vector<StrandCut>{{1, 2}}));
 }
 
 TEST(SceneCuts, AreMadeAsAFrameBegins) {

@@ -208,8 +208,9 @@ void standOn(const GuideRest& guide, std::size_t number, Vec3d place, FollowHair
   hair.offset = seenFrom(guide.frame, place);
 }
 
-// 1 for guides side by side, 0 for those that part.
+// 1 for guides side by side, 0 for those that part; pieces of one that is cut go ways of their own.
 double togetherness(const GuideRest& a, const GuideRest& b) {
+  if (!a.pieces.empty() || !b.pieces.empty()) return 0;
   const double apart =
       std::clamp((partingOf(a, b) - kBlendedParting) / (kMostParting - kBlendedParting), 0.0, 1.0);
   return 1 - apart * apart * (3 - 2 * apart);

@@ -33,7 +33,7 @@ struct FollowHair {
 };
 
 /// How hairs of one guide differ. `blend` is of guides side by side: less of those that part at rest by 0.4
-/// to 0.8 radians (partingOf), nothing of others.
+/// to 0.8 radians (partingOf), nothing of others, nor of guides that are cut (GuideRest::pieces).
 struct FollowOptions {
   int hairCount = 30000;    // in [1, 10000000]
   double reach = 1;         // largest distance of a root from the guide's [m], above 0, to 1000

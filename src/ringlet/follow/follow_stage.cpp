@@ -106,11 +106,12 @@ Status FollowStage::makeGuides(gpu::Device& device, std::span<const GuideRest> g
   for (std::size_t g = 0; g < guides.size(); ++g) {
     const auto first = static_cast<std::uint32_t>(rows.size());
     for (const CoreWeights& row : weights[g]) {
+      const std::size_t particle = rows.size() - first;
       const auto recordCount = static_cast<std::uint32_t>((row.weights.size() + 3) / 4);
       rows.push_back({.firstParticle = first + static_cast<std::uint32_t>(row.first),
                       .firstRecord = static_cast<std::uint32_t>(records.size()),
                       .recordCount = recordCount,
-                      .unused = 0});
+                      .beginsPiece = guides[g].beginsPiece(particle) ? 1u : 0u});
       std::vector<float> padded = row.weights;
       padded.resize(4 * static_cast<std::size_t>(recordCount));
       for (std::size_t k = 0; k < padded.size(); k += 4)
@@ -171,7 +172,7 @@ Status FollowStage::makeNear(gpu::Device& device) {
   return {};
 }
 
-Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp) {
+Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp, bool areCut) {
   gpu::BufferTable table = bodies_.bufferTable();
   const auto bind = [&](std::uint32_t number, const gpu::Buffer& buffer) {
     table.emplace(number, buffer);
@@ -195,7 +196,8 @@ Status FollowStage::makeKernels(gpu::Device& device, bool isOnScalp) {
     description.pushConstantBytes = sizeof(layout::FollowParameters);
     description.constants = {{layout::kSpecGroupSize, groupSizeOn(device)},
                              {layout::kSpecTexels, texels ? 1u : 0u},
-                             {layout::kSpecOnScalp, isOnScalp ? 1u : 0u}};
+                             {layout::kSpecOnScalp, isOnScalp ? 1u : 0u},
+                             {layout::kSpecCutGuides, areCut ? 1u : 0u}};
     description.groupSize = groupSizeOn(device);
     auto kernel = gpu::BoundKernel::create(device, description, table);
     if (!kernel) return kernel.error();
@@ -247,16 +249,20 @@ Result<FollowStage> FollowStage::create(gpu::Device& device, std::span<const Gui
       first.push_back(first.back() + static_cast<std::uint32_t>(guide.arcs.size()));
     for (const FollowHair& hair : hairs) self.guideRoots_.push_back(first[hair.guide]);
   }
+  const bool areCut =
+      std::ranges::any_of(guides, [](const GuideRest& guide) { return !guide.pieces.empty(); });
   if (Status made = self.makeNear(device); !made) return made.error();
-  if (Status made = self.makeKernels(device, isOnScalp); !made) return made.error();
+  if (Status made = self.makeKernels(device, isOnScalp, areCut); !made) return made.error();
   return self;
 }
 
-Status FollowStage::setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots) {
+Status FollowStage::setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots,
+                            std::span<const std::uint32_t> cutBeyond) {
   RINGLET_ASSERT(roots.size() == onScalp_.size(), "hairs on a scalp have a root each");
   std::vector<layout::vec4> records;
   records.reserve(positions.size());
   for (const Vec3d& position : positions) records.push_back(packed(position));
+  for (const std::uint32_t particle : cutBeyond) records[particle].w = -1;
   if (Status done = positions_.upload(std::as_bytes(std::span(records))); !done || roots.empty()) return done;
   std::vector<layout::FollowHair> hairs;
   hairs.reserve(roots.size());

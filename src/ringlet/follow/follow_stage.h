@@ -30,7 +30,9 @@ class FollowStage {
 
   /// The guides' particles [m], one after the other in the guides' order. The next frame follows them. No
   /// submission may be using them meanwhile. `roots`: of hairs on a scalp [m], one each; else none.
-  Status setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots = {});
+  /// `cutBeyond`: the particles beyond which guides are cut by now, before pieces of GuideRest.
+  Status setPose(std::span<const Vec3d> positions, std::span<const Vec3d> roots = {},
+                 std::span<const std::uint32_t> cutBeyond = {});
 
   /// vec4[particles]: the same on the device, for what writes it there (DevicePose).
   const gpu::Buffer& pose() const { return positions_; }
@@ -43,7 +45,7 @@ class FollowStage {
   void record(gpu::CommandList& list, Quatd head) const;
 
   /// uvec4[pointCount()]: x, y, z as the bits of floats [m]; the hair's number, with kHairEnd
-  /// (layout/hair_points.h) at its last point.
+  /// (layout/hair_points.h) at its last point and before a cut.
   const gpu::Buffer& points() const { return points_; }
   std::uint32_t pointCount() const { return pointCount_; }
   std::uint32_t hairCount() const { return hairCount_; }
@@ -57,7 +59,7 @@ class FollowStage {
   Status makeHairs(gpu::Device& device, std::span<const GuideRest> guides, std::span<const FollowHair> hairs);
   Status makeGuides(gpu::Device& device, std::span<const GuideRest> guides);
   Status makeNear(gpu::Device& device);
-  Status makeKernels(gpu::Device& device, bool isOnScalp);
+  Status makeKernels(gpu::Device& device, bool isOnScalp, bool areCut);
 
   // Points of hairs near bodies: how many there are, none, and which.
   struct Near {

@@ -29,6 +29,24 @@ double partingOf(const GuideRest& a, const GuideRest& b) {
   return most;
 }
 
+std::vector<GuidePiece> piecesOf(const GuideRest& guide) {
+  std::vector<GuidePiece> pieces;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k <= guide.pieces.size(); ++k) {
+    const std::size_t end = k < guide.pieces.size() ? guide.pieces[k] : guide.arcs.size();
+    pieces.push_back({begin, end, std::min(guide.window, guide.arcs[end - 1] - guide.arcs[begin])});
+    begin = end;
+  }
+  return pieces;
+}
+
+std::vector<double> arcsOf(const GuideRest& guide, const GuidePiece& piece) {
+  std::vector<double> arcs;
+  for (std::size_t i = piece.begin; i < piece.end; ++i)
+    arcs.push_back(guide.arcs[i] - guide.arcs[piece.begin]);
+  return arcs;
+}
+
 // Each component's square is a sum of the matrix's diagonal; the largest is divided by.
 Quatd quaternionOf(const MeasuringFrame& frame) {
   const auto& [x, y, z] = frame;  // columns

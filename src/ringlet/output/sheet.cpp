@@ -348,8 +348,8 @@ void drawSolids(const Panel& panel, const View& view, const Axes& axes, Canvas& 
   }
 }
 
-void drawStrands(std::span<const std::uint32_t> firstPoint, std::span<const Vec3d> points, const View& view,
-                 Canvas& canvas) {
+void drawStrands(const Panel& panel, std::span<const Vec3d> points, const View& view, Canvas& canvas) {
+  const auto firstPoint = panel.firstPoint;
   Box box;
   for (Vec3d p : points) box.add(p - view.centre);
   const double depth = std::max(box.high.z - box.low.z, kFullDepth * box.size());
@@ -360,8 +360,9 @@ void drawStrands(std::span<const std::uint32_t> firstPoint, std::span<const Vec3
     std::optional<Canvas::End> before;
     for (std::size_t i = root; i < end; ++i) {
       // Dark at the root, light at the tip; darker when farther away.
-      const Vec3d tangent =
-          normalizedOr(points[std::min(i + 1, end - 1)] - points[i > root ? i - 1 : i], {0, 1, 0});
+      const bool goesOn =
+          i + 1 < end && !std::ranges::binary_search(panel.cutBeyond, static_cast<std::uint32_t>(i));
+      const Vec3d tangent = normalizedOr(points[goesOn ? i + 1 : i] - points[before ? i - 1 : i], {0, 1, 0});
       const double alongStrand =
           static_cast<double>(i - root) / static_cast<double>(std::max<std::size_t>(end - root - 1, 1));
       const Vec3d at = view.project(points[i]);
@@ -369,7 +370,7 @@ void drawStrands(std::span<const std::uint32_t> firstPoint, std::span<const Vec3
       const auto light = static_cast<float>((0.6 + 0.4 * alongStrand) * depthLight);
       const Canvas::End now{at, fibreLight(colour, tangent) * (kExposure * light)};
       if (before) canvas.drawEdge(*before, now, radius);
-      before = now;
+      before = goesOn ? std::optional(now) : std::nullopt;
     }
   }
 }
@@ -413,7 +414,7 @@ Picture drawPanels(std::span<const Panel> panels, const PanelGrid& grid) {
       if (!panels[i].points.empty()) {
         canvas.clear();
         drawSolids(panels[i], seen.views[i], cameraAxes(grid.up), canvas);
-        drawStrands(panels[i].firstPoint, seen.points[i], seen.views[i], canvas);
+        drawStrands(panels[i], seen.points[i], seen.views[i], canvas);
         canvas.copyTo(picture, left, top);
       }
       drawLabels(picture, panels[i], left, top + grid.height, grid.labelDot);
@@ -445,7 +446,8 @@ Sheet::Sheet(const Groom& topology, int frameCount, UpAxis up, std::vector<Sheet
   RINGLET_ASSERT(frameCount >= 1, "a run has at least one frame");
 }
 
-void Sheet::offer(int frame, std::span<const Vec3f> points, std::span<const SheetPlace> places) {
+void Sheet::offer(int frame, std::span<const Vec3f> points, std::span<const SheetPlace> places,
+                  std::span<const std::uint32_t> cutBeyond) {
   RINGLET_ASSERT(places.size() == solids_.size(), "every solid has a place");
   RINGLET_ASSERT(points.size() == firstPoint_.back(), "one point per particle of the groom");
   // The latest frame makes way for the next unless it is one of those chosen.
@@ -456,6 +458,7 @@ void Sheet::offer(int frame, std::span<const Vec3f> points, std::span<const Shee
   frames_.back().number = frame;
   frames_.back().points.assign(points.begin(), points.end());
   frames_.back().places.assign(places.begin(), places.end());
+  frames_.back().cutBeyond.assign(cutBeyond.begin(), cutBeyond.end());
 }
 
 void Sheet::archive(Archive& archive) {
@@ -466,6 +469,7 @@ void Sheet::archive(Archive& archive) {
     archive.value(frame.number);
     archive.list(frame.points);
     archive.list(frame.places);
+    archive.list(frame.cutBeyond);
   }
 }
 
@@ -473,8 +477,13 @@ Picture Sheet::draw() const {
   RINGLET_ASSERT(!frames_.empty(), "a sheet shows at least one frame");
   std::vector<Panel> panels;
   for (const Frame& frame : frames_)
-    panels.push_back(
-        {firstPoint_, frame.points, {std::to_string(frame.number)}, solids_, frame.places, metresPerUnit_});
+    panels.push_back({firstPoint_,
+                      frame.points,
+                      {std::to_string(frame.number)},
+                      solids_,
+                      frame.places,
+                      metresPerUnit_,
+                      frame.cutBeyond});
   return drawPanels(panels, {.up = up_});
 }
 

@@ -43,8 +43,9 @@ struct Panel {
   std::span<const Vec3f> points;              // finite; none: an empty panel
   std::vector<std::string> labels{};          // a line each, below; letters are drawn as capitals
   std::span<const SheetSolid> solids{};
-  std::span<const SheetPlace> places{};  // of each solid
-  double metresPerUnit = 1;              // of points, for the solids
+  std::span<const SheetPlace> places{};        // of each solid
+  double metresPerUnit = 1;                    // of points, for the solids
+  std::span<const std::uint32_t> cutBeyond{};  // rising: points from which no edge goes on
 };
 
 /// Panels row by row, each of `width` x `height` [pixel]. One camera looks at all of them, as Sheet says;
@@ -70,8 +71,10 @@ class Sheet {
   Sheet(const Groom& topology, int frameCount, UpAxis up, std::vector<SheetSolid> solids = {});
 
   /// Hand in every frame, in order (1 is the first): the sheet keeps what it shows, and the latest, in case
-  /// it is the last. Points in groom order and unit, finite (see finite_points.h); a place for each solid.
-  void offer(int frame, std::span<const Vec3f> points, std::span<const SheetPlace> places = {});
+  /// it is the last. Points in groom order and unit, finite (see finite_points.h); a place for each solid;
+  /// `cutBeyond` as in Panel.
+  void offer(int frame, std::span<const Vec3f> points, std::span<const SheetPlace> places = {},
+             std::span<const std::uint32_t> cutBeyond = {});
 
   /// The frames it keeps, for a checkpoint.
   void archive(Archive& archive);
@@ -85,6 +88,7 @@ class Sheet {
     int number = 0;
     std::vector<Vec3f> points;
     std::vector<SheetPlace> places;
+    std::vector<std::uint32_t> cutBeyond;
   };
   std::vector<std::uint32_t> firstPoint_;  // as in Groom
   double metresPerUnit_;

@@ -15,7 +15,8 @@ Result<StrandPoints> StrandPoints::create(gpu::Device& device, std::vector<std::
   return StrandPoints(std::move(*points), std::move(firstPoint));
 }
 
-Status StrandPoints::setPose(std::span<const Vec3f> points, double metresPerUnit) {
+Status StrandPoints::setPose(std::span<const Vec3f> points, double metresPerUnit,
+                             std::span<const std::uint32_t> cutBeyond) {
   std::vector<layout::uvec4> records;
   records.reserve(points.size());
   const auto bitsOf = [&](float x) {
@@ -28,6 +29,7 @@ Status StrandPoints::setPose(std::span<const Vec3f> points, double metresPerUnit
                          isEnd ? strand | layout::kHairEnd : strand});
     }
   }
+  for (const std::uint32_t i : cutBeyond) records[i].w |= layout::kHairEnd;
   return points_.upload(std::as_bytes(std::span(records)));
 }
 

@@ -17,7 +17,9 @@ class StrandPoints {
   static Result<StrandPoints> create(gpu::Device& device, std::vector<std::uint32_t> firstPoint);
 
   /// The points of a pose in units of `metresPerUnit`, in order. Nothing may be using the old ones.
-  Status setPose(std::span<const Vec3f> points, double metresPerUnit);
+  /// `cutBeyond`: points from which no edge goes on, as the strand is cut there.
+  Status setPose(std::span<const Vec3f> points, double metresPerUnit,
+                 std::span<const std::uint32_t> cutBeyond = {});
 
   const gpu::Buffer& points() const { return points_; }
   const std::vector<std::uint32_t>& firstPoint() const { return firstPoint_; }

@@ -26,6 +26,7 @@ void beginWith(std::uint32_t edge, const layout::StrandRest& whole, std::span<co
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     edges.push_back(static_cast<Vec3d>(points[i + 1]) - static_cast<Vec3d>(points[i]));
   const auto rest = std::span<const Vec3d>(edges).subspan(edge);
+  if (rest.empty()) return;  // a single particle
   const auto before = framesBeforeEdges(smoothEdges(edges, whole.bendBeta), edges[0]);
   const auto frames = framesBeforeEdges(smoothEdges(rest, whole.bendBeta), rest[0]);
   const auto coreEdges = smoothEdges(rest, whole.coreBeta);
