@@ -155,7 +155,7 @@ void keepOnly(const StrandPiece& piece, RestStrand<double>& strand, Field<double
     keepOnly(piece, count - 1, *values);
   if (piece.begin == 0) return;
   strand.rootCount = 0;
-  strand.gravityFactor = strand.inertiaFactor = 1;
+  strand.material.gravityFactor = strand.material.inertiaFactor = 1;
 }
 
 // What the strand's frames and smoothed curves are at rest, which begin with its first edge.
