@@ -82,9 +82,10 @@ uint placeInHead(uint n) {
 // Where the head has what moves of its particle i, and the report of its strand s.
 uint stateAt(uint i) { return head * parameters.headParticles + i; }
 uint reportAt(uint s) { return head * parameters.headStrands + s; }
-vec4 posePart(uint pose, uint part) { return vectorAt(headPoseTexels, 3 * (head * parameters.headPoses + pose) + part); }
+uint poseAt(uint pose) { return head * parameters.headPoses + pose; }
+vec4 posePart(uint pose, uint part) { return vectorAt(headPoseTexels, 3 * poseAt(pose) + part); }
 StepPose stepPose(uint pose) {
-  if (!kTexels) return headPoses[head * parameters.headPoses + pose];
+  if (!kTexels) return headPoses[poseAt(pose)];
   vec4 last = posePart(pose, 2);
   return StepPose(posePart(pose, 0), posePart(pose, 1), last.xyz, last.w);
 }

@@ -70,7 +70,9 @@ void FullHair::follow(std::span<const Vec3f> points, std::span<const BodyPose> b
 CutList FullHair::cutsOfHairs(const CutList& cuts) const {
   std::vector<FrameCut> all;
   for (const FrameCut& each : cuts.all()) {
-    const std::size_t strand = each.cut.strand, points = plan_.guides()[strand].arcs.size();
+    const std::size_t strand = each.cut.strand;
+    if (strand >= plan_.guides().size()) continue;
+    const std::size_t points = plan_.guides()[strand].arcs.size();
     for (std::size_t h = firstHair_[strand]; h < firstHair_[strand + 1]; ++h) {
       const std::size_t keep = reference::pointsBefore(each.cut.keep, plan_.hairs()[h], points);
       if (keep < points)

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
@@ -13,6 +14,7 @@
 
 #include "program/simulate_run.h"
 #include "ringlet/base/whole_file.h"
+#include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
 
 namespace ringlet::program {
@@ -88,8 +90,14 @@ void addMaterialFacts(const Material& material, std::vector<RunFact>& facts) {
 }
 
 void addOutputFacts(const RunOptions& options, std::vector<RunFact>& facts) {
-  const auto add = [&](const char* name, auto value) { facts.push_back({name, fmt::format("{}", value)}); };
-  add("animations", fmt::format("{}", fmt::join(options.animations, ", ")));
+  const auto add = [&](const std::string& name, auto value) {
+    facts.push_back({name, fmt::format("{}", value)});
+  };
+  for (const AnimationFormat& format : animationFormats()) {
+    if (!format.hasPrecisions)  // the cache's is a fact too
+      add(fmt::format("hair{}", format.extension),
+          std::ranges::count(options.animations, format.extension) > 0);
+  }
   add("hair.rgc", options.cache ? static_cast<int>(*options.cache) : -1);
   add("sheet.png", options.writesSheet);
   add("width", options.width);

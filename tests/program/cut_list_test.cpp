@@ -63,6 +63,12 @@ TEST_F(CutListTest, StandsBesideTheAnimationAndIsConvertedWithIt) {
   const std::string cuts = readText(folder_ / "full.rgc.cuts.csv");
   for (const char* hair : {"4,0,", "4,1,", "4,2,", "4,3,"})
     EXPECT_NE(cuts.find(std::string("\n") + hair), std::string::npos) << cuts;
+  // A strand that there is not counts for nothing.
+  write("out/hair.usda.cuts.csv", "frame,strand,keep\n1,4000000000,3\n");
+  const auto foreign =
+      run({"convert", "out/hair.usda", "foreign.rgc", "--scene", "cut.toml", "--hairs", "4"});
+  ASSERT_EQ(foreign.exitCode, 0) << foreign.err;
+  EXPECT_FALSE(fs::exists(folder_ / "foreign.rgc.cuts.csv"));
   write("whole.toml", kScene);
   const auto again = run({"simulate", "whole.toml", "-o", "out", "--quiet", "--overwrite"});
   ASSERT_EQ(again.exitCode, 0) << again.err;

@@ -140,8 +140,8 @@ typedef struct ringlet_asset_options {
   size_t struct_size;
   int has_bodies;   /* 1 if the hair will have bodies to stay out of */
   int moving_roots; /* 1 if frames will have root poses */
-  int32_t heads;    /* approximate number of heads with this hair; 0 means 1. With 2 or more, one dispatch steps
-                       many heads of hair by itself */
+  int32_t heads; /* approximate number of heads with this hair; 0 means 1. With 2 or more, one dispatch steps
+                    many heads of hair by itself */
   /* Called for each warning, with a sentence for the user, before build returns. May be NULL. */
   void (*warn)(const char* sentence, void* user);
   void* user;
