@@ -11,7 +11,7 @@ from ringlet_hair.hair_file import write_hair
 from ringlet_hair.mesh_file import write_obj_mesh
 from ringlet_hair.point_cache import PointCache, write_point_cache
 from ringlet_hair.strands import Strands, joined
-from ringlet_hair.usd_points import usd_frames
+from ringlet_hair.usd_points import read_usd_hair, usd_frames
 
 PROGRAM = os.environ.get("RINGLET_PROGRAM", "")
 needs_program = pytest.mark.skipif(not os.path.exists(PROGRAM),
@@ -123,6 +123,16 @@ def test_animations_are_read_as_the_program_wrote_them(tmp_path):
     for index, points in enumerate(seen):
         lines = (tmp_path / "frames" / f"hair.{index + 1:04}.obj").read_text().splitlines()
         assert (points == np.array([line.split()[1:] for line in lines if line.startswith("v ")], np.float32)).all()
+
+
+@needs_program
+def test_lists_may_have_several_lines(tmp_path):
+    for arguments in (["make", "swatch", "--columns", "20", "--rows", "10", "--particles", "12", "-o", "groom.obj"],
+                      ["simulate", "groom.obj", "--motion", "nod", "--frames", "2", "--quiet", "-o", "out"]):
+        subprocess.run([PROGRAM, *arguments], cwd=tmp_path, check=True, capture_output=True)
+    path = tmp_path / "out" / "hair.usda"
+    assert read_usd_hair(path).counts.tolist() == [12] * 200
+    assert [len(points) for points in usd_frames(path)] == [2400, 2400]
 
 
 def test_animations_that_are_none_or_torn_are_refused(tmp_path):

@@ -7,7 +7,7 @@ import numpy as np
 from .errors import RingletError
 
 SAMPLES = "point3f[] points.timeSamples = {"
-COUNTS = re.compile(r"int\[\] curveVertexCounts = \[([0-9, ]*)\]")
+COUNTS = re.compile(r"int\[\] curveVertexCounts = \[([0-9, \n]*)\]")
 STATED = re.compile(r'(metersPerUnit|timeCodesPerSecond|upAxis) = "?([^"\s]+)')
 BETWEEN = str.maketrans("(),", "   ")
 
@@ -29,6 +29,9 @@ def read_usd_hair(path):
                 break
             for key, value in STATED.findall(line):
                 stated[key] = value
+            if "int[] curveVertexCounts = [" in line:
+                while "]" not in line.partition("[] ")[2] and (more := file.readline()):
+                    line += more
             if found := COUNTS.search(line):
                 if counts is not None:
                     raise no_animation(path)
