@@ -83,8 +83,7 @@ std::vector<std::uint32_t> CutList::piecesOf(std::uint32_t strand) const {
   for (const FrameCut& each : cuts_)
     if (each.cut.strand == strand) pieces.push_back(each.cut.keep);
   std::ranges::sort(pieces);
-  const auto same = std::ranges::unique(pieces);
-  pieces.erase(same.begin(), same.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
   return pieces;
 }
 
