@@ -52,7 +52,7 @@ Status HairFrames::record(std::span<const HairFrame> frames, gpu::CommandList& l
     RINGLET_ASSERT(&of(frame).device.gpu() == &device(frames), "heads of several devices in one recording");
     if (Status status = of(frame).checkFree(frame); !status) return status;
   }
-  const Status recorded = recordAll(inRows(frames), list);
+  Status recorded = recordAll(inRows(frames), list);
   if (!recorded) lose(frames, recorded.error());
   return recorded;
 }
