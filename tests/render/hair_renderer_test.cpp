@@ -304,23 +304,29 @@ TEST_F(HairRendererTest, SizesOutOfTheirRangeAreRefused) {
   }
 }
 
+// Of the scene with the default look.
+std::vector<std::uint32_t> pictureOf(gpu::Device& device, const Scene& scene, const PictureSize& size,
+                                     const std::vector<std::uint32_t>& cutBeyond = {}) {
+  auto strands = StrandPoints::create(device, scene.firstPoint);
+  EXPECT_TRUE(strands->setPose(scene.points, 1, cutBeyond));
+  auto renderer = HairRenderer::create(device, {strands->points(), strands->firstPoint(), scene.width},
+                                       scene.solids, size, {});
+  EXPECT_TRUE(renderer) << renderer.error().message;
+  EXPECT_TRUE(renderer->setFrame(scene.camera, scene.bounds, scene.places));
+  auto recorder = gpu::Recorder::create(device, "picture");
+  EXPECT_TRUE(recorder->begin());
+  renderer->record(*recorder, true);
+  EXPECT_TRUE(recorder->submitAndWait());
+  return *renderer->picture();
+}
+
 // Where a strand is cut neither hair nor its shadow is seen.
 TEST_F(HairRendererTest, NothingIsDrawnAcrossACut) {
   Scene scene;
   scene.addStrand({{-0.3f, 0, 0}, {-0.25f, 0, 0}, {0.25f, 0, 0}, {0.3f, 0, 0}});
   scene.width = 0.02;
   const auto seen = [&](const std::vector<std::uint32_t>& cutBeyond) {
-    auto strands = StrandPoints::create(gpu(), scene.firstPoint);
-    EXPECT_TRUE(strands->setPose(scene.points, 1, cutBeyond));
-    auto renderer = HairRenderer::create(gpu(), {strands->points(), strands->firstPoint(), scene.width}, {},
-                                         {kWidth, kHeight, 2}, {});
-    EXPECT_TRUE(renderer) << renderer.error().message;
-    EXPECT_TRUE(renderer->setFrame(scene.camera, scene.bounds, scene.places));
-    auto recorder = gpu::Recorder::create(gpu(), "picture");
-    EXPECT_TRUE(recorder->begin());
-    renderer->record(*recorder, true);
-    EXPECT_TRUE(recorder->submitAndWait());
-    return *renderer->picture();
+    return pictureOf(gpu(), scene, {kWidth, kHeight, 2}, cutBeyond);
   };
   const auto whole = seen({}), cut = seen({1}), none = seen({0, 1, 2});
   const auto countOf = [&](const std::vector<std::uint32_t>& picture) {
@@ -339,22 +345,9 @@ TEST_F(HairRendererTest, NothingIsDrawnAcrossACut) {
 TEST_F(HairRendererTest, APreviewLooksLikeThePicture) {
   const Scene scene = headScene();
   PictureSize size{kWidth, kHeight, 2};
-  const auto shown = [&] {
-    auto strands = StrandPoints::create(gpu(), scene.firstPoint);
-    EXPECT_TRUE(strands->setPose(scene.points, 1));
-    auto renderer = HairRenderer::create(gpu(), {strands->points(), strands->firstPoint(), scene.width},
-                                         scene.solids, size, {});
-    EXPECT_TRUE(renderer) << renderer.error().message;
-    EXPECT_TRUE(renderer->setFrame(scene.camera, scene.bounds, scene.places));
-    auto recorder = gpu::Recorder::create(gpu(), "picture");
-    EXPECT_TRUE(recorder->begin());
-    renderer->record(*recorder, true);
-    EXPECT_TRUE(recorder->submitAndWait());
-    return *renderer->picture();
-  };
-  const auto full = shown();
+  const auto full = pictureOf(gpu(), scene, size);
   size.isPreview = true;
-  const auto preview = shown();
+  const auto preview = pictureOf(gpu(), scene, size);
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < full.size(); ++i)
     for (const int shift : {0, 8, 16}) {
@@ -364,7 +357,7 @@ TEST_F(HairRendererTest, APreviewLooksLikeThePicture) {
     }
   EXPECT_LT(std::abs(sum), 1.0);
   EXPECT_LT(std::sqrt(squares), 10.0);
-  EXPECT_EQ(shown(), preview) << "the same bits";
+  EXPECT_EQ(pictureOf(gpu(), scene, size), preview) << "the same bits";
 }
 
 // A hair's pigment is its place among the look's: between two of them what absorbs light is mixed.
