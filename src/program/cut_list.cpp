@@ -78,12 +78,13 @@ CutList CutList::from(int firstFrame) const {
   return later;
 }
 
-std::vector<std::uint32_t> CutList::piecesOf(std::uint32_t strand) const {
-  std::vector<std::uint32_t> pieces;
-  for (const FrameCut& each : cuts_)
-    if (each.cut.strand == strand) pieces.push_back(each.cut.keep);
-  std::ranges::sort(pieces);
-  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+std::map<std::uint32_t, std::vector<std::uint32_t>> CutList::pieces() const {
+  std::map<std::uint32_t, std::vector<std::uint32_t>> pieces;
+  for (const FrameCut& each : cuts_) pieces[each.cut.strand].push_back(each.cut.keep);
+  for (auto& [strand, first] : pieces) {
+    std::ranges::sort(first);
+    first.erase(std::unique(first.begin(), first.end()), first.end());
+  }
   return pieces;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -33,8 +34,8 @@ class CutList {
   CutList from(int firstFrame) const;
 
   const std::vector<FrameCut>& all() const { return cuts_; }
-  /// Of a strand, rising, the first points of its pieces, whenever they are cut off.
-  std::vector<std::uint32_t> piecesOf(std::uint32_t strand) const;
+  /// By strand, rising, the first points of its pieces, whenever they are cut off.
+  std::map<std::uint32_t, std::vector<std::uint32_t>> pieces() const;
   /// Rising, among all points, those from which no edge goes on in a frame. `firstPoint`: of each strand, and
   /// one more. Cuts of strands that there are not, or at their ends, count for nothing.
   std::vector<std::uint32_t> cutBeyond(int frame, std::span<const std::uint32_t> firstPoint) const;

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -69,6 +71,7 @@ Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, con
   FollowPlan plan;
   plan.metresPerUnit_ = metresPerUnit;
   plan.firstPoint_ = rest.firstPoint;
+  const auto pieces = cuts.pieces();
   for (std::size_t s = 0; s < rest.strandCount(); ++s) {
     const std::vector<Vec3d> strand = plan.strandOf(rest.points, s);
     if (!(lengthOf(strand) > 0))
@@ -77,10 +80,10 @@ Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, con
                       "`ringlet info --fix` drops such strands",
                       s + 1)};
     plan.guides_.push_back(restOfGuide(strand));
-    if (cuts.all().empty()) continue;
-    plan.guides_.back().pieces = cuts.piecesOf(static_cast<std::uint32_t>(s));
-    std::erase_if(plan.guides_.back().pieces,
-                  [&](std::uint32_t first) { return first == 0 || first >= strand.size(); });
+    const auto cut = pieces.find(static_cast<std::uint32_t>(s));
+    if (cut == pieces.end()) continue;
+    std::ranges::copy_if(cut->second, std::back_inserter(plan.guides_.back().pieces),
+                         [&](std::uint32_t first) { return first > 0 && first < strand.size(); });
   }
   if (Status planted = plan.plant(options, ground); !planted) return planted.error();
 

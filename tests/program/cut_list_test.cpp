@@ -43,7 +43,7 @@ TEST(CutLists, SayWhichEdgesAreNoMore) {
   EXPECT_EQ(list.cutBeyond(1, first), (std::vector<std::uint32_t>{8}));
   EXPECT_EQ(list.cutBeyond(3, first), (std::vector<std::uint32_t>{8}));
   EXPECT_EQ(list.cutBeyond(4, first), (std::vector<std::uint32_t>{2, 6, 8}));  // frame 4 begins at 0.125 s
-  EXPECT_EQ(list.piecesOf(1), (std::vector<std::uint32_t>{2, 4}));
+  EXPECT_EQ(list.pieces().at(1), (std::vector<std::uint32_t>{2, 4}));
   EXPECT_EQ(list.from(4).cutBeyond(1, first), (std::vector<std::uint32_t>{2, 6, 8}));
   const CutList foreign({{1, {7, 2}}, {1, {0, 0}}, {1, {0, 5}}});
   EXPECT_TRUE(foreign.cutBeyond(1, first).empty());
