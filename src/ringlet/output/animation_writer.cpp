@@ -47,30 +47,11 @@ Result<Writer> resumePc2(const std::filesystem::path& path, const Groom& topolog
   return owned(Pc2Writer::resume(path, topology, o, frameCount));
 }
 
-constexpr AnimationFormat kFormats[] = {{.extension = ".usda",
-                                         .note = "",
-                                         .hasPrecisions = false,
-                                         .isRead = true,
-                                         .isUsd = true,
-                                         .resume = resumeUsd},
-                                        {.extension = ".usdc",
-                                         .note = "",
-                                         .hasPrecisions = false,
-                                         .isRead = true,
-                                         .isUsd = true,
-                                         .resume = resumeUsdc},
-                                        {.extension = ".rgc",
-                                         .note = "",
-                                         .hasPrecisions = true,
-                                         .isRead = true,
-                                         .isUsd = false,
-                                         .resume = resumeCache},
-                                        {.extension = ".pc2",
-                                         .note = "with an .obj beside it",
-                                         .hasPrecisions = false,
-                                         .isRead = false,
-                                         .isUsd = false,
-                                         .resume = resumePc2}};
+constexpr AnimationFormat kFormats[] = {
+    {.extension = ".usda", .isRead = true, .isUsd = true, .resume = resumeUsd},
+    {.extension = ".usdc", .isRead = true, .isUsd = true, .resume = resumeUsdc},
+    {.extension = ".rgc", .hasPrecisions = true, .isRead = true, .resume = resumeCache},
+    {.extension = ".pc2", .note = "with an .obj beside it", .resume = resumePc2}};
 
 }  // namespace
 

@@ -76,11 +76,11 @@ struct AnimationOptions {
 
 /// A row of the table of formats, of which options, keys of scene files, help and messages are made.
 struct AnimationFormat {
-  const char* extension;  // with its dot
-  const char* note;       // for help, in brackets behind the extension; "" for none
-  bool hasPrecisions;
-  bool isRead;  // by AnimationReader; of others points go out only
-  bool isUsd;   // looks at AnimationOptions::usd
+  const char* extension;       // with its dot
+  const char* note = "";       // for help, in brackets behind the extension
+  bool hasPrecisions = false;  // AnimationOptions::precision
+  bool isRead = false;         // by AnimationReader; of others points go out only
+  bool isUsd = false;          // looks at AnimationOptions::usd
   /// Goes on with PATH.partial after its first `frameCount` frames, to the bytes of a file written in one go;
   /// with 0 it begins anew. Only the topology's strand lengths are used. Errors: the file is not that of such
   /// an animation, or has fewer whole frames.

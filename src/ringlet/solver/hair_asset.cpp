@@ -42,6 +42,13 @@ Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
   return rangesOfPart(*ranges, counts);
 }
 
+// Without what would be each head's own in a dispatch of many; none of it changes while hair moves.
+bool isByItself(const Settings& settings, const KernelChoice& choice, BodyUse bodies) {
+  return settings.integrator == Integrator::jacobi && !settings.contacts.on && !settings.air.on &&
+         bodies == BodyUse::none && !choice.movingRoots && !choice.forces && !choice.goals &&
+         !choice.fields && !choice.taps;
+}
+
 }  // namespace
 
 Status checkPart(const Settings& settings, const PartLink* link) {
@@ -83,24 +90,14 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
   if (!limits) return limits.error();
 
-  auto self = std::make_shared<Implementation>(Implementation{device,
-                                                              material,
-                                                              settings,
-                                                              choice,
-                                                              bodies,
-                                                              *limits,
-                                                              {},
-                                                              std::move(*rest),
-                                                              std::move(isHere),
-                                                              {},
-                                                              {},
-                                                              {},
-                                                              {},
-                                                              {},
-                                                              {},
-                                                              {},
-                                                              {},
-                                                              {}});
+  auto self = std::make_shared<Implementation>(Implementation{.device = device,
+                                                              .material = material,
+                                                              .settings = settings,
+                                                              .choice = choice,
+                                                              .bodies = bodies,
+                                                              .limits = *limits,
+                                                              .rest = std::move(*rest),
+                                                              .isHere = std::move(isHere)});
   if (settings.goal.on) self->goal = goalOf(groom);
   self->choice.goals = choice.goals || settings.goal.on;
   if (self->choice.goals) self->goalUnits = goalUnits(self->rest, settings.goal.shape);
@@ -130,16 +127,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     if (!first) return first.error();
     self->firstRanges = std::move(*first);
   }
-  const StrandKernelOptions hair{.integrator = settings.integrator,
-                                 .taps = choice.taps,
-                                 .contacts = settings.contacts.on,
-                                 .bodies = hasBodies,
-                                 .air = settings.air.on,
-                                 .movingRoots = choice.movingRoots,
-                                 .forces = choice.forces,
-                                 .goals = self->choice.goals,
-                                 .fields = choice.fields};
-  if (chunks->size() == 1 && canBeOfHeads(hair))
+  if (chunks->size() == 1 && isByItself(settings, self->choice, bodies))
     self->places = HeadPlaces::create(device.gpu(), chunks->front(), self->records, choice.heads);
   const std::uint64_t lanes = lanesOf(self->ranges);
   self->groupSize = strandGroupSize(*limits, self->places ? lanes * self->places->headsOfRow() : lanes);

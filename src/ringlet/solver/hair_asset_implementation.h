@@ -27,19 +27,19 @@ struct HairAsset::Implementation {
   Settings settings;
   KernelChoice choice;
   BodyUse bodies = BodyUse::none;
-  DeviceLimits limits;                   // of the device, with the chosen subgroup width
-  std::uint32_t groupSize = 0;           // workgroup size of strand kernels
-  RestState rest;                        // without its particles, which are on the device
-  std::vector<bool> isHere;              // of each strand, device order; empty: no other device steps some
-  std::optional<RestContacts> contacts;  // with contacts
-  std::optional<RestVolume> volume;      // if some strands meet as a volume
-  std::vector<StrandRange> ranges;
-  std::vector<StrandRange> firstRanges;  // of the first solve of a step, if that has kernels of its own
-  GroomRecords records;
-  std::vector<ConstantChunk> constants;
-  std::shared_ptr<HeadPlaces> places;              // of many small heads; none: each has its own buffers
-  std::optional<GroomGoal> goal;                   // where Settings::goal is on
-  std::optional<std::vector<GoalUnit>> goalUnits;  // with goals
+  DeviceLimits limits;                     // of the device, with the chosen subgroup width
+  std::uint32_t groupSize = 0;             // workgroup size of strand kernels
+  RestState rest{};                        // without its particles, which are on the device
+  std::vector<bool> isHere{};              // of each strand, device order; empty: no other device steps some
+  std::optional<RestContacts> contacts{};  // with contacts
+  std::optional<RestVolume> volume{};      // if some strands meet as a volume
+  std::vector<StrandRange> ranges{};
+  std::vector<StrandRange> firstRanges{};  // of the first solve of a step, if that has kernels of its own
+  GroomRecords records{};
+  std::vector<ConstantChunk> constants{};
+  std::shared_ptr<HeadPlaces> places{};              // of many small heads; none: each has its own buffers
+  std::optional<GroomGoal> goal{};                   // where Settings::goal is on
+  std::optional<std::vector<GoalUnit>> goalUnits{};  // with goals
 
   ContactKinds kinds() const { return contacts ? contacts->kinds() : ContactKinds{}; }
   std::vector<GroomChunk> chunks() const {

@@ -58,28 +58,27 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
                               forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));
-  StrandKernelOptions options{.integrator = settings.integrator,
-                              .oneSmoothing = rest.oneSmoothing,
-                              .bendVaries = bendVaries,
-                              .taps = choice.taps,
-                              .contacts = settings.contacts.on,
-                              .pairs = contacts.has_value(),
-                              .volume = volume.has_value(),
-                              .texels = fitsTexels,
-                              .residual = choice.residual,
-                              .bodies = asset->bodies == BodyUse::some,
-                              .air = settings.air.on,
-                              .turbulence = world.isTurbulent(),
-                              .movingRoots = choice.movingRoots,
-                              .forces = choice.forces,
-                              .goals = choice.goals,
-                              .goalShape = settings.goal.shape,
-                              .fields = choice.fields,
-                              .falls = falls,
-                              .subgroupSize = askedWidth(device.gpu().properties(), choice),
-                              .groupSize = asset->groupSize};
-  options.heads = buffers.place && canBeOfHeads(options);
-  return options;
+  return {.integrator = settings.integrator,
+          .oneSmoothing = rest.oneSmoothing,
+          .bendVaries = bendVaries,
+          .taps = choice.taps,
+          .contacts = settings.contacts.on,
+          .pairs = contacts.has_value(),
+          .volume = volume.has_value(),
+          .texels = fitsTexels,
+          .residual = choice.residual,
+          .bodies = asset->bodies == BodyUse::some,
+          .air = settings.air.on,
+          .turbulence = world.isTurbulent(),
+          .movingRoots = choice.movingRoots,
+          .forces = choice.forces,
+          .goals = choice.goals,
+          .goalShape = settings.goal.shape,
+          .fields = choice.fields,
+          .falls = falls,
+          .heads = buffers.place.has_value(),
+          .subgroupSize = askedWidth(device.gpu().properties(), choice),
+          .groupSize = asset->groupSize};
 }
 
 // The shapes whose kernels no earlier simulation has made on this device.

@@ -78,12 +78,6 @@ std::uint32_t integratorConstant(Integrator integrator) {
 
 }  // namespace
 
-bool canBeOfHeads(const StrandKernelOptions& options) {
-  return options.integrator == Integrator::jacobi && !options.taps && !options.contacts && !options.bodies &&
-         !options.air && !options.movingRoots && !options.forces && !options.goals && !options.fields &&
-         !options.falls;
-}
-
 // FNV-1a, word by word.
 std::string strandKernelHash() {
   std::uint64_t hash = 0xcbf29ce484222325;

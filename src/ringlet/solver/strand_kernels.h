@@ -39,19 +39,16 @@ struct StrandKernelOptions {
   bool bodies = false;    // there are some
   bool air = false;       // hair feels it
   bool turbulence = false;
-  bool movingRoots = false;        // strands have poses of their own
-  bool forces = false;             // forces from outside act on particles
-  bool goals = false;              // particles are pulled to places
-  bool goalShape = false;          // or edges to vectors
-  bool fields = false;             // fields act on them
-  bool falls = false;              // strands are what was cut off
-  bool heads = false;              // of one of many heads that a dispatch may step (HeadPlaces)
+  bool movingRoots = false;  // strands have poses of their own
+  bool forces = false;       // forces from outside act on particles
+  bool goals = false;        // particles are pulled to places
+  bool goalShape = false;    // or edges to vectors
+  bool fields = false;       // fields act on them
+  bool falls = false;        // strands are what was cut off
+  bool heads = false;  // of one of many heads that a dispatch may step (HeadPlaces): jacobi, hair by itself
   std::uint32_t subgroupSize = 0;  // of the lanes form, one the device can be asked for; 0: its default
   std::uint32_t groupSize = kStrandGroupSize;
 };
-
-/// Whether there are such kernels of many heads.
-bool canBeOfHeads(const StrandKernelOptions& options);
 
 gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const StrandKernelOptions& options);
 
