@@ -28,7 +28,7 @@ row() {
 try() {
   local driver=$1 what=$2 begin=$SECONDS log result=ok
   shift 2
-  [[ $driver == "$only"* ]] || return 0
+  [[ ${driver,,} == "${only,,}"* ]] || return 0
   log="$logs/${driver// /_}-${what//[^a-zA-Z0-9]/_}.txt"
   echo "second_drivers: $driver: $what ..."
   "$@" >"$log" 2>&1 || { result=FAILED; failures=$((failures + 1)); tail -n 15 "$log"; echo "  (all of it: $log)"; }
@@ -36,7 +36,7 @@ try() {
 }
 # skip DRIVER WHY
 skip() {
-  [[ $1 == "$only"* ]] || return 0
+  [[ ${1,,} == "${only,,}"* ]] || return 0
   echo "second_drivers: SKIPPED $1: $2" >&2
   row "$1" "$2" SKIPPED ""
 }
@@ -87,7 +87,7 @@ fetch_mesa() {
 
 icd() { env "VK_ICD_FILENAMES=$1" "VK_DRIVER_FILES=$1" "${@:2}"; }
 
-# quick DRIVER PREFIX...: gpu tests, conform, lists, repeats, a volume beside contacts, and pictures.
+# quick DRIVER PREFIX...: gpu tests, conform, lists, repeats, a volume beside contacts, heads and cuts, and pictures.
 quick() {
   local driver=$1
   shift
@@ -97,6 +97,8 @@ quick() {
   try "$driver" "a run with contacts repeats" "$@" $build/tests/kernels_tests --gtest_brief=1 \
     --gtest_filter='ContactStep.RepeatsBitwise*:VolumeStep.RepeatsBitwise*'
   try "$driver" "a volume beside contacts" "$@" $build/tests/kernels_tests --gtest_brief=1 --gtest_filter='VolumeStep.Beside*'
+  try "$driver" "many heads, and cuts" "$@" $build/tests/kernels_tests --gtest_brief=1 \
+    --gtest_filter='HairFrames*:*OneOfManyHeads*:Cut.*'
   try "$driver" "pictures" "$@" $build/tests/program_tests --gtest_brief=1 --gtest_filter='Golden.*'
 }
 
@@ -133,6 +135,7 @@ else
   skip "RADV of this machine" "no radeon_icd in /usr/share/vulkan/icd.d"
 fi
 
+[ ${#table[@]} -gt 0 ] || { echo "second_drivers: no driver's name begins with '$only'" >&2; exit 1; }
 printf '\n%-22s  %-34s  %-8s  %s\n' driver what result time
 printf '%s\n' "${table[@]}"
 [ $failures -eq 0 ] || { echo "second_drivers: $failures failed" >&2; exit 1; }
