@@ -63,8 +63,7 @@ RINGLET_CONSTANT uint kBindGoals = 32;           // vec4[particles]: xyz: at its
 RINGLET_CONSTANT uint kBindGoalBeforeTexels = 33;
 RINGLET_CONSTANT uint kBindGoalTexels = 34;
 // And the poses of many heads, in place of one's:
-RINGLET_CONSTANT uint kBindHeadPoses = 40;       // StepPose[heads][headPoses]
-RINGLET_CONSTANT uint kBindHeadPoseTexels = 41;  // 3 a pose
+RINGLET_CONSTANT uint kBindHeadPoseTexels = 40;  // StepPose[heads][headPoses]: 3 a pose
 
 // Integrators (kSpecIntegrator).
 RINGLET_CONSTANT uint kIntegratorJacobi = 0;

@@ -69,7 +69,6 @@ layout(set = 0, binding = kBindOutsideForceTexels) uniform usamplerBuffer forceT
 layout(push_constant) uniform Parameters { StepParameters parameters; };
 
 #ifdef RINGLET_HEADS
-layout(set = 0, binding = kBindHeadPoses) readonly buffer HeadPoses { StepPose headPoses[]; };
 layout(set = 0, binding = kBindHeadPoseTexels) uniform usamplerBuffer headPoseTexels;
 uint head = 0;  // this invocation's place among the heads
 // Of the n-th strand of the dispatch: which head it is of, and its place among those of one head; what lies beyond the
@@ -83,9 +82,10 @@ uint placeInHead(uint n) {
 uint stateAt(uint i) { return head * parameters.headParticles + i; }
 uint reportAt(uint s) { return head * parameters.headStrands + s; }
 uint poseAt(uint pose) { return head * parameters.headPoses + pose; }
+// Texels on every device: a branch at each place that reads a pose takes SwiftShader's compiler, which looks at every
+// path through a loop, without end.
 vec4 posePart(uint pose, uint part) { return vectorAt(headPoseTexels, 3 * poseAt(pose) + part); }
 StepPose stepPose(uint pose) {
-  if (!kTexels) return headPoses[poseAt(pose)];
   vec4 last = posePart(pose, 2);
   return StepPose(posePart(pose, 0), posePart(pose, 1), last.xyz, last.w);
 }

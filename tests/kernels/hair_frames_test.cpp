@@ -208,6 +208,36 @@ TEST_F(HairFramesTest, OneDispatchStepsManyHeads) {
   EXPECT_EQ(dispatchesOf(2), 4);
 }
 
+// Poses of heads are read as texels: a row has as many heads as the device sees poses of, and a head whose
+// positions it sees as texels alone has them seen in a row too.
+TEST_F(HairFramesTest, ARowIsNoLongerThanTexelsReach) {
+  struct Case {
+    std::uint64_t texels;
+    int particles, dispatches;
+  };
+  Hair kind = hairs().front();
+  kind.kernel.heads = 5;
+  const std::vector<HeadPose> poses = posesOf(kind, kHeads[0], 0);
+  for (const Case& few :
+       {Case{16, 20, 5}, Case{2 * 1100, 20, 3}, Case{5 * 1100, 20, 1}, Case{5 * 1100, 200, 3}}) {
+    SCOPED_TRACE(few.texels);
+    SCOPED_TRACE(few.particles);
+    const auto opened = gpu::Device::open("", {.mostTexelRecords = few.texels});
+    ASSERT_TRUE(opened) << opened.error().message;
+    kind.groom = randomGroom(std::vector<int>(10, few.particles), 3);
+    const auto asset = build(ComputeDevice::over(*opened), kind);
+    ASSERT_TRUE(asset) << asset.error().message;
+    std::vector<Simulation> heads;
+    for (int k = 0; k < 5; ++k) heads.push_back(*make(*asset, kind, kHeads[0]));
+    std::vector<HairFrame> frames;
+    for (Simulation& head : heads) frames.push_back({&head, poses});
+    const CountedDispatches counted(**opened);
+    ASSERT_TRUE(stepFrames(frames));
+    EXPECT_EQ(CountedDispatches::count, few.dispatches);
+    for (const Simulation& head : heads) EXPECT_TRUE(head.framePositions() == heads[0].framePositions());
+  }
+}
+
 // One that sleeps between two that move is left as it is.
 TEST_F(HairFramesTest, ASleeperOfARowIsLeftAlone) {
   Hair kind = hairs().front();

@@ -185,7 +185,6 @@ gpu::BufferTable DeviceGroom::bufferTable(std::size_t chunk) const {
           {kBindReports, c.reports},
           {kBindTaps, c.taps},
           {kBindPoses, poses.seen()},
-          {kBindHeadPoses, poses.seen()},
           {kBindHeadPoseTexels, poses.seen()},
           {kBindSolved, c.solved},
           {kBindContactSystems, c.contactSystems},

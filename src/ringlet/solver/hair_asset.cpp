@@ -127,8 +127,11 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     if (!first) return first.error();
     self->firstRanges = std::move(*first);
   }
-  if (chunks->size() == 1 && isByItself(settings, self->choice, bodies))
-    self->places = HeadPlaces::create(device.gpu(), chunks->front(), self->records, choice.heads);
+  if (choice.heads > 1 && chunks->size() == 1 && isByItself(settings, self->choice, bodies)) {
+    auto places = HeadPlaces::create(device.gpu(), chunks->front(), self->records, choice.heads);
+    if (!places) return places.error();
+    self->places = std::move(*places);
+  }
   const std::uint64_t lanes = lanesOf(self->ranges);
   self->groupSize = strandGroupSize(*limits, self->places ? lanes * self->places->headsOfRow() : lanes);
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);

@@ -23,45 +23,45 @@ std::uint32_t stride(std::uint32_t count, std::uint64_t recordBytes, std::uint64
 gpu::BufferTable HeadBuffers::bufferTable() const {
   using namespace layout;
   return {{kBindPositions, positions},      {kBindVelocities, velocities},     {kBindReports, reports},
-          {kBindPositionTexels, positions}, {kBindVelocityTexels, velocities}, {kBindHeadPoses, poses},
-          {kBindHeadPoseTexels, poses}};
+          {kBindPositionTexels, positions}, {kBindVelocityTexels, velocities}, {kBindHeadPoseTexels, poses}};
 }
 
-std::shared_ptr<HeadPlaces> HeadPlaces::create(gpu::Device& device, const GroomChunk& part,
-                                               const GroomRecords& records, int heads) {
-  const std::uint64_t bytes = std::max<std::uint64_t>(1, part.particleCount() * records.position);
-  const auto most = std::min(static_cast<std::uint64_t>(std::max(1, heads)), kRowBytes / bytes);
-  if (most < 2) return nullptr;
-  return std::shared_ptr<HeadPlaces>(new HeadPlaces(device, part, records, static_cast<std::uint32_t>(most)));
-}
-
-Result<HeadRow> HeadPlaces::makeRow() const {
-  gpu::Device& device = *device_;
+Result<std::shared_ptr<HeadPlaces>> HeadPlaces::create(gpu::Device& device, const GroomChunk& part,
+                                                       const GroomRecords& records, int heads) {
   // What the alignment is, a buffer says.
   const auto sample = gpu::Buffer::create(device, 0, gpu::BufferKind::storage, "sample");
   if (!sample) return sample.error();
   const std::uint64_t alignment = sample->alignment();
-  const std::uint32_t particles = stride(part_.particleCount(), sizeof(layout::vec4), alignment);
-  const std::uint32_t strands = stride(part_.strandCount(), sizeof(layout::StrandReport), alignment);
-  const std::uint32_t stepPoses = stride(layout::kMaxStepPoses, sizeof(layout::StepPose), alignment);
+  const HeadStrides strides{.particles = stride(part.particleCount(), sizeof(layout::vec4), alignment),
+                            .strands = stride(part.strandCount(), sizeof(layout::StrandReport), alignment),
+                            .stepPoses = stride(layout::kMaxStepPoses, sizeof(layout::StepPose), alignment)};
+  const std::uint64_t bytes = std::max<std::uint64_t>(1, strides.particles * records.position);
+  const std::uint64_t seen = device.properties().maxTexelRecords * sizeof(layout::vec4);
+  std::uint64_t most = std::min(static_cast<std::uint64_t>(heads), kRowBytes / bytes);
+  most = std::min(most, seen / (strides.stepPoses * sizeof(layout::StepPose)));
+  if (bytes <= seen) most = std::min(most, seen / bytes);  // a head seen as texels is so in a row too
+  if (most < 2) return std::shared_ptr<HeadPlaces>();
+  return std::shared_ptr<HeadPlaces>(
+      new HeadPlaces(device, part, records, strides, static_cast<std::uint32_t>(most)));
+}
+
+Result<HeadRow> HeadPlaces::makeRow() const {
   const auto make = [&](std::uint64_t bytes, const char* name) {
-    return createZero(device, heads_ * bytes, name);
+    return createZero(*device_, heads_ * bytes, name);
   };
-  auto positions = make(particles * records_.position, "positions");
+  auto positions = make(strides_.particles * records_.position, "positions");
   if (!positions) return positions.error();
-  auto velocities = make(particles * records_.velocity, "velocities");
+  auto velocities = make(strides_.particles * records_.velocity, "velocities");
   if (!velocities) return velocities.error();
-  auto reports = make(strands * records_.report, "reports");
+  auto reports = make(strides_.strands * records_.report, "reports");
   if (!reports) return reports.error();
-  auto poses = make(stepPoses * sizeof(layout::StepPose), "poses");
+  auto poses = make(strides_.stepPoses * sizeof(layout::StepPose), "poses");
   if (!poses) return poses.error();
   return HeadRow{
       .part = part_,
       .records = records_,
       .buffers = {std::move(*positions), std::move(*velocities), std::move(*reports), std::move(*poses)},
-      .particles = particles,
-      .strands = strands,
-      .stepPoses = stepPoses,
+      .strides = strides_,
       .isTaken = std::vector<bool>(heads_)};
 }
 
@@ -74,13 +74,15 @@ Result<HeadBuffers> HeadPlace::part(std::uint32_t heads) const {
     const std::uint64_t records = std::uint64_t{heads - 1} * stride + count;
     return gpu::Buffer::part(whole, begin * record, records * record, whole.name());
   };
-  auto positions = of(row.buffers.positions, row.records.position, row.particles, row.part.particleCount());
+  auto positions =
+      of(row.buffers.positions, row.records.position, row.strides.particles, row.part.particleCount());
   if (!positions) return positions.error();
-  auto velocities = of(row.buffers.velocities, row.records.velocity, row.particles, row.part.particleCount());
+  auto velocities =
+      of(row.buffers.velocities, row.records.velocity, row.strides.particles, row.part.particleCount());
   if (!velocities) return velocities.error();
-  auto reports = of(row.buffers.reports, row.records.report, row.strands, row.part.strandCount());
+  auto reports = of(row.buffers.reports, row.records.report, row.strides.strands, row.part.strandCount());
   if (!reports) return reports.error();
-  auto poses = of(row.buffers.poses, sizeof(layout::StepPose), row.stepPoses, layout::kMaxStepPoses);
+  auto poses = of(row.buffers.poses, sizeof(layout::StepPose), row.strides.stepPoses, layout::kMaxStepPoses);
   if (!poses) return poses.error();
   return HeadBuffers{std::move(*positions), std::move(*velocities), std::move(*reports), std::move(*poses)};
 }

@@ -27,12 +27,17 @@ struct HeadBuffers {
   gpu::BufferTable bufferTable() const;
 };
 
+/// Records from one head to the next.
+struct HeadStrides {
+  std::uint32_t particles = 0, strands = 0, stepPoses = 0;
+};
+
 struct HeadRow {
   GroomChunk part;  // of each head
   GroomRecords records;
   HeadBuffers buffers;
-  std::uint32_t particles = 0, strands = 0, stepPoses = 0;  // records from one head to the next
-  std::vector<bool> isTaken;                                // by place
+  HeadStrides strides;
+  std::vector<bool> isTaken;  // by place
 
   std::uint64_t largestBuffer() const { return std::max(buffers.positions.bytes(), buffers.poses.bytes()); }
 };
@@ -63,22 +68,29 @@ class HeadPlace {
 class HeadPlaces {
  public:
   /// For about `heads` heads whose hair is one chunk. None where a head is so large that a dispatch of its
-  /// own serves it as well.
-  static std::shared_ptr<HeadPlaces> create(gpu::Device& device, const GroomChunk& part,
-                                            const GroomRecords& records, int heads);
+  /// own serves it as well, or the device sees no two heads' poses as texels. Fails when the device lacks
+  /// memory.
+  static Result<std::shared_ptr<HeadPlaces>> create(gpu::Device& device, const GroomChunk& part,
+                                                    const GroomRecords& records, int heads);
 
   std::uint32_t headsOfRow() const { return heads_; }
   /// The first free place; where there is none, in a new row. Fails when the device lacks memory.
   Result<HeadPlace> take();
 
  private:
-  HeadPlaces(gpu::Device& device, const GroomChunk& part, const GroomRecords& records, std::uint32_t heads)
-      : device_(device.shared_from_this()), part_(part), records_(records), heads_(heads) {}
+  HeadPlaces(gpu::Device& device, const GroomChunk& part, const GroomRecords& records,
+             const HeadStrides& strides, std::uint32_t heads)
+      : device_(device.shared_from_this()),
+        part_(part),
+        records_(records),
+        strides_(strides),
+        heads_(heads) {}
   Result<HeadRow> makeRow() const;
 
   std::shared_ptr<gpu::Device> device_;
   GroomChunk part_;
   GroomRecords records_;
+  HeadStrides strides_;
   std::uint32_t heads_ = 0;  // of a row
   std::shared_ptr<std::mutex> guard_ =
       std::make_shared<std::mutex>();  // of what follows and whose places are taken

@@ -43,9 +43,9 @@ layout::StepParameters Simulation::Implementation::parametersOf(const StrandKern
   if (of.areOfHeads) {
     const HeadRow& row = buffers.place->row();
     p.headCount = heads;
-    p.headParticles = row.particles;
-    p.headStrands = row.strands;
-    p.headPoses = row.stepPoses;
+    p.headParticles = row.strides.particles;
+    p.headStrands = row.strides.strands;
+    p.headPoses = row.strides.stepPoses;
   }
   return p;
 }
