@@ -56,7 +56,6 @@ RestStrand<Real> Simulation<Real>::restOf(const Groom& groom, const Material& ma
 
 template <class Real>
 void Simulation<Real>::cut(const Groom& groom, const Material& material, std::span<const StrandCut> cuts) {
-  RINGLET_ASSERT(!settings_.contacts.on, "hair with contacts is not cut");
   const auto doubled = [](auto& values, std::size_t at) {
     values.insert(values.begin() + static_cast<std::ptrdiff_t>(at), values[at]);
   };
@@ -73,6 +72,7 @@ void Simulation<Real>::cut(const Groom& groom, const Material& material, std::sp
     restTurns_[s + 1] = toEigen<double>(head_.rotation);
     firstPoint_.insert(firstPoint_.begin() + static_cast<std::ptrdiff_t>(s) + 1, firstPoint_[s] + cut.keep);
     for (const std::size_t piece : {s, s + 1}) rest_[piece] = restOf(groom, material, settings_, piece);
+    contacts_.volume.release(firstPoint_[s + 1], firstPoint_[s + 2]);
   }
   systems_.assign(rest_.size(), {});
   taps_.assign(rest_.size(), {});
@@ -117,7 +117,6 @@ void Simulation<Real>::stepFrame(std::span<const HeadPose> stepPoses, std::span<
                         : std::vector<BodyPose>(bodyPoses.begin(), bodyPoses.end());
   RINGLET_ASSERT(carried.size() == stepPoses.size() * bodies_.size(), "every body has a pose in every step");
   if (settings_.jumps(length(stepPoses.back().position - head_.position))) {
-    RINGLET_ASSERT(whole_.empty(), "the head of hair that was cut does not jump");
     carryTo(stepPoses.back());
     bodyPoses_.assign(carried.end() - static_cast<std::ptrdiff_t>(bodies_.size()), carried.end());
     if (!rootPoses.empty()) rootPoses_ = ofPieces(rootPoses.last(wholeStrands().size()));
@@ -318,10 +317,21 @@ template <class Real>
 void Simulation<Real>::carryTo(const HeadPose& next) {
   const Rotation<double> before = toEigen<double>(head_.rotation), now = toEigen<double>(next.rotation);
   const Rotation<double> turned = (now * before.conjugate()).normalized();
-  for (Field<Real>* field : {&positions_, &velocities_}) {
-    for (Vector3<Real>& v : *field) v = (turned * v.template cast<double>()).template cast<Real>();
+  const Vector3<double> lastStep = toEigen<double>(head_.position - previousHead_.position);
+  const Vector3<double> step = turned * lastStep;
+  const Vector3<double> travel = toEigen<double>(next.position - head_.position);
+  const Vector3<double> faster = (step - lastStep) / settings_.stepSeconds();
+  for (std::size_t s = 0; s < rest_.size(); ++s) {
+    const auto carry = [&](Field<Real>& field, const Vector3<double>& change) {
+      for (Vector3<Real>& value : strandOf(field, s)) {
+        Vector3<double> v = value.template cast<double>();
+        v = rest_[s].falls() ? Vector3<double>(v - change) : turned * v;
+        value = v.template cast<Real>();
+      }
+    };
+    carry(positions_, travel);
+    carry(velocities_, faster);
   }
-  const Vector3<double> step = turned * toEigen<double>(head_.position - previousHead_.position);
   const Rotation<double> earlier = (turned * toEigen<double>(previousHead_.rotation)).normalized();
   previousHead_ = {next.position - Vec3d{step.x(), step.y(), step.z()},
                    {earlier.x(), earlier.y(), earlier.z(), earlier.w()},

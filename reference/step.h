@@ -81,7 +81,7 @@ class Simulation {
   void change(const Groom& groom, const Material& material, const Settings& settings);
 
   /// As Simulation::cut of the solver has it, of the groom and material it has: what is cut off is a strand
-  /// of its own from then on, behind the one that it was cut from. Later heads do not jump.
+  /// of its own from then on, behind the one that it was cut from.
   void cut(const Groom& groom, const Material& material, std::span<const StrandCut> cuts);
 
   /// These strands are carried by their roots in their rest shape, and take no part in anything. The list is
@@ -117,7 +117,7 @@ class Simulation {
   };
   static Carried carried(const HeadPose& head, const BodyPose& root);
 
-  // Rigidly: seen from the head, hair and head go on as they were.
+  // Rigidly: seen from the head, hair and head go on as they were. What was cut off stays in the world.
   void carryTo(const HeadPose& next);
 
   // Step k of a frame of so many.

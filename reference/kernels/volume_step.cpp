@@ -60,6 +60,11 @@ std::size_t volumeStride(const RestStrand<Real>& strand, double cell) {
 
 }  // namespace
 
+void Volume::release(std::uint32_t begin, std::uint32_t end) {
+  for (VolumeParticle& p : particles)
+    if (p.index >= begin && p.index < end) p.mass = 0;
+}
+
 void Volume::forget() {
   untilSort = 0;
   for (VolumeParticle& p : particles) {

@@ -48,6 +48,8 @@ struct Volume {
 
   bool isEmpty() const { return particles.empty(); }
   void forget();
+  /// The particles [begin, end) are of it no more: they have fallen.
+  void release(std::uint32_t begin, std::uint32_t end);
   void archive(Archive& archive);
 };
 

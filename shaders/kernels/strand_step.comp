@@ -55,7 +55,7 @@ void loadStrand() {
   vec3 normal = someNormal(direction);
   vec3 binormal = cross(direction, normal);
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    bool real = isParticle(k);
+    bool real = isOwn(k);
     uint i = strand.firstParticle + (real ? first + k : 0);
     p[k] = real ? positionAtStart(i) : vec3(0);
     v[k] = real ? velocityAtStart(i) : vec3(0);
@@ -233,7 +233,7 @@ void solveVelocities(uint step) {
 #endif
   if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual();
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    if (isParticle(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
+    if (isOwn(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
   }
 }
 
@@ -297,7 +297,7 @@ void storeStrand(uint strandIndex) {
   uint nonfinite = 0;
   uint firstNonfinite = ~0u;
   RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
-    if (!isParticle(k)) continue;
+    if (!isOwn(k)) continue;
     uint i = stateAt(strand.firstParticle + first + k);
     positions[i] = vec4(p[k], 0);  // whole records: parts of one cost lavapipe more
     velocities[i] = vec4(v[k], 0);
@@ -326,7 +326,7 @@ void storeStrand(uint strandIndex) {
 #ifdef RINGLET_CONTACTS
 void storeSolved() {
   RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
-    if (isParticle(k)) solved[strand.firstParticle + first + k] = vec4(v[k], 0);
+    if (isOwn(k)) solved[strand.firstParticle + first + k] = vec4(v[k], 0);
   }
 }
 #endif

@@ -24,8 +24,9 @@ void main() {
   bool sorts = control.untilSort == 0;
   if (kDivided) brought[parameters.count + i] = vec4(place, mass);
   if (kDivided || sorts) brought[i] = rate;
-  if (sorts)
-    reachTo(place);
-  else
+  if (sorts) {
+    if (self.mass > 0.0) reachTo(place);  // what was cut off has none: it is of the volume no more
+  } else {
     parcels[locatedAt(i).w].rate = rate;
+  }
 }

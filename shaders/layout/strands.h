@@ -182,6 +182,7 @@ struct StepParameters {
   uint headParticles;  // from one head to the next: particles, strands, poses
   uint headStrands;
   uint headPoses;
+  float inertiaFactor;  // of Material; 1 for what was cut off
 };
 
 #ifdef __cplusplus

@@ -29,7 +29,9 @@ vec3 rootVelocity(uint pose) {
   return kTexels ? vectorAt(rootPoseTexels, 4 * i + 3).xyz : rootPoses[i].velocity.xyz;
 }
 
+// What was cut off has its rest state as it lay then, along world axes.
 vec4 rotationAt(uint pose) {
+  if (kFalls) return vec4(0, 0, 0, 1);
   if (!kMovingRoots) return stepPose(pose).rotation;
   return rootRotation(pose);
 }
@@ -41,7 +43,7 @@ vec4 turnTo(uint pose) {
 
 vec4 rotationAtStart(uint step) { return rotationAt(step); }
 vec4 rotationAtEnd(uint step) { return rotationAt(step + 1); }
-vec3 headVelocityChange(uint step) { return stepPose(step + 1).velocityChange; }
+vec3 headVelocityChange(uint step) { return parameters.inertiaFactor * stepPose(step + 1).velocityChange; }
 
 /// Velocity of x, a place at the step's start, by the turn in this step [m/s].
 vec3 turningVelocity(uint step, vec3 x) { return displacement(turnTo(step + 1), x) / stepSeconds(); }

@@ -39,8 +39,10 @@ uint degenerateEdges = 0;
 float velocityResidual = 0.0;
 
 bool isParticle(int k) { return first + k < strand.particleCount; }
-// What was cut off begins with the particle that it was cut from, which is pinned; the edge between is void.
+// What was cut off begins with the particle that it was cut from, which is pinned; the edge between is void. The
+// particle is another strand's: it is neither read nor written.
 bool isCutEdge(int k) { return kFalls && first + k == 0; }
+bool isOwn(int k) { return isParticle(k) && !isCutEdge(k); }
 bool isEdge(int k) { return first + k + 1 < strand.particleCount && !isCutEdge(k); }
 bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.rootCount; }
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }

@@ -131,8 +131,7 @@ Settings meetingSettings() {
 
 Result<double> shakenError(
     const ComputeDevice& device, const Groom& groom, const Settings& settings, const KernelChoice& kernel,
-    int frameCount,
-    const std::function<void(const Simulation&, const reference::Simulation<double>&)>& afterFrame) {
+    int frameCount, const std::function<void(Simulation&, reference::Simulation<double>&)>& afterFrame) {
   auto simulation = Simulation::create(device, groom, {}, settings, {}, kernel);
   if (!simulation) return simulation.error();
   reference::Simulation<double> reference(groom, {}, settings);

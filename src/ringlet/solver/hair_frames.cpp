@@ -83,7 +83,6 @@ Status Simulation::Implementation::checkFree(const HairFrame& frame) const {
   if (lostFrame) return *lostFrame;
   if (divided)
     return Error{"a frame of hair that other devices share is several submissions: step it by itself"};
-  if (!fallen.empty()) return Error{"a frame of hair that was cut is several submissions: step it by itself"};
   const std::uint64_t open = submitted - finished;
   const bool isAlone = contacts || isJump(frame.stepPoses);
   if (open == 0 || (!isAlone && open < kFramesInFlight)) return {};

@@ -168,20 +168,31 @@ DeviceGroom& Simulation::Implementation::changed() {
   return buffers;
 }
 
-// Moves all hair rigidly with the head.
+// Moves all hair rigidly with the head, but for what was cut off, which stays where it is.
 Status Simulation::Implementation::carryTo(const HeadPose& end) {
   const Quatd turned = normalized(end.rotation * head.now.rotation.conjugate());
   const bool turns = length(Vec3d{turned.x, turned.y, turned.z}) > 1e-12;
+  const HeadHistory before = head;
   head.jump(end);
-  if (!turns) return {};
+  if (!turns && pieces.empty()) return {};
   if (Status status = forgetContacts(); !status) return status;
-  for (const DeviceGroom::Field field : {&DeviceChunk::positions, &DeviceChunk::velocities}) {
-    const auto rotated = [&](layout::vec4 v) {
-      return packed(rotate(turned, static_cast<Vec3d>(unpacked(v))));
-    };
-    if (Status status = changed().changeEach(field, rotated); !status) return status;
-  }
-  return {};
+  const std::vector<std::uint32_t> fallen = fallenParticles();
+  const double T = settings.stepSeconds();
+  const auto carry = [&](DeviceGroom::Field field, Vec3d change) {
+    std::uint32_t i = 0;
+    std::size_t next = 0;
+    return changed().changeEach(field, [&](layout::vec4 value) {
+      const auto v = static_cast<Vec3d>(unpacked(value));
+      const bool falls = next < fallen.size() && fallen[next] == i;
+      ++i;
+      if (!falls) return packed(turns ? rotate(turned, v) : v);
+      ++next;
+      return packed(v - change);
+    });
+  };
+  if (Status status = carry(&DeviceChunk::positions, head.now.position - before.now.position); !status)
+    return status;
+  return carry(&DeviceChunk::velocities, head.velocity(T) - before.velocity(T));
 }
 
 // Sets the rest pose, carried by the head and the roots and moving with them.
@@ -233,11 +244,6 @@ Result<std::vector<Vec3f>> Simulation::positions() const {
     if (!values) return values;
     rigid.scatter(rigid.positions(self_->head.now), *values);
   }
-  for (const FallenHair& each : self_->fallen) {
-    const auto own = each.hair.positions();
-    if (!own) return own.error();
-    each.put(*own, *values);
-  }
   return values;
 }
 
@@ -262,11 +268,6 @@ Result<HairState> Simulation::state() const {
   const HeadHistory& head = self_->head;
   self_->rigidHair.scatter(
       self_->rigidHair.velocities(head.now, head.oneStepEarlier, self_->settings.stepSeconds()), *v);
-  for (const FallenHair& each : self_->fallen) {
-    const auto own = each.hair.self_->inGroomOrder(&DeviceChunk::velocities);
-    if (!own) return own.error();
-    each.put(*own, *v);
-  }
   return HairState{std::move(*p), std::move(*v)};
 }
 
@@ -282,8 +283,7 @@ Status Simulation::setState(const HairState& state) {
     return self_->changed().uploadEach(field, [&](std::size_t i) { return packed(values[place(i)]); });
   };
   if (Status status = upload(&DeviceChunk::positions, state.positions); !status) return status;
-  if (Status status = upload(&DeviceChunk::velocities, state.velocities); !status) return status;
-  return self_->ofFallen([&](Simulation& hair) { return hair.setState(state); });
+  return upload(&DeviceChunk::velocities, state.velocities);
 }
 
 Status Simulation::Implementation::archive(Archive& archive) {
@@ -292,7 +292,10 @@ Status Simulation::Implementation::archive(Archive& archive) {
   archive.value(stepsDone);
   archive.value(stepsBefore);
   archive.value(secondsBefore);
-  if (falls) archive.value(restTurn);
+  for (FallenPiece& piece : pieces) archive.value(piece.restTurn);
+  for (FallenChunk& chunk : fallenChunks) {
+    if (Status status = archiveBuffer(archive, chunk.reports); !status) return status;
+  }
   stillness.archive(archive);
   world.archive(archive);
   roots.archive(archive);
@@ -314,7 +317,7 @@ Status Simulation::Implementation::archive(Archive& archive) {
   if (contacts) {
     if (Status status = contacts->archive(archive); !status) return status;
   }
-  return ofFallen([&](Simulation& hair) { return hair.self_->archive(archive); });
+  return {};
 }
 
 Result<std::vector<std::byte>> Simulation::checkpoint() {
@@ -328,8 +331,7 @@ Status Simulation::restore(std::span<const std::byte> checkpoint) {
   if (Status status = self_->archive(archive); !status) return status;
   if (!archive.isWhole()) return Error{kForeignCheckpoint};
   self_->forgetFrames();
-  for (FallenHair& each : self_->fallen) each.hair.self_->forgetFrames();
-  return {};
+  return self_->pieces.empty() ? Status{} : self_->renewConstants();
 }
 
 const HeadPose& Simulation::head() const { return self_->head.now; }
@@ -338,36 +340,33 @@ Result<SimulationReport> Simulation::report() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
   const auto reports = self_->buffers.downloadReports();
   if (!reports) return reports.error();
+  const auto ofPieces = self_->fallenReports();
+  if (!ofPieces) return ofPieces.error();
   SimulationReport total;
   std::uint64_t edges = 0, limited = 0;
-  for (std::size_t s = 0; s < reports->size(); ++s) {
-    if (!self_->isHere(s)) continue;
-    const layout::StrandReport& r = (*reports)[s];
-    edges += self_->edgeCountOf(s);
+  // Of the particles [begin, end) of a strand.
+  const auto add = [&](const layout::StrandReport& r, std::size_t s, std::uint32_t begin, std::uint32_t end,
+                       std::uint32_t first) {
+    edges += end - begin - 1;
     limited += r.limitedEdges;
     total.maxEdgeStretch = std::max<double>(total.maxEdgeStretch, r.maxStretch);
     total.degenerateEdges += r.degenerateEdges;
     total.velocityResidual = std::max<double>(total.velocityResidual, r.velocityResidual);
     total.nonfinite += r.nonfiniteParticles;
     const std::int64_t strand = self_->rest.strandInGroom[s];
-    if (r.nonfiniteParticles > 0 && (total.firstNonfiniteStrand < 0 || strand < total.firstNonfiniteStrand)) {
-      total.firstNonfiniteStrand = strand;
-      total.firstNonfiniteParticle = r.firstNonfinite + self_->firstOf(s);
-    }
+    const bool isFirst = total.firstNonfiniteStrand < 0 || strand < total.firstNonfiniteStrand;
+    if (r.nonfiniteParticles == 0 || !isFirst) return;
+    total.firstNonfiniteStrand = strand;
+    total.firstNonfiniteParticle = first + r.firstNonfinite;
+  };
+  for (std::size_t s = 0; s < reports->size(); ++s)
+    if (self_->isHere(s)) add((*reports)[s], s, 0, self_->keptOf(s), 0);
+  for (std::size_t k = 0; k < self_->pieces.size(); ++k) {
+    const FallenPiece& piece = self_->pieces[k];
+    add((*ofPieces)[k], piece.strand, piece.begin, piece.end, piece.begin - 1);
   }
   const double edgeSteps = static_cast<double>(edges) * static_cast<double>(self_->stepsDone);
   total.limitedShare = edgeSteps > 0 ? static_cast<double>(limited) / edgeSteps : 0;
-  for (const FallenHair& each : self_->fallen) {
-    const auto own = each.hair.report();
-    if (!own) return own.error();
-    total.maxEdgeStretch = std::max(total.maxEdgeStretch, own->maxEdgeStretch);
-    total.degenerateEdges += own->degenerateEdges;
-    if (total.nonfinite == 0) {
-      total.firstNonfiniteStrand = own->firstNonfiniteStrand;
-      total.firstNonfiniteParticle = own->firstNonfiniteParticle;
-    }
-    total.nonfinite += own->nonfinite;
-  }
   if (total.nonfinite > 0) total.maxEdgeStretch = std::numeric_limits<double>::infinity();
   return total;
 }
@@ -402,8 +401,6 @@ std::size_t Simulation::rigidStrandCount() const { return self_->rigidHair.stran
 const std::vector<std::string>& Simulation::warnings() const { return self_->warnings; }
 std::map<std::string, double> Simulation::stageMilliseconds() const {
   std::map<std::string, double> all = self_->stageMilliseconds;
-  for (const FallenHair& each : self_->fallen)
-    for (const auto& [stage, milliseconds] : each.hair.stageMilliseconds()) all[stage] += milliseconds;
   return all;
 }
 
@@ -434,11 +431,8 @@ DeviceMemory Simulation::memory() const {
                   s.forces.writtenBytes() + s.goals.writtenBytes() + s.fields.writtenBytes();
   for (const FrameSlot& slot : s.slots) memory.frames += slot.bytes();
   if (s.divided) memory.frames += s.divided->bytes();
-  for (const FallenHair& each : s.fallen) {
-    const DeviceMemory own = each.hair.memory();
-    memory.particles += own.particles, memory.strands += own.strands, memory.world += own.world;
-    memory.frames += own.frames;
-  }
+  for (const FallenChunk& chunk : s.fallenChunks)
+    memory.strands += chunk.strands.bytes() + chunk.reports.bytes();
   return memory;
 }
 

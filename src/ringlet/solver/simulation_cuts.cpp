@@ -1,6 +1,6 @@
-// Implements cuts of solver/simulation.h. Each call makes a simulation of the strands that it cuts, whose
-// records begin with the last particle that is kept. That particle is pinned and the edge from it void
-// (kernels/strand_step.comp, kFalls), so that solvers need not know of strands without a root.
+// Implements cuts of solver/simulation.h. What is cut off keeps its particles: contacts and all that reads
+// positions know no difference. Kernels of its own step it (kernels/strand_step.comp, kFalls), from records
+// of its own.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,30 +18,38 @@ namespace {
 
 Vec3d vectorOf(const layout::vec3& v) { return {v.x, v.y, v.z}; }
 
-// The rest state of what begins with an edge: its frames and smoothed curves begin there, and shape and
-// springs stay.
-void beginWith(std::uint32_t edge, const layout::StrandRest& whole, std::span<const Vec3f> points,
-               layout::StrandRest& strand, std::span<layout::ParticleRest> particles) {
-  std::vector<Vec3d> edges;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
-    edges.push_back(static_cast<Vec3d>(points[i + 1]) - static_cast<Vec3d>(points[i]));
-  const auto rest = std::span<const Vec3d>(edges).subspan(edge);
+// The rest state of a piece, which begins with its first edge: its frames and smoothed curves begin there,
+// turned as the head was when it was cut, and shape and springs stay. `points`, `particles`: of the strand.
+void beginWith(const FallenPiece& piece, std::span<const Vec3f> points, layout::StrandRest& strand,
+               std::span<layout::ParticleRest> particles) {
+  std::vector<Vec3d> whole, rest;
+  for (std::size_t i = 0; i + 1 < piece.end; ++i)
+    whole.push_back(static_cast<Vec3d>(points[i + 1]) - static_cast<Vec3d>(points[i]));
+  for (std::size_t i = piece.begin; i < whole.size(); ++i) rest.push_back(rotate(piece.restTurn, whole[i]));
   if (rest.empty()) return;  // a single particle
-  const auto before = framesBeforeEdges(smoothEdges(edges, whole.bendBeta), edges[0]);
-  const auto frames = framesBeforeEdges(smoothEdges(rest, whole.bendBeta), rest[0]);
-  const auto coreEdges = smoothEdges(rest, whole.coreBeta);
+  const auto before = framesBeforeEdges(smoothEdges(whole, strand.bendBeta), whole[0]);
+  const auto frames = framesBeforeEdges(smoothEdges(rest, strand.bendBeta), rest[0]);
+  const auto coreEdges = smoothEdges(rest, strand.coreBeta);
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    layout::ParticleRest& particle = particles[edge + i];
-    const Vec3d target = rotate(before[edge + i], vectorOf(particle.target));
+    layout::ParticleRest& particle = particles[piece.begin + i];
+    const Vec3d target = rotate(piece.restTurn * before[piece.begin + i], vectorOf(particle.target));
     particle.target = packed3(rotate(frames[i].conjugate(), target));
     particle.coreEdgeLength = static_cast<float>(length(coreEdges[i]));
   }
   strand.firstEdge = packed3(rest[0]);
 }
 
-Result<std::vector<layout::ParticleRest>> particlesOn(const DeviceGroom& groom) {
+// Of the particles [begin, end) of a strand.
+float restCoreLength(std::span<const layout::ParticleRest> particles, std::uint32_t begin,
+                     std::uint32_t end) {
+  double length = 0;
+  for (std::uint32_t i = begin; i + 1 < end; ++i) length += particles[i].coreEdgeLength;
+  return static_cast<float>(std::max(length, 1e-12));
+}
+
+Result<std::vector<layout::ParticleRest>> particlesOf(std::span<const ConstantChunk> chunks) {
   std::vector<layout::ParticleRest> all;
-  for (const DeviceChunk& chunk : groom.chunks) {
+  for (const ConstantChunk& chunk : chunks) {
     const auto some = downloadAll<layout::ParticleRest>(*chunk.particles, chunk.part.particleCount());
     if (!some) return some.error();
     all.insert(all.end(), some->begin(), some->end());
@@ -51,28 +59,13 @@ Result<std::vector<layout::ParticleRest>> particlesOn(const DeviceGroom& groom) 
 
 }  // namespace
 
-Material fallenMaterial(Material material) {
-  material.gravityFactor = material.inertiaFactor = 1;
-  return material;
-}
-
-Settings fallenSettings(Settings settings) {
-  settings.rootCount = 1;
-  settings.teleportDistance = 0;
-  settings.sleepSpeed = 0;
-  settings.goal = {};
-  return settings;
-}
-
 Status Simulation::Implementation::checkCuts(std::span<const StrandCut> cuts) const {
   if (settings.integrator != Integrator::jacobi)
     return Error{"hair is cut with the integrator jacobi only; this run has another"};
-  if (settings.contacts.on) return Error{"hair with contacts is not cut; turn contacts off"};
   if (!rest.elsewhere.empty() || divided)
     return Error{"hair that is divided among devices is not cut; use one device"};
   std::vector<std::uint32_t> stay(rest.groomStrandCount, 0);  // 0: rigid
-  for (std::size_t s = 0; s < rest.strands.size(); ++s)
-    stay[rest.strandInGroom[s]] = parts.empty() ? rest.strands[s].particleCount : parts[s].end;
+  for (std::size_t s = 0; s < rest.strands.size(); ++s) stay[rest.strandInGroom[s]] = keptOf(s);
   const auto least = static_cast<std::uint32_t>(std::max(settings.rootCount, 2));
   for (const StrandCut& cut : cuts) {
     if (cut.strand >= stay.size())
@@ -88,114 +81,147 @@ Status Simulation::Implementation::checkCuts(std::span<const StrandCut> cuts) co
   return {};
 }
 
-// Takes over what is known of each strand's part.
-void Simulation::Implementation::restrict(std::span<layout::StrandRest> of,
-                                          std::span<layout::ParticleRest> particles) const {
-  for (std::size_t s = 0; s < parts.size(); ++s) {
-    const layout::StrandRest& whole = rest.strands[s];
-    const StrandPart& part = parts[s];
-    if (part.begin == 0 && part.end == whole.particleCount) continue;
-    const auto own = particles.subspan(whole.firstParticle, whole.particleCount);
-    if (falls)
-      beginWith(part.begin, whole, std::span(rest.points).subspan(whole.firstParticle, part.end), of[s], own);
-    const std::uint32_t first = falls ? part.begin - 1 : 0;
-    of[s].firstParticle = whole.firstParticle + first;
-    of[s].particleCount = part.end - first;
-    double core = 0;
-    for (std::uint32_t i = part.begin; i + 1 < part.end; ++i) core += own[i].coreEdgeLength;
-    of[s].restCoreLength = static_cast<float>(std::max(core, 1e-12));
+Status Simulation::Implementation::cut(std::span<const StrandCut> cuts) {
+  const auto reports = fallenReports();
+  if (!reports) return reports.error();
+  for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k].report = (*reports)[k];
+  if (kept.empty())
+    for (const layout::StrandRest& strand : rest.strands) kept.push_back(strand.particleCount);
+  std::vector<std::uint32_t> onDevice(rest.groomStrandCount, ~0u);  // rigid strands are not there
+  for (std::uint32_t s = 0; s < rest.strands.size(); ++s) onDevice[rest.strandInGroom[s]] = s;
+  for (const StrandCut& cut : cuts) {
+    const std::uint32_t s = onDevice[cut.strand];
+    if (s == ~0u) continue;
+    pieces.push_back({.strand = s, .begin = cut.keep, .end = kept[s], .restTurn = head.now.rotation});
+    kept[s] = cut.keep;
   }
+  std::ranges::sort(pieces, {}, [](const FallenPiece& p) { return std::pair(p.strand, p.begin); });
+  if (Status status = makeFallen(); !status) return status;
+  if (volume) {
+    if (Status status = volume->release(fallenParticles()); !status) return status;
+  }
+  return renewConstants();
 }
 
-Status Simulation::Implementation::takeParts(std::vector<StrandPart> wanted) {
-  auto particles = particlesOn(buffers);
-  if (!particles) return particles.error();
-  parts = std::move(wanted);
-  // Springs as they are: those of a material that has changed too.
-  std::vector<layout::StrandRest> own;
-  for (const DeviceChunk& chunk : buffers.chunks) {
-    auto some = downloadAll<layout::StrandRest>(*chunk.strands, chunk.part.strandCount());
-    if (!some) return some.error();
-    own.insert(own.end(), some->begin(), some->end());
+// Buffers, ranges and kernels. A piece has the shape of the strand that it was.
+Status Simulation::Implementation::makeFallen() {
+  fallenChunks.clear();
+  fallenRanges.clear();
+  std::size_t done = 0;
+  for (std::uint32_t c = 0; c < buffers.chunks.size(); ++c) {
+    const GroomChunk& part = buffers.chunks[c].part;
+    const std::size_t first = done;
+    for (const StrandRange& range : ranges) {
+      if (range.chunk != c) continue;
+      const std::size_t begin = done;
+      while (done < pieces.size() && pieces[done].strand < part.strandBegin + range.end) ++done;
+      if (done > begin)
+        fallenRanges.push_back({range.shape, static_cast<std::uint32_t>(begin - first),
+                                static_cast<std::uint32_t>(done - first), range.longest, c});
+    }
+    std::vector<layout::StrandReport> reports;
+    for (std::size_t k = first; k < done; ++k) reports.push_back(pieces[k].report);
+    auto records = createZero(device.gpu(), reports.size() * sizeof(layout::StrandRest), "fallen strands");
+    if (!records) return records.error();
+    auto ofPieces = createFilled(device.gpu(), reports, "reports of fallen strands");
+    if (!ofPieces) return ofPieces.error();
+    fallenChunks.push_back({std::move(*records), std::move(*ofPieces)});
   }
-  for (std::size_t s = 0; s < own.size(); ++s) own[s].firstParticle = rest.strands[s].firstParticle;
-  restrict(own, *particles);
+  RINGLET_ASSERT(done == pieces.size(), "every piece is of a strand of some range");
+  return create(fallenKernels, fallenOptions());
+}
+
+// The constants, of the present material and of what was cut.
+Status Simulation::Implementation::renewConstants() {
+  std::vector<layout::StrandRest> own = strands.empty() ? rest.strands : strands;
+  std::vector<std::string> sentences;
+  auto particles =
+      liveMaterial ? liveMaterial->with(material, own, sentences) : particlesOf(asset->constants);
+  if (!particles) return particles.error();
+  const std::vector<layout::StrandRest> fallen = restrict(own, *particles);
   if (Status status = buffers.setConstants(device.gpu(), own, *particles); !status) return status;
+  if (Status status = uploadFallen(fallen); !status) return status;
+  if (Status status = bindKernels(); !status) return status;
+  if (liveMaterial) {
+    warnings = std::move(sentences);
+    warnings.insert(warnings.end(),
+                    rest.warnings.begin() + static_cast<std::ptrdiff_t>(rest.materialWarningCount),
+                    rest.warnings.end());
+  }
   stillness.wake();
   forgetRecordings();
-  return bindKernels();
+  return {};
 }
 
-Result<FallenHair> Simulation::Implementation::fall(std::span<const StrandCut> cuts,
-                                                    const HairState& state) const {
-  std::vector<std::uint32_t> strandsCut;
-  for (const StrandCut& cut : cuts) strandsCut.push_back(cut.strand);
-  std::ranges::sort(strandsCut);
-  KernelChoice kernels = choice;
-  kernels.part = strandsCut;
-  kernels.observer = nullptr;
-  kernels.heads = 1;
-  kernels.movingRoots = kernels.goals = kernels.taps = kernels.residual = false;
-  const auto made = HairAsset::build(device, groomOf(rest), fallenMaterial(asset->material),
-                                     fallenSettings(asset->settings), kernels, asset->bodies);
-  if (!made) return made.error();
-  auto hair = Simulation::create(*made, {.head = head.now,
-                                         .oneStepEarlier = head.oneStepEarlier,
-                                         .bodies = world.bodies(),
-                                         .bodyPlaces = world.places(),
-                                         .readsBack = readsBack});
-  if (!hair) return hair.error();
-  FallenHair fallenHair{std::move(*hair), {}};
-  Implementation& self = *fallenHair.hair.self_;
-  if (Status set = fallenHair.hair.setSettings(fallenSettings(settings)); !set) return set.error();
-  // A material that has changed has other last bits than one that never did.
-  if (liveMaterial) {
-    if (Status set = self.change(fallenMaterial(material)); !set) return set.error();
+// Of whole strands what each keeps, and the records of the pieces.
+std::vector<layout::StrandRest> Simulation::Implementation::restrict(
+    std::span<layout::StrandRest> of, std::span<layout::ParticleRest> particles) const {
+  std::vector<layout::StrandRest> fallen;
+  for (const FallenPiece& piece : pieces) {
+    layout::StrandRest strand = of[piece.strand];
+    const layout::StrandRest& whole = rest.strands[piece.strand];
+    const auto own = particles.subspan(whole.firstParticle, whole.particleCount);
+    beginWith(piece, std::span(rest.points).subspan(whole.firstParticle, whole.particleCount), strand, own);
+    strand.firstParticle = whole.firstParticle + piece.begin - 1;
+    strand.particleCount = piece.count() + 1;
+    strand.restCoreLength = restCoreLength(own, piece.begin, piece.end);
+    fallen.push_back(strand);
   }
-  if (choice.fields) {
-    if (Status set = fallenHair.hair.setFields(fields.now()); !set) return set.error();
+  for (std::size_t s = 0; s < kept.size(); ++s) {
+    const layout::StrandRest& whole = rest.strands[s];
+    if (kept[s] == whole.particleCount) continue;
+    of[s].particleCount = kept[s];
+    of[s].restCoreLength =
+        restCoreLength(particles.subspan(whole.firstParticle, whole.particleCount), 0, kept[s]);
   }
-  self.stepsDone = stepsDone, self.stepsBefore = stepsBefore, self.secondsBefore = secondsBefore;
-  self.falls = true;
-  self.restTurn = head.now.rotation;
-  if (Status status = self.makeKernels(); !status) return status.error();
-  std::vector<StrandPart> wanted(self.rest.strands.size());
-  for (std::size_t s = 0; s < wanted.size(); ++s) {
-    const std::uint32_t strand = self.rest.strandInGroom[s];
-    const auto own = std::ranges::find(rest.strandInGroom, strand) - rest.strandInGroom.begin();
-    const auto cut = std::ranges::find(cuts, strand, &StrandCut::strand);
-    wanted[s] = {cut->keep, parts.empty() ? self.rest.strands[s].particleCount
-                                          : parts[static_cast<std::size_t>(own)].end};
-    fallenHair.runs.push_back({self.rest.firstInGroom[s] + wanted[s].begin, wanted[s].end - wanted[s].begin});
-  }
-  if (Status status = self.takeParts(std::move(wanted)); !status) return status.error();
-  if (Status status = fallenHair.hair.setState(state); !status) return status.error();
-  return fallenHair;
+  return fallen;
 }
 
-Status Simulation::cut(std::span<const StrandCut> wanted) {
+// `fallen`: of the pieces.
+Status Simulation::Implementation::uploadFallen(std::span<const layout::StrandRest> fallen) {
+  std::size_t done = 0;
+  for (std::size_t c = 0; c < fallenChunks.size(); ++c) {
+    const GroomChunk& part = buffers.chunks[c].part;
+    std::vector<layout::StrandRest> ofChunk;
+    for (; done < pieces.size() && pieces[done].strand < part.strandEnd; ++done) {
+      ofChunk.push_back(fallen[done]);
+      ofChunk.back().firstParticle -= part.particleBegin;
+    }
+    if (Status status = fallenChunks[c].strands.upload(std::as_bytes(std::span(ofChunk))); !status)
+      return status;
+  }
+  return {};
+}
+
+// Device order.
+std::vector<std::uint32_t> Simulation::Implementation::fallenParticles() const {
+  std::vector<std::uint32_t> particles;
+  for (const FallenPiece& piece : pieces)
+    for (std::uint32_t i = piece.begin; i < piece.end; ++i)
+      particles.push_back(rest.strands[piece.strand].firstParticle + i);
+  return particles;
+}
+
+// By piece.
+Result<std::vector<layout::StrandReport>> Simulation::Implementation::fallenReports() const {
+  std::vector<layout::StrandReport> all;
+  for (const FallenChunk& chunk : fallenChunks) {
+    const std::size_t count = chunk.reports.bytes() / sizeof(layout::StrandReport);
+    const auto some = downloadAll<layout::StrandReport>(chunk.reports, count);
+    if (!some) return some.error();
+    all.insert(all.end(), some->begin(), some->end());
+  }
+  return all;
+}
+
+Status Simulation::cut(std::span<const StrandCut> cuts) {
   Implementation& self = *self_;
   RINGLET_ASSERT(self.lostFrame || self.waited == self.submitted, "cut while frames are in flight");
-  if (Status status = self.checkCuts(wanted); !status) return status;
-  std::vector<StrandCut> cuts(wanted.begin(), wanted.end());
-  std::erase_if(cuts, [&](const StrandCut& cut) {
-    return std::ranges::find(self.rest.strandInGroom, cut.strand) == self.rest.strandInGroom.end();
-  });
-  if (cuts.empty()) return {};
-  const auto state = this->state();
-  if (!state) return state.error();
-  auto fallen = self.fall(cuts, *state);
-  if (!fallen) return fallen.error();
-  std::vector<StrandPart> kept = self.parts;
-  if (kept.empty())
-    for (const layout::StrandRest& strand : self.rest.strands) kept.push_back({0, strand.particleCount});
-  for (std::size_t s = 0; s < kept.size(); ++s) {
-    const auto cut = std::ranges::find(cuts, self.rest.strandInGroom[s], &StrandCut::strand);
-    if (cut != cuts.end()) kept[s].end = cut->keep;
-  }
-  if (Status status = self.takeParts(std::move(kept)); !status) return status;
-  self.fallen.push_back(std::move(*fallen));
-  return {};
+  if (self.lostFrame) return *self.lostFrame;
+  if (Status status = self.checkCuts(cuts); !status) return status;
+  Status status = self.cut(cuts);
+  if (!status) self.lostFrame = status.error();
+  return status;
 }
 
 }  // namespace ringlet

@@ -16,7 +16,8 @@ layout::StepParameters Simulation::Implementation::parametersOf(const StrandKern
                                                                 const PlannedDispatch& dispatch,
                                                                 std::uint32_t heads) const {
   layout::StepParameters p{};
-  p.gravity = packed3(settings.gravity * material.gravityFactor);
+  p.gravity = packed3(settings.gravity * (of.areFallen ? 1 : material.gravityFactor));
+  p.inertiaFactor = static_cast<float>(of.areFallen ? 1 : material.inertiaFactor);
   p.seconds = static_cast<float>(settings.stepSeconds());
   p.maxStretch = static_cast<float>(settings.maxStretch);
   p.coreRelaxedShare = static_cast<float>(material.coreRelaxedShare);
@@ -26,7 +27,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const StrandKern
   p.strandEnd = dispatch.strandEnd;
   p.stepBegin = dispatch.stepBegin;
   p.stepEnd = dispatch.stepEnd;
-  p.rootCount = static_cast<std::uint32_t>(settings.rootCount);
+  p.rootCount = of.areFallen ? 1 : static_cast<std::uint32_t>(settings.rootCount);
   p.pointIterations = static_cast<std::uint32_t>(settings.pointIterations);
   p.chebyshev = settings.chebyshev ? 1 : 0;
   p.forceLoops = static_cast<std::uint32_t>(settings.forceLoops);
@@ -53,7 +54,7 @@ layout::StepParameters Simulation::Implementation::parametersOf(const StrandKern
 // One stage, or in several submissions one in each.
 void Simulation::Implementation::dispatchAll(FrameRecording& frame, const StrandKernels& of,
                                              std::span<const PlannedDispatch> dispatches) const {
-  if (dispatches.empty()) return;  // all strands are rigid
+  if (dispatches.empty()) return;  // all strands are rigid, or none was cut
   for (std::size_t d = 0; d < dispatches.size(); ++d) {
     const PlannedDispatch& now = dispatches[d];
     const auto particleSteps = static_cast<double>(particleStepsOf(now, of.ranges));
@@ -65,7 +66,8 @@ void Simulation::Implementation::dispatchAll(FrameRecording& frame, const Strand
     // Dispatches on other strands may overlap. The validation layer sees whole buffers, and would take them
     // for hazards.
     const bool isValidated = device.gpu().validationLog() != nullptr;
-    if (d > 0 && !cuts && (isValidated || sharesStrands(dispatches[d - 1], now))) frame.list.barrier();
+    const bool readsLast = d > 0 && sharesStrands(dispatches[d - 1], now);
+    if (!cuts && (readsLast || (isValidated && (d > 0 || of.areFallen)))) frame.list.barrier();
     if (frame.heads == 0) continue;
     frame.list.dispatch(*of.kernels[of.kernelOf[now.range]], of.bindingsOf(now.range, frame.heads),
                         parametersOf(of, now, frame.heads),
@@ -99,11 +101,13 @@ Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
     return {};
   }
   if (contacts || volume) return recordContactFrame(frame, 0, true);
-  const auto plan = planFrame(ranges, asset->limits, settings, world.bodyCount(), asset->groupSize,
-                              frame.pace.mostParticleSteps());
-  if (!plan) return plan.error();
   beginFrame(frame);
-  dispatchAll(frame, strandKernels, *plan);
+  for (const StrandKernels* of : {&strandKernels, &fallenKernels}) {
+    const auto plan = planFrame(of->ranges, asset->limits, settings, world.bodyCount(), asset->groupSize,
+                                frame.pace.mostParticleSteps());
+    if (!plan) return plan.error();
+    dispatchAll(frame, *of, *plan);
+  }
   recordEnd(frame);
   return {};
 }
@@ -118,11 +122,13 @@ Status Simulation::Implementation::recordPass(FrameRecording& frame, const Solve
     return recordPass(frame, {.step = pass.step + 1});
   }
   const bool isFirstSolve = !pass.withContacts && firstSolveKernels.areThere();
-  const StrandKernels& of = isFirstSolve ? firstSolveKernels : strandKernels;
-  const auto dispatches = planPass(of.ranges, asset->limits, settings, isFirstSolve ? 0 : world.bodyCount(),
-                                   asset->groupSize, pass, frame.pace.mostParticleSteps());
-  if (!dispatches) return dispatches.error();
-  dispatchAll(frame, of, *dispatches);
+  for (const StrandKernels* of : {isFirstSolve ? &firstSolveKernels : &strandKernels, &fallenKernels}) {
+    const std::size_t bodies = of == &firstSolveKernels ? 0 : world.bodyCount();
+    const auto dispatches = planPass(of->ranges, asset->limits, settings, bodies, asset->groupSize, pass,
+                                     frame.pace.mostParticleSteps());
+    if (!dispatches) return dispatches.error();
+    dispatchAll(frame, *of, *dispatches);
+  }
   frame.list.barrier();
   return {};
 }
@@ -345,14 +351,13 @@ void Simulation::Implementation::writePoses(std::size_t slot, std::span<const He
   goals.writeFrame(slot);
   fields.writeFrame(slot, std::span(heads).subspan(1), T);
   const auto poses = buffers.poses.of<layout::StepPose>(slot);
-  const auto rotation = [&] { return packed(falls ? restTurn : head.now.rotation); };
+  const auto rotation = [&] { return packed(head.now.rotation); };
   poses[0] = {rotation(), packed(head.turn()), {}, static_cast<float>(head.now.shift)};
   for (std::size_t k = 0; k < stepPoses.size(); ++k) {
     const Vec3d before = head.velocity(T);
     head = {head.now, stepPoses[k]};
     head.now.rotation = normalized(head.now.rotation);
-    poses[1 + k] = {rotation(), packed(head.turn()),
-                    packed3((head.velocity(T) - before) * material.inertiaFactor),
+    poses[1 + k] = {rotation(), packed(head.turn()), packed3(head.velocity(T) - before),
                     static_cast<float>(head.now.shift)};
   }
 }
@@ -378,24 +383,21 @@ Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<cons
 
 Status Simulation::submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                                std::span<const BodyPose> rootPoses) {
-  if (Status status = self_->submitFrame(stepPoses, bodyPoses, rootPoses); !status) return status;
-  return self_->ofFallen([&](Simulation& hair) { return hair.submitFrame(stepPoses, bodyPoses); });
+  return self_->submitFrame(stepPoses, bodyPoses, rootPoses);
 }
 
 Status Simulation::waitFrame() {
   RINGLET_ASSERT(self_->waited < self_->submitted, "waitFrame without submitFrame");
   if (Status status = self_->finishFrames(self_->waited + 1); !status) return status;
   ++self_->waited;
-  return self_->ofFallen([](Simulation& hair) { return hair.waitFrame(); });
+  return {};
 }
 
 std::vector<Vec3f> Simulation::framePositions() const {
   RINGLET_ASSERT(self_->readsBack, "framePositions of a simulation that reads nothing back");
   RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
                  "framePositions before waitFrame, or after its place was taken");
-  auto values = self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers, self_->rigidHair);
-  for (const FallenHair& each : self_->fallen) each.put(each.hair.framePositions(), values);
-  return values;
+  return self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers, self_->rigidHair);
 }
 
 Status Simulation::stepFrame(const HeadPose& end) {

@@ -88,6 +88,7 @@ struct StrandKernels {
   std::vector<std::size_t> kernelOf{};                        // of each range
   std::vector<gpu::Bindings> bindings{};                      // one per range
   bool areOfHeads = false;                                    // StrandKernelOptions::heads
+  bool areFallen = false;                                     // StrandKernelOptions::falls
   std::map<std::uint32_t, BoundHeads> ofHeads{};              // by how many; of one: bindings
 
   const gpu::Bindings& bindingsOf(std::uint32_t range, std::uint32_t heads) const {
@@ -97,29 +98,21 @@ struct StrandKernels {
   bool areThere() const { return !kernels.empty(); }
 };
 
-// What was cut off at once, and where it stands in the groom's order.
-struct FallenHair {
-  struct Run {
-    std::uint32_t first, count;
-  };
-  Simulation hair;
-  std::vector<Run> runs;
+// Particles of a strand, device order, that were cut off it together. Its record on the device begins with
+// the particle before them, which is the strand's: it is pinned, and the edge from it void.
+struct FallenPiece {
+  std::uint32_t strand = 0;
+  std::uint32_t begin = 0, end = 0;  // particles, counted along the strand
+  Quatd restTurn{};                  // of its rest pose: the head's when it was cut
+  layout::StrandReport report{};     // while the pieces are put in order
 
-  // Its values in their places among all.
-  void put(std::span<const Vec3f> values, std::span<Vec3f> all) const {
-    for (const Run& run : runs)
-      std::ranges::copy(values.subspan(run.first, run.count), all.begin() + run.first);
-  }
+  std::uint32_t count() const { return end - begin; }
 };
 
-// Of a strand, the particles that are simulated.
-struct StrandPart {
-  std::uint32_t begin = 0, end = 0;
+// What the device has of the pieces of a chunk's strands; their particles are the chunk's.
+struct FallenChunk {
+  gpu::Buffer strands, reports;
 };
-
-// What falls feels no head and has no goals.
-Material fallenMaterial(Material material);
-Settings fallenSettings(Settings settings);
 
 struct Simulation::Implementation {
   std::shared_ptr<const HairAsset::Implementation> asset;
@@ -149,10 +142,13 @@ struct Simulation::Implementation {
   StrandKernels strandKernels;
   StrandKernels firstSolveKernels;  // of the first solve of a step; none: the kernels above
 
-  std::vector<StrandPart> parts{};   // of strands, device order, once some were cut; none: all of them
-  bool falls = false;                // what was cut off; each part begins with the particle before it
-  Quatd restTurn{};                  // of its rest pose, when it was cut
-  std::vector<FallenHair> fallen{};  // what was cut off this hair, cut by cut
+  // Once some strands were cut: particles that each keeps, device order; what fell, by strand and from its
+  // root on; and how the device has that.
+  std::vector<std::uint32_t> kept{};
+  std::vector<FallenPiece> pieces{};
+  std::vector<FallenChunk> fallenChunks{};
+  std::vector<StrandRange> fallenRanges{};
+  StrandKernels fallenKernels{fallenRanges};
 
   std::optional<ContactStage> contacts{};  // of strands that meet pair by pair
   std::optional<VolumeStage> volume{};     // of strands that meet as a volume
@@ -184,6 +180,7 @@ struct Simulation::Implementation {
   Status create(StrandKernels& of, const StrandKernelOptions& options) const;
   Status bindKernels();
   Status bindKernels(StrandKernels& of);
+  StrandKernelOptions fallenOptions() const;
   Status bindHeads(std::uint32_t heads);
   gpu::BufferTable bufferTable(std::size_t chunk) const;
   void dispatchNothing(gpu::CommandList& list, const StrandKernels& of,
@@ -208,23 +205,19 @@ struct Simulation::Implementation {
   Status change(std::span<const Body> bodies, std::span<const BodyPose> places);
 
   // simulation_cuts.cpp
-  template <class Work>
-  Status ofFallen(Work&& work) {
-    for (FallenHair& each : fallen) {
-      if (Status status = work(each.hair); !status) return status;
-    }
-    return {};
-  }
-  // Of a strand as the device has it, which particle is the first, and how many edges it has.
-  std::uint32_t firstOf(std::size_t strand) const { return falls ? parts[strand].begin - 1 : 0; }
-  std::uint32_t edgeCountOf(std::size_t strand) const {
-    if (parts.empty()) return rest.strands[strand].particleCount - 1;
-    return parts[strand].end - parts[strand].begin - 1;
+  // Particles of a strand that its root holds.
+  std::uint32_t keptOf(std::size_t strand) const {
+    return kept.empty() ? rest.strands[strand].particleCount : kept[strand];
   }
   Status checkCuts(std::span<const StrandCut> cuts) const;
-  Result<FallenHair> fall(std::span<const StrandCut> cuts, const HairState& state) const;
-  Status takeParts(std::vector<StrandPart> wanted);
-  void restrict(std::span<layout::StrandRest> strands, std::span<layout::ParticleRest> particles) const;
+  Status cut(std::span<const StrandCut> cuts);
+  Status makeFallen();
+  Status renewConstants();
+  Status uploadFallen(std::span<const layout::StrandRest> strands);
+  std::vector<layout::StrandRest> restrict(std::span<layout::StrandRest> strands,
+                                           std::span<layout::ParticleRest> particles) const;
+  std::vector<std::uint32_t> fallenParticles() const;
+  Result<std::vector<layout::StrandReport>> fallenReports() const;
 
   // simulation_frames.cpp
   layout::StepParameters parametersOf(const StrandKernels& of, const PlannedDispatch& dispatch,

@@ -75,10 +75,17 @@ StrandKernelOptions Simulation::Implementation::kernelOptions() const {
           .goals = choice.goals,
           .goalShape = settings.goal.shape,
           .fields = choice.fields,
-          .falls = falls,
           .heads = buffers.place.has_value(),
           .subgroupSize = askedWidth(device.gpu().properties(), choice),
           .groupSize = asset->groupSize};
+}
+
+// Of what was cut off: no root carries it, and it is pulled to no place and no part of the volume.
+StrandKernelOptions Simulation::Implementation::fallenOptions() const {
+  StrandKernelOptions options = kernelOptions();
+  options.falls = true;
+  options.volume = options.movingRoots = options.goals = options.goalShape = options.heads = false;
+  return options;
 }
 
 // The shapes whose kernels no earlier simulation has made on this device.
@@ -100,6 +107,8 @@ Status Simulation::Implementation::create(StrandKernels& of, const StrandKernelO
   if (!made) return made.error();
   of.kernels = std::move(*made);
   of.areOfHeads = options.heads;
+  of.areFallen = options.falls;
+  of.kernelOf.clear();
   for (const StrandRange& range : of.ranges)
     of.kernelOf.push_back(static_cast<std::size_t>(std::ranges::find(shapes, range.shape) - shapes.begin()));
   return {};
@@ -140,7 +149,8 @@ Status Simulation::Implementation::makeKernels() {
 
 Status Simulation::Implementation::bindKernels() {
   if (Status status = bindKernels(strandKernels); !status) return status;
-  return bindKernels(firstSolveKernels);
+  if (Status status = bindKernels(firstSolveKernels); !status) return status;
+  return bindKernels(fallenKernels);
 }
 
 gpu::BufferTable Simulation::Implementation::bufferTable(std::size_t chunk) const {
@@ -157,7 +167,14 @@ Status Simulation::Implementation::bindKernels(StrandKernels& of) {
   of.bindings.clear();
   of.ofHeads.clear();
   for (std::size_t r = 0; r < of.ranges.size(); ++r) {
-    auto bound = gpu::Bindings::create(*of.kernels[of.kernelOf[r]], bufferTable(of.ranges[r].chunk));
+    const std::size_t chunk = of.ranges[r].chunk;
+    gpu::BufferTable table;
+    if (of.areFallen)
+      table = {{layout::kBindStrands, fallenChunks[chunk].strands},
+               {layout::kBindStrandTexels, fallenChunks[chunk].strands},
+               {layout::kBindReports, fallenChunks[chunk].reports}};
+    table.merge(bufferTable(chunk));
+    auto bound = gpu::Bindings::create(*of.kernels[of.kernelOf[r]], table);
     if (!bound) return bound.error();
     of.bindings.push_back(std::move(*bound));
   }

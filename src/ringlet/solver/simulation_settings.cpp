@@ -1,6 +1,8 @@
 // Implements the changes between frames of solver/simulation.h.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "layout/strands.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
@@ -67,20 +69,10 @@ Status Simulation::Implementation::change(const Material& wanted) {
     if (!made) return made.error();
     liveMaterial = std::move(*made);
   }
-  std::vector<layout::StrandRest> own = strands.empty() ? rest.strands : strands;
-  std::vector<std::string> sentences;
-  std::vector<layout::ParticleRest> particles = liveMaterial->with(wanted, own, sentences);
-  restrict(own, particles);
-  if (Status status = buffers.setConstants(device.gpu(), own, particles); !status) return status;
-  if (Status status = bindKernels(); !status) return status;
-  warnings = std::move(sentences);
-  warnings.insert(warnings.end(),
-                  rest.warnings.begin() + static_cast<std::ptrdiff_t>(rest.materialWarningCount),
-                  rest.warnings.end());
-  material = wanted;
-  stillness.wake();
-  forgetRecordings();
-  return {};
+  const Material before = std::exchange(material, wanted);
+  Status status = renewConstants();
+  if (!status) material = before;
+  return status;
 }
 
 Status Simulation::Implementation::change(std::span<const Body> bodies, std::span<const BodyPose> places) {
@@ -103,8 +95,7 @@ Status Simulation::Implementation::change(std::span<const Body> bodies, std::spa
 Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyPose> places) {
   RINGLET_ASSERT(places.empty() || places.size() == bodies.size(), "every body has a place");
   if (self_->asset->bodies == BodyUse::none && !bodies.empty()) return Error{kBuiltWithoutBodies};
-  if (Status status = self_->change(bodies, places); !status) return status;
-  return self_->ofFallen([&](Simulation& hair) { return hair.setBodies(bodies, places); });
+  return self_->change(bodies, places);
 }
 
 Status Simulation::setMaterial(const Material& material) {
@@ -119,14 +110,12 @@ Status Simulation::setMaterial(const Material& material) {
         "moves: build another asset",
         fixed)};
   }
-  if (Status status = self_->change(material); !status) return status;
-  return self_->ofFallen([&](Simulation& hair) { return hair.self_->change(fallenMaterial(material)); });
+  return self_->change(material);
 }
 
 Status Simulation::setSettings(const Settings& settings) {
   if (Status status = self_->checkChange(settings); !status) return status;
-  if (Status status = self_->change(settings); !status) return status;
-  return self_->ofFallen([&](Simulation& hair) { return hair.setSettings(fallenSettings(settings)); });
+  return self_->change(settings);
 }
 
 Status Simulation::setForces(std::span<const Vec3f> forces) {
@@ -137,7 +126,7 @@ Status Simulation::setForces(std::span<const Vec3f> forces) {
   }
   self_->forces.set(forces);
   self_->stillness.wake();
-  return self_->ofFallen([&](Simulation& hair) { return hair.setForces(forces); });
+  return {};
 }
 
 Status Simulation::setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
@@ -175,8 +164,7 @@ Status Simulation::setFields(std::span<const ForceField> fields, std::span<const
       if (Status checked = checkForceField(field); !checked) return checked;
     }
   }
-  if (Status status = self_->change(from.empty() ? fields : from, fields); !status) return status;
-  return self_->ofFallen([&](Simulation& hair) { return hair.setFields(fields, from); });
+  return self_->change(from.empty() ? fields : from, fields);
 }
 
 const Settings& Simulation::settings() const { return self_->settings; }

@@ -187,6 +187,14 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeNodeTexels, nodes}};
 }
 
+Status VolumeStage::release(std::span<const std::uint32_t> particles) {
+  auto all = downloadAll<layout::VolumeParticle>(buffers_->particles, parameters_.count);
+  if (!all) return all.error();
+  for (layout::VolumeParticle& each : *all)
+    if (std::ranges::binary_search(particles, each.particle)) each.mass = 0;
+  return buffers_->particles.upload(std::as_bytes(std::span(*all)));
+}
+
 void VolumeStage::setSettings(const Settings& settings) {
   const double T = settings.stepSeconds();
   parameters_.seconds = static_cast<float>(T);

@@ -55,6 +55,8 @@ class VolumeStage {
   /// Contributions of the particles, followed by their places: a vec4 each (layout::kBindVolumeBrought).
   const gpu::Buffer& brought() const { return buffers_->brought; }
 
+  /// These particles of the groom, by device index, ascending, are of the volume no more: they have fallen.
+  Status release(std::span<const std::uint32_t> particles);
   /// Changes the live settings. Invalidates earlier recordings.
   void setSettings(const Settings& settings);
   /// Clears displacements, after the hair was moved to another state.
