@@ -33,6 +33,7 @@ struct BackendInput {
   // Of each strand in the head's frame, before the first step and one step earlier; none: the head carries
   // them.
   std::span<const BodyPose> rootStarts, rootsEarlier;
+  const std::vector<StrandGeometry>* geometry = nullptr;  // as KernelChoice::geometry
 };
 
 class Backend {

@@ -14,9 +14,8 @@ constexpr std::size_t kRoom = 4;
 
 // From the solver's frame (metres, seen from the head's origin) to the file's.
 std::vector<Vec3f> toFile(std::span<const Vec3f> positions, const HeadPose& head, double metresPerUnit) {
-  std::vector<Vec3f> points(positions.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    points[i] = Vec3f((head.position + Vec3d(positions[i])) / metresPerUnit);
+  std::vector<Vec3f> points(positions.begin(), positions.end());  // in place: memory is what this costs
+  for (Vec3f& point : points) point = Vec3f((head.position + Vec3d(point)) / metresPerUnit);
   return points;
 }
 
@@ -27,6 +26,11 @@ FrameSink::FrameSink(const Groom& groom, FrameReaders readers)
 
 Status FrameSink::hand(ComputedFrame frame) {
   return thread_.hand([this, frame = std::move(frame)]() mutable { return take(std::move(frame)); });
+}
+
+Status FrameSink::finish() {
+  if (Status shown = thread_.hand([this] { return isShown_ ? Status{} : show(); }); !shown) return shown;
+  return thread_.finish();
 }
 
 void FrameSink::archive(Archive& archive) {
@@ -42,17 +46,25 @@ Status FrameSink::take(ComputedFrame frame) {
     Stopwatch watch(watching_);
     readers_.bodies->look(frame.positions, frame.head, frame.bodies);
   }
+  last_ = std::move(frame);
+  isShown_ = false;
+  const bool canWait = readers_.needLastOnly && areFinite(last_.positions);
+  if (Status shown = canWait ? Status{} : show(); !shown) return shown;
+  ++frameCount_;
+  return {};
+}
+
+Status FrameSink::show() {
   Stopwatch watch(writing_);
-  std::vector<Vec3f> points = toFile(frame.positions, frame.head, groom_.metresPerUnit);
+  std::vector<Vec3f> points = toFile(last_.positions, last_.head, groom_.metresPerUnit);
   mostReplaced_ = std::max(mostReplaced_, replaceNonfinite(groom_, points));
   if (readers_.observe) {
-    if (Status seen = readers_.observe(frame, points); !seen) return seen;
+    if (Status seen = readers_.observe(last_, points); !seen) return seen;
   }
   if (readers_.write) {
-    if (Status written = readers_.write(frame.number, std::move(points), frame); !written) return written;
+    if (Status written = readers_.write(last_.number, std::move(points), last_); !written) return written;
   }
-  last_ = std::move(frame);
-  ++frameCount_;
+  isShown_ = true;
   return {};
 }
 

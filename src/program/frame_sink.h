@@ -31,6 +31,8 @@ struct FrameReaders {
   /// `points`: in the groom's unit and order, finite.
   std::function<Status(const ComputedFrame&, std::span<const Vec3f> points)> observe;
   std::function<Status(int number, std::vector<Vec3f> points, const ComputedFrame& frame)> write;
+  /// Of the frames they need only the last; observe and write may get none before it.
+  bool needLastOnly = false;
 };
 
 class FrameSink {
@@ -41,7 +43,7 @@ class FrameSink {
   /// Waits while too many frames are on their way. The failure of an earlier frame comes back here or from
   /// finish; what was handed over after it is dropped.
   Status hand(ComputedFrame frame);
-  Status finish() { return thread_.finish(); }
+  Status finish();
   /// After the frames handed over so far, as one of them.
   Status handJob(WriterThread::Job job) { return thread_.hand(std::move(job)); }
 
@@ -61,12 +63,14 @@ class FrameSink {
 
  private:
   Status take(ComputedFrame frame);
+  Status show();
 
   const Groom& groom_;
   FrameReaders readers_;
   std::atomic<int> frameCount_ = 0;
   std::size_t mostReplaced_ = 0;
   ComputedFrame last_;
+  bool isShown_ = true;  // the last frame, to observe and write
   double watching_ = 0, writing_ = 0;
   WriterThread thread_;  // goes first: it works on the rest
 };

@@ -102,6 +102,7 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
   if (choice.subgroupSize == 0) choice.subgroupSize = static_cast<int>(tuned.subgroupSize);
   if (choice.subgroupSize != static_cast<int>(tuned.subgroupSize)) tuned.costs.clear();
   choice.measured = tuned.costs;
+  choice.geometry = input.geometry;
   choice.movingRoots = !input.rootStarts.empty();
   CompileNote note(device->name());
   if (gpu.tells) choice.observer = &note;

@@ -67,7 +67,8 @@ Result<std::unique_ptr<Backend>> makeBackend(const RunInput& input, const RunOpt
   std::vector<BodyPose> roots, rootsEarlier;
   if (input.scalp) roots = input.scalp->rootPosesAt(start), rootsEarlier = input.scalp->rootPosesAt(earlier);
   const BackendInput made{input.groom,      input.material, settings, head,  input.motion.poseAt(earlier),
-                          input.rootShifts, input.bodies,   bodies,   roots, rootsEarlier};
+                          input.rootShifts, input.bodies,   bodies,   roots, rootsEarlier,
+                          input.geometry};
   if (options.onReference) return makeReferenceBackend(made);
   KernelChoice kernel = options.kernel;
   kernel.fields = input.forces && input.forces->haveFields();
@@ -262,7 +263,11 @@ Status HairRun::makeSink() {
     writers_.emplace(input_, options_, std::move(hairs), done);
   }
   if (!input_.bodies.empty()) bodyWatch_.emplace(input_.groom, input_.bodies, input_.settings.rootCount);
-  FrameReaders readers{.bodies = bodyWatch_ ? &*bodyWatch_ : nullptr, .observe = {}, .write = {}};
+  const bool writesFrames = !animationsOf(options_).empty() || options_.writesSheet || options_.tellsFrames;
+  FrameReaders readers{.bodies = bodyWatch_ ? &*bodyWatch_ : nullptr,
+                       .observe = {},
+                       .write = {},
+                       .needLastOnly = !writesFrames && (!observer_ || options_.observesLast)};
   if (observer_) {
     readers.observe = [this](const ComputedFrame& frame, std::span<const Vec3f> points) -> Status {
       const Status seen = observer_(points, frame.head);

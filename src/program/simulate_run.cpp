@@ -22,10 +22,11 @@ Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions opti
   options.frameCount = scene.frameCount;
   options.preRollSeconds = scene.preRollSeconds;
   if (!options.facts.empty()) addMaterialFacts(scene.material, options.facts);
-  auto outcome = runHair({scene.groom, scene.material, scene.settings, scene.motion, scene.rootShifts,
-                          scene.bodies, scene.scalp ? &*scene.scalp : nullptr, &scene.forces,
-                          scene.keys ? &*scene.keys : nullptr, scene.widthFactors, &scene.hairs, scene.cuts},
-                         options, observer);
+  auto outcome =
+      runHair({scene.groom, scene.material, scene.settings, scene.motion, scene.rootShifts, scene.bodies,
+               scene.scalp ? &*scene.scalp : nullptr, &scene.forces, scene.keys ? &*scene.keys : nullptr,
+               scene.widthFactors, &scene.hairs, scene.cuts, scene.geometry.get()},
+              options, observer);
   if (!outcome) return outcome.error();
   outcome->warnings.insert(outcome->warnings.begin(), scene.warnings.begin(), scene.warnings.end());
   return outcome;

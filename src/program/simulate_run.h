@@ -54,8 +54,9 @@ struct RunOptions {
   KernelChoice kernel;                  // its residual: measured where the integrator has one, on the GPU
   bool usesTuned = true;                // strand shapes by what `ringlet tune` measured
   bool showProgress = true;
-  bool tellsFrames = false;  // a line of JSON a finished frame, on standard output
-  int runNumber = 0;         // of a sweep, which these lines say; 0: of none
+  bool tellsFrames = false;   // a line of JSON a finished frame, on standard output
+  int runNumber = 0;          // of a sweep, which these lines say; 0: of none
+  bool observesLast = false;  // the observer needs the last frame only
   // Runs that do not end. A folder then has a checkpoint, from 1 frame up; 0: none, or as many as the run
   // had.
   int checkpointFrames = 0;  // from one to the next
@@ -116,10 +117,11 @@ struct RunInput {
   std::span<const float> widthFactors{};  // of each strand, in USD files; none: all are as wide
   const SceneHairs* hairs = nullptr;      // of hairs that follow; none: nothing is said of them
   std::span<const TimedCuts> cuts{};      // by rising time
+  const std::vector<StrandGeometry>* geometry = nullptr;  // of the groom, where it is known
 };
 
 /// Sees every frame, in order, on a thread of its own, the last before runHair returns: points in the groom's
-/// unit, in its order, finite; and where the head is.
+/// unit, in its order, finite; and where the head is. RunOptions::observesLast: it may miss all but the last.
 using FrameObserver = std::function<Status(std::span<const Vec3f> points, const HeadPose& head)>;
 
 /// Fails with one sentence; frames finished before a failure are kept. Ctrl-C ends it early, but well: with

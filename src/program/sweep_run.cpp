@@ -32,6 +32,7 @@
 #include "ringlet/base/whole_file.h"
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/measure/pose_numbers.h"
+#include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/version.h"
 
@@ -59,6 +60,7 @@ RunOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
   options.usesTuned = sweep.usesTuned;
   options.showProgress = false;
   options.tellsFrames = sweep.tellsProgress;
+  options.observesLast = !sweep.measures;
   options.runNumber = run.number;
   return options;
 }
@@ -190,13 +192,22 @@ class Sweep {
   }
 
  private:
-  // One groom at a time is kept for the runs that have the same.
-  Result<std::shared_ptr<const LoadedGroom>> groomOf(const SceneGroom& scene, bool withOrigin) {
+  // A groom, and what runs would each measure of it.
+  struct SharedGroom {
+    std::shared_ptr<const LoadedGroom> loaded;
+    SharedGeometry geometry;  // none: each run says what is wrong with it
+  };
+
+  // One at a time is kept for the runs that have the same.
+  Result<SharedGroom> groomOf(const SceneGroom& scene, bool withOrigin) {
     const std::scoped_lock lock(groomMutex_);
-    if (groom_ && groomScene_ == scene && groomHasOrigin_ == withOrigin) return groom_;
+    if (groom_.loaded && groomScene_ == scene && groomHasOrigin_ == withOrigin) return groom_;
     auto read = loadGroom(scene, withOrigin);
     if (!read) return read.error();
-    groom_ = std::make_shared<const LoadedGroom>(std::move(*read));
+    groom_.loaded = std::make_shared<const LoadedGroom>(std::move(*read));
+    groom_.geometry.reset();
+    if (auto measured = measureGeometry(groom_.loaded->groom))
+      groom_.geometry = std::make_shared<const std::vector<StrandGeometry>>(std::move(*measured));
     groomScene_ = scene;
     groomHasOrigin_ = withOrigin;
     return groom_;
@@ -243,9 +254,9 @@ class Sweep {
     if (!facts) return facts.error();
     const auto groom = groomOf(run.scene.groom, needsOrigin(run.scene.output));
     if (!groom) return groom.error();
-    auto scene = loadScene(run.scene, groom->get());
+    auto scene = loadScene(run.scene, groom->loaded.get(), groom->geometry);
     if (!scene) return scene.error();
-    if (Status chosen = chooseOrigin(**groom, options); !chosen) return chosen.error();
+    if (Status chosen = chooseOrigin(*groom->loaded, options); !chosen) return chosen.error();
     auto leftovers = prepareFolder(run, options.folder);
     if (!leftovers) return leftovers.error();
     options.leftovers = *leftovers;
@@ -282,7 +293,7 @@ class Sweep {
   SweepFacts facts_;
   std::optional<ComputeDevice> device_;
   std::map<std::string, std::set<int>> warnings_;  // with the runs they are of
-  std::shared_ptr<const LoadedGroom> groom_;
+  SharedGroom groom_;
   SceneGroom groomScene_;  // whose it is
   bool groomHasOrigin_ = false;
 };

@@ -21,5 +21,22 @@ TEST(FinitePoints, StrandEndsWhereItWasLastFinite) {
   EXPECT_EQ(replaceNonfinite(groom, points), 0u);
 }
 
+TEST(FinitePoints, AreFiniteUnlessSomeNumberIsNot) {
+  const float most = std::numeric_limits<float>::max();
+  std::vector<Vec3f> points(7, Vec3f{most, -most, 0});
+  EXPECT_TRUE(areFinite(points));
+  EXPECT_TRUE(areFinite({}));
+  for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()}) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (float Vec3f::*part : {&Vec3f::x, &Vec3f::y, &Vec3f::z}) {
+        std::vector<Vec3f> changed = points;
+        changed[i].*part = wrong;
+        EXPECT_FALSE(areFinite(changed)) << wrong << " at " << i;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ringlet

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <future>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <vector>
@@ -126,6 +127,45 @@ TEST_F(Frames, ComeInOrderInTheFilesUnit) {
     EXPECT_EQ(written[static_cast<std::size_t>(number) - 1][1], (Vec3f{2 * (1 + float(number)), 2, 0}));
   }
   EXPECT_EQ(sink.lastPositions(), frame(50).positions);
+}
+
+// What nobody needs is not converted; a frame with particles that have no position is counted all the same.
+TEST_F(Frames, OnlyTheLastIsShownWhereNoOtherIsNeeded) {
+  std::vector<int> observed;
+  std::vector<std::vector<Vec3f>> written;
+  FrameSink sink(groom_, {.observe = [&](const ComputedFrame& f, std::span<const Vec3f>) -> Status {
+                            observed.push_back(f.number);
+                            return {};
+                          },
+                          .write = [&](int, std::vector<Vec3f> points, const ComputedFrame&) -> Status {
+                            written.push_back(std::move(points));
+                            return {};
+                          },
+                          .needLastOnly = true});
+  for (int number = 1; number <= 50; ++number) {
+    ComputedFrame made = frame(number);
+    if (number == 7) made.positions[1].y = std::numeric_limits<float>::infinity();
+    ASSERT_TRUE(sink.hand(std::move(made)));
+  }
+  ASSERT_TRUE(sink.finish());
+  ASSERT_TRUE(sink.finish());
+  EXPECT_EQ(sink.frameCount(), 50);
+  EXPECT_EQ(observed, (std::vector<int>{7, 50}));
+  ASSERT_EQ(written.size(), 2u);
+  EXPECT_EQ(written[1], (std::vector<Vec3f>{{102, 0, 0}, {102, 2, 0}}));
+  EXPECT_EQ(sink.mostReplaced(), 1u);
+  EXPECT_EQ(sink.lastPositions(), frame(50).positions);
+}
+
+TEST_F(Frames, AFailureOfTheLastComesBackWhereNoOtherIsNeeded) {
+  FrameSink sink(
+      groom_, {.observe = {},
+               .write = [](int, std::vector<Vec3f>, const ComputedFrame&) -> Status { return Error{"full"}; },
+               .needLastOnly = true});
+  for (int number = 1; number <= 3; ++number) ASSERT_TRUE(sink.hand(frame(number)));
+  const Status done = sink.finish();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "full");
 }
 
 TEST_F(Frames, ThoseAfterAFailureAreNotCounted) {

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
+#include <vector>
+
+#include "ringlet/rest/rest_state.h"
 
 namespace ringlet {
 namespace {
@@ -58,6 +62,25 @@ TEST(LoadScene, StepsAreChosenWhereTheyAreNotSaid) {
   const int steps = loaded("[simulation]\nfps = 24\n").settings.stepsPerFrame;
   EXPECT_GE(steps, 8);
   EXPECT_EQ(loaded("[simulation]\nfps = 12\n").settings.stepsPerFrame, 2 * steps);
+}
+
+// What is known of a groom is taken for it, unless its points move: bound to the world they do.
+TEST(LoadScene, GeometryThatIsKnownIsNotMeasuredAgain) {
+  const auto scene = parseScene(kCurl, "the scene");
+  ASSERT_TRUE(scene);
+  const auto groom = loadGroom(scene->groom);
+  ASSERT_TRUE(groom);
+  const auto measured = measureGeometry(groom->groom);
+  ASSERT_TRUE(measured);
+  const auto known = std::make_shared<const std::vector<StrandGeometry>>(*measured);
+  EXPECT_EQ(loadScene(*scene, &*groom, known)->geometry, known);
+
+  const auto bound = parseScene(kCurl + "bind = \"world\"\n[motion]\nkind = \"shake\"\n", "the scene");
+  ASSERT_TRUE(bound) << bound.error().message;
+  const auto moved = loadScene(*bound, &*groom, known);
+  ASSERT_TRUE(moved) << moved.error().message;
+  ASSERT_TRUE(moved->geometry);
+  EXPECT_NE(moved->geometry, known);
 }
 
 TEST(LoadScene, BodiesAndWhatMovesThemAreThere) {

@@ -26,6 +26,13 @@ layout::vec3 packed3(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
+std::vector<Vec3f> inMetres(std::span<const Vec3f> strand, double metresPerUnit) {
+  std::vector<Vec3f> points;
+  points.reserve(strand.size());
+  for (Vec3f p : strand) points.push_back(static_cast<Vec3f>(static_cast<Vec3d>(p) * metresPerUnit));
+  return points;
+}
+
 // A strand's points in double, and its edges' arcs [m].
 struct RestCurve {
   std::vector<Vec3d> points;
@@ -55,6 +62,14 @@ std::vector<double> bendFactorsOf(std::span<const double> middles, const Materia
   if (settings.integrator == Integrator::paper) return factors;
   for (std::size_t i = 0; i < middles.size(); ++i) factors[i] = material.bendStiffnessProfile.at(middles[i]);
   return factors;
+}
+
+// The largest of these factors of a strand of the groom.
+double stiffestOf(const Groom& groom, std::size_t strand, const StrandGeometry& geometry,
+                  const Material& material, const Settings& settings) {
+  if (material.bendStiffnessProfile.points.empty()) return 1;
+  const RestCurve curve(inMetres(groom.strand(strand), groom.metresPerUnit));
+  return std::ranges::max(bendFactorsOf(middlesOf(curve.arcs, geometry.arcLength), material, settings));
 }
 
 // The sizes the strand is cut into: chords, floored lengths, masses, factors of the profiles.
@@ -210,12 +225,6 @@ bool isDeviceOrder(std::span<const std::uint32_t> order, const Groom& groom) {
   return order.size() == named.size();
 }
 
-std::vector<Vec3f> inMetres(std::span<const Vec3f> strand, double metresPerUnit) {
-  std::vector<Vec3f> points;
-  for (Vec3f p : strand) points.push_back(static_cast<Vec3f>(static_cast<Vec3d>(p) * metresPerUnit));
-  return points;
-}
-
 Status checkGroom(const Groom& groom) {
   if (groom.strandCount() == 0) return Error{"the groom has no strands; simulating needs at least one"};
   if (groom.points.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -263,38 +272,51 @@ Result<std::vector<StrandSize>> sizesOf(const Groom& groom) {
       tooShort - sizes.begin(), tooShort->length, kLeastStrandLength)};
 }
 
+std::vector<StrandGeometry> geometryOf(const Groom& groom) {
+  std::vector<StrandGeometry> geometry;
+  geometry.reserve(groom.strandCount());
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const RestCurve curve(inMetres(groom.strand(s), groom.metresPerUnit));
+    geometry.push_back(strandGeometry(curve.points, curve.arcs));
+  }
+  return geometry;
+}
+
 // What of a groom is measured before anything is made of it; all in groom order.
 struct Survey {
   std::vector<StrandSize> sizes;
-  std::vector<StrandGeometry> geometry;  // of strands that are not too fine
-  std::vector<double> longestSteps;      // that are calm, and that the motion needs; 0: too fine [s]
+  std::vector<StrandGeometry> measured;  // here, where it was not known before
+  std::span<const StrandGeometry> geometry;
+  std::vector<double> longestSteps;  // that are calm, and that the motion needs; 0: too fine [s]
   std::vector<std::uint32_t> tooFine{}, tooQuick{};
   std::vector<bool> isRigid;   // either
   double longestCalmStep = 1;  // of all that are simulated [s]
 };
 
-Result<Survey> surveyOf(const Groom& groom, const Material& material, const Settings& settings) {
+Result<Survey> surveyOf(const Groom& groom, const Material& material, const Settings& settings,
+                        std::span<const StrandGeometry> known) {
   if (Status status = checkSettings(settings, material); !status) return status.error();
   if (Status status = checkGroom(groom); !status) return status.error();
   auto sizes = sizesOf(groom);
   if (!sizes) return sizes.error();
 
   const std::size_t count = groom.strandCount();
+  RINGLET_ASSERT(known.empty() || known.size() == count, "the geometry is of this groom");
   Survey survey{.sizes = std::move(*sizes),
-                .geometry = std::vector<StrandGeometry>(count),
+                .measured = known.empty() ? geometryOf(groom) : std::vector<StrandGeometry>(),
+                .geometry = known,
                 .longestSteps = std::vector<double>(count),
                 .isRigid = std::vector<bool>(count)};
+  if (known.empty()) survey.geometry = survey.measured;
   survey.tooFine = tooFineStrands(survey.sizes, settings.maxStretch);
   for (const std::uint32_t s : survey.tooFine) survey.isRigid[s] = true;
   std::vector<double> calmSteps(count);
   for (std::size_t s = 0; s < count; ++s) {
     if (survey.isRigid[s]) continue;
-    const RestCurve curve(inMetres(groom.strand(s), groom.metresPerUnit));
-    const StrandGeometry& geometry = survey.geometry[s] = strandGeometry(curve.points, curve.arcs);
+    const StrandGeometry& geometry = survey.geometry[s];
     const Material own = materialOfStrand(material, s);
-    const auto factors = bendFactorsOf(middlesOf(curve.arcs, geometry.arcLength), own, settings);
-    calmSteps[s] =
-        longestCalmStepOf(strandConstants(geometry, own, settings), *std::ranges::max_element(factors));
+    calmSteps[s] = longestCalmStepOf(strandConstants(geometry, own, settings),
+                                     stiffestOf(groom, s, geometry, own, settings));
     survey.longestSteps[s] = std::min(calmSteps[s], longestMotionStep(settings));
   }
   survey.tooQuick = tooQuickStrands(survey.sizes, survey.longestSteps, settings.stepSeconds());
@@ -356,9 +378,16 @@ Groom groomOf(const RestState& state) {
   return groom;
 }
 
+Result<std::vector<StrandGeometry>> measureGeometry(const Groom& groom) {
+  if (Status status = checkGroom(groom); !status) return status.error();
+  if (const auto sizes = sizesOf(groom); !sizes) return sizes.error();
+  return geometryOf(groom);
+}
+
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
-                                 std::span<const std::uint32_t> order) {
-  const auto survey = surveyOf(groom, material, settings);
+                                 std::span<const std::uint32_t> order,
+                                 std::span<const StrandGeometry> geometry) {
+  const auto survey = surveyOf(groom, material, settings, geometry);
   if (!survey) return survey.error();
   std::vector<std::uint32_t> groomOrder;
   if (order.empty()) order = groomOrder = deviceOrder(groom);
@@ -375,11 +404,12 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   return state;
 }
 
-Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings) {
+Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings,
+                                std::span<const StrandGeometry> geometry) {
   const int most = static_cast<int>(layout::kMaxStepPoses - 1);
   const int fewest = std::clamp(stepsOf(longestMotionStep(settings), settings), 1, most);
   settings.stepsPerFrame = fewest;
-  const auto survey = surveyOf(groom, material, settings);
+  const auto survey = surveyOf(groom, material, settings, geometry);
   if (!survey) return survey.error();
   return std::clamp(stepsOf(survey->longestCalmStep, settings), fewest, std::min(4 * fewest, most));
 }

@@ -42,12 +42,18 @@ struct RestState {
   std::size_t materialWarningCount = 0;    // number of the first of them, which depend on the material
 };
 
+/// The geometry of each strand, in groom order. No setting and no material changes it, so that whoever makes
+/// several rest states of one groom measures it once. Fails as buildRestState does on a groom. Cost: nearly
+/// half of buildRestState's.
+Result<std::vector<StrandGeometry>> measureGeometry(const Groom& groom);
+
 /// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and
 /// where half the strands have no length. Cost: three passes over the groom, in double. `order`: the groom's
 /// index of each strand, by rising particle count (rest/strand_order.h makes some); empty: groom order among
-/// equals.
+/// equals. `geometry`: the groom's, where it is known; empty: it is measured.
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,
-                                 std::span<const std::uint32_t> order = {});
+                                 std::span<const std::uint32_t> order = {},
+                                 std::span<const StrandGeometry> geometry = {});
 
 /// The groom that a rest state is of, in metres.
 Groom groomOf(const RestState& state);
@@ -56,7 +62,9 @@ Groom groomOf(const RestState& state);
 /// warning: the core spring acts in full and bending is stable, for all strands but those too quick to be
 /// simulated (rest/rigid_strands.h). The result is at most four times the number that the motion needs; a
 /// groom that needs more causes a warning. Fails as buildRestState does. Cost: two passes over the groom.
-Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings);
+/// `geometry`: as buildRestState takes it.
+Result<int> chooseStepsPerFrame(const Groom& groom, const Material& material, Settings settings,
+                                std::span<const StrandGeometry> geometry = {});
 
 /// Fails, with a sentence, if a number of the settings or the material is out of range.
 Status checkSettings(const Settings& settings, const Material& material);

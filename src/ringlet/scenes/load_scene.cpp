@@ -190,14 +190,19 @@ int frameCountOf(const SceneFile& scene, const Motion& motion) {
 }
 
 // Enough at every key.
-Result<int> stepsOf(const LoadedScene& loaded) {
-  auto steps = chooseStepsPerFrame(loaded.groom, loaded.material, loaded.settings);
+Result<int> stepsOf(LoadedScene& loaded) {
+  if (!loaded.geometry) {
+    auto measured = measureGeometry(loaded.groom);
+    if (!measured) return measured.error();
+    loaded.geometry = std::make_shared<const std::vector<StrandGeometry>>(std::move(*measured));
+  }
+  auto steps = chooseStepsPerFrame(loaded.groom, loaded.material, loaded.settings, *loaded.geometry);
   if (!loaded.keys) return steps;
   for (const double time : loaded.keys->times()) {
     if (!steps) return steps;
     const auto numbers = loaded.keys->at(time, 1);
     if (!numbers) return numbers.error();
-    auto now = chooseStepsPerFrame(loaded.groom, numbers->material, numbers->settings);
+    auto now = chooseStepsPerFrame(loaded.groom, numbers->material, numbers->settings, *loaded.geometry);
     if (!now) return now;
     steps = std::max(*steps, *now);
   }
@@ -345,12 +350,13 @@ Result<Material> loadMaterialOf(const SceneFile& scene, Integrator integrator,
   return material;
 }
 
-Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known) {
+Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, SharedGeometry geometry) {
   LoadedScene loaded;
   loaded.warnings = scene.warnings;
   auto groom = known ? Result<LoadedGroom>(*known) : loadGroom(scene.groom);
   if (!groom) return groom.error();
   loaded.groom = std::move(groom->groom);
+  if (!worldBindOf(scene).groom) loaded.geometry = std::move(geometry);  // else its points move
   loaded.warnings.insert(loaded.warnings.end(), groom->warnings.begin(), groom->warnings.end());
   loaded.settings = settingsOf(scene);
   if (Status added = addBundles(scene, loaded.groom.strandCount(), loaded.settings.contacts); !added)

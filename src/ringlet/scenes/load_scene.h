@@ -23,6 +23,8 @@
 
 namespace ringlet {
 
+struct StrandGeometry;
+
 /// In its unit, the scene's or else the file's, turned to the scene's up axis, placed in the head's frame.
 /// `keepsPrims`: with LoadedGroom::prims.
 Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims = false);
@@ -47,10 +49,14 @@ struct SceneHairs {
   std::vector<float> densities{}, clumps{};     // factors of each strand; empty: all 1
 };
 
+/// As measureGeometry of rest/rest_state.h makes it.
+using SharedGeometry = std::shared_ptr<const std::vector<StrandGeometry>>;
+
 /// Everything that a run of a scene starts from.
 struct LoadedScene {
   Groom groom;
-  Material material;  // its dials worked in
+  SharedGeometry geometry{};  // of the groom, where it had to be measured or was known
+  Material material;          // its dials worked in
   Settings settings;
   Motion motion;
   std::vector<Vec3d> rootShifts{};  // as InitialState takes them
@@ -67,8 +73,10 @@ struct LoadedScene {
 };
 
 /// Reads all that the file names, and chooses the steps a frame where it leaves them open. `known`: its
-/// groom, where loadGroom has read it already. Warnings also say what seems to be of another unit, place or
-/// axis than the rest. Errors: those of the parts; a material that its dials spoil.
-Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known = nullptr);
+/// groom, where loadGroom has read it already, and `geometry` that groom's. Warnings also say what seems to
+/// be of another unit, place or axis than the rest. Errors: those of the parts; a material that its dials
+/// spoil.
+Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known = nullptr,
+                              SharedGeometry geometry = {});
 
 }  // namespace ringlet

@@ -73,7 +73,8 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   // Order in which strands that may touch are near each other in memory.
   std::vector<std::uint32_t> order;
   if (settings.contacts.on) order = orderAlongCurve(groom);
-  auto rest = buildRestState(groom, material, settings, order);
+  const auto geometry = choice.geometry ? std::span(*choice.geometry) : std::span<const StrandGeometry>();
+  auto rest = buildRestState(groom, material, settings, order, geometry);
   if (!rest) return rest.error();
   const auto part = choice.link ? choice.link->parts()[choice.link->own()] : choice.part;
   std::vector<bool> isHere;
@@ -103,6 +104,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   if (self->choice.goals) self->goalUnits = goalUnits(self->rest, settings.goal.shape);
   self->choice.measured = {};
   self->choice.part = {};
+  self->choice.geometry = nullptr;
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
   if (settings.contacts.on && !counts.empty()) {
     self->contacts = buildRestContacts(self->rest, settings.contacts);

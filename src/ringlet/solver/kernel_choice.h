@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "ringlet/solver/strand_shape.h"
 
 namespace ringlet {
 
 class PartLink;
+struct StrandGeometry;
 
 /// Is notified when the driver begins to compile a simulation's kernels, which may take seconds, and when it
 /// has finished. Not called where all kernels have been compiled on this device before.
@@ -41,6 +43,9 @@ struct KernelChoice {
   // In place of `part` for hair with contacts: the exchange with the other parts, which are simulated at the
   // same time. For one simulation at a time; must live as long.
   PartLink* link = nullptr;
+  // Of the groom's strands, where it is known (measureGeometry of rest/rest_state.h); read until build or
+  // create returns.
+  const std::vector<StrandGeometry>* geometry = nullptr;
   CompileObserver* observer = nullptr;  // must live as long as simulations are created with this
   bool residual = false;  // measure the velocity solve's residual (SimulationReport), a few per cent slower
   bool movingRoots = false;  // strands have root poses (Simulation::stepFrame)
