@@ -53,9 +53,9 @@ class Backend {
   virtual Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from) = 0;
   virtual Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths,
                           double dampingRatio, std::span<const Vec3f> from) = 0;
-  /// As Simulation::cut. Errors: where hair is not stepped by one GPU.
+  /// As Simulation::cut; the caller has checked what each cut keeps. Errors: where hair is divided.
   virtual Status cut(std::span<const StrandCut> /*cuts*/) {
-    return Error{"hair is cut on one GPU only (--backend gpu, without --devices)"};
+    return Error{"hair that is divided among devices is not cut; use one device"};
   }
   /// Of the frame waited for last. Groom order, relative to the head's origin, along world axes [m].
   virtual std::vector<Vec3f> framePositions() = 0;

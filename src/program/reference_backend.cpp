@@ -18,6 +18,7 @@ class ReferenceBackend : public Backend {
   ReferenceBackend(const BackendInput& input, const ContactReport& atRest, std::vector<std::string> warnings,
                    std::span<const std::uint32_t> rigidStrands)
       : groom_(&input.groom),
+        material_(input.material),
         warnings_(std::move(warnings)),
         rigidStrandCount_(rigidStrands.size()),
         contactsAtRest_(atRest),
@@ -45,6 +46,7 @@ class ReferenceBackend : public Backend {
     return {};
   }
   Status change(const Settings& settings, const Material& material, double /*keysAt*/) override {
+    material_ = material;
     simulation_.change(*groom_, material, settings);
     return {};
   }
@@ -58,6 +60,10 @@ class ReferenceBackend : public Backend {
   Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio,
                   std::span<const Vec3f> from) override {
     simulation_.setGoals(places, strengths, dampingRatio, from);
+    return {};
+  }
+  Status cut(std::span<const StrandCut> cuts) override {
+    simulation_.cut(*groom_, material_, cuts);
     return {};
   }
   std::vector<Vec3f> framePositions() override { return waited_; }
@@ -114,6 +120,7 @@ class ReferenceBackend : public Backend {
   }
 
   const Groom* groom_;
+  Material material_;
   std::deque<std::vector<Vec3f>> inFlight_;  // computed, and not waited for
   std::vector<Vec3f> waited_;
   std::vector<std::string> warnings_;

@@ -656,8 +656,9 @@ void addHairClass(py::module_& module) {
           },
           py::arg("cuts"),
           "Cuts strands from the next frame on: pairs (strand, keep); the particles from keep on fall, with "
-          "bodies, air and fields; strands that are carried rigidly stay whole. With no frame in flight. "
-          "ringlet.Error with contacts, and where nothing would fall or fewer than two particles would stay.")
+          "bodies, air, fields and hair that meets pair by pair; strands that are carried rigidly stay whole. "
+          "With no frame in flight. ringlet.Error where nothing would fall or fewer than two particles would "
+          "stay.")
       .def(
           "set_fields",
           [](HairObject& self, const std::vector<ForceField>& fields, const std::vector<ForceField>& from) {

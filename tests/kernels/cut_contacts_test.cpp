@@ -70,5 +70,47 @@ TEST_F(CutContacts, FramesAgreeWithDouble) {
   }
 }
 
+// Two strands side by side that stand out from the head, and one above them, across both.
+Groom crossing() {
+  const Vec3f roots[] = {{-0.03f, 0, 0}, {0.03f, 0, 0}, {-0.15f, 0.01f, 0.04f}};
+  Groom groom;
+  groom.metresPerUnit = 1;
+  for (const Vec3f& root : roots) {
+    for (int i = 0; i < 50; ++i) {
+      const float along = 0.004f * static_cast<float>(i);
+      groom.points.push_back(root + (root.y > 0 ? Vec3f{along, 0, 0} : Vec3f{0, 0, along / 2}));
+    }
+    groom.firstPoint.push_back(static_cast<std::uint32_t>(groom.points.size()));
+  }
+  return groom;
+}
+
+// In half a second it would fall 1.2 m.
+TEST_F(CutContacts, LandsOnOtherHair) {
+  const Groom groom = crossing();
+  Material stiff;
+  stiff.bendStiffness = 200;
+  for (const bool meets : {true, false}) {
+    SCOPED_TRACE(meets);
+    Settings settings;
+    settings.contacts.on = meets;
+    settings.contacts.method = ContactMethod::explicitPairs;
+    settings.contacts.radius = 0.003;
+    auto hair = Simulation::create(device(), groom, stiff, settings);
+    ASSERT_TRUE(hair) << hair.error().message;
+    const std::vector<StrandCut> cuts{{2, 22}};
+    ASSERT_TRUE(hair->cut(cuts));
+    const std::vector<HeadPose> still(static_cast<std::size_t>(settings.stepsPerFrame));
+    for (int frame = 0; frame < 12; ++frame) ASSERT_TRUE(hair->stepFrame(still));
+    const auto points = *hair->positions();
+    for (std::size_t i = groom.firstPoint[2] + 22; i < points.size(); ++i) {
+      if (meets)
+        EXPECT_GT(points[i].y, -0.02f) << i;
+      else
+        EXPECT_LT(points[i].y, -1.f) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ringlet::test

@@ -161,6 +161,44 @@ TEST_F(HairFramesTest, HeadsOfARowStepAsIfAlone) {
   }
 }
 
+// Of a row and of hair with dispatches of its own, some heads are cut.
+TEST_F(HairFramesTest, HeadsThatAreCutStepAsIfAlone) {
+  Hair kind = hairs().front();
+  kind.kernel.heads = 4;
+  RowOfHeads together(device(), kind), alone(device(), kind);
+  Crowd crowd = makeCrowd(device());
+  const std::vector<StrandCut> cuts{{0, 5}, {1, 3}};
+  for (const int k : {1, 2, 8}) {
+    ASSERT_TRUE(together.hair[k].cut(cuts));
+    ASSERT_TRUE(alone.hair[k].cut(cuts));
+  }
+  for (std::size_t k = 0; k < crowd.hairs.size(); k += 2) {
+    if (crowd.hairs[k].settings.integrator != Integrator::jacobi) continue;
+    ASSERT_TRUE(crowd.together[k].cut(cuts));
+    ASSERT_TRUE(crowd.alone[k].cut(cuts));
+  }
+  for (int frame = 0; frame < 3; ++frame) {
+    SCOPED_TRACE(frame);
+    std::vector<std::vector<HeadPose>> poses, crowdPoses;
+    std::vector<HairFrame> frames;
+    for (const Head& head : together.heads) poses.push_back(posesOf(kind, head, frame));
+    for (std::size_t k = 0; k < crowd.hairs.size(); ++k)
+      crowdPoses.push_back(posesOf(crowd.hairs[k], crowd.heads[k], frame));
+    for (std::size_t k = 0; k < poses.size(); ++k) frames.push_back({&together.hair[k], poses[k]});
+    for (std::size_t k = 0; k < crowdPoses.size(); ++k) frames.push_back({&crowd.together[k], crowdPoses[k]});
+    const Status status = stepFrames(frames);
+    ASSERT_TRUE(status) << status.error().message;
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      SCOPED_TRACE(k);
+      ASSERT_TRUE(alone.hair[k].stepFrame(poses[k]));
+      EXPECT_EQ(*together.hair[k].positions(), *alone.hair[k].positions());
+      EXPECT_EQ(together.hair[k].state()->velocities, alone.hair[k].state()->velocities);
+    }
+    for (std::size_t k = 0; k < crowdPoses.size(); ++k) ASSERT_TRUE(crowd.alone[k].stepFrame(crowdPoses[k]));
+    expectEqual(crowd);
+  }
+}
+
 // Counts vkCmdDispatch on its way to the driver.
 class CountedDispatches {
  public:

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "program/cut_list.h"
+#include "ringlet/groom/groom_file.h"
 #include "tests/program/run_program.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
@@ -73,6 +74,25 @@ TEST_F(CutListTest, StandsBesideTheAnimationAndIsConvertedWithIt) {
   const auto again = run({"simulate", "whole.toml", "-o", "out", "--quiet", "--overwrite"});
   ASSERT_EQ(again.exitCode, 0) << again.err;
   EXPECT_FALSE(fs::exists(folder_ / "out/hair.usda.cuts.csv"));
+}
+
+TEST_F(CutListTest, TheReferenceCutsTheSame) {
+  for (const char* contacts : {"", "[contacts]\nmethod = \"explicit\"\n"}) {
+    write("cut.toml",
+          kScene + contacts + "[[cut]]\ntime = 0.1\n[[cut]]\ntime = 0\nat = 0.9\nstrands = \"1\"\n");
+    std::vector<Groom> last;
+    for (const char* backend : {"gpu", "reference"}) {
+      const auto made =
+          run({"simulate", "cut.toml", "-o", backend, "--backend", backend, "--quiet", "--overwrite"});
+      ASSERT_EQ(made.exitCode, 0) << made.err;
+      last.push_back(readGroom(folder_ / backend / "last.obj")->groom);
+    }
+    ASSERT_EQ(last[0].points.size(), 10u);
+    const auto metres = static_cast<float>(last[0].metresPerUnit);
+    EXPECT_GT((last[0].points[0].y - last[0].points[9].y) * metres, 0.08f) << "it falls";
+    for (std::size_t i = 0; i < 10; ++i)
+      EXPECT_LT(length(last[0].points[i] - last[1].points[i]) * metres, 1e-6f) << i;
+  }
 }
 
 TEST_F(CutListTest, AnythingElseOfThatNameIsRefused) {

@@ -77,7 +77,6 @@ TEST(SceneCuts, WhatIsWrongIsSaid) {
   says("[[cut]]\nname = \"off\"\nstrands = \"2\"\n", "the cut off: it names strand 2; the groom has 2");
   says("[[cut]]\nstrands = \"bun\"\n", "cut.strands");
   says("[[cut]]\nat = 1.5\n", "cut.at");
-  says("[[cut]]\n[contacts]\n", "hair with contacts is not cut");
   says("[[cut]]\n[simulation]\nintegrator = \"paper\"\n", "hair is cut with the integrator jacobi only");
 }
 

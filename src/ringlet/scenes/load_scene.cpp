@@ -396,8 +396,6 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   loaded.cuts = std::move(*cuts);
   if (!loaded.cuts.empty() && loaded.settings.integrator != Integrator::jacobi)
     return Error{"hair is cut with the integrator jacobi only; this run has another"};
-  if (!loaded.cuts.empty() && loaded.settings.contacts.on)
-    return Error{"hair with contacts is not cut: leave out [contacts] or [[cut]]"};
   if (!scene.simulation.stepsPerFrame) {
     const auto steps = stepsOf(loaded);
     if (!steps) return steps.error();

@@ -263,13 +263,13 @@ class Simulation {
   /// fields or other grids wait for frames in flight.
   Status setFields(std::span<const ForceField> fields, std::span<const ForceField> from = {});
   /// Cuts strands, from the next frame on. What is kept stays as it was, with the same rest state; the edge
-  /// at the cut is no more, and what is cut off falls: bodies, air and fields act on it, and no head, goal or
-  /// other hair. It keeps its places in groom order. A strand may be cut again, nearer to its root. Needs the
-  /// integrator jacobi; no frame is in flight. Strands that are carried rigidly stay whole. Fails, without a
-  /// change, with contacts, for a part of hair, and where nothing would fall or fewer than two particles, or
-  /// fewer than follow the head, would stay. Afterwards devicePositions() and tap() know only what is kept,
-  /// and HairFrames refuses this hair. Checkpoints do not hold cuts: make the same ones, call by call, before
-  /// restore(). Cost: a simulation of the strands that are cut.
+  /// at the cut is no more, and what is cut off falls: bodies, air, fields and other hair that meets pair by
+  /// pair act on it, and no head and no goal. It keeps its places in groom order. A strand may be cut again,
+  /// nearer to its root. Needs the integrator jacobi; no frame is in flight. Strands that are carried rigidly
+  /// stay whole. Fails, without a change, for a part of hair, and where nothing would fall or fewer than two
+  /// particles, or fewer than follow the head, would stay. Checkpoints do not hold cuts: make the same ones,
+  /// call by call, before restore(). Cost: the strand kernel once more, compiled and in each frame, over the
+  /// strands that are cut.
   Status cut(std::span<const StrandCut> cuts);
   /// The present settings and material; initially the asset's. Checkpoints hold neither them nor bodies,
   /// forces, goals and fields: set these before restore().
