@@ -69,10 +69,11 @@ ContinuumConstants continuumConstants(const Material& material, const RestStrand
   constants.bendDamping = material.bendDampingRatio * strand.arcLength * std::sqrt(bend * lambda);
 
   // The core is explicit: calm up to T = 4 alpha_c sqrt(lambda / K_c), 3 where the curl changes hand. Beyond
-  // it, K_c is lowered.
+  // it, K_c is lowered, everywhere by as much.
   const double alphaC = strand.coreSmoothingLength > 0 ? strand.coreSmoothingLength : l;
   const double calmSteps = strand.changesHand ? 3 : 4;
-  const double highestCore = lambda * std::pow(calmSteps * alphaC / stepSeconds, 2);
+  const double highestCore =
+      lambda * std::pow(calmSteps * alphaC / stepSeconds, 2) / material.coreStiffnessProfile.most();
   constants.core = std::min(material.coreStiffness * weight, highestCore);
   constants.coreIsCapped = material.coreStiffness * weight > highestCore;
   constants.coreDamping = 4 * material.coreDampingRatio * alphaC * std::sqrt(constants.core * lambda);
@@ -80,7 +81,8 @@ ContinuumConstants continuumConstants(const Material& material, const RestStrand
 }
 
 // Fills the constants per edge: K / l_i of a material, or the paper's as printed. `middles`: share of the
-// arc length at the middle of each edge, where the profiles are read; damping goes as the root of stiffness.
+// arc length at the middle of each edge, where the profiles are read; bending's and the core's damping go as
+// the root of their stiffness, stretch's as its stiffness.
 void setEdgeConstants(const Material& material, const PaperMaterial& paper, const Settings& settings,
                       double ruleLength, const Scalars<double>& middles, RestStrand<double>& strand) {
   const std::size_t edgeCount = strand.edgeCount();
@@ -98,15 +100,20 @@ void setEdgeConstants(const Material& material, const PaperMaterial& paper, cons
   const ContinuumConstants constants = continuumConstants(material, strand, weight, ruleLength, T);
   strand.coreIsCapped = constants.coreIsCapped;
   for (std::size_t i = 0; i < edgeCount; ++i) {
-    const double length = strand.edgeLengths[i], factor = material.bendStiffnessProfile.at(middles[i]);
+    const double length = strand.edgeLengths[i], s = middles[i];
+    const double factor = material.bendStiffnessProfile.at(s), ofStretch = material.stretchStiffnessProfile.at(s),
+                 ofCore = material.coreStiffnessProfile.at(s);
     const double bend = constants.bend * factor / length,
-                 damping = constants.bendDamping * std::sqrt(factor) / length;
-    strand.stretchStiffness.push_back(constants.stretch / length);
-    strand.stretchDamping.push_back(constants.stretchDamping / length);
+                 damping = constants.bendDamping * std::sqrt(factor) * material.bendDampingRatioProfile.at(s) /
+                           length;
+    strand.stretchStiffness.push_back(constants.stretch * ofStretch / length);
+    strand.stretchDamping.push_back(constants.stretchDamping * ofStretch *
+                                    material.stretchDampingTimeProfile.at(s) / length);
     strand.bendStiffness.push_back(bend);
     strand.bendDamping.push_back(compensatedBendDamping(damping, bend, T));
-    strand.coreStiffness.push_back(constants.core / length);
-    strand.coreDamping.push_back(constants.coreDamping / length);
+    strand.coreStiffness.push_back(constants.core * ofCore / length);
+    strand.coreDamping.push_back(constants.coreDamping * std::sqrt(ofCore) *
+                                 material.coreDampingRatioProfile.at(s) / length);
   }
 }
 

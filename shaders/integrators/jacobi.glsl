@@ -15,9 +15,8 @@
 #endif
 
 ImplicitEdge implicitEdgeOf(int k) {
-  float s = restEdge[k].w;
-  ImplicitEdge edge = implicitEdge(eHat[k], stepSeconds(), strand.stretchStiffness * s, strand.stretchDamping * s,
-                                   bendStiffnessOf(k), bendDampingOf(k));
+  vec2 stretch = stretchOf(k);
+  ImplicitEdge edge = implicitEdge(eHat[k], stepSeconds(), stretch.x, stretch.y, bendStiffnessOf(k), bendDampingOf(k));
 #ifdef RINGLET_SURROUNDINGS
   if (kGoals && kGoalShape) edge.across += goalAcross[k];
 #endif

@@ -66,7 +66,14 @@ void loadStrand() {
     restEdge[k] = vec4(real ? rest.mass : 1.0, edge ? parameters.maxStretch * rest.edgeLength : 1e30,
                        rest.coreEdgeLength, edge ? edgeScaleOf(rest.edgeLength) : 0.0);
     inverseLength[k] = edge ? 1.0 / rest.edgeLength : 0.0;
-    if (kBendVaries) bendVariation[k] = vec2(rest.bendFactor, sqrt(rest.bendFactor));
+    if (kProfiles) {
+      EdgeFactors factors = edgeFactors(i);
+      stretchVariation[k] = vec2(factors.stiffness.x, factors.stretchDamping);
+      bendVariation[k] = vec2(factors.stiffness.y, factors.bendDamping);
+      coreVariation[k] = vec2(factors.stiffness.z, factors.coreDamping);
+    } else if (kBendVaries) {
+      bendVariation[k] = vec2(rest.bendFactor, sqrt(rest.bendFactor));
+    }
   }
 }
 
@@ -128,8 +135,8 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
     vec3 b = kOneSmoothing ? bend.d : core.d;
     vec3 bDirection = kOneSmoothing ? next : directionOf(b);
     float bLength = share * dot(b, bDirection);
-    curveForce[k] = coreForce(strand.coreStiffness * restEdge[k].w, damping * restEdge[k].w, bDirection, bLength,
-                              restEdge[k].z, velocity.d);
+    vec2 spring = coreOf(k, damping);
+    curveForce[k] = coreForce(spring.x, spring.y, bDirection, bLength, restEdge[k].z, velocity.d);
     coreLength += isEdge(k) ? bLength : 0.0;
     if (next == vec3(0)) next = direction;  // without direction: on as before
     normal = carriedNormal(normal, direction, next);
@@ -161,7 +168,7 @@ void shapeForces() {
     vec4 rest = restTarget[k];
     vec3 target = rest.x * direction + (twist.x * rest.y - twist.y * rest.z) * normal +
                   (twist.y * rest.y + twist.x * rest.z) * cross(direction, normal);
-    vec3 stretch = stretchForce(strand.stretchStiffness * restEdge[k].w, eLength[k], rest.w, eHat[k]);
+    vec3 stretch = stretchForce(stretchOf(k).x, eLength[k], rest.w, eHat[k]);
     vec3 bend = bendForce(bendStiffnessOf(k), e[k], target);
     force[k] = stretch + bend;
     if (isEdge(k)) {

@@ -20,7 +20,8 @@
 layout(constant_id = kSpecIntegrator) const uint kIntegrator = kIntegratorJacobi;
 layout(constant_id = kSpecOneSmoothing) const bool kOneSmoothing = false;  // alpha_b = alpha_c: one smoothing does
 layout(constant_id = kSpecResidual) const bool kMeasureResidual = false;
-layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // some strand has a bendFactor other than 1
+layout(constant_id = kSpecProfiles) const bool kProfiles = false;  // edges have factors (EdgeFactors)
+layout(constant_id = kSpecBendVaries) const bool kBendVaries = false;  // or bendFactors other than 1
 #ifdef RINGLET_CONTACTS
 layout(constant_id = kSpecContacts) const bool kContacts = false;    // the solve is iterated with the contacts' systems
 layout(constant_id = kSpecPairs) const bool kPairs = true;       // some contacts are between pairs of contact particles
@@ -105,6 +106,11 @@ ParticleRest particleRest(uint i) {
   vec4 spring = vectorAt(particleTexels, 2 * i);
   vec4 rest = vectorAt(particleTexels, 2 * i + 1);
   return ParticleRest(spring.xyz, spring.w, rest.x, rest.y, rest.z, rest.w);
+}
+// Of particle i's edge, where there are profiles.
+EdgeFactors edgeFactors(uint i) {
+  ParticleRest record = particleRest(parameters.particleCount + i);
+  return EdgeFactors(record.target, record.stretchRestLength, record.mass, record.edgeLength, 0.0, 0.0);
 }
 // External acceleration of particle i [m/s^2]: gravity and forces from outside.
 vec3 pullOn(uint i) {

@@ -19,7 +19,10 @@ vec4 restTarget[RUN];  // xyz rest vector along the frame's direction, normal an
                        // length
 vec4 restEdge[RUN];    // mass, longest allowed length, core edge length, edge scale
 float inverseLength[RUN];  // 1 / the groom's edge length
-vec2 bendVariation[RUN];   // factors of bend stiffness and damping, where they vary along the strand
+// Factors of stiffness and damping, where they vary along the strand:
+vec2 stretchVariation[RUN];
+vec2 bendVariation[RUN];
+vec2 coreVariation[RUN];
 // Of the step's start:
 vec3 e[RUN];       // edge
 vec3 dv[RUN];      // velocity difference along it
@@ -48,6 +51,15 @@ bool isPinned(int k) { return k < int(kMaxRootCount) && first + k < parameters.r
 bool isFree(int k) { return isParticle(k) && !isPinned(k); }
 
 float edgeLengthOf(int k) { return restEdge[k].y / parameters.maxStretch; }
+// Of stretch and core: stiffness and damping.
+vec2 stretchOf(int k) {
+  vec2 spring = vec2(strand.stretchStiffness, strand.stretchDamping) * restEdge[k].w;
+  return kProfiles ? spring * stretchVariation[k] : spring;
+}
+vec2 coreOf(int k, float damping) {
+  vec2 spring = vec2(strand.coreStiffness, damping) * restEdge[k].w;
+  return kProfiles ? spring * coreVariation[k] : spring;
+}
 float bendStiffnessOf(int k) { return strand.bendStiffness * restEdge[k].w * (kBendVaries ? bendVariation[k].x : 1.0); }
 float bendDampingOf(int k) {
   float damping = strand.bendDamping * restEdge[k].w * (kBendVaries ? bendVariation[k].y : 1.0);

@@ -23,6 +23,7 @@ struct Work {
 std::vector<Work> strandWorks() {
   return {{"hair alone", StrandWork::hairAlone, {.oneSmoothing = true}},
           {"stiffness that varies", StrandWork::plain, {.oneSmoothing = true, .bendVaries = true}},
+          {"profiles", StrandWork::plain, {.oneSmoothing = true, .bendVaries = true, .profiles = true}},
           {"contacts", StrandWork::plain, {.oneSmoothing = true, .contacts = true}},
           {"a volume",
            StrandWork::volume,

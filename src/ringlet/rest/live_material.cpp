@@ -8,6 +8,7 @@
 #include "layout/strands.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/rest/material_extremes.h"
+#include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/rest_part.h"
 
 namespace ringlet {
@@ -38,8 +39,8 @@ std::string fixedDifference(const Material& a, const Material& b) {
   if (a.lineDensity != b.lineDensity) return "line_density";
   if (a.bendSmoothingLength != b.bendSmoothingLength) return "bend_smoothing_length";
   if (a.coreSmoothingLength != b.coreSmoothingLength) return "core_smoothing_length";
-  if (!(a.bendStiffnessProfile == b.bendStiffnessProfile)) return "profile.bend_stiffness";
-  if (!(a.lineDensityProfile == b.lineDensityProfile)) return "profile.line_density";
+  for (const ProfileParameter& profile : profileParameters())
+    if (!(a.*profile.member == b.*profile.member)) return std::string("profile.") + profile.key;
   if (!(a.factors == b.factors)) return "map";
   return "";
 }

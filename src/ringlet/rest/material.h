@@ -37,7 +37,18 @@ struct Profile {
     }
     return points.back().factor;
   }
+  /// Its largest and its smallest factor.
+  double most() const { return extreme([](double a, double b) { return std::max(a, b); }); }
+  double least() const { return extreme([](double a, double b) { return std::min(a, b); }); }
   bool operator==(const Profile&) const = default;
+
+ private:
+  template <class Of>
+  double extreme(const Of& of) const {
+    double found = at(0);
+    for (const Point& point : points) found = of(found, point.factor);
+    return found;
+  }
 };
 
 /// How strands differ from one another: a strand's value is the material's times a factor drawn evenly from
@@ -94,11 +105,24 @@ struct Material {
   std::optional<double> bendSmoothingLength{};  // alpha_b [m]; unset: from the rest curl; 0: raw curve
   std::optional<double> coreSmoothingLength{};  // alpha_c [m]; unset: as above
 
-  Profile bendStiffnessProfile{};        // on K_b, root to tip
-  Profile lineDensityProfile{};          // on lambda, root to tip
+  // Root to tip; dampings that are ratios go on with the root of the stiffness.
+  Profile bendStiffnessProfile{};      // on K_b
+  Profile bendDampingRatioProfile{};   // on C_b, beside what K_b's does
+  Profile stretchStiffnessProfile{};   // on K_s
+  Profile stretchDampingTimeProfile{};  // on C_s / K_s
+  Profile coreStiffnessProfile{};      // on K_c
+  Profile coreDampingRatioProfile{};   // on zeta
+  Profile lineDensityProfile{};        // on lambda
   MaterialVariation variation{};         // from strand to strand
   std::vector<StrandFactors> factors{};  // likewise, as maps say; of one number they multiply
   bool operator==(const Material&) const = default;
+
+  /// Whether some spring has other factors along the strand than bending's stiffness.
+  bool hasEdgeProfiles() const {
+    return !(bendDampingRatioProfile.points.empty() && stretchStiffnessProfile.points.empty() &&
+             stretchDampingTimeProfile.points.empty() && coreStiffnessProfile.points.empty() &&
+             coreDampingRatioProfile.points.empty());
+  }
 };
 
 /// The material of one strand: the groom's with the strand's own variation and factors worked in, and none

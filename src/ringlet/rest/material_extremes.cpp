@@ -46,9 +46,10 @@ std::vector<std::string> MaterialExtremes::warnings(std::size_t strandCount, con
         "{} steps per frame are enough, or a softer or more smoothed material",
         settings.stepsPerFrame, unstableStrands, strandCount, needed));
   }
-  if (settings.integrator != Integrator::paper && material.bendDampingRatio < kLeastBendDampingRatio) {
+  const double leastRatio = material.bendDampingRatio * material.bendDampingRatioProfile.least();
+  if (settings.integrator != Integrator::paper && leastRatio < kLeastBendDampingRatio) {
     sentences.push_back(fmt::format("a bend damping ratio of {} may not come to rest; {} and more does",
-                                    material.bendDampingRatio, kLeastBendDampingRatio));
+                                    leastRatio, kLeastBendDampingRatio));
   }
   if (overloadedStrands > 0) {
     sentences.push_back(fmt::format(

@@ -46,6 +46,9 @@ Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
     state.firstInGroom.push_back(whole.firstInGroom[s]);
     state.points.insert(state.points.end(), first, first + strand.particleCount);
     state.particles.insert(state.particles.end(), particles, particles + strand.particleCount);
+    if (whole.edgeFactors.empty()) continue;
+    const auto factors = whole.edgeFactors.begin() + whole.strands[s].firstParticle;
+    state.edgeFactors.insert(state.edgeFactors.end(), factors, factors + strand.particleCount);
   }
   std::ranges::sort(state.elsewhere, {}, &RigidStrand::strandInGroom);
   return {};

@@ -64,7 +64,25 @@ std::vector<double> bendFactorsOf(std::span<const double> middles, const Materia
   return factors;
 }
 
-// The largest of these factors of a strand of the groom.
+// Dampings that are ratios go on with the root of the stiffness, stretch's with the stiffness.
+std::vector<layout::EdgeFactors> edgeFactorsOf(std::span<const double> middles, const Material& material,
+                                               const Settings& settings) {
+  const layout::EdgeFactors none{{1, 1, 1}, 1, 1, 1, 0, 0};
+  std::vector<layout::EdgeFactors> factors(middles.size(), none);
+  if (settings.integrator == Integrator::paper) return factors;
+  const auto f = [](double x) { return static_cast<float>(x); };
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const double s = middles[i], stretch = material.stretchStiffnessProfile.at(s),
+                 bend = material.bendStiffnessProfile.at(s), core = material.coreStiffnessProfile.at(s);
+    factors[i].stiffness = {f(stretch), f(bend), f(core)};
+    factors[i].stretchDamping = f(stretch * material.stretchDampingTimeProfile.at(s));
+    factors[i].bendDamping = f(std::sqrt(bend) * material.bendDampingRatioProfile.at(s));
+    factors[i].coreDamping = f(std::sqrt(core) * material.coreDampingRatioProfile.at(s));
+  }
+  return factors;
+}
+
+// The largest of the first of a strand of the groom.
 double stiffestOf(const Groom& groom, std::size_t strand, const StrandGeometry& geometry,
                   const Material& material, const Settings& settings) {
   if (material.bendStiffnessProfile.points.empty()) return 1;
@@ -79,6 +97,7 @@ struct Cut : RestCurve {
   std::vector<double>
       edgeScale;  // times this, the strand's constants are the edge's: 1 / length, or 1 for `paper`
   std::vector<double> bendFactors;  // of the bend stiffness profile, at the middle of each edge
+  std::vector<layout::EdgeFactors> factors;  // of all profiles, likewise
   StrandConstants constants;
   double massUnit = 1;  // [kg]
 
@@ -90,6 +109,7 @@ struct Cut : RestCurve {
     masses.resize(points.size(), paper ? 1.0 : 0.0);
     const std::vector<double> middles = middlesOf(arcs, constants.arcLength);
     bendFactors = bendFactorsOf(middles, material, settings);
+    factors = edgeFactorsOf(middles, material, settings);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       edges.push_back(points[i + 1] - points[i]);
       edgeLengths.push_back(std::max(length(edges[i]), kShortestEdge * constants.meanEdgeLength));
@@ -105,20 +125,28 @@ struct Cut : RestCurve {
   double bendStiffness(std::size_t edge) const {
     return constants.bendStiffness * bendFactors[edge] * edgeScale[edge];
   }
+  double bendDamping(std::size_t edge) const {
+    return constants.bendDamping * factors[edge].bendDamping * edgeScale[edge];
+  }
+  double stretchStiffness(std::size_t edge) const {
+    return constants.stretchStiffness * factors[edge].stiffness.x * edgeScale[edge];
+  }
+  double stretchDamping(std::size_t edge) const {
+    return constants.stretchDamping * factors[edge].stretchDamping * edgeScale[edge];
+  }
 };
 
 // 1 - mu^2 of the point Jacobi iteration, mu a bound on its spectral radius: by Gershgorin, block row by
 // block row.
 double jacobiGap(const Cut& cut, const Settings& settings) {
-  const StrandConstants& c = cut.constants;
   const double T = settings.stepSeconds();
   std::vector<double> coupling(cut.points.size(), 0.0);
   for (std::size_t i = 0; i < cut.edges.size(); ++i) {
     const double bendStiffness = cut.bendStiffness(i);
-    const double damping = c.bendDamping * std::sqrt(cut.bendFactors[i]) * cut.edgeScale[i];
+    const double damping = cut.bendDamping(i);
     const double bendDamping = std::max(damping - T * bendStiffness, damping / 2);
-    const double edge = T * (std::max(bendDamping, c.stretchDamping * cut.edgeScale[i]) +
-                             T * (bendStiffness + c.stretchStiffness * cut.edgeScale[i]));
+    const double edge = T * (std::max(bendDamping, cut.stretchDamping(i)) +
+                             T * (bendStiffness + cut.stretchStiffness(i)));
     coupling[i] += edge;
     coupling[i + 1] += edge;
   }
@@ -139,7 +167,7 @@ double appendParticles(RestState& state, const Cut& cut, std::span<const Quatd> 
   double load = 0, massBeyond = 0;
   for (std::size_t i = n - 1; i-- > 0;) {
     massBeyond += cut.masses[i + 1];
-    const double stretchStiffness = cut.constants.stretchStiffness * cut.edgeScale[i];
+    const double stretchStiffness = cut.stretchStiffness(i);
     const double bendStiffness = cut.bendStiffness(i);
     const Vec3d carried = settings.gravity * (settings.gravityPreload * massBeyond);
     const Vec3d direction = normalizedOr(cut.edges[i], Vec3d{});
@@ -196,6 +224,10 @@ void appendStrand(RestState& state, MaterialExtremes& extremes, std::span<const 
   state.points.insert(state.points.end(), strand.begin(), strand.end());
   state.strandInGroom.push_back(static_cast<std::uint32_t>(groomIndex));
 
+  if (material.hasEdgeProfiles() && settings.integrator != Integrator::paper) {
+    state.edgeFactors.insert(state.edgeFactors.end(), cut.factors.begin(), cut.factors.end());
+    state.edgeFactors.push_back(cut.factors.back());  // the last particle has no edge
+  }
   const double stiffest = *std::max_element(cut.bendFactors.begin(), cut.bendFactors.end());
   extremes.add(c, stiffest, load, groomIndex, settings);
 }

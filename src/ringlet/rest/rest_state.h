@@ -28,6 +28,7 @@ struct RigidStrand {
 struct RestState {
   std::vector<layout::StrandRest> strands;
   std::vector<layout::ParticleRest> particles;
+  std::vector<layout::EdgeFactors> edgeFactors;  // of each particle's edge; none without such profiles
   std::vector<Vec3f> points;                 // rest positions [m]
   std::vector<std::uint32_t> strandInGroom;  // groom's index of each strand
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle

@@ -104,8 +104,9 @@ StrandConstants strandConstants(const StrandGeometry& geometry, const Material& 
   const double coreLength = c.coreSmoothingLength > 0 ? c.coreSmoothingLength : l;
   const double calm = (geometry.hasPerversions ? 3 : 4) * coreLength;
   c.coreStiffnessAsked = material.coreStiffness * weight;
-  c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (calm / T) * (calm / T));
-  c.longestCoreStep = calm * std::sqrt(lambda / std::max(c.coreStiffnessAsked, 1e-300));
+  const double most = material.coreStiffnessProfile.most();
+  c.coreStiffness = std::min(c.coreStiffnessAsked, lambda * (calm / T) * (calm / T) / most);
+  c.longestCoreStep = calm * std::sqrt(lambda / std::max(c.coreStiffnessAsked * most, 1e-300));
   c.longestBendStep = 3 * (alpha > 0 ? alpha : l) * std::sqrt(lambda / bend);
   c.coreDamping = 4 * material.coreDampingRatio * coreLength * std::sqrt(c.coreStiffness * lambda);
   return c;

@@ -103,10 +103,17 @@ Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
 
 Result<ConstantChunk> ConstantChunk::create(gpu::Device& device, std::span<const layout::StrandRest> strands,
                                             std::span<const layout::ParticleRest> particles,
+                                            std::span<const layout::EdgeFactors> factors,
                                             const GroomChunk& part) {
-  auto ofParticles =
-      createFilled(device, particles.subspan(part.particleBegin, part.particleCount()), "particles");
+  const std::size_t recordCount = (factors.empty() ? 1 : 2) * std::size_t{part.particleCount()};
+  auto ofParticles = createZero(device, recordCount * sizeof(layout::ParticleRest), "particles");
   if (!ofParticles) return ofParticles.error();
+  const auto mine = std::as_bytes(particles.subspan(part.particleBegin, part.particleCount()));
+  if (Status status = ofParticles->upload(mine); !status) return status.error();
+  if (!factors.empty()) {
+    const auto behind = std::as_bytes(factors.subspan(part.particleBegin, part.particleCount()));
+    if (Status status = ofParticles->upload(behind, mine.size()); !status) return status.error();
+  }
   auto ofStrands = createStrands(device, strands, part);
   if (!ofStrands) return ofStrands.error();
   return ConstantChunk{part, std::make_shared<Buffer>(std::move(*ofParticles)), std::move(*ofStrands)};
@@ -120,14 +127,15 @@ Status ConstantChunk::upload(std::span<const layout::StrandRest> all,
 }
 
 Status DeviceGroom::setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
-                                 std::span<const layout::ParticleRest> particles) {
+                                 std::span<const layout::ParticleRest> particles,
+                                 std::span<const layout::EdgeFactors> factors) {
   for (ConstantChunk& chunk : own) {
     if (Status status = chunk.upload(strands, particles); !status) return status;
   }
   if (!own.empty()) return {};
   std::vector<ConstantChunk> made;
   for (const DeviceChunk& chunk : chunks) {
-    auto constants = ConstantChunk::create(device, strands, particles, chunk.part);
+    auto constants = ConstantChunk::create(device, strands, particles, factors, chunk.part);
     if (!constants) return constants.error();
     made.push_back(std::move(*constants));
   }

@@ -31,10 +31,10 @@ struct ConstantChunk {
   std::shared_ptr<gpu::Buffer> particles, strands;
 
   /// Fails when the device lacks memory.
-  /// `strands`, `particles`: all of the groom, in device order.
+  /// `strands`, `particles`, `factors`: all of the groom, in device order; no factors, or of each particle.
   static Result<ConstantChunk> create(gpu::Device& device, std::span<const layout::StrandRest> strands,
                                       std::span<const layout::ParticleRest> particles,
-                                      const GroomChunk& part);
+                                      std::span<const layout::EdgeFactors> factors, const GroomChunk& part);
   /// Others in their place, while no kernel reads them.
   Status upload(std::span<const layout::StrandRest> all, std::span<const layout::ParticleRest> allParticles);
 };
@@ -74,7 +74,8 @@ struct DeviceGroom {
   /// Constants of this head's own in place of the others; kernels must be bound to them anew. Fails when the
   /// device lacks memory.
   Status setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
-                      std::span<const layout::ParticleRest> particles);
+                      std::span<const layout::ParticleRest> particles,
+                      std::span<const layout::EdgeFactors> factors);
 
   /// Whether all that does not change is what other heads see too.
   bool sharesConstants() const { return own.empty() && !hasOwnStrands; }

@@ -112,6 +112,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     if (self->kinds().volume) self->volume = buildRestVolume(self->rest, *self->contacts);
   }
   self->records = groomRecords(settings, self->choice, self->kinds());
+  if (!self->rest.edgeFactors.empty()) self->records.particleRest += sizeof(layout::EdgeFactors);
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   const auto rangesFor = [&](bool amongBodies) -> Result<std::vector<StrandRange>> {
@@ -139,7 +140,8 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
   if (!plan) return plan.error();  // before anything else is made
   for (const GroomChunk& chunk : *chunks) {
-    auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles, chunk);
+    auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles,
+                                           self->rest.edgeFactors, chunk);
     if (!constants) return constants.error();
     self->constants.push_back(std::move(*constants));
   }

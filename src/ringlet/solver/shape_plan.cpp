@@ -282,7 +282,7 @@ StrandWork strandWork(const Settings& settings, const Material& material, Contac
                       bool hasBodies) {
   if (hasBodies) return StrandWork::bodies;
   const bool isFromEnds = settings.integrator == Integrator::jacobi && !kinds.pairs && !settings.air.on &&
-                          material.bendStiffnessProfile.points.empty();
+                          material.bendStiffnessProfile.points.empty() && !material.hasEdgeProfiles();
   if (!isFromEnds) return StrandWork::plain;
   return kinds.volume ? StrandWork::volume : StrandWork::hairAlone;
 }

@@ -139,7 +139,8 @@ Status Simulation::Implementation::renewConstants() {
       liveMaterial ? liveMaterial->with(material, own, sentences) : particlesOf(asset->constants);
   if (!particles) return particles.error();
   const std::vector<layout::StrandRest> fallen = restrict(own, *particles);
-  if (Status status = buffers.setConstants(device.gpu(), own, *particles); !status) return status;
+  if (Status status = buffers.setConstants(device.gpu(), own, *particles, rest.edgeFactors); !status)
+    return status;
   if (Status status = uploadFallen(fallen); !status) return status;
   if (Status status = bindKernels(); !status) return status;
   if (liveMaterial) {

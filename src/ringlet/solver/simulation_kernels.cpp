@@ -53,14 +53,16 @@ class CompileNotice {
 }  // namespace
 
 StrandKernelOptions Simulation::Implementation::kernelOptions() const {
-  const bool bendVaries =
-      !material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper;
+  const bool profiles = !rest.edgeFactors.empty();
+  const bool bendVaries = profiles || (!material.bendStiffnessProfile.points.empty() &&
+                                       settings.integrator != Integrator::paper);
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
                               forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));
   return {.integrator = settings.integrator,
           .oneSmoothing = rest.oneSmoothing,
           .bendVaries = bendVaries,
+          .profiles = profiles,
           .taps = choice.taps,
           .contacts = settings.contacts.on,
           .pairs = contacts.has_value(),

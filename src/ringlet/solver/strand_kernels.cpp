@@ -99,6 +99,7 @@ gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const Stra
                            {layout::kSpecOneSmoothing, options.oneSmoothing ? 1u : 0u},
                            {layout::kSpecResidual, options.residual ? 1u : 0u},
                            {layout::kSpecBendVaries, options.bendVaries ? 1u : 0u},
+                           {layout::kSpecProfiles, options.profiles ? 1u : 0u},
                            {layout::kSpecForces, options.forces ? 1u : 0u},
                            {layout::kSpecMovingRoots, options.movingRoots ? 1u : 0u},
                            {layout::kSpecContacts, options.contacts ? 1u : 0u},
