@@ -101,11 +101,12 @@ void setEdgeConstants(const Material& material, const PaperMaterial& paper, cons
   strand.coreIsCapped = constants.coreIsCapped;
   for (std::size_t i = 0; i < edgeCount; ++i) {
     const double length = strand.edgeLengths[i], s = middles[i];
-    const double factor = material.bendStiffnessProfile.at(s), ofStretch = material.stretchStiffnessProfile.at(s),
+    const double factor = material.bendStiffnessProfile.at(s),
+                 ofStretch = material.stretchStiffnessProfile.at(s),
                  ofCore = material.coreStiffnessProfile.at(s);
     const double bend = constants.bend * factor / length,
-                 damping = constants.bendDamping * std::sqrt(factor) * material.bendDampingRatioProfile.at(s) /
-                           length;
+                 damping = constants.bendDamping * std::sqrt(factor) *
+                           material.bendDampingRatioProfile.at(s) / length;
     strand.stretchStiffness.push_back(constants.stretch * ofStretch / length);
     strand.stretchDamping.push_back(constants.stretchDamping * ofStretch *
                                     material.stretchDampingTimeProfile.at(s) / length);

@@ -68,9 +68,9 @@ void loadStrand() {
     inverseLength[k] = edge ? 1.0 / rest.edgeLength : 0.0;
     if (kProfiles) {
       EdgeFactors factors = edgeFactors(i);
-      stretchVariation[k] = vec2(factors.stiffness.x, factors.stretchDamping);
-      bendVariation[k] = vec2(factors.stiffness.y, factors.bendDamping);
-      coreVariation[k] = vec2(factors.stiffness.z, factors.coreDamping);
+      stretchVariation[k] = vec2(factors.stiffness.x, factors.damping.x);
+      bendVariation[k] = vec2(factors.stiffness.y, factors.damping.y);
+      coreVariation[k] = vec2(factors.stiffness.z, factors.damping.z);
     } else if (kBendVaries) {
       bendVariation[k] = vec2(rest.bendFactor, sqrt(rest.bendFactor));
     }

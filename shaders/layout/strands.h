@@ -33,8 +33,8 @@ RINGLET_CONSTANT uint kSpecProfiles = 20;
 // Bindings of the strand_step kernels, all in set 0.
 RINGLET_CONSTANT uint kBindPositions = 0;   // vec4[particles]: position relative to the head [m], 0
 RINGLET_CONSTANT uint kBindVelocities = 1;  // vec4[particles]: velocity relative to the head's translation [m/s], 0
-RINGLET_CONSTANT uint kBindParticles = 2;   // ParticleRest[particles]; of a material with profiles, then
-                                            // EdgeFactors[particles]
+RINGLET_CONSTANT uint kBindParticles = 2;   // ParticleRest[particles]; of a material with profiles, then as many again,
+                                            // which hold EdgeFactors (rest/edge_factors.h)
 RINGLET_CONSTANT uint kBindStrands = 3;     // StrandRest[strands]
 RINGLET_CONSTANT uint kBindReports = 4;     // StrandReport[strands]
 RINGLET_CONSTANT uint kBindTaps = 5;        // vec4[field][particles]
@@ -102,16 +102,6 @@ struct ParticleRest {
   float edgeLength;      // the groom's edge [m]: the stretch limit refers to it
   float coreEdgeLength;  // |b_i| at rest [m]
   float bendFactor;      // of the bend stiffness profile, root to tip; 1 where there is none
-};
-
-// What profiles multiply the constants of a particle's edge by. As large as a ParticleRest, and read as one.
-struct EdgeFactors {
-  vec3 stiffness;  // of stretch, bending and core
-  float stretchDamping;
-  float bendDamping;
-  float coreDamping;
-  float unused0;
-  float unused1;
 };
 
 // Constant per strand. Stiffnesses K and dampings C [N and N s per mass unit]: divided by the edge's length they are

@@ -107,10 +107,15 @@ ParticleRest particleRest(uint i) {
   vec4 rest = vectorAt(particleTexels, 2 * i + 1);
   return ParticleRest(spring.xyz, spring.w, rest.x, rest.y, rest.z, rest.w);
 }
+// What profiles multiply the constants of an edge by (rest/edge_factors.h).
+struct EdgeFactors {
+  vec3 stiffness;  // of stretch, bending and core
+  vec3 damping;
+};
 // Of particle i's edge, where there are profiles.
 EdgeFactors edgeFactors(uint i) {
   ParticleRest record = particleRest(parameters.particleCount + i);
-  return EdgeFactors(record.target, record.stretchRestLength, record.mass, record.edgeLength, 0.0, 0.0);
+  return EdgeFactors(record.target, vec3(record.stretchRestLength, record.mass, record.edgeLength));
 }
 // External acceleration of particle i [m/s^2]: gravity and forces from outside.
 vec3 pullOn(uint i) {

@@ -151,6 +151,11 @@ Material varyingMaterial() {
   Material material;
   material.inertiaFactor = 1.3;
   material.bendStiffnessProfile.points = {{0, 2}, {0.5, 1}, {1, 0.3}};
+  material.bendDampingRatioProfile.points = {{0, 0.7}, {1, 1.5}};
+  material.stretchStiffnessProfile.points = {{0.2, 1.5}, {0.8, 0.5}};
+  material.stretchDampingTimeProfile.points = {{0, 0.4}, {1, 2}};
+  material.coreStiffnessProfile.points = {{0, 0.3}, {0.5, 2}, {1, 0.8}};
+  material.coreDampingRatioProfile.points = {{0, 1.8}, {1, 0.6}};
   material.lineDensityProfile.points = {{0, 1.5}, {1, 0.5}};
   using Runs = std::vector<StrandRun>;
   material.factors = {

@@ -254,6 +254,8 @@ TEST_F(CutParity, AStepIsTheReferenceInEveryForm) {
   heavyHead.inertiaFactor = 1.7;
   heavyHead.gravityFactor = 0.6;
   heavyHead.bendStiffnessProfile.points = {{0, 2}, {1, 0.3}};
+  heavyHead.coreStiffnessProfile.points = {{0, 0.5}, {1, 1.5}};
+  heavyHead.stretchStiffnessProfile.points = {{0, 1}, {1, 0.4}};
   for (const Variant& variant : kVariants) {
     ParityCase c = cutCase(randomGroom(awkwardLengths(37), 7), variant.kernel);
     expectOneStep(c, variant.name);

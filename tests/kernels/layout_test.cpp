@@ -33,14 +33,6 @@ struct CppStruct {
   SpirvMember { #member, offsetof(S, member), sizeof(S::member) }
 
 // The one list of the C++ side.
-// Kernels read the one as the other.
-static_assert(sizeof(layout::EdgeFactors) == sizeof(layout::ParticleRest));
-static_assert(offsetof(layout::EdgeFactors, stiffness) == offsetof(layout::ParticleRest, target));
-static_assert(offsetof(layout::EdgeFactors, stretchDamping) ==
-              offsetof(layout::ParticleRest, stretchRestLength));
-static_assert(offsetof(layout::EdgeFactors, bendDamping) == offsetof(layout::ParticleRest, mass));
-static_assert(offsetof(layout::EdgeFactors, coreDamping) == offsetof(layout::ParticleRest, edgeLength));
-
 const std::vector<CppStruct> kCppStructs = {
     [] {
       using S = layout::ParticleRest;
@@ -148,7 +140,8 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(headCount),
                         RINGLET_MEMBER(headParticles),
                         RINGLET_MEMBER(headStrands),
-                        RINGLET_MEMBER(headPoses)}};
+                        RINGLET_MEMBER(headPoses),
+                        RINGLET_MEMBER(inertiaFactor)}};
     }(),
     [] {
       using S = layout::ContactRest;

@@ -45,17 +45,23 @@ void expectSameRest(const Groom& groom, const Settings& settings, const Material
       if (i + 1 == expected.particleCount()) continue;
       const bool paper = settings.integrator == Integrator::paper;
       const double l = expected.edgeLengths[i], scale = paper ? 1 : unit / particle.edgeLength;
+      EdgeFactors f{{1, particle.bendFactor, 1}, 1, std::sqrt(particle.bendFactor), 1, {}};
+      if (!rest->edgeFactors.empty()) f = rest->edgeFactors[strand.firstParticle + i];
+      EXPECT_EQ(f.stiffness.y, particle.bendFactor) << at;
       expectNear(particle.edgeLength, l, at + " edgeLength");
       expectNear(particle.coreEdgeLength, expected.coreRestLengths[i], at + " coreEdgeLength");
-      expectNear(strand.stretchStiffness * scale, expected.stretchStiffness[i], at + " stretchStiffness");
-      expectNear(strand.stretchDamping * scale, expected.stretchDamping[i], at + " stretchDamping");
+      expectNear(strand.stretchStiffness * scale * f.stiffness.x, expected.stretchStiffness[i],
+                 at + " stretchStiffness");
+      expectNear(strand.stretchDamping * scale * f.stretchDamping, expected.stretchDamping[i],
+                 at + " stretchDamping");
       const double bend = strand.bendStiffness * scale * particle.bendFactor;
       expectNear(bend, expected.bendStiffness[i], at + " bendStiffness");
-      const double damping = strand.bendDamping * scale * std::sqrt(particle.bendFactor);
+      const double damping = strand.bendDamping * scale * f.bendDamping;
       const double compensated = std::max(damping - settings.stepSeconds() * bend, damping / 2);
       expectNear(paper ? damping : compensated, expected.bendDamping[i], at + " bendDamping");
-      expectNear(strand.coreStiffness * scale, expected.coreStiffness[i], at + " coreStiffness");
-      expectNear(strand.coreDamping * scale, expected.coreDamping[i], at + " coreDamping");
+      expectNear(strand.coreStiffness * scale * f.stiffness.z, expected.coreStiffness[i],
+                 at + " coreStiffness");
+      expectNear(strand.coreDamping * scale * f.coreDamping, expected.coreDamping[i], at + " coreDamping");
       expectNear(particle.stretchRestLength, expected.stretchRestLengths[i], at + " stretch rest length");
       const Eigen::Vector3d target(particle.target.x, particle.target.y, particle.target.z);
       EXPECT_LE((target - expected.restTargets[i]).norm(),
@@ -133,6 +139,29 @@ TEST(RestState, GeometryThatIsKnownGivesTheSameBits) {
   for (StrandGeometry& strand : other) strand.smoothingLength *= 2;
   EXPECT_NE(buildRestState(groom, {}, {}, {}, other)->strands[0].bendBeta,
             buildRestState(groom, {}, {})->strands[0].bendBeta);
+}
+
+// The stiffest part of a strand decides: nine times as stiff a core takes three times the steps.
+TEST(RestState, StepsAreChosenByTheStiffestCore) {
+  Groom curl;
+  curl.metresPerUnit = 1;
+  for (int i = 0; i < 128; ++i) {
+    const float turn = 0.4f * static_cast<float>(i);
+    curl.points.push_back(
+        {0.006f * std::cos(turn), -0.002f * static_cast<float>(i), 0.006f * std::sin(turn)});
+  }
+  curl.firstPoint = {0, 128};
+  Material material;
+  material.coreStiffness = 150;
+  const int plain = *chooseStepsPerFrame(curl, material, {});
+  for (const double most : {9.0, 1 / 9.0}) {
+    material.coreStiffnessProfile.points = {{0, std::min(most, 1.0)}, {0.5, most}, {1, std::min(most, 1.0)}};
+    const int steps = *chooseStepsPerFrame(curl, material, {});
+    EXPECT_NEAR(steps, most > 1 ? 3 * plain : 8, 2) << plain;
+    Settings settings;
+    settings.stepsPerFrame = steps;
+    EXPECT_TRUE(buildRestState(curl, material, settings)->warnings.empty());
+  }
 }
 
 TEST(RestState, StepsAreChosenByTheMotionAndTheGroom) {

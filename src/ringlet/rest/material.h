@@ -38,8 +38,12 @@ struct Profile {
     return points.back().factor;
   }
   /// Its largest and its smallest factor.
-  double most() const { return extreme([](double a, double b) { return std::max(a, b); }); }
-  double least() const { return extreme([](double a, double b) { return std::min(a, b); }); }
+  double most() const {
+    return extreme([](double a, double b) { return std::max(a, b); });
+  }
+  double least() const {
+    return extreme([](double a, double b) { return std::min(a, b); });
+  }
   bool operator==(const Profile&) const = default;
 
  private:
@@ -106,13 +110,13 @@ struct Material {
   std::optional<double> coreSmoothingLength{};  // alpha_c [m]; unset: as above
 
   // Root to tip; dampings that are ratios go on with the root of the stiffness.
-  Profile bendStiffnessProfile{};      // on K_b
-  Profile bendDampingRatioProfile{};   // on C_b, beside what K_b's does
-  Profile stretchStiffnessProfile{};   // on K_s
-  Profile stretchDampingTimeProfile{};  // on C_s / K_s
-  Profile coreStiffnessProfile{};      // on K_c
-  Profile coreDampingRatioProfile{};   // on zeta
-  Profile lineDensityProfile{};        // on lambda
+  Profile bendStiffnessProfile{};        // on K_b
+  Profile bendDampingRatioProfile{};     // on C_b, beside what K_b's does
+  Profile stretchStiffnessProfile{};     // on K_s
+  Profile stretchDampingTimeProfile{};   // on C_s / K_s
+  Profile coreStiffnessProfile{};        // on K_c
+  Profile coreDampingRatioProfile{};     // on zeta
+  Profile lineDensityProfile{};          // on lambda
   MaterialVariation variation{};         // from strand to strand
   std::vector<StrandFactors> factors{};  // likewise, as maps say; of one number they multiply
   bool operator==(const Material&) const = default;

@@ -65,10 +65,10 @@ std::vector<double> bendFactorsOf(std::span<const double> middles, const Materia
 }
 
 // Dampings that are ratios go on with the root of the stiffness, stretch's with the stiffness.
-std::vector<layout::EdgeFactors> edgeFactorsOf(std::span<const double> middles, const Material& material,
-                                               const Settings& settings) {
-  const layout::EdgeFactors none{{1, 1, 1}, 1, 1, 1, 0, 0};
-  std::vector<layout::EdgeFactors> factors(middles.size(), none);
+std::vector<EdgeFactors> edgeFactorsOf(std::span<const double> middles, const Material& material,
+                                       const Settings& settings) {
+  const EdgeFactors none{{1, 1, 1}, 1, 1, 1, {}};
+  std::vector<EdgeFactors> factors(middles.size(), none);
   if (settings.integrator == Integrator::paper) return factors;
   const auto f = [](double x) { return static_cast<float>(x); };
   for (std::size_t i = 0; i < middles.size(); ++i) {
@@ -96,8 +96,8 @@ struct Cut : RestCurve {
   std::vector<double> edgeLengths, masses;
   std::vector<double>
       edgeScale;  // times this, the strand's constants are the edge's: 1 / length, or 1 for `paper`
-  std::vector<double> bendFactors;  // of the bend stiffness profile, at the middle of each edge
-  std::vector<layout::EdgeFactors> factors;  // of all profiles, likewise
+  std::vector<double> bendFactors;   // of the bend stiffness profile, at the middle of each edge
+  std::vector<EdgeFactors> factors;  // of all profiles, likewise
   StrandConstants constants;
   double massUnit = 1;  // [kg]
 
@@ -145,8 +145,8 @@ double jacobiGap(const Cut& cut, const Settings& settings) {
     const double bendStiffness = cut.bendStiffness(i);
     const double damping = cut.bendDamping(i);
     const double bendDamping = std::max(damping - T * bendStiffness, damping / 2);
-    const double edge = T * (std::max(bendDamping, cut.stretchDamping(i)) +
-                             T * (bendStiffness + cut.stretchStiffness(i)));
+    const double edge =
+        T * (std::max(bendDamping, cut.stretchDamping(i)) + T * (bendStiffness + cut.stretchStiffness(i)));
     coupling[i] += edge;
     coupling[i + 1] += edge;
   }

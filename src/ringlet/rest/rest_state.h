@@ -10,6 +10,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/rest/edge_factors.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/rest/strand_constants.h"
 #include "ringlet/scene/settings.h"
@@ -28,7 +29,7 @@ struct RigidStrand {
 struct RestState {
   std::vector<layout::StrandRest> strands;
   std::vector<layout::ParticleRest> particles;
-  std::vector<layout::EdgeFactors> edgeFactors;  // of each particle's edge; none without such profiles
+  std::vector<EdgeFactors> edgeFactors;      // of each particle's edge; none without such profiles
   std::vector<Vec3f> points;                 // rest positions [m]
   std::vector<std::uint32_t> strandInGroom;  // groom's index of each strand
   std::vector<std::uint32_t> firstInGroom;   // groom's index of each strand's root particle

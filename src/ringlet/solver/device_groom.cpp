@@ -103,8 +103,7 @@ Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
 
 Result<ConstantChunk> ConstantChunk::create(gpu::Device& device, std::span<const layout::StrandRest> strands,
                                             std::span<const layout::ParticleRest> particles,
-                                            std::span<const layout::EdgeFactors> factors,
-                                            const GroomChunk& part) {
+                                            std::span<const EdgeFactors> factors, const GroomChunk& part) {
   const std::size_t recordCount = (factors.empty() ? 1 : 2) * std::size_t{part.particleCount()};
   auto ofParticles = createZero(device, recordCount * sizeof(layout::ParticleRest), "particles");
   if (!ofParticles) return ofParticles.error();
@@ -128,7 +127,7 @@ Status ConstantChunk::upload(std::span<const layout::StrandRest> all,
 
 Status DeviceGroom::setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
                                  std::span<const layout::ParticleRest> particles,
-                                 std::span<const layout::EdgeFactors> factors) {
+                                 std::span<const EdgeFactors> factors) {
   for (ConstantChunk& chunk : own) {
     if (Status status = chunk.upload(strands, particles); !status) return status;
   }

@@ -34,7 +34,7 @@ struct ConstantChunk {
   /// `strands`, `particles`, `factors`: all of the groom, in device order; no factors, or of each particle.
   static Result<ConstantChunk> create(gpu::Device& device, std::span<const layout::StrandRest> strands,
                                       std::span<const layout::ParticleRest> particles,
-                                      std::span<const layout::EdgeFactors> factors, const GroomChunk& part);
+                                      std::span<const EdgeFactors> factors, const GroomChunk& part);
   /// Others in their place, while no kernel reads them.
   Status upload(std::span<const layout::StrandRest> all, std::span<const layout::ParticleRest> allParticles);
 };
@@ -74,8 +74,7 @@ struct DeviceGroom {
   /// Constants of this head's own in place of the others; kernels must be bound to them anew. Fails when the
   /// device lacks memory.
   Status setConstants(gpu::Device& device, std::span<const layout::StrandRest> strands,
-                      std::span<const layout::ParticleRest> particles,
-                      std::span<const layout::EdgeFactors> factors);
+                      std::span<const layout::ParticleRest> particles, std::span<const EdgeFactors> factors);
 
   /// Whether all that does not change is what other heads see too.
   bool sharesConstants() const { return own.empty() && !hasOwnStrands; }

@@ -112,7 +112,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     if (self->kinds().volume) self->volume = buildRestVolume(self->rest, *self->contacts);
   }
   self->records = groomRecords(settings, self->choice, self->kinds());
-  if (!self->rest.edgeFactors.empty()) self->records.particleRest += sizeof(layout::EdgeFactors);
+  if (!self->rest.edgeFactors.empty()) self->records.particleRest += sizeof(EdgeFactors);
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   const auto rangesFor = [&](bool amongBodies) -> Result<std::vector<StrandRange>> {

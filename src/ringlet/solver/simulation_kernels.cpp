@@ -54,8 +54,8 @@ class CompileNotice {
 
 StrandKernelOptions Simulation::Implementation::kernelOptions() const {
   const bool profiles = !rest.edgeFactors.empty();
-  const bool bendVaries = profiles || (!material.bendStiffnessProfile.points.empty() &&
-                                       settings.integrator != Integrator::paper);
+  const bool bendVaries =
+      profiles || (!material.bendStiffnessProfile.points.empty() && settings.integrator != Integrator::paper);
   const bool fitsTexels = isSeenAsTexels(
       device.gpu(), std::max({buffers.largestTexels(), world.largestBuffer(), roots.largestBuffer(),
                               forces.largestBuffer(), goals.largestBuffer(), fields.largestBuffer()}));

@@ -30,7 +30,7 @@ struct StrandKernelOptions {
   Integrator integrator = Integrator::jacobi;
   bool oneSmoothing = false;  // alpha_b and alpha_c are equal in every strand
   bool bendVaries = false;    // along some strand
-  bool profiles = false;      // edges have factors (layout::EdgeFactors); with bendVaries
+  bool profiles = false;      // edges have factors (EdgeFactors); with bendVaries
   bool taps = false;
   bool contacts = false;  // the solve is iterated with the contacts' systems
   bool pairs = true;      // of which there are of pairs
