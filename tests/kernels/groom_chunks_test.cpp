@@ -100,11 +100,12 @@ class ChunkedGroom : public GpuTest {
     Settings settings;
     bool bodies = false;
     int longest = 30;  // particles; 16 and fewer are one shape, whose kernel with bodies compiles for seconds
+    Material material = varyingMaterial();
   };
 
   Result<Simulation> make(const Groom& groom, const Case& c) {
     const std::vector<Vec3d> shifts(groom.strandCount(), {0.01, 0, 0.02});
-    return Simulation::create(device(), groom, varyingMaterial(), c.settings,
+    return Simulation::create(device(), groom, c.material, c.settings,
                               {.head = headAt(0),
                                .oneStepEarlier = headAt(-c.settings.stepSeconds()),
                                .bodies = c.bodies ? sampleBodies() : std::vector<Body>{},
@@ -232,6 +233,7 @@ TEST_F(ChunkedGroom, ALimitBelowOneStrandIsRefused) {
 TEST_F(ChunkedGroom, ContactsAndTapsWantItWhole) {
   const Groom groom = randomGroom(std::vector<int>(40, 20), 3);
   Case contacts{"contacts", {.mostBufferBytes = 400 * 48}, {}};
+  contacts.material = {};
   contacts.settings.contacts.on = true;
   auto refused = make(groom, contacts);
   ASSERT_FALSE(refused);
@@ -246,7 +248,7 @@ TEST_F(ChunkedGroom, ContactsAndTapsWantItWhole) {
 
 TEST_F(ChunkedGroom, MoreThanTheDevicesMemoryIsRefusedWithTheNumbers) {
   const Groom groom = randomGroom(std::vector<int>(1000, 20), 3);
-  const auto refused = make(groom, {"memory", {.mostDeviceBytes = kMebibyte}, {}});
+  const auto refused = make(groom, {"memory", {.mostDeviceBytes = kMebibyte}, {}, false, 30, {}});
   ASSERT_FALSE(refused);
   // 20,000 x 64 + 1,000 x 136 bytes, and for frames in flight 20,000 x 32, where those come from there too.
   const char* needs = gpu::isOneMemory(device().gpu()) ? "needs 2.0 MiB" : "needs 1.4 MiB";
