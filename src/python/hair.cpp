@@ -656,7 +656,8 @@ void addHairClass(py::module_& module) {
           },
           py::arg("cuts"),
           "Cuts strands from the next frame on: pairs (strand, keep); the particles from keep on fall, with "
-          "bodies, air, fields and hair that meets pair by pair; strands that are carried rigidly stay whole. "
+          "bodies, air, fields and hair that meets pair by pair; strands that are carried rigidly stay "
+          "whole. "
           "With no frame in flight. ringlet.Error where nothing would fall or fewer than two particles would "
           "stay.")
       .def(

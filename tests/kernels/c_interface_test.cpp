@@ -387,6 +387,31 @@ TEST_F(CInterface, GoalsAndFieldsGiveTheSameBits) {
   expectInvalid(ringlet_hair_set_goals(nullptr, &wrong), "takes hair");
 }
 
+TEST_F(CInterface, CutsGiveTheSameBits) {
+  Handles c;
+  open(c);
+  const Groom groom = randomGroom({9, 14, 10}, 3);
+  const CGroom from(groom);
+  ASSERT_EQ(ringlet_asset_build(c.device, &from.groom, nullptr, nullptr, nullptr, &c.asset), RINGLET_OK);
+  ASSERT_EQ(ringlet_hair_create(c.asset, nullptr, &c.hairs.emplace_back()), RINGLET_OK);
+  auto expected = Simulation::create(device(), groom, {}, {});
+  ASSERT_TRUE(expected);
+  const ringlet_cut cuts[] = {{0, 4}, {2, 7}};
+  ASSERT_EQ(ringlet_hair_cut(c.hairs[0], cuts, 2), RINGLET_OK) << ringlet_error_message();
+  ASSERT_TRUE(expected->cut(std::vector<StrandCut>{{0, 4}, {2, 7}}));
+  const std::vector<HeadPose> still(static_cast<std::size_t>(Settings{}.stepsPerFrame));
+  const ringlet_pose head{};
+  for (int frame = 0; frame < 3; ++frame) {
+    ASSERT_EQ(ringlet_step_to(c.hairs[0], &head), RINGLET_OK) << ringlet_error_message();
+    ASSERT_TRUE(expected->stepFrame(still));
+  }
+  EXPECT_EQ(positionsOf(c.hairs[0], groom.points.size()), *expected->positions());
+  EXPECT_EQ(ringlet_hair_cut(c.hairs[0], cuts, 1), RINGLET_ERROR);
+  EXPECT_NE(std::string(ringlet_error_message()).find("strand 0 has 4 particles"), std::string::npos);
+  expectInvalid(ringlet_hair_cut(nullptr, cuts, 1), "takes hair");
+  expectInvalid(ringlet_hair_cut(c.hairs[0], nullptr, 1), "and cuts");
+}
+
 // A caller's struct may be shorter, of a version before, or longer, of one to come.
 TEST_F(CInterface, StructsMayBeOfOtherVersions) {
   Handles c;

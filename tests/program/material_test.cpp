@@ -107,7 +107,7 @@ TEST(MaterialCommand, WritesAFileThatReadsBackTheSame) {
 TEST(MaterialCommand, MistakesAreOneSentence) {
   const auto folder = scratchFolder("material_mistakes");
   std::ofstream(folder / "broken.toml") << "preset = 'ringlet'\nbend_stifness = 5\n";
-  std::ofstream(folder / "tail.toml") << "[profile]\nbend_stiffness = []\ncore_stiffness = 5\n";
+  std::ofstream(folder / "tail.toml") << "[profile]\nbend_stiffness = []\ngravity_factor = 5\n";
   std::ofstream(folder / "odd.toml") << "bend_damping_ratio = 0.01\n";
   struct Case {
     std::vector<std::string> arguments;
@@ -128,8 +128,8 @@ TEST(MaterialCommand, MistakesAreOneSentence) {
            Case{{"material", "coil", "-o", "none/x.toml"}, 5, "none/x.toml"},
            Case{{"material", "tail.toml"},
                 1,
-                "line 3: found the unknown key 'core_stiffness' in [profile]; "
-                "did you mean core_stiffness, which stands above all tables?"},
+                "line 3: found the unknown key 'gravity_factor' in [profile]; "
+                "did you mean gravity_factor, which stands above all tables?"},
            Case{{"simulate", "curl.obj", "-o", "out", "--material", "curly"},
                 2,
                 "there is no material 'curly'"},

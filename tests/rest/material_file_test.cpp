@@ -80,7 +80,8 @@ TEST(MaterialFile, MistakesAreNamedWithLineAndRemedy) {
       {"[variation]\nsead = 2",
        "line 2: found the unknown key 'sead' in [variation]; did you mean variation.seed?"},
       {"[profile]\nxyz = 2",
-       "line 2: found the unknown key 'xyz' in [profile]; expected bend_stiffness, line_density"},
+       "line 2: found the unknown key 'xyz' in [profile]; expected bend_stiffness, bend_damping_ratio, "
+       "stretch_stiffness, stretch_damping_time, core_stiffness, core_damping_ratio, line_density"},
       {"[dial]\nhold = 2", "line 1: found the unknown key 'dial'; did you mean dials?"},
       // types
       {"bend_stiffness = '5'",

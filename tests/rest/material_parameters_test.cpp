@@ -50,7 +50,7 @@ TEST(MaterialParameters, TablesAreComplete) {
   EXPECT_EQ(materialParameters().size(), 14u);
   EXPECT_EQ(dialParameters().size(), 8u);
   EXPECT_EQ(variationParameters().size(), 4u);
-  EXPECT_EQ(profileParameters().size(), 2u);
+  EXPECT_EQ(profileParameters().size(), 7u);
 }
 
 // Each number beyond either end of its range is refused by buildRestState's own check, with key and range.

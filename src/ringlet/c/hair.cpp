@@ -288,6 +288,15 @@ ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_mater
   });
 }
 
+ringlet_result ringlet_hair_cut(ringlet_hair* hair, const ringlet_cut* cuts, uint32_t cut_count) {
+  return guarded([&]() -> Outcome {
+    if (!hair || (!cuts && cut_count > 0)) return Outcome::invalid("ringlet_hair_cut takes hair and cuts");
+    std::vector<StrandCut> taken;
+    for (uint32_t i = 0; i < cut_count; ++i) taken.push_back({cuts[i].strand, cuts[i].keep});
+    return hair->simulation.cut(taken);
+  });
+}
+
 ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count) {
   return guarded([&]() -> Outcome {
     if (!hair) return Outcome::invalid("ringlet_hair_set_bodies takes hair");

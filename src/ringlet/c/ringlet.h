@@ -287,6 +287,13 @@ typedef struct ringlet_field {
 ringlet_result ringlet_hair_set_fields(ringlet_hair* hair, const ringlet_field* fields,
                                        const ringlet_field* from, uint32_t field_count);
 
+/* Of a strand of the groom, the particles from `keep` on are cut off. */
+typedef struct ringlet_cut {
+  uint32_t strand, keep;
+} ringlet_cut;
+/* Cuts strands, from the next frame on; what is cut off falls (Simulation::cut). */
+ringlet_result ringlet_hair_cut(ringlet_hair* hair, const ringlet_cut* cuts, uint32_t cut_count);
+
 typedef struct ringlet_report {
   size_t struct_size;
   double max_edge_stretch; /* largest ratio of an edge's length to that in the groom, since the beginning */
