@@ -4,8 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "parity/parity.h"
+#include "ringlet/rest/material_parameters.h"
 #include "ringlet/solver/simulation.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/tolerances.h"
 
 namespace ringlet::test {
 namespace {
@@ -59,6 +62,28 @@ TEST_F(Profiles, OfStretchGiveWhatHangs) {
     const double longer = edge * below * 9.81 / 9.80665 / (20 * (4 - 3.75 * s));
     const double found = length(points[i + 1] - points[i]) - edge;
     EXPECT_NEAR(found, longer, 0.01 * longer + 2e-6) << i;
+  }
+}
+
+// By themselves, each as the reference has it, and other than without.
+TEST_F(Profiles, EachActs) {
+  parity::ParityCase plain{parity::randomGroom({31, 64, 17}, 5), {}, {}, {}};
+  const auto moved = [&](const Material& material) {
+    auto hair = Simulation::create(device(), plain.groom, material, plain.settings);
+    EXPECT_TRUE(hair) << hair.error().message;
+    for (int frame = 1; frame <= 3; ++frame)
+      EXPECT_TRUE(
+          hair->stepFrame({{0.01 * frame * frame, 0, 0}, fromRotationVector(Vec3d{0, 0.2 * frame, 0})}));
+    return *hair->positions();
+  };
+  const auto without = moved({});
+  for (const ProfileParameter& profile : profileParameters()) {
+    SCOPED_TRACE(profile.key);
+    parity::ParityCase c = plain;
+    (c.material.*profile.member).points = {{0, 0.5}, {1, 2}};
+    for (const parity::FieldError& e : parity::oneStepErrors(device(), c))
+      EXPECT_LE(e.error, kOneStep) << e.field << "\n" << e.where;
+    EXPECT_NE(moved(c.material), without);
   }
 }
 
