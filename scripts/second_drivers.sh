@@ -97,8 +97,8 @@ quick() {
   try "$driver" "a run with contacts repeats" "$@" $build/tests/kernels_tests --gtest_brief=1 \
     --gtest_filter='ContactStep.RepeatsBitwise*:VolumeStep.RepeatsBitwise*'
   try "$driver" "a volume beside contacts" "$@" $build/tests/kernels_tests --gtest_brief=1 --gtest_filter='VolumeStep.Beside*'
-  try "$driver" "many heads, and cuts" "$@" $build/tests/kernels_tests --gtest_brief=1 \
-    --gtest_filter='HairFrames*:*OneOfManyHeads*:Cut.*'
+  try "$driver" "many heads, cuts, profiles" "$@" $build/tests/kernels_tests --gtest_brief=1 \
+    --gtest_filter='HairFrames*:*OneOfManyHeads*:Cut.*:CutContacts.Lands*:Profiles.*'
   try "$driver" "pictures" "$@" $build/tests/program_tests --gtest_brief=1 --gtest_filter='Golden.*'
 }
 

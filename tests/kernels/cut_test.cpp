@@ -163,8 +163,8 @@ TEST_F(Cut, StaysWhereItIsWhenTheHeadJumps) {
   exact.cut(groom, {}, cuts);
   std::vector<HeadPose> heads{{}};  // walking, then elsewhere, turned
   for (int frame = 1; frame <= 4; ++frame) heads.push_back({{0.02 * frame, 0, 0}, {}});
-  heads.push_back({{1, 0.3, 2}, fromRotationVector(Vec3d{0, 1, 0})});
-  heads.push_back({{1, 0.3, 1.98}, fromRotationVector(Vec3d{0, 1.1, 0})});
+  heads.push_back({{0.6, 0.2, 0.4}, fromRotationVector(Vec3d{0, 1, 0})});
+  heads.push_back({{0.6, 0.2, 0.38}, fromRotationVector(Vec3d{0, 1.1, 0})});
   std::vector<Vec3d> centres;
   for (std::size_t frame = 1; frame < heads.size(); ++frame) {
     std::vector<HeadPose> poses;
