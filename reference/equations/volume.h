@@ -19,10 +19,11 @@ inline double volumeGain(const ContactSettings& settings, double T) {
   return settings.volumeDrag * T + settings.volumeStiffness * T * T;
 }
 
-/// a = kappa w + k T s [m/s], from w [m/s] and s [m].
+/// a = kappa w + k T s [m/s], from w [m/s] and s [m]; each component is cut to kVolumeMostRate.
 inline Vector3<double> volumeRate(const ContactSettings& settings, double T, const Vector3<double>& w,
                                   const Vector3<double>& s) {
-  return volumeGain(settings, T) * w + settings.volumeStiffness * T * s;
+  const Vector3<double> a = volumeGain(settings, T) * w + settings.volumeStiffness * T * s;
+  return a.cwiseMax(-kVolumeMostRate).cwiseMin(kVolumeMostRate);
 }
 
 /// s a step later; moved: by how much in the head's frame [m].

@@ -2,7 +2,7 @@
 // nodes; ours. With T the step, lambda drag, k stiffness, o the share that others have in the density about a
 // particle, W its weight at a node, all in the head's frame:
 //
-//   kappa = lambda T + k T^2      g = m o kappa      a = kappa w + k T s
+//   kappa = lambda T + k T^2      g = m o kappa      a = kappa w + k T s, each component cut to `most`
 //   A_n = sum W g a / sum W g     the particle gets the momentum  m o (sum W A_n - k T s) - g w(v)
 //
 // w: velocity beside the rigidly carried head; s: displacement, which fades. At rest both are 0 and so is all else.
@@ -19,9 +19,9 @@ float othersShare(float ownDensity, float density) {
 /// kappa [1].
 float volumeGain(float drag, float stiffness, float T) { return T * (drag + T * stiffness); }
 
-/// a [m/s]: w: [m/s]; s: [m].
-vec3 volumeRate(float drag, float stiffness, float T, vec3 w, vec3 s) {
-  return volumeGain(drag, stiffness, T) * w + stiffness * T * s;
+/// a [m/s]: w: [m/s]; s: [m]; most: [m/s].
+vec3 volumeRate(float drag, float stiffness, float T, vec3 w, vec3 s, float most) {
+  return clamp(volumeGain(drag, stiffness, T) * w + stiffness * T * s, -most, most);
 }
 
 /// s a step later: moved: by how much in the head's frame [m]; kept: exp(-T / tau).

@@ -13,8 +13,7 @@ void dispatchGrid(bool grid, bool asks) {
   control.indirectContacts[0] = grid ? groupsOf(parameters.contactCount) : 0;
   control.indirectBuckets[0] = grid ? parameters.bucketCount / kBucketBlock : 0;
   control.indirectOne[0] = grid ? 1 : 0;
-  uint stride = max(parameters.sampleStride, 1);
-  control.indirectSample[0] = asks ? groupsOf((parameters.contactCount + stride - 1) / stride) : 0;
+  control.indirectSample[0] = asks ? groupsOf(parameters.mostSampled) : 0;
   for (uint axis = 1; axis < 3; ++axis) {
     control.indirectContacts[axis] = 1;
     control.indirectBuckets[axis] = 1;

@@ -2,7 +2,8 @@
 // which contact_decide.comp decides whether the lists are still valid; and makes the guess from which the solve starts
 // (warm start). Contacts change little from step to step, so this step is expected to change v^0 by most of what the
 // last one did. Reads positions, v^0 and the velocities at the end of the last step; writes motion and speed of the
-// control, and the guesses. Mirrored by reference/kernels/contact_step.h.
+// control, and the guesses. If strands are divided among devices, those of this one are measured before the others are
+// known. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
@@ -20,6 +21,7 @@ void main() {
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
   ContactRest rest = contactOf(c);
+  if (kDivided && parameters.whose != kOfAll && isElsewhere(rest.strand) != (parameters.whose == kOfElsewhere)) return;
   uint particle = rest.particle;
   vec3 x = positionOf(particle);
   vec3 v = velocityOf(particle);

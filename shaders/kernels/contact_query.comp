@@ -43,7 +43,9 @@ void main() {
     setListed(c, uintBitsToFloat(placedPosition(place).xyz), uintBitsToFloat(placedVelocity(place).xyz));
     return;
   }
-  if (!search(place, parameters.skin)) control.isHalted = kHaltedByTurns;
+  uvec4 self = placedPosition(place);
+  vec3 velocity = uintBitsToFloat(placedVelocity(place).xyz);
+  if (!search(c, uintBitsToFloat(self.xyz), velocity, self.w, parameters.skin)) control.isHalted = kHaltedByTurns;
   lists[list] = count;
   if (count > control.longestList) atomicMax(control.longestList, count);
   setListed(c, x, v);

@@ -15,11 +15,10 @@ bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float 
 void take(ContactRest other, float R, float r0) { ++found; }
 
 void main() {
-  uint place = gl_GlobalInvocationID.x * parameters.sampleStride + control.steps % parameters.sampleStride;
-  if (place >= parameters.contactCount) return;
-  uint c = placedVelocity(place).w;
-  if (isElsewhere(contactOf(c).strand)) return;
-  if (!search(place, 0.0)) control.isHalted = kHaltedByTurns;
+  uint c = sampledContact(gl_GlobalInvocationID.x);
+  if (c == kNoContact) return;
+  ContactRest self = contactOf(c);
+  if (!search(c, positionOf(self.particle), velocityOf(self.particle), groupOf(self.strand), 0.0)) control.isHalted = kHaltedByTurns;
   uint list = listOf(c);
   uint count = lists[list];
   uint listed = 0;

@@ -8,7 +8,7 @@
 
 void main() {
   uint i;
-  if (!findParticleHere(i)) return;
+  if (!findParticle(i)) return;
   VolumeParticle self = volumeParticle(i);
   vec4 memory = memoryOf(i);
   vec4 predicted = predictedOf(i);
@@ -22,9 +22,8 @@ void main() {
   vec4 rate = rateFrom(mass, v + parameters.warmth * change, x, s);
   states[i] = VolumeState(vec4(s, memory.w), vec4(place, mass), vec4(v, 1));
   bool sorts = control.untilSort == 0;
-  if (kDivided) brought[parameters.count + i] = vec4(place, mass);
-  if (kDivided || sorts) brought[i] = rate;
   if (sorts) {
+    brought[i] = rate;
     if (self.mass > 0.0) reachTo(place);  // what was cut off has none: it is of the volume no more
   } else {
     parcels[locatedAt(i).w].rate = rate;

@@ -9,6 +9,7 @@
 void main() {
   if (gl_GlobalInvocationID.x > 0) return;
   control.indirectParticles[0] = 0;
+  control.indirectDensities[0] = 0;
   control.indirectBlocks[0] = 0;
   if (halt.isHalted != 0) return;
   if (control.untilSort > 0) {
@@ -43,8 +44,10 @@ void main() {
     control.indirectParticles[axis] = 1;
     control.indirectBlocks[axis] = 1;
     control.indirectNodes[axis] = 1;
+    control.indirectDensities[axis] = 1;
   }
   control.indirectParticles[0] = groupsOf(parameters.count);
   control.indirectBlocks[0] = control.cellCount / kBucketBlock + 1;
   control.indirectNodes[0] = groupsOf(control.cellCount);
+  control.indirectDensities[0] = groupsOf(control.cellCount);
 }

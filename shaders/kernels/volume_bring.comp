@@ -6,9 +6,8 @@
 
 void main() {
   uint i;
-  if (!findParticleHere(i)) return;
+  if (!findParticle(i)) return;
   uint particle = volumeParticle(i).particle;
-  vec4 rate = rateFrom(placeOf(i).w, velocityOf(particle), positionOf(particle), memoryOf(i).xyz);
-  if (kDivided) brought[i] = rate;
-  parcels[locatedAt(i).w].rate = rate;
+  parcels[locatedAt(i).w].rate =
+      rateFrom(placeOf(i).w, velocityOf(particle), positionOf(particle), memoryOf(i).xyz);
 }

@@ -1,4 +1,4 @@
-// Sorts particles of the volume by cell, 2 of 6: the start of each cell within its block of cells, and the sum of the
+// Sorts particles of the volume by cell, 2 of 5: the start of each cell within its block of cells, and the sum of the
 // block; one workgroup per block. Resets the counts to zero for the next sort.
 #version 450
 #extension GL_GOOGLE_include_directive : require

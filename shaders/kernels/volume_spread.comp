@@ -7,7 +7,7 @@
 
 void main() {
   uint i;
-  if (!findParticleHere(i)) return;
+  if (!findParticle(i)) return;
   VolumeParticle self = volumeParticle(i);
   vec3 s = memoryOf(i).xyz;
   float mass = placeOf(i).w;

@@ -1,4 +1,4 @@
-// Sorts particles of the volume by cell, 3 of 6: the start of each block of cells; one workgroup.
+// Sorts particles of the volume by cell, 3 of 5: the start of each block of cells; one workgroup.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

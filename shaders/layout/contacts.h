@@ -31,20 +31,21 @@ RINGLET_CONSTANT uint kBindLives = 13;             // ContactLife[2][liveBlocks]
 RINGLET_CONSTANT uint kBindForces = 14;            // ContactForce[liveBlocks][kLiveBlock]
 RINGLET_CONSTANT uint kBindSystems = 15;           // ContactSystem[particles]
 RINGLET_CONSTANT uint kBindControl = 16;           // ContactControl
-RINGLET_CONSTANT uint kContactBindingCount = 17;
+RINGLET_CONSTANT uint kBindSampled = 17;           // uint: where strands are divided, see sampledContact
+RINGLET_CONSTANT uint kContactBindingCount = 18;
 // And as texels (shared/texels.glsl):
-RINGLET_CONSTANT uint kBindContactPositionTexels = 17;
-RINGLET_CONSTANT uint kBindContactVelocityTexels = 18;
-RINGLET_CONSTANT uint kBindContactSolvedTexels = 19;
-RINGLET_CONSTANT uint kBindContactTexels = 20;  // 2 a contact particle
-RINGLET_CONSTANT uint kBindNeighbourTexels = 21;
-RINGLET_CONSTANT uint kBindIndexTexels = 22;
-RINGLET_CONSTANT uint kBindPlaceTexels = 23;    // 2 a contact particle
-RINGLET_CONSTANT uint kBindHistoryTexels = 24;  // 4 a contact particle
-RINGLET_CONSTANT uint kBindGuessTexels = 25;
-RINGLET_CONSTANT uint kBindPairTexels = 26;
-RINGLET_CONSTANT uint kBindLifeTexels = 27;
-RINGLET_CONSTANT uint kBindForceTexels = 28;    // 2 a contact
+RINGLET_CONSTANT uint kBindContactPositionTexels = 18;
+RINGLET_CONSTANT uint kBindContactVelocityTexels = 19;
+RINGLET_CONSTANT uint kBindContactSolvedTexels = 20;
+RINGLET_CONSTANT uint kBindContactTexels = 21;  // 2 a contact particle
+RINGLET_CONSTANT uint kBindNeighbourTexels = 22;
+RINGLET_CONSTANT uint kBindIndexTexels = 23;
+RINGLET_CONSTANT uint kBindPlaceTexels = 24;    // 2 a contact particle
+RINGLET_CONSTANT uint kBindHistoryTexels = 25;  // 4 a contact particle
+RINGLET_CONSTANT uint kBindGuessTexels = 26;
+RINGLET_CONSTANT uint kBindPairTexels = 27;
+RINGLET_CONSTANT uint kBindLifeTexels = 28;
+RINGLET_CONSTANT uint kBindForceTexels = 29;    // 2 a contact
 RINGLET_CONSTANT uint kContactTexelBindingCount = 12;
 
 // Lists are as long as they must be, in blocks of this many pairs that are given out as they are asked for. Which block
@@ -156,6 +157,11 @@ RINGLET_CONSTANT uint kMissedOneIn = 100;
 RINGLET_CONSTANT uint kHaltedForRoom = 1;
 RINGLET_CONSTANT uint kHaltedByTurns = 2;
 
+// The strands whose contact particles a dispatch of contact_motion.comp is for.
+RINGLET_CONSTANT uint kOfAll = 0;
+RINGLET_CONSTANT uint kOfHere = 1;       // stepped by this device
+RINGLET_CONSTANT uint kOfElsewhere = 2;  // by another
+
 struct ContactParameters {
   uint contactCount;
   uint bucketCount;     // a power of two
@@ -178,6 +184,8 @@ struct ContactParameters {
   float breakFactor;    // beyond this times r0 a contact is over
   float seenAhead;      // a contact is seen ahead from this times r0
   float listedAhead;    // and in lists from this times r0 on, no more than seenAhead
+  uint whose;           // contact_motion.comp: kOfAll, kOfHere or kOfElsewhere
+  uint mostSampled;     // contact particles of a sample, at most
   uint sampleStride;    // in dense hair: one contact particle in so many is in the sample; 0: there is none
   float warmth;         // share of a step's change by contacts that the next one is guessed to have
   float cellsPerMetre;  // beside a volume: cells are longer than any list reaches, and do not change

@@ -15,19 +15,17 @@ RINGLET_CONSTANT uint kBindVolumeSolved = 2;      // vec4[particles]: v^k
 RINGLET_CONSTANT uint kBindVolumePoses = 3;       // uniform: StepPose[kMaxStepPoses]
 RINGLET_CONSTANT uint kBindVolumeParticles = 4;   // VolumeParticle[volume particles]
 RINGLET_CONSTANT uint kBindVolumeStates = 5;      // VolumeState[volume particles]
-RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, first iterate;
-                                                  // where strands are divided, every iterate, and then
-                                                  // vec4[volume particles]: as VolumeState's place
+RINGLET_CONSTANT uint kBindVolumeBrought = 6;     // vec4[volume particles]: as VolumeParcel's rate, first iterate
 RINGLET_CONSTANT uint kBindVolumeCells = 7;       // uint: see cellCount and its like in shared/volume_buffers.glsl
-RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], in cell order
+RINGLET_CONSTANT uint kBindVolumeParcels = 8;     // VolumeParcel[volume particles], by cell; within one in any order
 RINGLET_CONSTANT uint kBindVolumeNodes = 9;       // vec4[nodes]: xyz: mean of a [m/s]; w: density [kg/m^3]
 RINGLET_CONSTANT uint kBindVolumeAdded = 10;      // vec4[particles]: see kBindAddedByVolume
 RINGLET_CONSTANT uint kBindVolumeControl = 11;    // VolumeControl
 RINGLET_CONSTANT uint kBindVolumeHalt = 12;       // ContactControl
 RINGLET_CONSTANT uint kBindVolumeLocated = 13;    // uvec4[volume particles]: xyz: place in cells, bits of floats; w:
                                                   // which parcel
-RINGLET_CONSTANT uint kBindVolumeHere = 14;       // uint[volume particles], where strands are divided: those here, the
-                                                  // others after them
+RINGLET_CONSTANT uint kBindVolumeSums = 14;       // int: where strands are divided, sums at nodes, see nodeSum and its
+                                                  // like in shared/volume_buffers.glsl
 RINGLET_CONSTANT uint kVolumeBindingCount = 15;
 // And as texels (shared/texels.glsl):
 RINGLET_CONSTANT uint kBindVolumePositionTexels = 15;
@@ -57,10 +55,12 @@ struct VolumeState {
   vec4 predicted;  // xyz: v^0 [m/s]; w: 1 where all this is known, 0 where the hair was just put there
 };
 
-// What it brings to the grid in an iteration.
+// What it brings to the grid in an iteration. Sums at nodes are of integers, and so do not depend on the order of their
+// terms: the largest possible term is kVolumeUnits.
+RINGLET_CONSTANT uint kVolumeUnits = 1u << 30;
 struct VolumeParcel {
-  vec4 rate;   // xyz: g a [kg m/s]; w: g [kg]
-  vec4 place;  // xyz: in cells, from the box's first node; w: mass [kg]
+  vec4 rate;   // xyz: g a, of unit unitsPerGain / mostRate; w: g, of unit unitsPerGain (VolumeParameters)
+  vec4 place;  // xyz: in cells, from the box's first node; w: mass, of unit unitsPerMass
 };
 
 // The box of cells about all such particles, and what kernels tell each other.
@@ -69,6 +69,8 @@ struct VolumeControl {
   uint untilSort;             // steps until particles are next put into cells; 0: this step does
   uint indirectBlocks[3];     // over blocks of cells of a sort, or none
   uint cellCount;             // of the box, which has as many nodes
+  uint indirectDensities[3];  // over nodes in a step that sorts, or none
+  uint unused1;
   uint indirectNodes[3];      // over nodes
   uint sorts;                 // how often particles were put into cells
   int least[3];               // of the cells particles are in, as found so far in this step
@@ -91,9 +93,10 @@ struct VolumeParameters {
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
   float warmth;       // as in ContactParameters
-  uint hereCount;     // particles that are stepped here
-  uint isFirst;       // iteration of the step
   uint sortSteps;     // particles are put into cells every so many steps; between they stay where they were
+  float mostRate;      // largest component of a that counts [m/s]
+  float unitsPerGain;  // kVolumeUnits per largest g [1/kg]
+  float unitsPerMass;  // kVolumeUnits per largest mass [1/kg]
 };
 
 #ifdef __cplusplus

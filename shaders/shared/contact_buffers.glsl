@@ -23,6 +23,7 @@ layout(set = 0, binding = kBindLiveLists) buffer LiveLists { uint liveLists[]; }
 layout(set = 0, binding = kBindLives) buffer Lives { ContactLife lives[]; };
 layout(set = 0, binding = kBindForces) buffer Forces { ContactForce forces[]; };
 layout(set = 0, binding = kBindSystems) buffer Systems { ContactSystem systems[]; };
+layout(set = 0, binding = kBindSampled) readonly buffer Sampled { uint sampled[]; };
 layout(set = 0, binding = kBindControl) buffer Control { ContactControl control; };
 layout(set = 0, binding = kBindContactPositionTexels) uniform usamplerBuffer positionTexels;
 layout(set = 0, binding = kBindContactVelocityTexels) uniform usamplerBuffer velocityTexels;
@@ -92,6 +93,20 @@ ContactForce forceAt(uint entry) {
   if (!kTexels) return forces[entry];
   uvec4 b = recordAt(forceTexels, 2 * entry + 1);
   return ContactForce(vectorAt(forceTexels, 2 * entry), b.x, uintBitsToFloat(b.y), uintBitsToFloat(b.z), 0);
+}
+
+/// Contact particle k of this step's sample, one in sampleStride of all; kNoContact: there are fewer. If strands are
+/// divided among devices, those of strands that are stepped here stand in a list by what their index in the whole groom
+/// leaves modulo the stride; before it, where those of each remainder begin.
+const uint kNoContact = 0xffffffffu;
+uint sampledContact(uint k) {
+  uint remainder = control.steps % parameters.sampleStride;
+  if (kDivided) {
+    uint at = sampled[remainder] + k;
+    return at < sampled[remainder + 1] ? sampled[at] : kNoContact;
+  }
+  uint c = k * parameters.sampleStride + remainder;
+  return c < parameters.contactCount ? c : kNoContact;
 }
 
 // The parts of the grid's buffer, one after another; solver/contact_stage.cpp computes its size. The contact particles

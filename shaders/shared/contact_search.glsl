@@ -34,17 +34,15 @@ bool rowHasOthers(uint first, uint group) {
   return others;
 }
 
-// Searches around the contact particle at a place of the grid, which must hold one. skin: distance by which isSought
-// looks farther than the pairs that may touch within the step [m]. Returns false where the driver ended a loop early.
-bool search(uint place, float skin) {
-  uvec4 self = placedPosition(place);
-  uvec4 moving = placedVelocity(place);
-  rest = contactOf(moving.w);
+// Searches around contact particle c, whose position, velocity and strand's group these are. skin: distance by which
+// isSought looks farther than the pairs that may touch within the step [m]. Returns false where the driver ended a loop
+// early.
+bool search(uint c, vec3 position, vec3 velocity, uint group, float skin) {
+  rest = contactOf(c);
   uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
-  uint group = self.w;
-  precise vec3 here = uintBitsToFloat(self.xyz);
+  precise vec3 here = position;
   x = here;
-  v = uintBitsToFloat(moving.xyz);
+  v = velocity;
   // An upper bound of the reach of all pairs: by the largest radius, and by the largest speed.
   float mostR = rest.radius + parameters.largestRadius;
   precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);

@@ -35,17 +35,15 @@ layout(set = 0, binding = kBindVolumeParcelTexels) uniform usamplerBuffer parcel
 layout(set = 0, binding = kBindVolumeNodeTexels) uniform usamplerBuffer nodeTexels;
 layout(set = 0, binding = kBindVolumeLocatedTexels) uniform usamplerBuffer locatedTexels;
 layout(set = 0, binding = kBindVolumeCellTexels) uniform usamplerBuffer cellTexels;
-layout(set = 0, binding = kBindVolumeHere) readonly buffer Here { uint here[]; };
+layout(set = 0, binding = kBindVolumeSums) buffer Sums { int sums[]; };
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
 
-/// Finds the volume particle of this invocation, among those that are stepped here; false if there is none.
-bool findParticleHere(out uint i) {
+/// Finds the volume particle of this invocation; false if there is none.
+bool findParticle(out uint i) {
   i = gl_GlobalInvocationID.x;
-  if (halt.isHalted != 0 || i >= parameters.hereCount) return false;
-  if (kDivided) i = here[i];
-  return true;
+  return halt.isHalted == 0 && i < parameters.count;
 }
 
 // Accessors of records, as these were when the dispatch began.
@@ -68,8 +66,6 @@ VolumeParcel parcelAt(uint place) {
 }
 vec4 memoryOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i) : states[i].memory; }
 vec4 placeOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 1) : states[i].place; }
-/// Position in the head's frame, as this step has set it.
-vec3 placeBroughtBy(uint i) { return kDivided ? broughtBy(parameters.count + i).xyz : placeOf(i).xyz; }
 vec4 predictedOf(uint i) { return kTexels ? vectorAt(stateTexels, 3 * i + 2) : states[i].predicted; }
 
 // Between world axes and the head's frame at the step's start; pose 0 is the frame's start.
@@ -84,18 +80,9 @@ uint cellStart(uint cell) { return parameters.cellCapacity + cell; }  // place o
 uint cellSum(uint block) { return 2 * parameters.cellCapacity + block; }  // sum before a block of cells
 uint cellOf(uint i) { return cellSum(parameters.cellCapacity / kBucketBlock) + i; }
 uint cellRank(uint i) { return cellOf(parameters.count) + i; }  // rank in its cell, in arbitrary order
-// The particle at a place; the order within a cell is arbitrary.
-uint cellEntry(uint place) { return cellRank(parameters.count) + place; }
-// If strands are divided among devices:
-uint cellMark(uint cell) { return cellEntry(parameters.count) + cell; }  // the last sort with a particle stepped here
-uint nodeAsked(uint node) { return cellMark(parameters.cellCapacity) + node; }  // 1: such a particle reads it
 
-// Numbers of that buffer as they were when the dispatch began: one, and four consecutive ones, from 4 k on.
+/// A number of that buffer as it was when the dispatch began.
 uint cellNumber(uint at) { return kTexels ? recordAt(cellTexels, at / 4)[at % 4] : cells[at]; }
-uvec4 cellNumbers(uint k) {
-  if (kTexels) return recordAt(cellTexels, k);
-  return uvec4(cells[4 * k], cells[4 * k + 1], cells[4 * k + 2], cells[4 * k + 3]);
-}
 uint startOf(uint cell) { return cellNumber(cellStart(cell)); }
 
 const float kFarthestCell = 1e6;  // from the head [cells]; farther places and NaN are clamped to it
@@ -120,13 +107,28 @@ uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3
 uvec3 cornerOf(uvec3 cell, uint corner) { return cell + uvec3(corner & 1, corner >> 1 & 1, corner >> 2); }
 uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
 
+// If strands are divided among devices, the parts of the buffer of sums: of each node eight numbers of gather, then of
+// each two of density. The sum of some terms is 65536 times its high number and its low one.
+uint nodeSum(uint node) { return 8 * node; }
+uint densitySum(uint node) { return 8 * parameters.cellCapacity + 2 * node; }
+vec4 fromSums(ivec4 high, ivec4 low) {
+  return vec4(high + ivec4(uvec4(low) >> 16)) * 65536.0 + vec4(low & 0xffff);
+}
+/// The mean of a at a node [m/s], from the sums of its terms' units.
+vec3 meanRate(vec4 sum) { return sum.w > 0.0 ? parameters.mostRate * sum.xyz / sum.w : vec3(0); }
+/// The density at a node [kg/m^3], likewise.
+float densityFrom(float units) {
+  return units / parameters.unitsPerMass * control.cellsPerMetre * control.cellsPerMetre * control.cellsPerMetre;
+}
+
 /// The gain kappa: g is kappa times the mass m o.
 float gain() { return volumeGain(parameters.drag, parameters.stiffness, parameters.seconds); }
-/// What a mass m o at x with velocity v contributes to the nodes, along world axes.
+/// What a mass m o at x with velocity v contributes to the nodes, as VolumeParcel's rate.
 vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s) {
   vec3 w = inHeadFrame(v - carriedVelocity(x));
-  float g = mass * gain();
-  return vec4(g * volumeRate(parameters.drag, parameters.stiffness, parameters.seconds, w, s), g);
+  vec3 a = volumeRate(parameters.drag, parameters.stiffness, parameters.seconds, w, s, parameters.mostRate);
+  float units = parameters.unitsPerGain * mass * gain();
+  return vec4(units * (a / parameters.mostRate), units);
 }
 
 uint groupsOf(uint invocations) { return (invocations + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }

@@ -55,28 +55,38 @@ void waitFor(int rank) {
   }
 }
 
-// Lengths are in units of 8 bytes: as integers they go far enough.
 class RankLink : public PartLink {
  public:
   RankLink(std::vector<std::vector<std::uint32_t>> parts, std::size_t own)
       : PartLink(std::move(parts), own) {}
 
-  Status exchange(std::span<std::byte> all, std::span<const std::size_t> ends) override {
-    std::vector<int> counts, places;
-    std::size_t begin = 0;
-    for (const std::size_t end : ends) {
-      places.push_back(static_cast<int>(begin / kUnit));
-      counts.push_back(static_cast<int>((end - begin) / kUnit));
-      begin = end;
+  Status exchange(std::span<const Message> messages) override {
+    std::vector<MPI_Request> requests;
+    for (const auto& [part, out, in] : messages) {
+      const int rank = static_cast<int>(part);
+      MPI_Irecv(in.data(), lengthOf(in), MPI_UINT32_T, rank, 0, rowsBetween, &requests.emplace_back());
+      MPI_Isend(out.data(), lengthOf(out), MPI_UINT32_T, rank, 0, rowsBetween, &requests.emplace_back());
     }
-    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all.data(), counts.data(), places.data(), MPI_UINT64_T,
-                   rowsBetween);
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    return {};
+  }
+  Status sum(std::span<std::uint32_t> numbers) override {
+    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_UINT32_T, MPI_SUM,
+                  rowsBetween);
+    return {};
+  }
+  Status largest(std::span<std::int32_t> numbers) override {
+    MPI_Allreduce(MPI_IN_PLACE, numbers.data(), static_cast<int>(numbers.size()), MPI_INT32_T, MPI_MAX,
+                  rowsBetween);
     return {};
   }
   void fail(const Error& why) override { endRanks(why.message); }
 
  private:
-  static constexpr std::size_t kUnit = sizeof(std::uint64_t);
+  // In units of 4 bytes: as integers they go far enough.
+  static int lengthOf(std::span<const std::byte> bytes) {
+    return static_cast<int>(bytes.size() / sizeof(std::uint32_t));
+  }
 };
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST_F(ContactRecording, TheVolumeHasABarrierBeforeEveryDispatch) {
         const Commands frame = simulation->recordedFrame();
         expectBarriers(frame, label);
         EXPECT_EQ(std::ranges::count(frame, "volume_begin"), 3) << label;
-        EXPECT_EQ(std::ranges::count(frame, "volume_order"), 3) << label;
+        EXPECT_EQ(std::ranges::count(frame, "volume_place"), 3) << label;
         EXPECT_EQ(std::ranges::count(frame, "volume_spread"), 3 * iterations) << label;
         EXPECT_EQ(std::ranges::count(frame, "contact_touch"), method == ContactMethod::volume ? 0 : 3)
             << label;

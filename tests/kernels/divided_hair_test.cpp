@@ -119,6 +119,8 @@ Hair dense(ContactTaper taper) {
   hair.settings.contacts.method = ContactMethod::explicitPairs;
   hair.settings.contacts.radius = 0.005;
   hair.settings.contacts.taper = taper;
+  hair.settings.contacts.prunePairs = true;
+  hair.settings.contacts.minOverlaps = 2;
   return hair;
 }
 
@@ -137,6 +139,7 @@ std::vector<Hair> hairsInContact() {
     Hair worn{"on a body, in wind", *makeHead(head)};
     worn.settings.contacts.on = true;
     worn.settings.contacts.method = method;
+    worn.settings.contacts.prunePairs = true;
     worn.settings.air.on = true;
     worn.bodies.push_back({.radius = 0.1});
     all.push_back(std::move(worn));
@@ -181,31 +184,83 @@ TEST_F(DividedHair, HasTheBitsOfTheWhole) {
   }
 }
 
-// Whether lists stay is asked of a sample of all strands, not of those of a part.
-TEST_F(DividedHair, SumsWhatAllPartsSampled) {
-  const Hair hair = dense(ContactTaper::distance);
-  const auto rest = buildRestState(hair.groom, varyingMaterial(), hair.settings);
-  ASSERT_TRUE(rest) << rest.error().message;
-  const auto rows =
-      gpu::Buffer::create(device().gpu(), 16 * rest->points.size(), gpu::BufferKind::storage, "rows");
-  ASSERT_TRUE(rows) << rows.error().message;
-  const ringlet::DividedHair::Fields fields{{{&*rows}}, {{&*rows}}};
-  const auto links = SharedLink::connect(partsBy(hair.groom, 3, [](std::uint32_t s) { return s % 3; }));
-  std::vector<ringlet::DividedHair> parts;
-  for (const auto& link : links) {
-    auto made = ringlet::DividedHair::create(device().gpu(), *rest, *link, fields, {}, {});
-    ASSERT_TRUE(made) << made.error().message;
-    parts.push_back(std::move(*made));
-  }
-  std::vector<Result<ContactStage::Sample>> sums(3, Error{"did not run"});
+// Calls act(part) on a thread for each of three linked parts.
+void onLinks(const std::function<void(PartLink&)>& act) {
+  const auto links = SharedLink::connect(Parts{{0}, {1}, {2}});
   std::vector<std::jthread> threads;
-  for (std::uint32_t k = 0; k < 3; ++k)
-    threads.emplace_back([&, k] { sums[k] = parts[k].sum({.sampled = 10 + k, .missed = 2 * k}); });
-  threads.clear();
-  for (const auto& sum : sums) {
-    ASSERT_TRUE(sum) << sum.error().message;
-    EXPECT_EQ(sum->sampled, 33u);
-    EXPECT_EQ(sum->missed, 6u);
+  for (const auto& link : links) threads.emplace_back([&] { act(*link); });
+}
+
+TEST(SharedLink, SumsAndFindsTheLargest) {
+  onLinks([](PartLink& link) {
+    const auto own = static_cast<std::int32_t>(link.own());
+    std::vector<std::uint32_t> sums{10u + static_cast<std::uint32_t>(own), 0xffffffffu};
+    std::vector<std::int32_t> largest{own, -own, -5};
+    EXPECT_TRUE(link.sum(sums));
+    EXPECT_TRUE(link.largest(largest));
+    EXPECT_EQ(sums, (std::vector<std::uint32_t>{33, 0xfffffffdu}));
+    EXPECT_EQ(largest, (std::vector<std::int32_t>{2, 0, -5}));
+  });
+}
+
+// Parts 0 and 2 are neighbours of part 1 only.
+TEST(SharedLink, BringsMessagesToThePartTheyAreFor) {
+  onLinks([](PartLink& link) {
+    const std::size_t own = link.own();
+    std::vector<PartLink::Message> messages;
+    std::vector<std::vector<std::byte>> out, in;
+    for (const std::size_t part : own == 1 ? std::vector<std::size_t>{0, 2} : std::vector<std::size_t>{1}) {
+      out.push_back({std::byte(10 * own + part), std::byte(7)});
+      in.emplace_back(2);
+      messages.push_back({part, out.back(), in.back()});
+    }
+    EXPECT_TRUE(link.exchange(messages));
+    for (std::size_t k = 0; k < messages.size(); ++k)
+      EXPECT_EQ(in[k], (std::vector{std::byte(10 * messages[k].part + own), std::byte(7)}));
+  });
+}
+
+TEST(SharedLink, TellsAllThatAPartHasFailed) {
+  onLinks([](PartLink& link) {
+    std::vector<std::uint32_t> sums{1};
+    if (link.own() == 1)
+      link.fail(Error{"its device was lost"});
+    else
+      EXPECT_FALSE(link.sum(sums));
+  });
+}
+
+// A part of hair in pairs knows its halo and not the whole; of hair as a volume alone it knows its own.
+TEST_F(DividedHair, KnowsItsHaloOnly) {
+  Groom row;
+  row.metresPerUnit = 1;
+  for (int s = 0; s < 30; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 12; ++i) strand.push_back(Vec3f(Vec3d{0.004 * s, -0.01 * i, 0}));
+    row.addStrand(strand);
+  }
+  const auto bytesOf = [&](ContactMethod method, const Parts& parts) {
+    Hair hair{"row", row};
+    hair.settings.contacts.on = true;
+    hair.settings.contacts.method = method;
+    hair.settings.contacts.radius = 0.003;
+    hair.settings.contacts.prunePairs = true;
+    hair.settings.contacts.minOverlaps = 1;
+    const auto links = SharedLink::connect(parts);
+    hair.kernel.link = links.size() > 1 ? links[0].get() : nullptr;
+    const auto asset = build(device(), hair);
+    EXPECT_TRUE(asset) << asset.error().message;
+    auto simulation = make(*asset, hair, kHeads[0]);
+    EXPECT_TRUE(simulation) << simulation.error().message;
+    return simulation->memory();
+  };
+  const Parts whole{{}};
+  const Parts thirds = partsBy(row, 3, [](std::uint32_t s) { return s / 10; });
+  for (const ContactMethod method : {ContactMethod::explicitPairs, ContactMethod::volume}) {
+    const DeviceMemory all = bytesOf(method, whole), third = bytesOf(method, thirds);
+    const double known = method == ContactMethod::volume ? 10 : 12;  // of 30 strands; two are the halo
+    EXPECT_NEAR(static_cast<double>(third.particles), known / 30 * static_cast<double>(all.particles),
+                0.02 * static_cast<double>(all.particles));
   }
 }
 

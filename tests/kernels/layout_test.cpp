@@ -4,6 +4,7 @@
 #include "layout/contacts.h"
 #include "layout/fields.h"
 #include "layout/follow.h"
+#include "layout/parts.h"
 #include "layout/picture.h"
 #include "layout/pose.h"
 #include "layout/strands.h"
@@ -200,19 +201,24 @@ const std::vector<CppStruct> kCppStructs = {
           "VolumeControl",
           sizeof(S),
           {RINGLET_MEMBER(indirectParticles), RINGLET_MEMBER(untilSort), RINGLET_MEMBER(indirectBlocks),
-           RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectNodes), RINGLET_MEMBER(sorts),
-           RINGLET_MEMBER(least), RINGLET_MEMBER(cellsPerMetre), RINGLET_MEMBER(greatest),
-           RINGLET_MEMBER(cell), RINGLET_MEMBER(low), RINGLET_MEMBER(unused2), RINGLET_MEMBER(size),
-           RINGLET_MEMBER(unused3)}};
+           RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectDensities), RINGLET_MEMBER(unused1),
+           RINGLET_MEMBER(indirectNodes), RINGLET_MEMBER(sorts), RINGLET_MEMBER(least),
+           RINGLET_MEMBER(cellsPerMetre), RINGLET_MEMBER(greatest), RINGLET_MEMBER(cell), RINGLET_MEMBER(low),
+           RINGLET_MEMBER(unused2), RINGLET_MEMBER(size), RINGLET_MEMBER(unused3)}};
     }(),
     [] {
       using S = layout::VolumeParameters;
-      return CppStruct{"VolumeParameters",
-                       sizeof(S),
-                       {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step),
-                        RINGLET_MEMBER(seconds), RINGLET_MEMBER(cell), RINGLET_MEMBER(drag),
-                        RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept), RINGLET_MEMBER(warmth),
-                        RINGLET_MEMBER(hereCount), RINGLET_MEMBER(isFirst), RINGLET_MEMBER(sortSteps)}};
+      return CppStruct{
+          "VolumeParameters",
+          sizeof(S),
+          {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step), RINGLET_MEMBER(seconds),
+           RINGLET_MEMBER(cell), RINGLET_MEMBER(drag), RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept),
+           RINGLET_MEMBER(warmth), RINGLET_MEMBER(sortSteps), RINGLET_MEMBER(mostRate),
+           RINGLET_MEMBER(unitsPerGain), RINGLET_MEMBER(unitsPerMass)}};
+    }(),
+    [] {
+      using S = layout::PartParameters;
+      return CppStruct{"PartParameters", sizeof(S), {RINGLET_MEMBER(count), RINGLET_MEMBER(isStep)}};
     }(),
     [] {
       using S = layout::ContactPlace;
@@ -268,7 +274,8 @@ const std::vector<CppStruct> kCppStructs = {
                                            RINGLET_MEMBER(ramp),           RINGLET_MEMBER(stiffnessRelease),
                                            RINGLET_MEMBER(dampingRelease), RINGLET_MEMBER(reachFactor),
                                            RINGLET_MEMBER(breakFactor),    RINGLET_MEMBER(seenAhead),
-                                           RINGLET_MEMBER(listedAhead),    RINGLET_MEMBER(sampleStride),
+                                           RINGLET_MEMBER(listedAhead),    RINGLET_MEMBER(whose),
+                                           RINGLET_MEMBER(mostSampled),    RINGLET_MEMBER(sampleStride),
                                            RINGLET_MEMBER(warmth),         RINGLET_MEMBER(cellsPerMetre)}};
     }(),
     [] {

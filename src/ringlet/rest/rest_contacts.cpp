@@ -1,6 +1,7 @@
 // Implements rest/rest_contacts.h.
 #include "ringlet/rest/rest_contacts.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace ringlet {
@@ -17,11 +18,21 @@ RestContacts buildRestContacts(const RestState& rest, const ContactSettings& set
   const DenseStrands dense = automatic || settings.detail < 1 ? findDenseStrands(rest) : noDenseStrands(rest);
   VolumeStrands volume = chooseVolumeStrands(rest, particles, dense, settings);
   ContactGraph graph = pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings);
-  RestContacts contacts{std::move(particles), std::move(graph), std::move(volume), {}};
+  RestContacts contacts;
+  contacts.kinds = {meetPairByPair(volume, graph), volume.count > 0};
+  contacts.overlapsPerParticle =
+      static_cast<double>(graph.everyPair ? graph.overlapsUnpruned : graph.overlaps) /
+      static_cast<double>(particles.particles.size());
+  contacts.particles = std::move(particles);
+  contacts.graph = std::move(graph);
+  contacts.volume = std::move(volume);
   if (settings.detail < 1) {
     contacts.unthinned = std::move(contacts.particles);
     contacts.particles = thinWhereDense(*contacts.unthinned, rest, dense, settings);
   }
+  contacts.particleCount = contacts.particles.particles.size();
+  for (const float radius : contacts.particles.radii)
+    contacts.largestRadius = std::max(contacts.largestRadius, radius);
   return contacts;
 }
 

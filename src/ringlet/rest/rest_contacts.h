@@ -3,6 +3,8 @@
 // reference/rest_contacts.h.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,10 +32,16 @@ struct RestContacts {
   VolumeStrands volume;
   std::optional<ContactParticles> unthinned;  // if dense strands are thinned: all contact particles
 
+  // About the whole groom, even if only a part of it is kept (rest/rest_part.h):
+  ContactKinds kinds;
+  std::size_t particleCount = 0;       // of the solver's contact particles
+  float largestRadius = 0;             // of these [m]
+  double overlapsPerParticle = 0;      // of strands that may touch, enlarged, over all contact particles
+  std::vector<std::uint32_t> inWhole;  // of each contact particle that is kept; none: all are
+
   /// The contact particles by which contacts are measured.
   const ContactParticles& allParticles() const { return unthinned ? *unthinned : particles; }
 
-  ContactKinds kinds() const { return {meetPairByPair(volume, graph), volume.count > 0}; }
   /// Warnings for the user, a sentence each: about gaps or raised radii, and about pruning that leaves no
   /// pair.
   std::vector<std::string> warnings() const;

@@ -54,4 +54,112 @@ Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
   return {};
 }
 
+Result<std::vector<std::size_t>> partOfEach(const std::vector<std::vector<std::uint32_t>>& parts,
+                                            const RestState& rest) {
+  std::vector<std::size_t> partOf(rest.strands.size());
+  std::vector<int> counts(rest.strands.size());
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    const auto isIn = membersOf(parts[part], rest.groomStrandCount);
+    if (!isIn) return isIn.error();
+    for (std::size_t s = 0; s < partOf.size(); ++s) {
+      if ((*isIn)[rest.strandInGroom[s]]) partOf[s] = part, ++counts[s];
+    }
+  }
+  for (std::size_t s = 0; s < counts.size(); ++s) {
+    if (counts[s] != 1)
+      return Error{fmt::format("strand {} is in {} parts of the hair; every strand is in one",
+                               rest.strandInGroom[s], counts[s])};
+  }
+  return partOf;
+}
+
+namespace {
+
+// Where the strands and particles of a whole groom are in what is kept of it; device order.
+class Places {
+ public:
+  Places(const std::vector<layout::StrandRest>& whole, const std::vector<bool>& isKept) {
+    std::uint32_t strands = 0, particles = 0;
+    for (std::size_t s = 0; s < whole.size(); ++s) {
+      strand_.push_back(strands);
+      back_.push_back(whole[s].firstParticle - particles);
+      if (!isKept[s]) continue;
+      ++strands, particles += whole[s].particleCount;
+    }
+  }
+  std::uint32_t strand(std::uint32_t s) const { return strand_[s]; }
+  std::uint32_t particle(std::uint32_t strand, std::uint32_t i) const { return i - back_[strand]; }
+
+ private:
+  std::vector<std::uint32_t> strand_, back_;  // of each strand: its new place, and by how much particles move
+};
+
+template <class T>
+std::vector<T> keep(const std::vector<T>& all, const std::vector<bool>& isKept) {
+  std::vector<T> kept;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (isKept[k]) kept.push_back(all[k]);
+  return kept;
+}
+
+void restrictTo(RestContacts& contacts, const RestHalo& halo, const Places& places) {
+  const ContactParticles whole = std::exchange(contacts.particles, {});
+  ContactParticles& own = contacts.particles;
+  own.baseRadius = whole.baseRadius;
+  own.radii = keep(whole.radii, halo.isKnown);
+  own.masses = keep(whole.masses, halo.isKnown);
+  own.firstOfStrand.push_back(0);
+  ContactGraph& graph = contacts.graph;
+  const std::vector<std::uint32_t> first = std::exchange(graph.firstNeighbour, {0});
+  const std::vector<std::uint32_t> neighbours = std::exchange(graph.neighbours, {});
+  for (std::uint32_t s = 0; s < halo.isKnown.size(); ++s) {
+    if (!halo.isKnown[s]) continue;
+    for (std::uint32_t c = whole.firstOfStrand[s]; c < whole.firstOfStrand[s + 1]; ++c) {
+      own.particles.push_back(places.particle(s, whole.particles[c]));
+      own.strands.push_back(places.strand(s));
+      contacts.inWhole.push_back(c);
+    }
+    own.firstOfStrand.push_back(static_cast<std::uint32_t>(own.particles.size()));
+    if (halo.isHere[s] && !graph.everyPair) {
+      for (std::uint32_t k = first[s]; k < first[s + 1]; ++k)
+        if (halo.isKnown[neighbours[k]]) graph.neighbours.push_back(places.strand(neighbours[k]));
+    }
+    graph.firstNeighbour.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
+  }
+  contacts.unthinned.reset();
+  contacts.volume.groups = keep(contacts.volume.groups, halo.isKnown);
+  contacts.volume.isIn = keep(contacts.volume.isIn, halo.isKnown);
+}
+
+void restrictTo(RestVolume& volume, const RestHalo& halo, const Places& places) {
+  std::vector<bool> isHere;
+  for (const std::uint32_t s : volume.strands) isHere.push_back(halo.isHere[s]);
+  volume.particles = keep(volume.particles, isHere);
+  volume.strands = keep(volume.strands, isHere);
+  volume.masses = keep(volume.masses, isHere);
+  volume.densities = keep(volume.densities, isHere);
+  volume.ownDensities = keep(volume.ownDensities, isHere);
+  for (std::size_t i = 0; i < volume.strands.size(); ++i) {
+    std::uint32_t& s = volume.strands[i];
+    volume.particles[i] = places.particle(s, volume.particles[i]);
+    s = places.strand(s);
+  }
+}
+
+}  // namespace
+
+Status restrictTo(const RestHair& hair, RestHalo& halo) {
+  const Places places(hair.state.strands, halo.isKnown);
+  restrictTo(hair.contacts, halo, places);
+  if (hair.volume) restrictTo(*hair.volume, halo, places);
+  if (Status done = restrictTo(hair.state, keep(hair.state.strandInGroom, halo.isKnown)); !done) return done;
+  halo.isHere = keep(halo.isHere, halo.isKnown);
+  for (RestHalo::Peer& peer : halo.peers) {
+    for (std::uint32_t& s : peer.out) s = places.strand(s);
+    for (std::uint32_t& s : peer.in) s = places.strand(s);
+  }
+  halo.isKnown.assign(halo.isHere.size(), true);
+  return {};
+}
+
 }  // namespace ringlet

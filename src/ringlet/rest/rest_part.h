@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
+#include "ringlet/rest/rest_contacts.h"
+#include "ringlet/rest/rest_halo.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/rest/rest_volume.h"
 
 namespace ringlet {
 
@@ -18,5 +22,19 @@ Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::si
 /// (RestState::elsewhere). Members about the whole groom do not change. Errors: a strand that the groom does
 /// not have, or one that is listed twice. Cost: linear.
 Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
+
+/// The part of each strand, device order. Errors: as restrictTo; a strand that is in no part or in two.
+Result<std::vector<std::size_t>> partOfEach(const std::vector<std::vector<std::uint32_t>>& parts,
+                                            const RestState& rest);
+
+/// A whole groom's rest state with contacts.
+struct RestHair {
+  RestState& state;
+  RestContacts& contacts;
+  std::optional<RestVolume>& volume;
+};
+/// Keeps the strands that a part knows: rest/rest_halo.h. Of strands in its halo contact particles are kept,
+/// but not whom they may touch, nor what they are in the volume. Cost: linear.
+Status restrictTo(const RestHair& hair, RestHalo& halo);
 
 }  // namespace ringlet

@@ -69,6 +69,7 @@ RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts) 
   }
   for (const std::uint32_t i : volume.particles)
     volume.densities.push_back(static_cast<float>(all.at(rest.points[i])));
+  for (const float mass : volume.masses) volume.largestMass = std::max(volume.largestMass, mass);
   volume.cells = reachableCells(rest, contacts.volume, volume.cell);
   return volume;
 }

@@ -63,6 +63,9 @@ inline std::uint32_t volumeSortSteps(double stepSeconds) {
 /// Largest distance along a strand between particles that take part, in cells; each represents the particles
 /// around it.
 inline constexpr double kVolumeSpacing = 1.6;
+/// Largest component of what the volume's nodes average (shaders/equations/volume.glsl) [m/s]; what is faster
+/// counts as this. A power of two.
+inline constexpr double kVolumeMostRate = 32;
 
 /// Where one contact particle in q takes part, its radius is multiplied by q to this power.
 inline constexpr double kThinnedRadiusPower = 0.2;

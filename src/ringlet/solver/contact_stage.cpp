@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "layout/strands.h"
@@ -59,10 +60,7 @@ constexpr double kDenseAhead = 1.3;
 // The sample is one contact particle in this number; 0 if hair is not dense. Overlaps were counted with
 // enlarged radii.
 std::uint32_t sampleStride(const RestContacts& contacts, const ContactSettings& settings) {
-  const ContactGraph& graph = contacts.graph;
-  const auto overlaps = static_cast<double>(graph.everyPair ? graph.overlapsUnpruned : graph.overlaps);
-  const double neighbours = 2 * overlaps / static_cast<double>(contacts.allParticles().particles.size()) *
-                            std::pow(1.5 / settings.enlargement, 3);
+  const double neighbours = 2 * contacts.overlapsPerParticle * std::pow(1.5 / settings.enlargement, 3);
   constexpr double kMostStride = 32;
   return neighbours > kDenseNeighbours ? static_cast<std::uint32_t>(std::min(neighbours / 2, kMostStride))
                                        : 0;
@@ -74,6 +72,24 @@ std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactPa
   for (std::size_t c = 0; c < particles.particles.size(); ++c)
     indices[particles.particles[c]] = static_cast<std::uint32_t>(c);
   return indices;
+}
+
+// For sampledContact (shared/contact_buffers.glsl), of divided hair; and the largest number in a sample.
+std::pair<std::vector<std::uint32_t>, std::uint32_t> sampledHere(const RestContacts& contacts,
+                                                                 const std::vector<bool>& isHere,
+                                                                 std::uint32_t stride) {
+  std::vector<std::vector<std::uint32_t>> byRemainder(stride);
+  for (std::uint32_t c = 0; c < contacts.inWhole.size(); ++c)
+    if (isHere[contacts.particles.strands[c]]) byRemainder[contacts.inWhole[c] % stride].push_back(c);
+  std::vector<std::uint32_t> begins{stride + 1}, all;
+  std::size_t most = 0;
+  for (const std::vector<std::uint32_t>& some : byRemainder) {
+    all.insert(all.end(), some.begin(), some.end());
+    begins.push_back(stride + 1 + static_cast<std::uint32_t>(all.size()));
+    most = std::max(most, some.size());
+  }
+  begins.insert(begins.end(), all.begin(), all.end());
+  return {begins, static_cast<std::uint32_t>(most)};
 }
 
 }  // namespace
@@ -92,8 +108,14 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   // If some hair meets as a volume, few contact particles touch others, and a sample may hold none of these.
   const bool inGroups = contacts.volume.hasGroups();
   self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
-  self.largestRadius_ = *std::max_element(particles.radii.begin(), particles.radii.end());
+  self.largestRadius_ = contacts.largestRadius;
   const std::uint64_t count = self.particles_.size();
+  std::vector<std::uint32_t> samples{0};  // unused if all strands are here
+  if (self.sampleStride_ > 0) {
+    const std::uint32_t stride = self.sampleStride_;
+    self.mostSampled_ = static_cast<std::uint32_t>((count + stride - 1) / stride);
+    if (!isHere.empty()) std::tie(samples, self.mostSampled_) = sampledHere(contacts, isHere, stride);
+  }
   if (self.contactGroups() > device.properties().maxGroupCount) {
     return Error{fmt::format(
         "{} contact particles are more than the {} this device takes at once; use a larger radius "
@@ -143,9 +165,11 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!histories) return histories.error();
   auto guesses = createZero(device, rest.points.size() * sizeof(layout::vec4), "contact guesses");
   if (!guesses) return guesses.error();
+  auto sampled = createFilled(device, samples, "contacts of samples");
+  if (!sampled) return sampled.error();
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),
-                                std::move(*guesses)});
+                                std::move(*guesses), std::move(*sampled)});
   self.near_ = ListRoom{static_cast<std::uint32_t>(count), kFirstMostBlocks}.times(room);
   if (self.settings_.taper == ContactTaper::time) {
     auto lives = ContactLives::create(self.listMaker(), room);
@@ -160,7 +184,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
 std::uint64_t ContactStage::bytes() const {
   const Buffers& b = *buffers_;
   return b.contacts.bytes() + b.neighbours.bytes() + b.indices.bytes() + b.grid.bytes() + b.places.bytes() +
-         b.histories.bytes() + b.guesses.bytes();
+         b.histories.bytes() + b.guesses.bytes() + b.sampled.bytes();
 }
 std::uint64_t ContactStage::listBytes() const {
   return lists_[kHeads].bytes() + lists_[kPairs].bytes() + (lives_ ? lives_->bytes() : 0);
@@ -206,7 +230,7 @@ Status ContactStage::bindLists() {
 // The table of bindings: buffers as storage, and some of them as texels too.
 gpu::BufferTable ContactStage::bufferTable() const {
   using namespace layout;
-  const auto& [contacts, neighbours, indices, grid, places, histories, guesses] = *buffers_;
+  const auto& [contacts, neighbours, indices, grid, places, histories, guesses, sampled] = *buffers_;
   gpu::BufferTable table{{kBindContactPositions, hair().positions},
                          {kBindContactVelocities, hair().velocities},
                          {kBindContactSolved, hair().solved},
@@ -217,6 +241,7 @@ gpu::BufferTable ContactStage::bufferTable() const {
                          {kBindPlaces, places},
                          {kBindHistories, histories},
                          {kBindGuesses, guesses},
+                         {kBindSampled, sampled},
                          {kBindLists, lists_[kHeads]},
                          {kBindPairs, lists_[kPairs]},
                          {kBindSystems, hair().contactSystems},
@@ -253,6 +278,7 @@ layout::ContactParameters ContactStage::parameters(std::uint32_t step) const {
   p.largestRadius = largestRadius_;
   p.listedAhead = static_cast<float>(listedAhead());
   p.sampleStride = sampleStride_;
+  p.mostSampled = mostSampled_;
   p.cellsPerMetre = static_cast<float>(1 / (1.01 * (listedAhead() * 2 * largestRadius_ + skin())));
   return p;
 }
@@ -272,10 +298,20 @@ void ContactStage::recordNothing(gpu::CommandList& list) const {
   for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void ContactStage::recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+void ContactStage::recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t whose) const {
+  const auto at = static_cast<std::size_t>(ContactKernel::motion);
+  layout::ContactParameters own = parameters(0);
+  own.whose = whose;
   pace.beginStage(list, "contact_motion");
-  dispatch(list, ContactKernel::motion, step, contactGroups());
+  list.dispatch(*kernels_[at], bindings_[at], own, contactGroups());
+  list.endStage();
+}
+
+void ContactStage::recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
+                              std::uint32_t whose) const {
+  recordMotion(list, pace, whose);
   list.barrier();
+  pace.beginStage(list, "contact_motion");
   dispatch(list, ContactKernel::decide, step, 1);
   list.barrier();
   list.endStage();
@@ -321,6 +357,15 @@ void ContactStage::recordNext(gpu::CommandList& list, SubmissionPace& pace) cons
   pace.beginStage(list, lives_ ? "contact_gather" : "contact_system");
   dispatchIndirect(list, ContactKernel::next, 0, kMeeting);
   list.endStage();
+}
+
+ContactStage::Largest ContactStage::largest() const {
+  return {std::bit_cast<std::int32_t>(control_.motion), std::bit_cast<std::int32_t>(control_.speed)};
+}
+Status ContactStage::setLargest(const Largest& largest) {
+  control_.motion = std::bit_cast<std::uint32_t>(largest[0]);
+  control_.speed = std::bit_cast<std::uint32_t>(largest[1]);
+  return writeControl();
 }
 
 Status ContactStage::setSample(const Sample& sample) {

@@ -10,6 +10,7 @@
 // has a state of its own (contact_lives.h).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -40,6 +41,7 @@ class ContactStage {
   /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` is of
   /// one chunk, and must live as long, in one place. room: as KernelChoice::contactRoom.
   /// isHere: of each strand, device order; others have no lists and no contacts here; none: all are here.
+  /// Of divided hair `rest` and `contacts` are those of a part (rest/rest_part.h).
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
                                      const RestContacts& contacts, const std::vector<bool>& isHere,
                                      DeviceGroom& groom, int room);
@@ -50,7 +52,11 @@ class ContactStage {
   void recordNothing(gpu::CommandList& list) const;
 
   /// Records the parts of a step, in order. The caller records the barriers before and after each.
-  void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  /// whose: the contact particles whose motion is measured now (layout::kOfAll and its like): of divided hair
+  /// those here with recordMotion before, and setLargest between; all, if a step is repeated.
+  void recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t whose) const;
+  void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
+                  std::uint32_t whose = layout::kOfAll) const;
   void recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordFirst(gpu::CommandList& list, SubmissionPace& pace) const;
   void recordNext(gpu::CommandList& list, SubmissionPace& pace) const;
@@ -60,6 +66,10 @@ class ContactStage {
   /// The step at which the frame stopped for want of room, if it did.
   bool isHalted() const { return control_.isHalted != 0; }
   std::uint32_t haltedStep() const { return control_.step; }
+  /// Of hair in several parts: the largest motion and speed, as ContactControl has them, after recordMotion.
+  using Largest = std::array<std::int32_t, 2>;
+  Largest largest() const;
+  Status setLargest(const Largest& largest);
   /// Of hair in several parts: the counts of the sample after recordGrid, to be summed over the parts before
   /// recordLists.
   struct Sample {
@@ -95,7 +105,7 @@ class ContactStage {
 
  private:
   struct Buffers {
-    gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses;
+    gpu::Buffer contacts, neighbours, indices, grid, places, histories, guesses, sampled;
   };
   ContactStage() = default;
   using EachBlock =
@@ -136,6 +146,7 @@ class ContactStage {
   float largestRadius_ = 0;
   bool everyPair_ = false;
   std::uint32_t sampleStride_ = 0;
+  std::uint32_t mostSampled_ = 0;
 };
 
 }  // namespace ringlet

@@ -1,27 +1,21 @@
 // Implements the frames of divided hair (divided_hair.h). A frame is several submissions, each recorded when
-// it is due; between them the parts exchange the rows of their strands.
-#include <utility>
+// it is due; between them the parts exchange what they need of each other.
+#include <algorithm>
+#include <array>
 
 #include "layout/contacts.h"
 #include "ringlet/solver/simulation_implementation.h"
 
 namespace ringlet {
 
-// Records and runs one submission: the other parts' rows are uploaded, `work` is done, the own rows are
-// downloaded.
+// Records and runs one submission.
 template <class Work>
 Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Recorder& recorder,
-                                              std::optional<DividedHair::Rows> in,
-                                              std::optional<DividedHair::Rows> out, const Work& work) {
+                                              const Work& work) {
   if (Status status = recorder.begin(); !status) return status;
   frame.pace.beginRecording();
-  if (in) {
-    divided->recordIn(recorder, *in);
-    recorder.barrier();
-  }
   if (Status status = work(); !status) return status;
   recorder.barrier();
-  if (out) divided->recordOut(recorder, *out);
   buffers.recordControl(recorder);
   if (Status status = recorder.submitAndWait(); !status) return status;
   for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
@@ -30,81 +24,142 @@ Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Record
   return buffers.control().isHalted == layout::kHaltedByTurns ? Status{Error{kTooManyNear}} : Status{};
 }
 
-// A step up to the first iteration of its solve. If this part's lists find no room, the part repeats this; it
-// has all data of the other parts by then.
+void Simulation::Implementation::recordRowsOut(FrameRecording& frame, DividedHair::Rows rows) const {
+  frame.pace.beginStage(frame.list, "part_pack");
+  divided->recordOut(frame.list, rows);
+  frame.list.endStage();
+}
+void Simulation::Implementation::recordRowsIn(FrameRecording& frame, DividedHair::Rows rows) const {
+  frame.pace.beginStage(frame.list, "part_unpack");
+  divided->recordIn(frame.list, rows);
+  frame.list.barrier();
+  frame.list.endStage();
+}
+
+// What the others are to know at a step's start, and what can be measured without them.
+void Simulation::Implementation::recordStart(FrameRecording& frame, std::uint32_t step) const {
+  recordBrought(frame, step, true);
+  if (!contacts) return;
+  contacts->recordMotion(frame.list, frame.pace, layout::kOfHere);
+  recordRowsOut(frame, DividedHair::Rows::step);
+}
+
+Status Simulation::Implementation::exchangeStart() {
+  if (contacts) {
+    if (Status status = divided->exchange(DividedHair::Rows::step); !status) return status;
+  }
+  ContactStage::Largest motion{};
+  std::array<std::int32_t, 6> reach{};
+  if (contacts) motion = contacts->largest();
+  if (volume) reach = volume->reach();
+  std::array<std::int32_t, 8> all{};
+  std::ranges::copy(reach, std::ranges::copy(motion, all.begin()).out);
+  if (Status status = divided->link().largest(all); !status) return status;
+  std::copy_n(all.begin(), motion.size(), motion.begin());
+  std::copy_n(all.begin() + motion.size(), reach.size(), reach.begin());
+  if (volume) volume->setReach(reach);
+  return contacts ? contacts->setLargest(motion) : Status{};
+}
+
+Status Simulation::Implementation::exchangeSums(bool isFirst) {
+  if (!volume) return {};
+  if (Status status = divided->link().sum(volume->sums()); !status) return status;
+  const auto densities = volume->densities(isFirst);
+  return densities.empty() ? Status{} : divided->link().sum(densities);
+}
+
+// A step up to the first iteration of its solve, without the volume's means. If this part's lists find no
+// room, the part repeats this; it has all data of the other parts by then.
 template <class Solve>
 Status Simulation::Implementation::meetFirst(FrameRecording& frame, gpu::Recorder& recorder,
-                                             std::uint32_t step, const Solve& solve,
-                                             std::optional<DividedHair::Rows> out) {
+                                             std::uint32_t step, const Solve& solve) {
+  const ContactStage::Largest largest = contacts ? contacts->largest() : ContactStage::Largest{};
   std::optional<ContactStage::Sample> sample;  // of all parts
-  for (;;) {
-    std::optional in = DividedHair::Rows::step;
+  for (std::uint32_t whose = layout::kOfElsewhere;; whose = layout::kOfAll) {
     const bool asks = contacts && contacts->samples();
     const auto findOthers = [&]() -> Status {
-      recordGrid(frame, step);
+      if (contacts) recordRowsIn(frame, DividedHair::Rows::step);
+      recordGrid(frame, step, whose);
       return {};
     };
     if (asks) {
-      const auto none = std::optional<DividedHair::Rows>{};
-      if (Status status = submitPart(frame, recorder, std::exchange(in, none), none, findOthers); !status)
-        return status;
+      if (Status status = submitPart(frame, recorder, findOthers); !status) return status;
       if (!sample) {
-        const auto sum = divided->sum(contacts->sample());
-        if (!sum) return sum.error();
-        sample = *sum;
+        std::array<std::uint32_t, 2> sums{contacts->sample().sampled, contacts->sample().missed};
+        if (Status status = divided->link().sum(sums); !status) return status;
+        sample = {sums[0], sums[1]};
       }
       if (Status status = contacts->setSample(*sample); !status) return status;
     }
-    const auto meetAndSolve = [&]() -> Status {
-      if (!asks) recordGrid(frame, step);
-      recordFirstMeeting(frame, step);
+    const auto meet = [&]() -> Status {
+      if (!asks) {
+        if (Status status = findOthers(); !status) return status;
+      }
+      recordFirstContacts(frame, step);
+      recordSums(frame, step, true);
       return solve();
     };
-    if (Status status = submitPart(frame, recorder, in, out, meetAndSolve); !status) return status;
+    if (Status status = submitPart(frame, recorder, meet); !status) return status;
     if (!contacts || !contacts->isHalted()) return {};
     if (Status status = contacts->makeRoom(); !status) return status;
+    if (Status status = contacts->setLargest(largest); !status) return status;
   }
 }
 
 Status Simulation::Implementation::runParts(std::size_t slot) {
-  using Rows = DividedHair::Rows;
   gpu::Recorder& recorder = slots[slot].recorder;
   slots[slot].recorded = FrameSlot::Recorded::nothing;
   FrameRecording frame{recorder, pace, slot};
   const auto begin = [&]() -> Status {
     beginFrame(frame);
     if (Status status = recordPass(frame, {.step = 0}); !status) return status;
-    if (volume) recordBrought(frame, 0, true);
+    recordStart(frame, 0);
     return {};
   };
-  if (Status status = submitPart(frame, recorder, {}, Rows::step, begin); !status) return status;
+  if (Status status = submitPart(frame, recorder, begin); !status) return status;
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   const int iterations = settings.contacts.iterationCount(contacts.has_value());
   for (std::uint32_t step = 0; step < steps; ++step) {
-    if (Status status = divided->exchange(Rows::step); !status) return status;
+    if (Status status = exchangeStart(); !status) return status;
     for (int iteration = 1; iteration <= iterations; ++iteration) {
-      const bool isLast = iteration == iterations;
-      const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
-      const bool ends = isLast && step + 1 == steps;
-      const std::optional out = ends ? std::optional<Rows>{} : isLast ? Rows::step : Rows::solve;
+      const bool isFirst = iteration == 1, isLast = iteration == iterations,
+                 ends = isLast && step + 1 == steps;
       const auto solve = [&]() -> Status {
-        if (Status status = recordPass(frame, pass); !status) return status;
-        if (volume && !ends) recordBrought(frame, isLast ? step + 1 : step, isLast);
-        if (ends) slots[slot].recordPositions(recorder, buffers);
+        recordMeans(frame, step);
+        if (Status status = recordPass(frame, {step, true, isLast, isLast && !ends}); !status) return status;
+        if (ends) {
+          slots[slot].recordPositions(recorder, buffers);
+        } else if (isLast) {
+          recordStart(frame, step + 1);
+        } else {
+          recordBrought(frame, step, false);
+          recordSums(frame, step, false);
+          if (contacts) recordRowsOut(frame, DividedHair::Rows::solve);
+        }
         return {};
       };
-      if (iteration == 1) {
-        if (Status status = meetFirst(frame, recorder, step, solve, out); !status) return status;
+      const auto nothing = []() -> Status { return {}; };
+      const auto meetNext = [&]() -> Status {
+        if (contacts) recordRowsIn(frame, DividedHair::Rows::solve);
+        recordNextContacts(frame);
+        return solve();
+      };
+      Status status;
+      if (!isFirst) {
+        status = submitPart(frame, recorder, meetNext);
+      } else if (volume) {
+        // The volume's means need the sums of all parts.
+        status = meetFirst(frame, recorder, step, nothing);
+        if (status) status = exchangeSums(true);
+        if (status) status = submitPart(frame, recorder, solve);
       } else {
-        const auto meetAndSolve = [&]() -> Status {
-          recordNextMeeting(frame, step);
-          return solve();
-        };
-        if (Status status = submitPart(frame, recorder, Rows::solve, out, meetAndSolve); !status)
-          return status;
+        status = meetFirst(frame, recorder, step, solve);
       }
-      if (isLast) continue;
-      if (Status status = divided->exchange(Rows::solve); !status) return status;
+      if (status && !isLast) {
+        if (contacts) status = divided->exchange(DividedHair::Rows::solve);
+        if (status) status = exchangeSums(false);
+      }
+      if (!status) return status;
     }
   }
   return {};

@@ -9,7 +9,6 @@
 #include "ringlet/rest/rest_part.h"
 #include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/dispatch_plan.h"
-#include "ringlet/solver/divided_hair.h"
 #include "ringlet/solver/hair_asset_implementation.h"
 #include "ringlet/solver/part_link.h"
 #include "ringlet/solver/strand_kernels.h"
@@ -40,6 +39,30 @@ Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
   auto ranges = planRanges(wholeCounts, limits, choice, work);
   if (!ranges) return ranges.error();
   return rangesOfPart(*ranges, counts);
+}
+
+// The ranges, cut to the consecutive strands that are stepped here.
+std::vector<StrandRange> rangesHere(std::span<const StrandRange> ranges, const RestState& rest,
+                                    const std::vector<bool>& isHere) {
+  std::vector<StrandRange> runs;
+  for (const StrandRange& range : ranges) {
+    for (std::uint32_t s = range.begin; s < range.end; ++s) {
+      if (!isHere[s]) continue;
+      if (s == range.begin || !isHere[s - 1]) runs.push_back({range.shape, s, s, 0, range.chunk});
+      runs.back().end = s + 1;
+      runs.back().longest = rest.strands[s].particleCount;  // they rise
+    }
+  }
+  return runs;
+}
+
+// Restricts a groom in parts to what the link's own part knows.
+Result<RestHalo> restrictTo(const RestHair& hair, const PartLink& link) {
+  const auto partOf = partOfEach(link.parts(), hair.state);
+  if (!partOf) return partOf.error();
+  RestHalo halo = haloOf(hair.contacts, *partOf, link.own());
+  if (Status done = restrictTo(hair, halo); !done) return done.error();
+  return halo;
 }
 
 // Without what would be each head's own in a dispatch of many; none of it changes while hair moves.
@@ -76,17 +99,23 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto geometry = choice.geometry ? std::span(*choice.geometry) : std::span<const StrandGeometry>();
   auto rest = buildRestState(groom, material, settings, order, geometry);
   if (!rest) return rest.error();
-  const auto part = choice.link ? choice.link->parts()[choice.link->own()] : choice.part;
-  std::vector<bool> isHere;
-  if (choice.link || !part.empty()) {
+  if (choice.link || !choice.part.empty()) {
     if (Status possible = checkPart(settings, choice.link); !possible) return possible.error();
-    if (settings.contacts.on) {
-      auto found = strandsHere(*rest, part);
+  }
+  std::optional<RestContacts> contacts;
+  std::optional<RestVolume> volume;
+  std::optional<RestHalo> halo;
+  if (settings.contacts.on && !rest->strands.empty()) {
+    contacts = buildRestContacts(*rest, settings.contacts);
+    std::ranges::copy(contacts->warnings(), std::back_inserter(rest->warnings));
+    if (contacts->kinds.volume) volume = buildRestVolume(*rest, *contacts);
+    if (choice.link) {
+      auto found = restrictTo({*rest, *contacts, volume}, *choice.link);
       if (!found) return found.error();
-      isHere = std::move(*found);
-    } else if (Status restricted = restrictTo(*rest, part); !restricted) {
-      return restricted.error();
+      halo = std::move(*found);
     }
+  } else if (!choice.part.empty()) {
+    if (Status restricted = restrictTo(*rest, choice.part); !restricted) return restricted.error();
   }
   const auto limits = withSubgroupSize(device.limits(), choice.subgroupSize);
   if (!limits) return limits.error();
@@ -98,7 +127,9 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
                                                               .bodies = bodies,
                                                               .limits = *limits,
                                                               .rest = std::move(*rest),
-                                                              .isHere = std::move(isHere)});
+                                                              .halo = std::move(halo),
+                                                              .contacts = std::move(contacts),
+                                                              .volume = std::move(volume)});
   if (settings.goal.on) self->goal = goalOf(groom);
   self->choice.goals = choice.goals || settings.goal.on;
   if (self->choice.goals) self->goalUnits = goalUnits(self->rest, settings.goal.shape);
@@ -106,11 +137,6 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   self->choice.part = {};
   self->choice.geometry = nullptr;
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
-  if (settings.contacts.on && !counts.empty()) {
-    self->contacts = buildRestContacts(self->rest, settings.contacts);
-    std::ranges::copy(self->contacts->warnings(), std::back_inserter(self->rest.warnings));
-    if (self->kinds().volume) self->volume = buildRestVolume(self->rest, *self->contacts);
-  }
   self->records = groomRecords(settings, self->choice, self->kinds());
   if (!self->rest.edgeFactors.empty()) self->records.particleRest += sizeof(EdgeFactors);
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
@@ -120,7 +146,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
                                  strandWork(settings, material, self->kinds(), amongBodies));
     if (!ranges) return ranges.error();
     std::vector<StrandRange> cut = cutRanges(*ranges, *chunks);
-    return self->isHere.empty() ? cut : rangesHere(cut, self->rest, self->isHere);
+    return self->halo ? rangesHere(cut, self->rest, self->halo->isHere) : cut;
   };
   auto ranges = rangesFor(hasBodies);
   if (!ranges) return ranges.error();

@@ -7,6 +7,7 @@
 #include "ringlet/rest/goal.h"
 #include "ringlet/rest/goal_units.h"
 #include "ringlet/rest/rest_contacts.h"
+#include "ringlet/rest/rest_halo.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/rest/rest_volume.h"
 #include "ringlet/solver/device_groom.h"
@@ -30,7 +31,7 @@ struct HairAsset::Implementation {
   DeviceLimits limits;                     // of the device, with the chosen subgroup width
   std::uint32_t groupSize = 0;             // workgroup size of strand kernels
   RestState rest{};                        // without its particles, which are on the device
-  std::vector<bool> isHere{};              // of each strand, device order; empty: no other device steps some
+  std::optional<RestHalo> halo{};          // of divided hair with contacts, which knows these strands only
   std::optional<RestContacts> contacts{};  // with contacts
   std::optional<RestVolume> volume{};      // if some strands meet as a volume
   std::vector<StrandRange> ranges{};
@@ -41,7 +42,7 @@ struct HairAsset::Implementation {
   std::optional<GroomGoal> goal{};                   // where Settings::goal is on
   std::optional<std::vector<GoalUnit>> goalUnits{};  // with goals
 
-  ContactKinds kinds() const { return contacts ? contacts->kinds() : ContactKinds{}; }
+  ContactKinds kinds() const { return contacts ? contacts->kinds : ContactKinds{}; }
   std::vector<GroomChunk> chunks() const {
     std::vector<GroomChunk> parts;
     for (const ConstantChunk& chunk : constants) parts.push_back(chunk.part);

@@ -23,10 +23,19 @@ class PartLink {
   /// The index of this part.
   std::size_t own() const { return own_; }
 
-  /// Exchanges sections. `all` has a section per part; section k ends at `ends[k]` [bytes]. The caller has
-  /// filled its own; on return all are filled. All parts call this equally often, with the same ends, and
-  /// wait for each other. Fails if a part has failed.
-  virtual Status exchange(std::span<std::byte> all, std::span<const std::size_t> ends) = 0;
+  /// Data for another part, and room for its data for this one.
+  struct Message {
+    std::size_t part = 0;
+    std::span<const std::byte> out;
+    std::span<std::byte> in;
+  };
+  /// Exchanges messages. All parts call this and the functions below equally often, and wait for each other.
+  /// Two parts both have a message for each other, of the sizes that both expect, or neither has. All fail if
+  /// a part has failed.
+  virtual Status exchange(std::span<const Message> messages) = 0;
+  /// Replaces each number by the sum of all parts', modulo 2^32, or by the largest. All have as many.
+  virtual Status sum(std::span<std::uint32_t> numbers) = 0;
+  virtual Status largest(std::span<std::int32_t> numbers) = 0;
   /// Tells the others that this part has failed, so that they stop waiting for it.
   virtual void fail(const Error& why) = 0;
 

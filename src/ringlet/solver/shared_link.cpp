@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -11,12 +12,12 @@ namespace ringlet {
 
 // A reusable barrier: all wait for the last.
 struct SharedLink::Meeting {
-  explicit Meeting(std::size_t partCount) : sections(partCount) {}
+  explicit Meeting(std::size_t partCount) : messages(partCount), numbers(partCount) {}
 
   Status wait() {
     std::unique_lock lock(mutex);
     const std::uint64_t now = round;
-    if (++arrived == sections.size()) {
+    if (++arrived == messages.size()) {
       arrived = 0, ++round;
       allHere.notify_all();
     }
@@ -30,7 +31,9 @@ struct SharedLink::Meeting {
   std::size_t arrived = 0;
   std::uint64_t round = 0;
   std::optional<Error> failure;
-  std::vector<std::span<const std::byte>> sections;  // of each part
+  // Of each part, while all read them.
+  std::vector<std::span<const Message>> messages;
+  std::vector<const void*> numbers;
 };
 
 std::vector<std::unique_ptr<SharedLink>> SharedLink::connect(
@@ -42,16 +45,34 @@ std::vector<std::unique_ptr<SharedLink>> SharedLink::connect(
   return links;
 }
 
-Status SharedLink::exchange(std::span<std::byte> all, std::span<const std::size_t> ends) {
-  const auto sectionOf = [&](std::size_t k) {
-    const std::size_t begin = k > 0 ? ends[k - 1] : 0;
-    return all.subspan(begin, ends[k] - begin);
-  };
-  meeting_->sections[own()] = sectionOf(own());
+Status SharedLink::exchange(std::span<const Message> messages) {
+  meeting_->messages[own()] = messages;
   if (Status here = meeting_->wait(); !here) return here;
-  for (std::size_t k = 0; k < ends.size(); ++k)
-    if (k != own()) std::ranges::copy(meeting_->sections[k], sectionOf(k).begin());
+  for (const Message& message : messages) {
+    const auto theirs = std::ranges::find(meeting_->messages[message.part], own(), &Message::part);
+    std::ranges::copy(theirs->out, message.in.begin());
+  }
   return meeting_->wait();  // until all have read
+}
+
+template <class Number, class Join>
+Status SharedLink::reduce(std::span<Number> numbers, const Join& join) {
+  meeting_->numbers[own()] = numbers.data();
+  if (Status here = meeting_->wait(); !here) return here;
+  std::vector<Number> all(numbers.begin(), numbers.end());
+  for (std::size_t part = 0; part < meeting_->numbers.size(); ++part) {
+    if (part == own()) continue;
+    const auto* theirs = static_cast<const Number*>(meeting_->numbers[part]);
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = join(all[k], theirs[k]);
+  }
+  if (Status here = meeting_->wait(); !here) return here;  // until all have read
+  std::ranges::copy(all, numbers.begin());
+  return {};
+}
+
+Status SharedLink::sum(std::span<std::uint32_t> numbers) { return reduce(numbers, std::plus<>()); }
+Status SharedLink::largest(std::span<std::int32_t> numbers) {
+  return reduce(numbers, [](std::int32_t a, std::int32_t b) { return std::max(a, b); });
 }
 
 void SharedLink::fail(const Error& why) {

@@ -19,11 +19,15 @@ class SharedLink : public PartLink {
   static std::vector<std::unique_ptr<SharedLink>> connect(
       const std::vector<std::vector<std::uint32_t>>& parts);
 
-  Status exchange(std::span<std::byte> all, std::span<const std::size_t> ends) override;
+  Status exchange(std::span<const Message> messages) override;
+  Status sum(std::span<std::uint32_t> numbers) override;
+  Status largest(std::span<std::int32_t> numbers) override;
   void fail(const Error& why) override;
 
  private:
   struct Meeting;
+  template <class Number, class Join>
+  Status reduce(std::span<Number> numbers, const Join& join);
   SharedLink(std::vector<std::vector<std::uint32_t>> parts, std::size_t own, std::shared_ptr<Meeting> meeting)
       : PartLink(std::move(parts), own), meeting_(std::move(meeting)) {}
   std::shared_ptr<Meeting> meeting_;

@@ -125,29 +125,25 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
 Status Simulation::Implementation::addContacts() {
   if (!asset->contacts) return {};
   const RestContacts& atRest = *asset->contacts;
-  contactReport = {.contactParticles = atRest.particles.particles.size(),
+  contactReport = {.contactParticles = atRest.particleCount,
                    .pairsUnpruned = atRest.graph.pairsUnpruned,
                    .pairs = atRest.graph.pairs,
                    .volumeStrands = atRest.volume.count};
   if (asset->kinds().pairs) {
-    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, asset->isHere, buffers,
-                                      choice.contactRoom);
+    const std::vector<bool> all;
+    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest,
+                                      asset->halo ? asset->halo->isHere : all, buffers, choice.contactRoom);
     if (!stage) return stage.error();
     contacts = std::move(*stage);
   }
   if (asset->volume) {
-    auto stage = VolumeStage::create(device.gpu(), rest, settings, *asset->volume, asset->isHere, buffers);
+    auto stage =
+        VolumeStage::create(device.gpu(), rest, settings, *asset->volume, asset->halo.has_value(), buffers);
     if (!stage) return stage.error();
     volume = std::move(*stage);
   }
-  if (!asset->isHere.empty()) {
-    const DeviceChunk& hair = buffers.chunks[0];
-    DividedHair::Fields ofHair, ofVolume;
-    if (contacts) ofHair = {{{&hair.positions}, {&hair.velocities}, {&hair.solved}}, {{&hair.solved}}};
-    if (volume)
-      ofVolume = {{{&volume->brought()}, {&volume->brought(), asset->volume->particles.size()}},
-                  {{&volume->brought()}}};
-    auto made = DividedHair::create(device.gpu(), rest, *choice.link, ofHair, asset->volume, ofVolume);
+  if (asset->halo) {
+    auto made = DividedHair::create(device.gpu(), atRest, *asset->halo, *choice.link, buffers.chunks[0]);
     if (!made) return made.error();
     divided.emplace(std::move(*made));
   }

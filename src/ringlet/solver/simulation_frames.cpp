@@ -135,49 +135,41 @@ Status Simulation::Implementation::recordPass(FrameRecording& frame, const Solve
 
 // What strands hear of each other before the first iteration of a step's solve, and before each later one.
 // Contacts come first: they may halt, and then the volume must not go on.
-void Simulation::Implementation::recordGrid(FrameRecording& frame, std::uint32_t step) const {
+void Simulation::Implementation::recordGrid(FrameRecording& frame, std::uint32_t step,
+                                            std::uint32_t whose) const {
   if (!contacts) return;
-  contacts->recordGrid(frame.list, frame.pace, step);
+  contacts->recordGrid(frame.list, frame.pace, step, whose);
   frame.list.barrier();
 }
-void Simulation::Implementation::recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const {
-  if (contacts) {
-    contacts->recordLists(frame.list, frame.pace, step);
-    frame.list.barrier();
-    contacts->recordFirst(frame.list, frame.pace);
-    frame.list.barrier();
-  }
-  if (volume) {
-    if (!divided) recordBrought(frame, step, true);
-    recordVolume(frame, step, true);
-  }
+void Simulation::Implementation::recordFirstContacts(FrameRecording& frame, std::uint32_t step) const {
+  if (!contacts) return;
+  contacts->recordLists(frame.list, frame.pace, step);
+  frame.list.barrier();
+  contacts->recordFirst(frame.list, frame.pace);
+  frame.list.barrier();
 }
-void Simulation::Implementation::recordNextMeeting(FrameRecording& frame, std::uint32_t step) const {
-  if (contacts) {
-    contacts->recordNext(frame.list, frame.pace);
-    frame.list.barrier();
-  }
-  if (volume) {
-    if (!divided) recordBrought(frame, step, false);
-    recordVolume(frame, step, false);
-  }
+void Simulation::Implementation::recordNextContacts(FrameRecording& frame) const {
+  if (!contacts) return;
+  contacts->recordNext(frame.list, frame.pace);
+  frame.list.barrier();
 }
-
-// Of parts, each brings its own before the others hear of it (divided_frames.cpp).
 void Simulation::Implementation::recordBrought(FrameRecording& frame, std::uint32_t step,
                                                bool isFirst) const {
+  if (!volume) return;
   volume->recordBrought(frame.list, frame.pace, step, isFirst);
   frame.list.barrier();
 }
-void Simulation::Implementation::recordVolume(FrameRecording& frame, std::uint32_t step, bool isFirst) const {
-  if (divided) {
-    volume->recordTake(frame.list, frame.pace, step, isFirst);
-    frame.list.barrier();
-  }
+void Simulation::Implementation::recordSums(FrameRecording& frame, std::uint32_t step, bool isFirst) const {
+  if (!volume) return;
   if (isFirst) {
     volume->recordSort(frame.list, frame.pace, step);
     frame.list.barrier();
   }
+  volume->recordSums(frame.list, frame.pace, step);
+  frame.list.barrier();
+}
+void Simulation::Implementation::recordMeans(FrameRecording& frame, std::uint32_t step) const {
+  if (!volume) return;
   volume->recordMeans(frame.list, frame.pace, step);
   frame.list.barrier();
 }
@@ -193,13 +185,16 @@ Status Simulation::Implementation::recordContactFrame(FrameRecording& frame, std
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   const int iterations = settings.contacts.iterationCount(contacts.has_value());
   for (std::uint32_t step = firstStep; step < steps; ++step) {
-    recordGrid(frame, step);
-    recordFirstMeeting(frame, step);
+    recordGrid(frame, step, layout::kOfAll);
+    recordFirstContacts(frame, step);
     for (int iteration = 1; iteration <= iterations; ++iteration) {
-      const bool isLast = iteration == iterations;
+      const bool isFirst = iteration == 1, isLast = iteration == iterations;
+      if (!isFirst) recordNextContacts(frame);
+      recordBrought(frame, step, isFirst);
+      recordSums(frame, step, isFirst);
+      recordMeans(frame, step);
       const SolvePass pass{step, true, isLast, isLast && step + 1 < steps};
       if (Status status = recordPass(frame, pass); !status) return status;
-      if (!isLast) recordNextMeeting(frame, step);
     }
   }
   recordEnd(frame);

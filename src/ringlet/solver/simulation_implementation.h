@@ -187,7 +187,7 @@ struct Simulation::Implementation {
                        std::span<const std::size_t> newKernels) const;
 
   // simulation.cpp
-  bool isHere(std::size_t strand) const { return asset->isHere.empty() || asset->isHere[strand]; }
+  bool isHere(std::size_t strand) const { return !asset->halo || asset->halo->isHere[strand]; }
   ContactKinds contactKinds() const { return {contacts.has_value(), volume.has_value()}; }
   Status addContacts();
   Status forgetContacts();
@@ -242,11 +242,12 @@ struct Simulation::Implementation {
   void beginFrame(FrameRecording& frame) const;
   void recordEnd(FrameRecording& frame) const;
   Status recordFrame(FrameRecording& frame) const;
-  void recordGrid(FrameRecording& frame, std::uint32_t step) const;
-  void recordFirstMeeting(FrameRecording& frame, std::uint32_t step) const;
+  void recordGrid(FrameRecording& frame, std::uint32_t step, std::uint32_t whose) const;
+  void recordFirstContacts(FrameRecording& frame, std::uint32_t step) const;
+  void recordNextContacts(FrameRecording& frame) const;
   void recordBrought(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
-  void recordVolume(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
-  void recordNextMeeting(FrameRecording& frame, std::uint32_t step) const;
+  void recordSums(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
+  void recordMeans(FrameRecording& frame, std::uint32_t step) const;
   Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
   Status recordPass(FrameRecording& frame, const SolvePass& pass) const;
   void dispatchAll(FrameRecording& frame, const StrandKernels& of,
@@ -270,11 +271,14 @@ struct Simulation::Implementation {
 
   // divided_frames.cpp
   template <class Work>
-  Status submitPart(FrameRecording& frame, gpu::Recorder& recorder, std::optional<DividedHair::Rows> in,
-                    std::optional<DividedHair::Rows> out, const Work& work);
+  Status submitPart(FrameRecording& frame, gpu::Recorder& recorder, const Work& work);
+  void recordRowsOut(FrameRecording& frame, DividedHair::Rows rows) const;
+  void recordRowsIn(FrameRecording& frame, DividedHair::Rows rows) const;
+  void recordStart(FrameRecording& frame, std::uint32_t step) const;
+  Status exchangeStart();
+  Status exchangeSums(bool isFirst);
   template <class Solve>
-  Status meetFirst(FrameRecording& frame, gpu::Recorder& recorder, std::uint32_t step, const Solve& solve,
-                   std::optional<DividedHair::Rows> out);
+  Status meetFirst(FrameRecording& frame, gpu::Recorder& recorder, std::uint32_t step, const Solve& solve);
   Status runParts(std::size_t slot);
 
   // hair_frames.cpp

@@ -5,20 +5,18 @@
 
 #include "layout/contacts.h"
 #include "layout/volume.h"
-#include "ringlet_shaders/volume_ask_plain.h"
 #include "ringlet_shaders/volume_begin_plain.h"
 #include "ringlet_shaders/volume_box_plain.h"
 #include "ringlet_shaders/volume_bring_plain.h"
 #include "ringlet_shaders/volume_count_plain.h"
+#include "ringlet_shaders/volume_density_plain.h"
 #include "ringlet_shaders/volume_gather_plain.h"
-#include "ringlet_shaders/volume_mark_plain.h"
-#include "ringlet_shaders/volume_order_plain.h"
+#include "ringlet_shaders/volume_mean_plain.h"
+#include "ringlet_shaders/volume_place_plain.h"
 #include "ringlet_shaders/volume_scan_plain.h"
-#include "ringlet_shaders/volume_scatter_plain.h"
 #include "ringlet_shaders/volume_spread_plain.h"
 #include "ringlet_shaders/volume_start_plain.h"
 #include "ringlet_shaders/volume_sum_plain.h"
-#include "ringlet_shaders/volume_take_plain.h"
 
 namespace ringlet {
 namespace {
@@ -30,13 +28,18 @@ struct Compiled {
 
 // In the order of VolumeKernel.
 const Compiled kCompiled[kVolumeKernelCount] = {
-    {"volume_begin", k_volume_begin_plain},     {"volume_box", k_volume_box_plain},
-    {"volume_count", k_volume_count_plain},     {"volume_scan", k_volume_scan_plain},
-    {"volume_sum", k_volume_sum_plain},         {"volume_start", k_volume_start_plain},
-    {"volume_scatter", k_volume_scatter_plain}, {"volume_order", k_volume_order_plain},
-    {"volume_bring", k_volume_bring_plain},     {"volume_gather", k_volume_gather_plain},
-    {"volume_spread", k_volume_spread_plain},   {"volume_take", k_volume_take_plain},
-    {"volume_mark", k_volume_mark_plain},       {"volume_ask", k_volume_ask_plain},
+    {"volume_begin", k_volume_begin_plain},
+    {"volume_box", k_volume_box_plain},
+    {"volume_count", k_volume_count_plain},
+    {"volume_scan", k_volume_scan_plain},
+    {"volume_sum", k_volume_sum_plain},
+    {"volume_start", k_volume_start_plain},
+    {"volume_place", k_volume_place_plain},
+    {"volume_density", k_volume_density_plain},
+    {"volume_bring", k_volume_bring_plain},
+    {"volume_gather", k_volume_gather_plain},
+    {"volume_mean", k_volume_mean_plain},
+    {"volume_spread", k_volume_spread_plain},
 };
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace ringlet {
 
-/// In the order of a step; from count to order only in steps that put particles into cells, bring only in
-/// iterations after the first, gather and spread in each; take, mark and ask only where
-/// strands are divided among devices.
+/// In the order of a step; from count to density only in steps that put particles into cells, bring only in
+/// iterations after the first, from gather to spread in each; mean only where strands are divided among
+/// devices.
 enum class VolumeKernel {
   begin,
   box,
@@ -18,17 +18,14 @@ enum class VolumeKernel {
   scan,
   sum,
   start,
-  scatter,
-  order,
+  place,
+  density,
   bring,
   gather,
-  spread,
-  take,
-  mark,
-  ask
+  mean,
+  spread
 };
-inline constexpr std::size_t kVolumeKernelCount = 14;
-inline constexpr std::size_t kVolumeDividedKernelCount = 3;  // of them, the last
+inline constexpr std::size_t kVolumeKernelCount = 12;
 
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kVolumeGroupSize = 64;

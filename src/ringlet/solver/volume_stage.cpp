@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "layout/contacts.h"
 #include "layout/strands.h"
 #include "layout/volume.h"
+#include "ringlet/base/assert.h"
 #include "ringlet/gpu/device_buffers.h"
 
 namespace ringlet {
@@ -24,7 +23,8 @@ constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
 
 constexpr std::uint64_t kPerParticle = offsetof(layout::VolumeControl, indirectParticles),
                         kPerBlock = offsetof(layout::VolumeControl, indirectBlocks),
-                        kPerNode = offsetof(layout::VolumeControl, indirectNodes);
+                        kPerNode = offsetof(layout::VolumeControl, indirectNodes),
+                        kPerSortedNode = offsetof(layout::VolumeControl, indirectDensities);
 
 std::uint32_t cellCapacity(std::uint64_t wanted) {
   const std::uint64_t blocks = std::min(wanted + wanted / 500, kMostCells) / layout::kBucketBlock + 1;
@@ -59,14 +59,13 @@ layout::VolumeControl emptyControl() {
   return control;
 }
 
-// Indices of volume particles, those of strands that are stepped here first; and the number of these.
-std::pair<std::vector<std::uint32_t>, std::uint32_t> hereFirst(const RestVolume& volume,
-                                                               const std::vector<bool>& isHere) {
-  std::vector<std::uint32_t> particles(volume.strands.size());
-  std::iota(particles.begin(), particles.end(), 0u);
-  const auto end = std::stable_partition(particles.begin(), particles.end(),
-                                         [&](std::uint32_t i) { return isHere[volume.strands[i]]; });
-  return {particles, static_cast<std::uint32_t>(end - particles.begin())};
+// Numbers of each node in the buffer of sums, of gather and of density (shared/volume_buffers.glsl).
+constexpr std::size_t kSumsOfNode = 8, kDensitiesOfNode = 2;
+
+// Where strands are divided, the host reads and writes these between submissions.
+Result<gpu::Buffer> makeSeen(gpu::Device& device, std::size_t bytes, bool divided, const std::string& name) {
+  return divided ? gpu::Buffer::create(device, bytes, gpu::BufferKind::stream, name)
+                 : createZero(device, bytes, name);
 }
 
 std::uint32_t groupsOf(std::uint64_t particles) {
@@ -76,16 +75,15 @@ std::uint32_t groupsOf(std::uint64_t particles) {
 }  // namespace
 
 Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        const RestVolume& volume, const std::vector<bool>& isHere,
-                                        DeviceGroom& groom) {
+                                        const RestVolume& volume, bool divided, DeviceGroom& groom) {
   VolumeStage self;
-  const bool divided = !isHere.empty();
+  self.isDivided_ = divided;
+  self.largestMass_ = volume.largestMass;
   self.groom_ = &groom;
   self.densities_ = volume.densities;
   const std::uint64_t count = volume.particles.size();
   const std::uint32_t capacity = cellCapacity(volume.cells);
   self.parameters_.count = static_cast<std::uint32_t>(count);
-  self.parameters_.hereCount = static_cast<std::uint32_t>(count);
   self.parameters_.cellCapacity = capacity;
   self.parameters_.cell = static_cast<float>(volume.cell);
   self.parameters_.warmth = static_cast<float>(kContactWarmth);
@@ -96,12 +94,13 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
                     "use --contacts off, or a smaller groom",
                     count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
   }
-  const std::uint64_t cellWords =
-      (divided ? 4 : 2) * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 3 * count;
+  const std::uint64_t cellWords = 2 * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 2 * count;
+  const std::uint64_t sumBytes =
+      divided ? (kSumsOfNode + kDensitiesOfNode) * capacity * sizeof(std::int32_t) : 0;
   const std::uint64_t perParticle = sizeof(layout::VolumeParticle) + sizeof(layout::VolumeState) +
                                     2 * sizeof(layout::vec4) + sizeof(layout::VolumeParcel);
   const std::uint64_t needed =
-      count * perParticle + cellWords * sizeof(std::uint32_t) + capacity * sizeof(layout::vec4);
+      count * perParticle + cellWords * sizeof(std::uint32_t) + capacity * sizeof(layout::vec4) + sumBytes;
   if (Status status = checkMemory(fmt::format("{} particles as a volume", count), needed,
                                   gpu::availableStorageBytes(device));
       !status)
@@ -111,7 +110,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
       std::max({groom.largestTexels(), count * sizeof(layout::VolumeState), capacity * sizeof(layout::vec4),
                 cellWords * sizeof(std::uint32_t)});
   const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
-  for (std::size_t k = 0; k < kVolumeKernelCount - (divided ? 0 : kVolumeDividedKernelCount); ++k) {
+  for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
     const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels, divided);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
@@ -123,12 +122,10 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (!particles) return particles.error();
   auto states = createFilled(device, unknownStates(volume.densities), "volume states");
   if (!states) return states.error();
-  auto brought = createZero(device, (divided ? 2 : 1) * count * sizeof(layout::vec4), "volume brought");
+  auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
   if (!brought) return brought.error();
-  std::vector<std::uint32_t> particlesHere{0};  // unused if all are
-  if (divided) std::tie(particlesHere, self.parameters_.hereCount) = hereFirst(volume, isHere);
-  auto here = createFilled(device, particlesHere, "volume particles here");
-  if (!here) return here.error();
+  auto sums = makeSeen(device, sumBytes, divided, "volume sums");
+  if (!sums) return sums.error();
   auto located = createZero(device, count * sizeof(layout::vec4), "volume located");
   if (!located) return located.error();
   auto cells = createZero(device, cellWords * sizeof(std::uint32_t), "volume cells");
@@ -137,11 +134,12 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (!parcels) return parcels.error();
   auto nodes = createZero(device, capacity * sizeof(layout::vec4), "volume nodes");
   if (!nodes) return nodes.error();
-  auto control = createFilled(device, std::vector{emptyControl()}, "volume control");
+  auto control = makeSeen(device, sizeof(layout::VolumeControl), divided, "volume control");
   if (!control) return control.error();
   self.buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought),
                                 std::move(*cells), std::move(*parcels), std::move(*nodes),
-                                std::move(*control), std::move(*located), std::move(*here)});
+                                std::move(*control), std::move(*located), std::move(*sums)});
+  if (Status status = self.forget(); !status) return status.error();
   for (const auto& kernel : self.kernels_) {
     auto bindings = gpu::Bindings::create(*kernel, self.bufferTable());
     if (!bindings) return bindings.error();
@@ -153,12 +151,12 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
 std::uint64_t VolumeStage::bytes() const {
   const Buffers& b = *buffers_;
   return b.particles.bytes() + b.states.bytes() + b.brought.bytes() + b.located.bytes() + b.cells.bytes() +
-         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.here.bytes();
+         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.sums.bytes();
 }
 
 gpu::BufferTable VolumeStage::bufferTable() const {
   using namespace layout;
-  const auto& [particles, states, brought, cells, parcels, nodes, control, located, here] = *buffers_;
+  const auto& [particles, states, brought, cells, parcels, nodes, control, located, sums] = *buffers_;
   const DeviceChunk& hair = groom_->chunks[0];
   return {{kBindVolumePositions, hair.positions},
           {kBindVolumeVelocities, hair.velocities},
@@ -174,7 +172,7 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeControl, control},
           {kBindVolumeHalt, groom_->contactControl},
           {kBindVolumeLocated, located},
-          {kBindVolumeHere, here},
+          {kBindVolumeSums, sums},
           {kBindVolumeLocatedTexels, located},
           {kBindVolumeCellTexels, cells},
           {kBindVolumePositionTexels, hair.positions},
@@ -202,6 +200,12 @@ void VolumeStage::setSettings(const Settings& settings) {
   parameters_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
   parameters_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
   parameters_.sortSteps = volumeSortSteps(T);
+  // A term of the sums has kVolumeUnits at most. Without drag and stiffness there are none.
+  constexpr auto kUnits = static_cast<double>(layout::kVolumeUnits);
+  const double gain = T * (settings.contacts.volumeDrag + T * settings.contacts.volumeStiffness);
+  parameters_.mostRate = static_cast<float>(kVolumeMostRate);
+  parameters_.unitsPerMass = static_cast<float>(kUnits / largestMass_);
+  parameters_.unitsPerGain = gain > 0 ? static_cast<float>(kUnits / (largestMass_ * gain)) : 0.0f;
 }
 
 layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
@@ -224,26 +228,15 @@ void VolumeStage::recordNothing(gpu::CommandList& list) const {
   for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void VolumeStage::dispatchHere(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const {
-  const std::uint32_t groups = groupsOf(parameters_.hereCount);
+void VolumeStage::dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const {
+  const std::uint32_t groups = groupsOf(parameters_.count);
   if (groups > 0) dispatch(list, kernel, step, groups);
 }
 
 void VolumeStage::recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
                                 bool isFirst) const {
   pace.beginStage(list, isFirst ? "volume_begin" : "volume_bring");
-  dispatchHere(list, isFirst ? VolumeKernel::begin : VolumeKernel::bring, step);
-  list.endStage();
-}
-
-void VolumeStage::recordTake(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
-                             bool isFirst) const {
-  const auto at = static_cast<std::size_t>(VolumeKernel::take);
-  layout::VolumeParameters all = parameters(step);
-  all.isFirst = isFirst ? 1 : 0;
-  pace.beginStage(list, "volume_take");
-  const std::uint32_t groups = groupsOf(parameters_.count - parameters_.hereCount);
-  if (groups > 0) list.dispatch(*kernels_[at], bindings_[at], all, groups);
+  dispatchParticles(list, isFirst ? VolumeKernel::begin : VolumeKernel::bring, step);
   list.endStage();
 }
 
@@ -260,25 +253,52 @@ void VolumeStage::recordSort(gpu::CommandList& list, SubmissionPace& pace, std::
   list.barrier();
   dispatchIndirect(list, start, step, kPerBlock);
   list.barrier();
-  dispatchIndirect(list, scatter, step, kPerParticle);
+  dispatchIndirect(list, place, step, kPerParticle);
   list.barrier();
-  dispatchIndirect(list, order, step, kPerParticle);
+  dispatchIndirect(list, density, step, kPerSortedNode);
   list.endStage();
-  if (!isDivided()) return;
-  list.barrier();
-  pace.beginStage(list, "volume_mark");
-  dispatchHere(list, mark, step);
-  list.barrier();
-  dispatchIndirect(list, ask, step, kPerBlock);
+}
+
+void VolumeStage::recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
+  pace.beginStage(list, "volume_gather");
+  dispatchIndirect(list, VolumeKernel::gather, step, kPerNode);
   list.endStage();
 }
 
 void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
-  pace.beginStage(list, "volume_mean");
-  dispatchIndirect(list, VolumeKernel::gather, step, kPerNode);
-  list.barrier();
-  dispatchHere(list, VolumeKernel::spread, step);
+  pace.beginStage(list, "volume_spread");
+  if (isDivided_) {
+    dispatchIndirect(list, VolumeKernel::mean, step, kPerNode);
+    list.barrier();
+  }
+  dispatchParticles(list, VolumeKernel::spread, step);
   list.endStage();
+}
+
+layout::VolumeControl& VolumeStage::seenControl() const {
+  RINGLET_ASSERT(isDivided_, "of divided hair only, whose control the host sees");
+  return *reinterpret_cast<layout::VolumeControl*>(buffers_->control.mapped().data());
+}
+
+std::array<std::int32_t, 6> VolumeStage::reach() const {
+  const layout::VolumeControl& c = seenControl();
+  return {-c.least[0], -c.least[1], -c.least[2], c.greatest[0], c.greatest[1], c.greatest[2]};
+}
+void VolumeStage::setReach(const std::array<std::int32_t, 6>& reach) {
+  layout::VolumeControl& c = seenControl();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    c.least[axis] = -reach[axis], c.greatest[axis] = reach[axis + 3];
+}
+
+std::span<std::uint32_t> VolumeStage::sums() {
+  auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
+  return {all, kSumsOfNode * seenControl().cellCount};
+}
+std::span<std::uint32_t> VolumeStage::densities(bool isFirst) {
+  auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
+  const layout::VolumeControl& c = seenControl();
+  const bool sorted = isFirst && c.untilSort + 1 == parameters_.sortSteps;
+  return {all + kSumsOfNode * parameters_.cellCapacity, sorted ? kDensitiesOfNode * c.cellCount : 0};
 }
 
 Status VolumeStage::forget() {
@@ -298,7 +318,7 @@ Status VolumeStage::archive(Archive& archive) {
     if (Status status = b.control.upload(std::as_bytes(std::span(*control))); !status) return status;
   }
   std::vector<gpu::Buffer*> kept{&b.states};
-  if (control->front().untilSort > 0) kept.insert(kept.end(), {&b.cells, &b.parcels, &b.located});
+  if (control->front().untilSort > 0) kept.insert(kept.end(), {&b.cells, &b.parcels, &b.located, &b.nodes});
   for (gpu::Buffer* buffer : kept) {
     if (Status status = archiveBuffer(archive, *buffer); !status) return status;
   }

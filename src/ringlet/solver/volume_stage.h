@@ -7,10 +7,12 @@
 //                      ->  brought by v^1, means                               -> solve -> v^2 ... -> move
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "layout/volume.h"
@@ -31,11 +33,9 @@ class VolumeStage {
  public:
   /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk, and must
   /// live as long, in one place.
-  /// isHere: of each strand, device order; contributions of the others come from other devices; empty: all
-  /// are here.
+  /// divided: other devices step other strands of the volume, which `volume` lacks.
   static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    const RestVolume& volume, const std::vector<bool>& isHere,
-                                    DeviceGroom& groom);
+                                    const RestVolume& volume, bool divided, DeviceGroom& groom);
 
   /// Number of kernels that no other simulation on this device had made before.
   std::size_t newKernelCount() const { return newKernels_.size(); }
@@ -43,17 +43,24 @@ class VolumeStage {
   void recordNothing(gpu::CommandList& list) const;
 
   /// Records the parts of a step, in order. The caller records the barriers before and after each. The
-  /// kernels do nothing if contacts of pairs have halted. Contributions of the particles here in an
-  /// iteration, the first of a step or a later one.
+  /// kernels do nothing if contacts of pairs have halted. Contributions of the particles in an iteration, the
+  /// first of a step or a later one.
   void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
-  /// If strands are divided, after that: takes the contributions of all, once they are in `brought`.
-  void recordTake(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
-  /// Once per step, and then the means of the contributions.
+  /// Once per step. In each iteration, the sums of contributions at the grid's nodes, and what the means give
+  /// the particles.
   void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
+  void recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
 
-  /// Contributions of the particles, followed by their places: a vec4 each (layout::kBindVolumeBrought).
-  const gpu::Buffer& brought() const { return buffers_->brought; }
+  /// If strands are divided, between submissions. After recordBrought of a step's first iteration: the cells
+  /// that particles here are in, {-least, greatest}, to be replaced by the largest of all devices before
+  /// recordSort.
+  std::array<std::int32_t, 6> reach() const;
+  void setReach(const std::array<std::int32_t, 6>& reach);
+  /// After recordSums: the sums, to be replaced by those over all devices before recordMeans. Those of
+  /// densities are empty in later iterations and in steps that do not sort.
+  std::span<std::uint32_t> sums();
+  std::span<std::uint32_t> densities(bool isFirst);
 
   /// These particles of the groom, by device index, ascending, are of the volume no more: they have fallen.
   Status release(std::span<const std::uint32_t> particles);
@@ -69,16 +76,16 @@ class VolumeStage {
 
  private:
   struct Buffers {
-    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, here;
+    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums;
   };
   VolumeStage() = default;
   gpu::BufferTable bufferTable() const;
   layout::VolumeParameters parameters(std::uint32_t step) const;
   void dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step, std::uint32_t groups) const;
-  void dispatchHere(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;
+  void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;
   void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
-  bool isDivided() const { return kernels_.size() == kVolumeKernelCount; }
+  layout::VolumeControl& seenControl() const;
 
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by VolumeKernel
   std::vector<std::size_t> newKernels_;
@@ -87,6 +94,8 @@ class VolumeStage {
   std::optional<Buffers> buffers_;
   std::vector<float> densities_;  // at rest
   layout::VolumeParameters parameters_{};
+  float largestMass_ = 0;
+  bool isDivided_ = false;
 };
 
 }  // namespace ringlet

@@ -1,0 +1,17 @@
+// If strands are divided among devices: computes the mean and the density at each node from the sums over the particles
+// of all devices. The reference has no counterpart: it has all strands.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/volume_buffers.glsl"
+
+void main() {
+  uint node = gl_GlobalInvocationID.x;
+  if (halt.isHalted != 0 || node >= control.cellCount) return;
+  ivec4 high, low;
+  for (uint k = 0; k < 4; ++k) {
+    high[k] = sums[nodeSum(node) + k];
+    low[k] = sums[nodeSum(node) + 4 + k];
+  }
+  vec4 density = fromSums(ivec4(sums[densitySum(node)]), ivec4(sums[densitySum(node) + 1]));
+  nodes[node] = vec4(meanRate(fromSums(high, low)), densityFrom(density.x));
+}

@@ -1,0 +1,14 @@
+// Sorts particles of the volume by cell, 5 of 5: writes each particle's parcel to a place of its cell. The order within a
+// cell is arbitrary; sums over a cell do not depend on it.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shared/volume_buffers.glsl"
+
+void main() {
+  uint i;
+  if (!findParticle(i)) return;
+  uint place = startOf(cellNumber(cellOf(i))) + cellNumber(cellRank(i));
+  vec3 inCells = placeInCells(placeOf(i).xyz);
+  parcels[place] = VolumeParcel(broughtBy(i), vec4(inCells, parameters.unitsPerMass * volumeParticle(i).mass));
+  located[i] = uvec4(floatBitsToUint(inCells), place);
+}

@@ -1,0 +1,32 @@
+// RestHalo: if strands with contacts are divided into parts, the strands of other parts that those of one may
+// touch. Chosen once in the rest pose, as the graph is, so that communication between parts is static. Iben
+// et al. 2012, section 4.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ringlet/rest/rest_contacts.h"
+
+namespace ringlet {
+
+/// Of one part; strands are in device order.
+struct RestHalo {
+  /// Another part with strands that may touch some of this one's. Each of both has the other's `out` as its
+  /// `in`, in the same order.
+  struct Peer {
+    std::size_t part = 0;
+    std::vector<std::uint32_t> out;  // strands of this part that its strands may touch, ascending
+    std::vector<std::uint32_t> in;   // its strands that those of this part may touch, ascending
+  };
+  std::vector<bool> isHere;   // of each strand: whether it is in this part
+  std::vector<bool> isKnown;  // or in the halo of it; of a part without strands one strand of another
+  std::vector<Peer> peers;    // by rising part
+};
+
+/// partOf: of each strand. Cost: linear in strands and pairs; quadratic where any two strands may touch.
+RestHalo haloOf(const RestContacts& contacts, std::span<const std::size_t> partOf, std::size_t own);
+
+}  // namespace ringlet

@@ -1,0 +1,155 @@
+// The sums at the nodes of the volume's grid: the same bits in whatever order parcels stand in a cell, and
+// however they are divided among devices. Mirrors shaders/kernels/volume_gather.comp, volume_density.comp and
+// volume_mean.comp.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "layout/contacts.h"
+#include "layout/volume.h"
+#include "ringlet/gpu/device_buffers.h"
+#include "ringlet/gpu/recorder.h"
+#include "ringlet/solver/volume_kernels.h"
+#include "tests/support/gpu_test.h"
+
+namespace ringlet::test {
+namespace {
+
+constexpr std::uint32_t kSide = 5, kNodes = kSide * kSide * kSide, kCells = layout::kBucketBlock;
+constexpr std::size_t kParcels = 4000;
+constexpr float kMostRate = 32;
+
+struct InCell {
+  std::uint32_t cell = 0;
+  layout::VolumeParcel parcel;
+};
+
+// Parcels all over the cells, some as large as there may be, in an order of their own within each cell.
+std::vector<InCell> randomParcels(std::uint32_t orderSeed) {
+  std::mt19937 random(3), order(orderSeed);
+  std::uniform_real_distribution<float> place(0, kSide - 1 - 1e-3f), share(-1, 1);
+  std::vector<InCell> all;
+  for (std::size_t k = 0; k < kParcels; ++k) {
+    const float x = place(random), y = place(random), z = place(random);
+    const float units = k % 7 == 0 ? float(layout::kVolumeUnits) : 1e6f * std::exp(6 * share(random));
+    const auto cell = (std::uint32_t(z) * kSide + std::uint32_t(y)) * kSide + std::uint32_t(x);
+    const layout::vec4 rate{units * share(random), units * share(random), units * share(random), units};
+    all.push_back({cell, {rate, {x, y, z, units}}});
+  }
+  std::shuffle(all.begin(), all.end(), order);
+  std::ranges::stable_sort(all, {}, &InCell::cell);
+  return all;
+}
+
+class VolumeGather : public GpuTest {
+ protected:
+  struct Nodes {
+    std::vector<layout::vec4> nodes;
+    std::vector<std::int32_t> sums;
+  };
+
+  // The nodes from these parcels; of divided strands from their sums, to which `others` are added.
+  Nodes nodesFrom(const std::vector<InCell>& parcels, bool texels, bool divided,
+                  const std::vector<std::int32_t>& others = {}) {
+    std::vector<std::uint32_t> words(kCells), starts(kCells + 1);
+    std::vector<layout::VolumeParcel> stand;
+    for (const InCell& each : parcels) stand.push_back(each.parcel), ++starts[each.cell + 1];
+    for (std::uint32_t cell = 0; cell < kCells; ++cell) starts[cell + 1] += starts[cell];
+    words.insert(words.end(), starts.begin(), starts.end() - 1);
+    words.push_back(0);
+    words.resize(words.size() + 2 * parcels.size());
+    layout::VolumeControl control{};
+    control.cellCount = kNodes;
+    control.cellsPerMetre = 1, control.cell = 1;
+    for (std::uint32_t& size : control.size) size = kSide;
+    auto halt = createZero(gpu(), sizeof(layout::ContactControl), "halt");
+    auto unused = createZero(gpu(), 4096, "unused");
+    auto cells = createFilled(gpu(), words, "cells");
+    auto all = createFilled(gpu(), stand, "parcels");
+    auto nodes = createZero(gpu(), kNodes * sizeof(layout::vec4), "nodes");
+    auto sums = createZero(gpu(), 10 * kCells * sizeof(std::int32_t), "sums");
+    auto block = createFilled(gpu(), std::vector{control}, "control");
+    EXPECT_TRUE(halt && unused && cells && all && nodes && sums && block);
+    layout::VolumeParameters parameters{};
+    parameters.count = kParcels, parameters.cellCapacity = kCells;
+    parameters.mostRate = kMostRate, parameters.unitsPerMass = 1, parameters.unitsPerGain = 1;
+    const auto run = [&](VolumeKernel which) {
+      auto kernel = gpu::Kernel::create(gpu(), describeVolumeKernel(which, texels, divided));
+      EXPECT_TRUE(kernel);
+      gpu::BufferTable buffers{{layout::kBindVolumeCells, *cells},   {layout::kBindVolumeCellTexels, *cells},
+                               {layout::kBindVolumeParcels, *all},   {layout::kBindVolumeParcelTexels, *all},
+                               {layout::kBindVolumeNodes, *nodes},   {layout::kBindVolumeSums, *sums},
+                               {layout::kBindVolumeControl, *block}, {layout::kBindVolumeHalt, *halt}};
+      for (const auto& [number, kind] : (*kernel)->bindings()) buffers.emplace(number, *unused);
+      auto bindings = gpu::Bindings::create(**kernel, buffers);
+      auto recorder = gpu::Recorder::create(gpu(), "nodes");
+      EXPECT_TRUE(bindings && recorder && recorder->begin());
+      recorder->dispatch(**kernel, *bindings, parameters, (kNodes + 63) / 64);
+      EXPECT_TRUE(recorder->submitAndWait());
+    };
+    run(VolumeKernel::gather);
+    run(VolumeKernel::density);
+    Nodes result;
+    result.sums = *downloadAll<std::int32_t>(*sums, 10 * kCells);
+    if (!others.empty()) {
+      std::vector<std::int32_t> both = result.sums;
+      for (std::size_t k = 0; k < both.size(); ++k) both[k] += others[k];
+      EXPECT_TRUE(sums->upload(std::as_bytes(std::span(both))));
+      run(VolumeKernel::mean);
+    }
+    result.nodes = *downloadAll<layout::vec4>(*nodes, kNodes);
+    return result;
+  }
+};
+
+void expectSameBits(const std::vector<layout::vec4>& a, const std::vector<layout::vec4>& b) {
+  for (std::size_t n = 0; n < kNodes; ++n)
+    EXPECT_EQ((std::array{a[n].x, a[n].y, a[n].z, a[n].w}), (std::array{b[n].x, b[n].y, b[n].z, b[n].w}))
+        << "node " << n;
+}
+
+TEST_F(VolumeGather, DoesNotDependOnTheOrderOfParcels) {
+  for (const bool texels : {false, true}) {
+    const auto one = nodesFrom(randomParcels(1), texels, false),
+               other = nodesFrom(randomParcels(2), texels, false);
+    expectSameBits(one.nodes, other.nodes);
+  }
+}
+
+TEST_F(VolumeGather, IsTheMeanInDouble) {
+  const auto parcels = randomParcels(1);
+  const auto found = nodesFrom(parcels, true, false).nodes;
+  for (std::uint32_t n = 0; n < kNodes; ++n) {
+    const std::array<double, 3> at{double(n % kSide), double(n / kSide % kSide), double(n / kSide / kSide)};
+    std::array<double, 4> sum{};
+    double mass = 0;
+    for (const auto& [cell, parcel] : parcels) {
+      const auto hat = [](double x) { return std::max(0.0, 1 - std::abs(x)); };
+      const double weight =
+          hat(parcel.place.x - at[0]) * hat(parcel.place.y - at[1]) * hat(parcel.place.z - at[2]);
+      sum[0] += weight * parcel.rate.x, sum[1] += weight * parcel.rate.y;
+      sum[2] += weight * parcel.rate.z, sum[3] += weight * parcel.rate.w;
+      mass += weight * parcel.place.w;
+    }
+    EXPECT_NEAR(found[n].x, kMostRate * sum[0] / sum[3], 1e-5);
+    EXPECT_NEAR(found[n].y, kMostRate * sum[1] / sum[3], 1e-5);
+    EXPECT_NEAR(found[n].z, kMostRate * sum[2] / sum[3], 1e-5);
+    EXPECT_NEAR(found[n].w, mass, 1e-6 * mass);
+  }
+}
+
+TEST_F(VolumeGather, DoesNotDependOnHowParcelsAreDivided) {
+  const auto all = randomParcels(1);
+  std::vector<InCell> some, rest;
+  for (std::size_t k = 0; k < all.size(); ++k) (k % 3 == 0 ? some : rest).push_back(all[k]);
+  const auto others = nodesFrom(rest, true, true);
+  expectSameBits(nodesFrom(some, true, true, others.sums).nodes, nodesFrom(all, true, false).nodes);
+}
+
+}  // namespace
+}  // namespace ringlet::test

@@ -1,0 +1,132 @@
+// rest/rest_halo.h and rest/rest_part.h: what parts of hair know of each other agrees, and is enough.
+#include "ringlet/rest/rest_halo.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "ringlet/groom/generate.h"
+#include "ringlet/rest/rest_part.h"
+#include "tests/rest/contact_samples.h"
+
+namespace ringlet::test {
+namespace {
+
+struct Whole {
+  RestState rest;
+  RestContacts contacts;
+  std::vector<std::size_t> partOf;
+};
+
+constexpr std::size_t kParts = 3;
+
+// A head whose strands are in three parts, side by side.
+Whole dividedHead(bool prunes) {
+  HeadParameters head{.strandCount = 90};
+  head.curl.particleCount = 16;
+  Settings settings;
+  settings.contacts.on = true;
+  settings.contacts.method = ContactMethod::explicitPairs;
+  settings.contacts.prunePairs = prunes;
+  settings.contacts.minOverlaps = 1;
+  Whole whole{*buildRestState(*makeHead(head), {}, settings), {}, {}};
+  whole.contacts = buildRestContacts(whole.rest, settings.contacts);
+  for (const layout::StrandRest& strand : whole.rest.strands) {
+    const float x = whole.rest.points[strand.firstParticle].x;
+    whole.partOf.push_back(x < -0.03f ? 0 : x < 0.03f ? 1 : 2);
+  }
+  return whole;
+}
+
+std::vector<std::uint32_t> inGroom(const RestState& rest, const std::vector<std::uint32_t>& strands) {
+  std::vector<std::uint32_t> all;
+  for (const std::uint32_t s : strands) all.push_back(rest.strandInGroom[s]);
+  return all;
+}
+
+TEST(RestHalo, HoldsWhatOwnStrandsMayTouch) {
+  for (const bool prunes : {true, false}) {
+    const Whole whole = dividedHead(prunes);
+    std::size_t known = 0;
+    for (std::size_t own = 0; own < kParts; ++own) {
+      const RestHalo halo = haloOf(whole.contacts, whole.partOf, own);
+      for (std::uint32_t a = 0; a < whole.partOf.size(); ++a) {
+        bool isKnown = whole.partOf[a] == own;
+        for (std::uint32_t b = 0; b < whole.partOf.size(); ++b)
+          isKnown = isKnown || (b != a && whole.partOf[b] == own && whole.contacts.graph.allows(b, a));
+        EXPECT_EQ(halo.isKnown[a], isKnown) << "strand " << a;
+        known += isKnown;
+      }
+    }
+    EXPECT_GT(known, whole.partOf.size());
+    if (prunes) EXPECT_LT(known, kParts * whole.partOf.size());
+  }
+}
+
+TEST(RestHalo, PartsExpectWhatTheOthersSend) {
+  const Whole whole = dividedHead(true);
+  std::vector<RestHalo> halos;
+  for (std::size_t own = 0; own < kParts; ++own) halos.push_back(haloOf(whole.contacts, whole.partOf, own));
+  std::size_t messages = 0;
+  for (std::size_t own = 0; own < kParts; ++own) {
+    for (const RestHalo::Peer& peer : halos[own].peers) {
+      const auto theirs = std::ranges::find(halos[peer.part].peers, own, &RestHalo::Peer::part);
+      ASSERT_NE(theirs, halos[peer.part].peers.end());
+      EXPECT_EQ(theirs->in, peer.out);
+      EXPECT_EQ(theirs->out, peer.in);
+      for (const std::uint32_t s : peer.out) EXPECT_EQ(whole.partOf[s], own);
+      ++messages;
+    }
+  }
+  EXPECT_GT(messages, 0u);
+}
+
+// In a part strands, particles and neighbours have other numbers; they are the same.
+TEST(RestHalo, WhatIsKeptIsTheWholes) {
+  const Whole whole = dividedHead(true);
+  for (std::size_t own = 0; own < kParts; ++own) {
+    const RestHalo before = haloOf(whole.contacts, whole.partOf, own);
+    Whole part = whole;
+    std::optional<RestVolume> none;
+    RestHalo halo = before;
+    ASSERT_TRUE(restrictTo({part.rest, part.contacts, none}, halo));
+    ASSERT_EQ(halo.isHere.size(), part.rest.strands.size());
+    const ContactParticles &all = whole.contacts.particles, &kept = part.contacts.particles;
+    for (std::size_t c = 0; c < kept.particles.size(); ++c) {
+      const std::uint32_t in = part.contacts.inWhole[c];
+      EXPECT_EQ(part.rest.points[kept.particles[c]], whole.rest.points[all.particles[in]]);
+      EXPECT_EQ(part.rest.strandInGroom[kept.strands[c]], whole.rest.strandInGroom[all.strands[in]]);
+      EXPECT_EQ(kept.radii[kept.strands[c]], all.radii[all.strands[in]]);
+    }
+    std::uint32_t s = 0;
+    for (std::uint32_t of = 0; of < whole.partOf.size(); ++of) {
+      if (!before.isKnown[of]) continue;
+      const auto neighbours = [&](const Whole& hair, std::uint32_t strand) {
+        const ContactGraph& graph = hair.contacts.graph;
+        return inGroom(hair.rest, {graph.neighbours.begin() + graph.firstNeighbour[strand],
+                                   graph.neighbours.begin() + graph.firstNeighbour[strand + 1]});
+      };
+      EXPECT_EQ(halo.isHere[s], whole.partOf[of] == own);
+      EXPECT_EQ(neighbours(part, s), halo.isHere[s] ? neighbours(whole, of) : std::vector<std::uint32_t>{});
+      ++s;
+    }
+    for (std::size_t k = 0; k < halo.peers.size(); ++k)
+      EXPECT_EQ(inGroom(part.rest, halo.peers[k].in), inGroom(whole.rest, before.peers[k].in));
+  }
+}
+
+TEST(RestHalo, EveryStrandIsInOnePart) {
+  const Whole whole = dividedHead(true);
+  std::vector<std::vector<std::uint32_t>> parts(2);
+  for (std::uint32_t s = 0; s < 90; ++s) parts[s % 2].push_back(s);
+  EXPECT_TRUE(partOfEach(parts, whole.rest));
+  parts[0].push_back(1);
+  EXPECT_NE(partOfEach(parts, whole.rest).error().message.find("strand 1 is in 2 parts"), std::string::npos);
+  parts[0].pop_back(), parts[0].pop_back();
+  EXPECT_NE(partOfEach(parts, whole.rest).error().message.find("strand 88 is in 0 parts"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ringlet::test
