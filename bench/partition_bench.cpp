@@ -14,11 +14,9 @@
 #include <utility>
 #include <vector>
 
-#ifdef RINGLET_HAS_METIS
-#include <metis.h>
-#endif
-
 #include "bench/clocks.h"
+#include "parts/strand_graph.h"
+#include "parts/strand_parts.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/strand_order.h"
@@ -29,65 +27,14 @@ using namespace ringlet;
 
 constexpr double kMostImbalance = 1.03;
 
-// Strands that may touch, weighted by what they take: of a step [ns], and by overlaps at rest.
-struct Graph {
-  std::vector<std::int32_t> first, neighbours, overlaps;  // by strand; and of each neighbour
-  std::vector<std::int32_t> weights;                      // of strands
-  std::size_t contactParticles = 0;
-
-  std::size_t strandCount() const { return weights.size(); }
-  std::span<const std::int32_t> neighboursOf(std::size_t s) const {
-    return std::span(neighbours).subspan(std::size_t(first[s]), std::size_t(first[s + 1] - first[s]));
-  }
-};
-
-// Times of a lavapipe step: a particle, a contact particle, either side of a pair that overlaps [ns].
-constexpr double kPerParticle = 80, kPerContactParticle = 82, kPerSide = 60;
-
-Graph graphOf(const RestState& rest, const RestContacts& contacts, const ContactSettings& settings) {
-  Graph graph;
-  const auto found = countOverlaps(rest, contacts.allParticles(), settings.enlargement);
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> of(rest.strands.size());
-  for (const StrandOverlap& pair : found) {
-    if (!contacts.graph.allows(pair.a, pair.b)) continue;
-    of[pair.a].push_back({pair.b, pair.count});
-    of[pair.b].push_back({pair.a, pair.count});
-  }
-  graph.first.push_back(0);
-  const auto& starts = contacts.particles.firstOfStrand;
-  for (std::size_t s = 0; s < of.size(); ++s) {
-    double weight =
-        kPerParticle * rest.strands[s].particleCount + kPerContactParticle * (starts[s + 1] - starts[s]);
-    for (const auto& [other, count] : of[s]) {
-      graph.neighbours.push_back(std::int32_t(other));
-      graph.overlaps.push_back(std::int32_t(count));
-      weight += kPerSide * count;
-    }
-    graph.first.push_back(std::int32_t(graph.neighbours.size()));
-    graph.weights.push_back(std::int32_t(weight / 100));
-  }
-  graph.contactParticles = contacts.particles.particles.size();
-  return graph;
-}
-
+using Graph = StrandGraph;
 using Parts = std::vector<std::int32_t>;  // of each strand
-
-Parts curveRanges(const Graph& graph, int count) {
-  const double whole = std::accumulate(graph.weights.begin(), graph.weights.end(), 0.0);
-  Parts parts;
-  double before = 0;
-  for (const std::int32_t weight : graph.weights) {
-    parts.push_back(std::min(count - 1, int(before / whole * count)));
-    before += weight;
-  }
-  return parts;
-}
 
 // Pairs of strands in two parts change places as long as that cuts less and no part becomes too heavy.
 Parts swapped(const Graph& graph, int count) {
   constexpr int kPasses = 60;
   constexpr std::size_t kPartners = 12;
-  Parts parts = curveRanges(graph, count);
+  Parts parts = partsAlongCurve(graph, count);
   std::vector<double> weights(std::size_t(count), 0.0);
   for (std::size_t s = 0; s < parts.size(); ++s) weights[std::size_t(parts[s])] += graph.weights[s];
   const double heaviest = kMostImbalance * std::accumulate(weights.begin(), weights.end(), 0.0) / count;
@@ -140,30 +87,13 @@ Parts swapped(const Graph& graph, int count) {
   return parts;
 }
 
-#ifdef RINGLET_HAS_METIS
-Parts byMetis(const Graph& graph, int count, bool byWays) {
-  auto first = graph.first, neighbours = graph.neighbours, overlaps = graph.overlaps, weights = graph.weights;
-  idx_t strands = idx_t(graph.strandCount()), constraints = 1, parts = count, cut = 0;
-  idx_t options[METIS_NOPTIONS];
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_SEED] = 1;
-  Parts of(graph.strandCount());
-  (byWays ? METIS_PartGraphKway : METIS_PartGraphRecursive)(
-      &strands, &constraints, first.data(), neighbours.data(), weights.data(), nullptr, overlaps.data(),
-      &parts, nullptr, nullptr, options, &cut, of.data());
-  return of;
-}
-#endif
-
 struct Measures {
   double cut = 0, halo = 0, imbalance = 0;  // shares
 };
 Result<Measures> measure(const Graph& graph, const Parts& parts, int count) {
-  std::vector<double> weights(std::size_t(count), 0.0);
   double all = 0, cut = 0, halo = 0;
   for (std::size_t s = 0; s < parts.size(); ++s) {
     if (parts[s] < 0 || parts[s] >= count) return Error{fmt::format("strand {} is in part {}", s, parts[s])};
-    weights[std::size_t(parts[s])] += graph.weights[s];
     std::vector<bool> isIn(std::size_t(count), false);
     for (std::int32_t k = graph.first[s]; k < graph.first[s + 1]; ++k) {
       const std::int32_t other = parts[std::size_t(graph.neighbours[std::size_t(k)])];
@@ -174,9 +104,7 @@ Result<Measures> measure(const Graph& graph, const Parts& parts, int count) {
       isIn[std::size_t(other)] = true;
     }
   }
-  const double whole = std::accumulate(weights.begin(), weights.end(), 0.0);
-  return Measures{all > 0 ? cut / all : 0, halo / double(parts.size()),
-                  *std::ranges::max_element(weights) * count / whole};
+  return Measures{all > 0 ? cut / all : 0, halo / double(parts.size()), imbalance(graph, parts, count)};
 }
 
 struct Way {
@@ -184,13 +112,14 @@ struct Way {
   std::function<Parts(const Graph&, int)> divide;
 };
 std::vector<Way> ways() {
-  std::vector<Way> all{{"curve", curveRanges}, {"swaps", swapped}};
-#ifdef RINGLET_HAS_METIS
-  all.push_back({"METIS", [](const Graph& graph, int count) { return byMetis(graph, count, false); }});
-  all.push_back({"METIS k-way", [](const Graph& graph, int count) { return byMetis(graph, count, true); }});
-#else
-  fmt::print("METIS is not installed (Debian: libmetis-dev): without it.\n");
-#endif
+  std::vector<Way> all{{"curve", partsAlongCurve}, {"swaps", swapped}};
+  if (hasMetis()) {
+    all.push_back({"METIS", [](const Graph& graph, int count) { return partsByMetis(graph, count, false); }});
+    all.push_back(
+        {"METIS k-way", [](const Graph& graph, int count) { return partsByMetis(graph, count, true); }});
+  } else {
+    fmt::print("METIS was not there when this was built (Debian: libmetis-dev): without it.\n");
+  }
   return all;
 }
 
@@ -235,10 +164,10 @@ Status run(int strands, double scalpRadius) {
     settings.contacts.minOverlaps = pruning.minOverlaps;
     settings.contacts.maxNeighbours = pruning.maxNeighbours;
     const RestContacts contacts = buildRestContacts(*rest, settings.contacts);
-    const Graph graph = graphOf(*rest, contacts, settings.contacts);
+    const Graph graph = strandGraph(*rest, contacts);
     fmt::print("\n{} strands, {}: {} pairs, {:.1f} neighbours a strand, {} contact particles\n", strands,
                pruning.name, contacts.graph.pairs, double(graph.neighbours.size()) / strands,
-               graph.contactParticles);
+               contacts.particleCount);
     if (Status status = tell(graph, all); !status) return status;
   }
   return {};

@@ -18,7 +18,7 @@ packages=(
 extras=(
   libglfw3-dev libimgui-dev xvfb xdotool                             # the window of `ringlet view`, and its test without a screen
   gnuplot-nox                                                        # plots
-  libopenmpi-dev openmpi-bin                                         # runs on several ranks
+  libopenmpi-dev openmpi-bin libmetis-dev                            # runs on several ranks, and their parts of the hair
   ffmpeg                                                             # films of `ringlet render`
 )
 

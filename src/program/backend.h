@@ -78,6 +78,8 @@ class Backend {
   virtual std::string device() const = 0;
   virtual std::string driver() const = 0;
   virtual std::string kernel() const = 0;
+  /// Of divided hair: the strands of this process, groom order.
+  virtual std::vector<std::uint32_t> ownStrands() const { return {}; }
   /// Whether measurements of `ringlet tune` chose the shapes.
   virtual bool isTuned() const { return false; }
   /// Time of compiling its kernels [ms]; 0 if there are none to compile.
@@ -100,11 +102,6 @@ Result<ComputeDevice> openGpu(const std::string& device);
 
 /// The Vulkan solver.
 Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const GpuChoice& gpu);
-
-/// Strands of each of so many parts of hair, in groom order: where they meet, those that lie together, else
-/// dealt out by length.
-std::vector<std::vector<std::uint32_t>> partsOf(const Groom& groom, const Settings& settings,
-                                                std::size_t count);
 
 /// The same with the groom's strands on several devices, each named as GpuChoice::device is; one may be named
 /// twice. Errors: what HairAsset::build says of hair that cannot be divided; more devices than strands.

@@ -480,11 +480,10 @@ void HairRun::tellWarnings() {
     return numbers;
   };
   auto poses = posesOfFrame(input, 0);
-  const auto [rank, rankCount] = ranks();
-  const auto parts = partsOf(input.groom, input.settings, static_cast<std::size_t>(rankCount));
-  scene.points = pointsOf(input.groom, parts[static_cast<std::size_t>(rank)]);
   if (poses) scene.fields = poses->forces.fields;
-  serve(poses ? makeBackend(input, options) : poses.error(), scene);
+  auto hair = poses ? makeBackend(input, options) : poses.error();
+  if (hair) scene.points = pointsOf(input.groom, (*hair)->ownStrands());
+  serve(std::move(hair), scene);
   leaveRanks(kExitFine);
   std::exit(kExitFine);
 }

@@ -151,6 +151,14 @@ std::vector<std::byte> receiveFrom(int rank) {
   return bytes;
 }
 
+std::vector<std::byte> fromFirst(std::vector<std::byte> bytes) {
+  std::uint64_t size = bytes.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  bytes.resize(size);
+  MPI_Bcast(bytes.data(), static_cast<int>(size), MPI_BYTE, 0, MPI_COMM_WORLD);
+  return bytes;
+}
+
 std::unique_ptr<PartLink> linkRanks(std::vector<std::vector<std::uint32_t>> parts) {
   return std::make_unique<RankLink>(std::move(parts), static_cast<std::size_t>(here.own));
 }
@@ -181,6 +189,7 @@ std::string joinRanks(int, char**) {
 void leaveRanks(int) {}
 void sendTo(int, std::span<const std::byte>) {}
 std::vector<std::byte> receiveFrom(int) { return {}; }
+std::vector<std::byte> fromFirst(std::vector<std::byte> bytes) { return bytes; }
 std::unique_ptr<PartLink> linkRanks(std::vector<std::vector<std::uint32_t>>) { return nullptr; }
 void endRanks(const std::string&) { std::abort(); }
 

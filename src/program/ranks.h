@@ -29,6 +29,8 @@ void leaveRanks(int exitCode);
 /// Bytes from one rank to another, in order; rank 0 is one of the two.
 void sendTo(int rank, std::span<const std::byte> bytes);
 std::vector<std::byte> receiveFrom(int rank);
+/// What rank 0 has, on every rank; all call this.
+std::vector<std::byte> fromFirst(std::vector<std::byte> bytes);
 /// What rank 0 sends last.
 inline constexpr std::uint32_t kLeave = 0;
 inline bool saysLeave(std::span<const std::byte> bytes) {

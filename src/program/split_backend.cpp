@@ -10,37 +10,18 @@
 #include <set>
 #include <utility>
 
+#include "parts/strand_parts.h"
 #include "program/backend.h"
 #include "program/ranks.h"
 #include "program/remote_backend.h"
 #include "program/threaded_backend.h"
 #include "ringlet/base/archive.h"
-#include "ringlet/rest/strand_order.h"
 #include "ringlet/solver/shared_link.h"
 
 namespace ringlet::program {
 namespace {
 
-// Of each device: strands that lie together, of as many particles.
-std::vector<std::vector<std::uint32_t>> cutStrands(const Groom& groom, std::size_t deviceCount) {
-  std::vector<std::vector<std::uint32_t>> parts(deviceCount);
-  std::size_t before = 0;
-  for (const std::uint32_t strand : orderAlongCurve(groom)) {
-    parts[before * deviceCount / groom.points.size()].push_back(strand);
-    before += groom.strand(strand).size();
-  }
-  return parts;
-}
-
-// Of each device: strands dealt out by rising length, so that all have about as many of every length.
-std::vector<std::vector<std::uint32_t>> dealStrands(const Groom& groom, std::size_t deviceCount) {
-  std::vector<std::uint32_t> order(groom.strandCount());
-  std::iota(order.begin(), order.end(), 0u);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t s) { return groom.strand(s).size(); });
-  std::vector<std::vector<std::uint32_t>> parts(deviceCount);
-  for (std::size_t k = 0; k < order.size(); ++k) parts[k % deviceCount].push_back(order[k]);
-  return parts;
-}
+using Parts = std::vector<std::vector<std::uint32_t>>;  // strands of each
 
 struct Part {
   std::unique_ptr<Backend> hair;
@@ -97,6 +78,7 @@ class SplitBackend : public Backend {
     for (Part& part : parts_) {
       auto state = part.hair->checkpoint();
       if (!state) return state.error();
+      archive.list(part.strands);
       archive.list(*state);
     }
     return archive.take();
@@ -104,12 +86,18 @@ class SplitBackend : public Backend {
   Status restore(std::span<const std::byte> checkpoint) override {
     Archive archive = Archive::reading(checkpoint);
     for (Part& part : parts_) {
+      std::vector<std::uint32_t> strands;
       std::vector<std::byte> state;
+      archive.list(strands);
       archive.list(state);
-      if (archive.isShort()) break;
+      if (archive.isShort() || strands != part.strands) break;
       if (Status restored = part.hair->restore(state); !restored) return restored;
     }
-    if (!archive.isWhole()) return Error{"the checkpoint is not one of hair on as many devices"};
+    if (!archive.isWhole())
+      return Error{
+          "the checkpoint is of hair that was divided otherwise; go on with as many devices or ranks, and "
+          "the "
+          "ringlet that began the run"};
     return {};
   }
   Result<SimulationReport> report() override {
@@ -161,6 +149,7 @@ class SplitBackend : public Backend {
         if (std::ranges::find(all, message) == all.end()) all.push_back(std::move(message));
     return all;
   }
+  std::vector<std::uint32_t> ownStrands() const override { return parts_[0].strands; }
   std::string device() const override { return joined(parts_, &Backend::device, false); }
   std::string driver() const override { return joined(parts_, &Backend::driver, true); }
   std::string kernel() const override { return joined(parts_, &Backend::kernel, true); }
@@ -207,15 +196,6 @@ class SplitBackend : public Backend {
   std::vector<std::uint32_t> firstPoint_;  // of the groom
 };
 
-}  // namespace
-
-std::vector<std::vector<std::uint32_t>> partsOf(const Groom& groom, const Settings& settings,
-                                                std::size_t count) {
-  return settings.contacts.on ? cutStrands(groom, count) : dealStrands(groom, count);
-}
-
-namespace {
-
 Result<std::unique_ptr<Backend>> makePart(const BackendInput& input, const GpuChoice& gpu,
                                           const std::string& device, std::span<const std::uint32_t> strands,
                                           PartLink* link) {
@@ -225,6 +205,31 @@ Result<std::unique_ptr<Backend>> makePart(const BackendInput& input, const GpuCh
   own.kernel.link = link;
   if (!link) own.kernel.part = strands;
   return makeGpuBackend(input, own);
+}
+
+// The parts that rank 0 chooses, on every rank: another METIS might choose others.
+Result<Parts> dividedByFirst(const BackendInput& input, std::size_t count) {
+  Archive written = Archive::writing();
+  if (ranks().own == 0) {
+    const auto parts = divideStrands(input.groom, input.material, input.settings, count);
+    std::string why = parts ? std::string() : parts.error().message;
+    std::vector<std::uint32_t> partOf(parts ? input.groom.strandCount() : 0);
+    for (std::uint32_t part = 0; parts && part < parts->size(); ++part)
+      for (const std::uint32_t strand : (*parts)[part]) partOf[strand] = part;
+    written.text(why);
+    written.values(std::span(partOf));
+  }
+  const std::vector<std::byte> bytes = fromFirst(written.take());
+  Archive read = Archive::reading(bytes);
+  std::string why;
+  read.text(why);
+  if (!why.empty()) return Error{why};
+  std::vector<std::uint32_t> partOf(input.groom.strandCount());
+  read.values(std::span(partOf));
+  if (!read.isWhole()) return Error{"rank 0 has another groom than this rank"};
+  Parts parts(count);
+  for (std::uint32_t strand = 0; strand < partOf.size(); ++strand) parts[partOf[strand]].push_back(strand);
+  return parts;
 }
 
 Status checkParts(const BackendInput& input, std::size_t count, const char* what) {
@@ -238,7 +243,9 @@ Status checkParts(const BackendInput& input, std::size_t count, const char* what
 Result<std::unique_ptr<Backend>> makeSplitBackend(const BackendInput& input, const GpuChoice& gpu,
                                                   std::span<const std::string> devices) {
   if (Status enough = checkParts(input, devices.size(), "devices"); !enough) return enough.error();
-  const auto strands = partsOf(input.groom, input.settings, devices.size());
+  const auto divided = divideStrands(input.groom, input.material, input.settings, devices.size());
+  if (!divided) return divided.error();
+  const Parts& strands = *divided;
   Links links;
   if (input.settings.contacts.on)
     for (auto& link : SharedLink::connect(strands)) links.push_back(std::move(link));
@@ -258,7 +265,9 @@ Result<std::unique_ptr<Backend>> makeRankBackend(const BackendInput& input, cons
   const auto [own, count] = ranks();
   const auto rank = static_cast<std::size_t>(own), rankCount = static_cast<std::size_t>(count);
   if (Status enough = checkParts(input, rankCount, "ranks"); !enough) return enough.error();
-  const auto strands = partsOf(input.groom, input.settings, rankCount);
+  const auto divided = dividedByFirst(input, rankCount);
+  if (!divided) return divided.error();
+  const Parts& strands = *divided;
   Links links;
   if (input.settings.contacts.on) links.push_back(linkRanks(strands));
   const std::string& device = devices.empty() ? gpu.device : devices[rank % devices.size()];

@@ -96,8 +96,13 @@ void connect(ContactGraph& graph, std::span<const StrandOverlap> overlaps, std::
   std::partial_sum(graph.firstNeighbour.begin(), graph.firstNeighbour.end(), graph.firstNeighbour.begin());
   graph.neighbours.resize(2 * overlaps.size());
   std::vector<std::uint32_t> next(graph.firstNeighbour.begin(), graph.firstNeighbour.end() - 1);
-  for (const StrandOverlap& o : overlaps) graph.neighbours[next[o.b]++] = o.a;
-  for (const StrandOverlap& o : overlaps) graph.neighbours[next[o.a]++] = o.b;
+  graph.counts.resize(2 * overlaps.size());
+  const auto add = [&](std::uint32_t strand, std::uint32_t other, std::uint32_t count) {
+    graph.counts[next[strand]] = count;
+    graph.neighbours[next[strand]++] = other;
+  };
+  for (const StrandOverlap& o : overlaps) add(o.b, o.a, o.count);
+  for (const StrandOverlap& o : overlaps) add(o.a, o.b, o.count);
 }
 
 }  // namespace

@@ -25,9 +25,10 @@ struct StrandOverlap {
 };
 
 struct ContactGraph {
-  bool everyPair = false;  // no pruning: any two strands may touch, and the two arrays are empty
+  bool everyPair = false;  // no pruning: any two strands may touch, and these arrays are empty
   std::vector<std::uint32_t> firstNeighbour;  // strandCount + 1 entries, into:
   std::vector<std::uint32_t> neighbours;      // of each strand, device order, ascending
+  std::vector<std::uint32_t> counts;          // of each neighbour: overlaps with it at rest
   std::uint64_t pairsUnpruned = 0;            // pairs of strands that overlap at rest, enlarged
   std::uint64_t pairs = 0;                    // those of them that may touch
   std::uint64_t overlapsUnpruned = 0;         // pairs of spheres in pairsUnpruned

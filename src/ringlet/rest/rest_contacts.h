@@ -42,6 +42,21 @@ struct RestContacts {
   /// The contact particles by which contacts are measured.
   const ContactParticles& allParticles() const { return unthinned ? *unthinned : particles; }
 
+  /// Calls tell(other, overlaps at rest) for each strand that meets `strand` pair by pair; if any two may
+  /// touch, of 1 overlap.
+  template <class Tell>
+  void eachPartner(std::uint32_t strand, const Tell& tell) const {
+    if (!kinds.pairs) return;
+    const auto& groups = volume.groups;
+    const auto meet = [&](std::uint32_t other, std::uint32_t count) {
+      if (other != strand && !(volume.hasGroups() && groups[strand] == groups[other])) tell(other, count);
+    };
+    for (std::uint32_t other = 0; graph.everyPair && other < groups.size(); ++other) meet(other, 1);
+    if (graph.everyPair) return;
+    for (std::uint32_t k = graph.firstNeighbour[strand]; k < graph.firstNeighbour[strand + 1]; ++k)
+      meet(graph.neighbours[k], graph.counts[k]);
+  }
+
   /// Warnings for the user, a sentence each: about gaps or raised radii, and about pruning that leaves no
   /// pair.
   std::vector<std::string> warnings() const;

@@ -19,24 +19,6 @@ void sortOut(std::vector<std::uint32_t>& strands) {
   strands.erase(rest.begin(), rest.end());
 }
 
-// tell(other) for each strand that meets strand s pair by pair.
-template <class Tell>
-void eachPartner(const RestContacts& contacts, std::uint32_t s, const Tell& tell) {
-  const ContactGraph& graph = contacts.graph;
-  const auto& groups = contacts.volume.groups;
-  const auto meets = [&](std::uint32_t other) {
-    return other != s && !(contacts.volume.hasGroups() && groups[s] == groups[other]);
-  };
-  if (!contacts.kinds.pairs) return;
-  if (graph.everyPair) {
-    for (std::uint32_t other = 0; other < groups.size(); ++other)
-      if (meets(other)) tell(other);
-    return;
-  }
-  for (std::uint32_t k = graph.firstNeighbour[s]; k < graph.firstNeighbour[s + 1]; ++k)
-    if (meets(graph.neighbours[k])) tell(graph.neighbours[k]);
-}
-
 }  // namespace
 
 RestHalo haloOf(const RestContacts& contacts, std::span<const std::size_t> partOf, std::size_t own) {
@@ -46,7 +28,7 @@ RestHalo haloOf(const RestContacts& contacts, std::span<const std::size_t> partO
   std::map<std::size_t, Shared> shared;
   for (std::uint32_t s = 0; s < partOf.size(); ++s) {
     if (!halo.isHere[s]) continue;
-    eachPartner(contacts, s, [&](std::uint32_t other) {
+    contacts.eachPartner(s, [&](std::uint32_t other, std::uint32_t) {
       if (halo.isHere[other]) return;
       halo.isKnown[other] = true;
       Shared& with = shared[partOf[other]];

@@ -112,6 +112,7 @@ void restrictTo(RestContacts& contacts, const RestHalo& halo, const Places& plac
   ContactGraph& graph = contacts.graph;
   const std::vector<std::uint32_t> first = std::exchange(graph.firstNeighbour, {0});
   const std::vector<std::uint32_t> neighbours = std::exchange(graph.neighbours, {});
+  graph.counts.clear();
   for (std::uint32_t s = 0; s < halo.isKnown.size(); ++s) {
     if (!halo.isKnown[s]) continue;
     for (std::uint32_t c = whole.firstOfStrand[s]; c < whole.firstOfStrand[s + 1]; ++c) {
