@@ -16,10 +16,17 @@ static void delay(void) {
   if (state >> 29 == 0) usleep(state >> 16 & 0x3fff);  // one in eight, up to 16 ms
 }
 
-int MPI_Allgatherv(const void* send, int count, MPI_Datatype sent, void* receive, const int* counts,
-                   const int* places, MPI_Datatype received, MPI_Comm comm) {
+int MPI_Isend(const void* bytes, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm, MPI_Request* request) {
   delay();
-  return PMPI_Allgatherv(send, count, sent, receive, counts, places, received, comm);
+  return PMPI_Isend(bytes, count, type, to, tag, comm, request);
+}
+int MPI_Waitall(int count, MPI_Request* requests, MPI_Status* statuses) {
+  delay();
+  return PMPI_Waitall(count, requests, statuses);
+}
+int MPI_Allreduce(const void* send, void* receive, int count, MPI_Datatype type, MPI_Op op, MPI_Comm comm) {
+  delay();
+  return PMPI_Allreduce(send, receive, count, type, op, comm);
 }
 int MPI_Send(const void* bytes, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm) {
   delay();

@@ -127,6 +127,8 @@ void leaveRanks(int exitCode) {
   MPI_Finalize();
 }
 
+bool isToldToLeave() { return here.own > 0 && isTold[static_cast<std::size_t>(here.own)]; }
+
 void sendTo(int rank, std::span<const std::byte> bytes) {
   if (rank > 0 && saysLeave(bytes)) isTold[static_cast<std::size_t>(rank)] = true;
   if (rank == 0) hasServed = true;
@@ -152,10 +154,8 @@ std::vector<std::byte> receiveFrom(int rank) {
 }
 
 std::vector<std::byte> fromFirst(std::vector<std::byte> bytes) {
-  std::uint64_t size = bytes.size();
-  MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-  bytes.resize(size);
-  MPI_Bcast(bytes.data(), static_cast<int>(size), MPI_BYTE, 0, MPI_COMM_WORLD);
+  if (here.own > 0) return receiveFrom(0);
+  for (int rank = 1; rank < here.count; ++rank) sendTo(rank, bytes);
   return bytes;
 }
 
@@ -190,6 +190,7 @@ void leaveRanks(int) {}
 void sendTo(int, std::span<const std::byte>) {}
 std::vector<std::byte> receiveFrom(int) { return {}; }
 std::vector<std::byte> fromFirst(std::vector<std::byte> bytes) { return bytes; }
+bool isToldToLeave() { return false; }
 std::unique_ptr<PartLink> linkRanks(std::vector<std::vector<std::uint32_t>>) { return nullptr; }
 void endRanks(const std::string&) { std::abort(); }
 

@@ -29,7 +29,7 @@ void leaveRanks(int exitCode);
 /// Bytes from one rank to another, in order; rank 0 is one of the two.
 void sendTo(int rank, std::span<const std::byte> bytes);
 std::vector<std::byte> receiveFrom(int rank);
-/// What rank 0 has, on every rank; all call this.
+/// What rank 0 has, on every rank; all call this. Another rank may be told to leave instead.
 std::vector<std::byte> fromFirst(std::vector<std::byte> bytes);
 /// What rank 0 sends last.
 inline constexpr std::uint32_t kLeave = 0;
@@ -38,6 +38,9 @@ inline bool saysLeave(std::span<const std::byte> bytes) {
   if (bytes.size() == sizeof call) std::memcpy(&call, bytes.data(), sizeof call);
   return call == kLeave;
 }
+
+/// Whether rank 0 has told this one to leave.
+bool isToldToLeave();
 
 /// A PartLink among all ranks, each with a part. Where one fails, all end, with what it says.
 std::unique_ptr<PartLink> linkRanks(std::vector<std::vector<std::uint32_t>> parts);

@@ -359,6 +359,7 @@ Result<std::unique_ptr<Backend>> makeRemoteBackend(int rank, const Groom& groom,
 }
 
 void serve(Result<std::unique_ptr<Backend>> hair, const RankScene& scene) {
+  if (isToldToLeave()) return;
   sendTo(0, beginAnswer(hair ? "" : hair.error().message).take());
   try {
     for (;;) {

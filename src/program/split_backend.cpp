@@ -220,6 +220,7 @@ Result<Parts> dividedByFirst(const BackendInput& input, std::size_t count) {
     written.values(std::span(partOf));
   }
   const std::vector<std::byte> bytes = fromFirst(written.take());
+  if (isToldToLeave()) return Error{"rank 0 has ended"};
   Archive read = Archive::reading(bytes);
   std::string why;
   read.text(why);
