@@ -58,7 +58,8 @@ class Backend {
     return Error{"hair that is divided among devices is not cut; use one device"};
   }
   /// Of the frame waited for last. Groom order, relative to the head's origin, along world axes [m].
-  virtual std::vector<Vec3f> framePositions() = 0;
+  /// Into the groom's positions; of divided hair those of its own strands.
+  virtual void framePositions(std::span<Vec3f> all) = 0;
   /// The same of now, before the first frame too, and no frame in flight.
   virtual Result<std::vector<Vec3f>> positions() = 0;
   /// As Simulation::checkpoint and restore.

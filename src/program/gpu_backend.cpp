@@ -39,7 +39,7 @@ class GpuBackend : public Backend {
     return simulation_.setGoals(places, strengths, dampingRatio, from);
   }
   Status cut(std::span<const StrandCut> cuts) override { return simulation_.cut(cuts); }
-  std::vector<Vec3f> framePositions() override { return simulation_.framePositions(); }
+  void framePositions(std::span<Vec3f> all) override { simulation_.framePositions(all); }
   Result<std::vector<Vec3f>> positions() override { return simulation_.positions(); }
   Result<std::vector<std::byte>> checkpoint() override { return simulation_.checkpoint(); }
   Status restore(std::span<const std::byte> checkpoint) override { return simulation_.restore(checkpoint); }

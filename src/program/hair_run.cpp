@@ -482,6 +482,7 @@ void HairRun::tellWarnings() {
   auto poses = posesOfFrame(input, 0);
   if (poses) scene.fields = poses->forces.fields;
   auto hair = poses ? makeBackend(input, options) : poses.error();
+  scene.pointCount = input.groom.points.size();
   if (hair) scene.points = pointsOf(input.groom, (*hair)->ownStrands());
   serve(std::move(hair), scene);
   leaveRanks(kExitFine);

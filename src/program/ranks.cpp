@@ -50,9 +50,10 @@ void fallSilent() {
 // MPI's own wait keeps a core busy, on which a device of the kind CPU could work.
 void waitFor(int rank) {
   int isHere = 0;
-  for (int looked = 0; MPI_Iprobe(rank, 0, MPI_COMM_WORLD, &isHere, MPI_STATUS_IGNORE), !isHere; ++looked) {
-    if (looked > 100) std::this_thread::sleep_for(std::chrono::microseconds(50));
-  }
+  constexpr std::chrono::microseconds kFirst(20), kLongest(300);
+  for (auto sleep = kFirst; MPI_Iprobe(rank, 0, MPI_COMM_WORLD, &isHere, MPI_STATUS_IGNORE), !isHere;
+       sleep = std::min(kLongest, 3 * sleep / 2))
+    std::this_thread::sleep_for(sleep);
 }
 
 class RankLink : public PartLink {

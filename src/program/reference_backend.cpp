@@ -66,7 +66,7 @@ class ReferenceBackend : public Backend {
     simulation_.cut(*groom_, material_, cuts);
     return {};
   }
-  std::vector<Vec3f> framePositions() override { return waited_; }
+  void framePositions(std::span<Vec3f> all) override { std::ranges::copy(waited_, all.begin()); }
   Result<std::vector<Vec3f>> positions() override { return pointsNow(); }
   Result<std::vector<std::byte>> checkpoint() override {
     Archive archive = Archive::writing();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -23,7 +24,6 @@ enum class Call : std::uint32_t {
   change,
   setFields,
   setGoals,
-  framePositions,
   positions,
   checkpoint,
   restore,
@@ -123,7 +123,13 @@ class RemoteBackend : public Backend {
     isUnderWay_ = true;
     return {};
   }
-  Status waitFrame() override { return ask(begin(Call::waitFrame)); }
+  // The answer has the positions too.
+  Status waitFrame() override {
+    std::vector<std::byte> bytes;
+    if (Status waited = ask(begin(Call::waitFrame), &bytes); !waited) return waited;
+    givenIn(bytes).list(own_);
+    return {};
+  }
   Status change(const Settings&, const Material&, double keysAt) override {
     Archive call = begin(Call::change);
     call.value(keysAt);
@@ -143,11 +149,16 @@ class RemoteBackend : public Backend {
     call.list(now), call.list(pulls), call.value(dampingRatio), call.list(before);
     return ask(std::move(call));
   }
-  std::vector<Vec3f> framePositions() override {
-    auto points = pointsOf(Call::framePositions);
-    return points ? std::move(*points) : std::vector<Vec3f>(pointCount_);
+  void framePositions(std::span<Vec3f> all) override {
+    for (std::size_t k = 0; k < own_.size(); ++k) all[points_[k]] = own_[k];
   }
-  Result<std::vector<Vec3f>> positions() override { return pointsOf(Call::positions); }
+  Result<std::vector<Vec3f>> positions() override {
+    const auto own = askFor<Vec3f>(begin(Call::positions));
+    if (!own) return own.error();
+    std::vector<Vec3f> all(pointCount_);
+    for (std::size_t k = 0; k < points_.size(); ++k) all[points_[k]] = (*own)[k];
+    return all;
+  }
   Result<std::vector<std::byte>> checkpoint() override { return askFor<std::byte>(begin(Call::checkpoint)); }
   Status restore(std::span<const std::byte> checkpoint) override {
     Archive call = begin(Call::restore);
@@ -216,13 +227,6 @@ class RemoteBackend : public Backend {
     archive.list(values);
     return values;
   }
-  Result<std::vector<Vec3f>> pointsOf(Call call) const {
-    const auto own = askFor<Vec3f>(begin(call));
-    if (!own) return own.error();
-    std::vector<Vec3f> all(pointCount_);
-    for (std::size_t k = 0; k < points_.size(); ++k) all[points_[k]] = (*own)[k];
-    return all;
-  }
   Result<std::pair<SimulationReport, ContactReport>> reports() const {
     std::vector<std::byte> bytes;
     if (Status asked = ask(begin(Call::reports), &bytes); !asked) return asked.error();
@@ -243,6 +247,7 @@ class RemoteBackend : public Backend {
   int rank_;
   std::size_t pointCount_;             // of the groom
   std::vector<std::uint32_t> points_;  // of the part, in the groom
+  std::vector<Vec3f> own_;             // their positions after the frame waited for
   mutable Status lost_{};
   mutable bool isUnderWay_ = false;  // a frame whose answer is still to come
 };
@@ -250,7 +255,8 @@ class RemoteBackend : public Backend {
 // The other side of a call: what it gives goes into `given`.
 class Server {
  public:
-  Server(Backend& hair, const RankScene& scene) : hair_(hair), scene_(scene) {}
+  Server(Backend& hair, const RankScene& scene)
+      : hair_(hair), scene_(scene), whole_(scene.pointCount), own_(scene.points.size()) {}
 
   Status answer(Archive& call, Archive& given) {
     Call which{};
@@ -262,8 +268,13 @@ class Server {
         call.list(heads), call.list(bodies), call.list(roots);
         return hair_.submitFrame(heads, bodies, roots);
       }
-      case Call::waitFrame:
-        return hair_.waitFrame();
+      case Call::waitFrame: {
+        if (Status waited = hair_.waitFrame(); !waited) return waited;
+        hair_.framePositions(whole_);
+        takeOwn(whole_);
+        given.list(own_);
+        return {};
+      }
       case Call::change:
         return change(call);
       case Call::setFields: {
@@ -278,10 +289,13 @@ class Server {
         call.list(places), call.list(strengths), call.value(dampingRatio), call.list(from);
         return hair_.setGoals(places, strengths, dampingRatio, from);
       }
-      case Call::framePositions:
-        return give(ownOf(hair_.framePositions()), given);
-      case Call::positions:
-        return give(ownOf(hair_.positions()), given);
+      case Call::positions: {
+        const auto all = hair_.positions();
+        if (!all) return all.error();
+        takeOwn(*all);
+        given.list(own_);
+        return {};
+      }
       case Call::checkpoint:
         return give(hair_.checkpoint(), given);
       case Call::restore: {
@@ -308,11 +322,8 @@ class Server {
     if (!numbers) return numbers.error();
     return hair_.change(numbers->settings, numbers->material, keysAt);
   }
-  Result<std::vector<Vec3f>> ownOf(const Result<std::vector<Vec3f>>& all) const {
-    if (!all) return all.error();
-    std::vector<Vec3f> own(scene_.points.size());
-    for (std::size_t k = 0; k < own.size(); ++k) own[k] = (*all)[scene_.points[k]];
-    return own;
+  void takeOwn(std::span<const Vec3f> all) {
+    for (std::size_t k = 0; k < own_.size(); ++k) own_[k] = all[scene_.points[k]];
   }
   template <class T>
   static Status give(Result<std::vector<T>> values, Archive& given) {
@@ -331,6 +342,7 @@ class Server {
 
   Backend& hair_;
   const RankScene& scene_;
+  std::vector<Vec3f> whole_, own_;  // positions of the groom, of which some are known, and of the part
 };
 
 // What is given comes after this.
@@ -362,11 +374,13 @@ void serve(Result<std::unique_ptr<Backend>> hair, const RankScene& scene) {
   if (isToldToLeave()) return;
   sendTo(0, beginAnswer(hair ? "" : hair.error().message).take());
   try {
+    std::optional<Server> server;
+    if (hair) server.emplace(**hair, scene);
     for (;;) {
       const std::vector<std::byte> bytes = receiveFrom(0);
-      if (saysLeave(bytes) || !hair) return;
+      if (saysLeave(bytes) || !server) return;
       Archive call = Archive::reading(bytes), answer = beginAnswer();
-      const Status done = Server(**hair, scene).answer(call, answer);
+      const Status done = server->answer(call, answer);
       sendTo(0, done ? answer.take() : beginAnswer(done.error().message).take());
     }
   } catch (const std::exception& failure) {

@@ -26,6 +26,7 @@ struct RankScene {
   std::function<Result<SceneNumbers>(double seconds)> numbersAt;  // as keys give them
   std::span<const ForceField> fields{};                           // whose grids those of a frame have
   std::vector<std::uint32_t> points{};                            // of the part, in the groom
+  std::size_t pointCount = 0;                                     // of the groom
 };
 
 /// Of a rank but 0: says whether it has hair, and does what rank 0 tells it to until that tells it to leave.

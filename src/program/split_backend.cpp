@@ -59,10 +59,8 @@ class SplitBackend : public Backend {
                   std::span<const Vec3f> from) override {
     return each([&](Backend& hair) { return hair.setGoals(places, strengths, dampingRatio, from); });
   }
-  std::vector<Vec3f> framePositions() override {
-    std::vector<Vec3f> all = parts_[0].hair->framePositions();
-    for (std::size_t k = 1; k < parts_.size(); ++k) take(parts_[k], parts_[k].hair->framePositions(), all);
-    return all;
+  void framePositions(std::span<Vec3f> all) override {
+    for (Part& part : parts_) part.hair->framePositions(all);
   }
   Result<std::vector<Vec3f>> positions() override {
     auto all = parts_[0].hair->positions();

@@ -21,7 +21,7 @@ namespace ringlet::program {
 class Stepper {
  public:
   static Result<Stepper> make(Backend& backend, const RunInput& input, const RunOptions& options) {
-    Stepper stepper(backend, input.settings.contacts.on);
+    Stepper stepper(backend, input);
     if (!options.measuresContacts) return stepper;
     auto watch = ContactWatch::make(input.groom, input.material, input.settings);
     if (!watch) return watch.error();
@@ -42,7 +42,12 @@ class Stepper {
     return {};
   }
   /// Of the frame waited for last, once.
-  std::vector<Vec3f> framePositions() { return watch_ ? std::move(waited_) : backend_->framePositions(); }
+  std::vector<Vec3f> framePositions() {
+    if (watch_) return std::move(waited_);
+    std::vector<Vec3f> all(pointCount_);
+    backend_->framePositions(all);
+    return all;
+  }
 
   /// All that later frames depend on, none being in flight; and back, before the first.
   Status archive(Archive& archive) {
@@ -81,7 +86,10 @@ class Stepper {
   std::vector<std::string> warnings() const { return watch_ ? watch_->warnings() : backend_->warnings(); }
 
  private:
-  Stepper(Backend& backend, bool hasContacts) : backend_(&backend), hasContacts_(hasContacts) {}
+  Stepper(Backend& backend, const RunInput& input)
+      : backend_(&backend),
+        pointCount_(input.groom.points.size()),
+        hasContacts_(input.settings.contacts.on) {}
 
   Status lookAtSteps(const FramePoses& poses) {
     for (std::size_t step = 0; step < poses.heads.size(); ++step) {
@@ -110,6 +118,7 @@ class Stepper {
   }
 
   Backend* backend_;
+  std::size_t pointCount_;  // of the groom
   bool hasContacts_;
   std::optional<ContactWatch> watch_;
   std::vector<Vec3f> now_, waited_;          // positions, where watch_ looks at steps

@@ -38,7 +38,7 @@ class ThreadedBackend : public Backend {
     const Status before = settle();
     return before ? hair_->setGoals(places, strengths, dampingRatio, from) : before;
   }
-  std::vector<Vec3f> framePositions() override { return settled().framePositions(); }
+  void framePositions(std::span<Vec3f> all) override { settled().framePositions(all); }
   Result<std::vector<Vec3f>> positions() override { return settled().positions(); }
   Result<std::vector<std::byte>> checkpoint() override { return settled().checkpoint(); }
   Status restore(std::span<const std::byte> checkpoint) override { return settled().restore(checkpoint); }

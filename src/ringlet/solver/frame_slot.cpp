@@ -44,20 +44,19 @@ std::vector<std::span<const layout::vec4>> FrameSlot::readPositions() const {
   return chunks;
 }
 
-std::vector<Vec3f> FrameSlot::inGroomOrder(const RestState& rest, const DeviceGroom& groom,
-                                           const RigidHair& rigidHair) const {
-  std::vector<Vec3f> values(rest.groomParticleCount);
+void FrameSlot::scatter(const RestState& rest, const DeviceGroom& groom, const RigidHair& rigidHair,
+                        const std::function<bool(std::size_t)>& isHere, std::span<Vec3f> inGroomOrder) const {
   const auto chunks = readPositions();
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     const GroomChunk& part = groom.chunks[c].part;
     for (std::size_t s = part.strandBegin; s < part.strandEnd; ++s) {
+      if (!isHere(s)) continue;
       const std::size_t from = rest.strands[s].firstParticle - part.particleBegin, to = rest.firstInGroom[s];
       for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
-        values[to + i] = unpacked(chunks[c][from + i]);
+        inGroomOrder[to + i] = unpacked(chunks[c][from + i]);
     }
   }
-  rigidHair.scatter(rigid, values);
-  return values;
+  rigidHair.scatter(rigid, inGroomOrder);
 }
 
 std::uint64_t FrameSlot::bytes() const {

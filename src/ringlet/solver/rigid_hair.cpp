@@ -75,7 +75,7 @@ std::vector<Vec3f> RigidHair::velocities(const HeadPose& now, const HeadPose& on
   return values;
 }
 
-void RigidHair::scatter(std::span<const Vec3f> values, std::vector<Vec3f>& inGroomOrder) const {
+void RigidHair::scatter(std::span<const Vec3f> values, std::span<Vec3f> inGroomOrder) const {
   auto next = values.begin();
   for (const RigidStrand& strand : strands_) {
     const auto count = static_cast<std::ptrdiff_t>(strand.points.size());

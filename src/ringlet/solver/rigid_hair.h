@@ -41,7 +41,7 @@ class RigidHair {
   std::vector<Vec3f> velocities(const HeadPose& now, const HeadPose& oneStepEarlier,
                                 double stepSeconds) const;
   /// Copies such values to the places of these strands among all particles, in groom order.
-  void scatter(std::span<const Vec3f> values, std::vector<Vec3f>& inGroomOrder) const;
+  void scatter(std::span<const Vec3f> values, std::span<Vec3f> inGroomOrder) const;
 
  private:
   struct Poses {

@@ -229,12 +229,19 @@ Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom:
   return values;
 }
 
+std::vector<Vec3f> Simulation::Implementation::positionsOf(const FrameSlot& slot) const {
+  std::vector<Vec3f> all(rest.groomParticleCount);
+  slot.scatter(
+      rest, buffers, rigidHair, [&](std::size_t s) { return isHere(s); }, all);
+  return all;
+}
+
 Result<std::vector<Vec3f>> Simulation::positions() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
   const RigidHair& rigid = self_->rigidHair;
   Result<std::vector<Vec3f>> values = std::vector<Vec3f>();
   if (self_->isReadBack) {
-    values = self_->slotOf(self_->submitted - 1).inGroomOrder(self_->rest, self_->buffers, rigid);
+    values = self_->positionsOf(self_->slotOf(self_->submitted - 1));
   } else {
     values = self_->inGroomOrder(&DeviceChunk::positions);
     if (!values) return values;

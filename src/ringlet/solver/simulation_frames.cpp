@@ -389,10 +389,17 @@ Status Simulation::waitFrame() {
 }
 
 std::vector<Vec3f> Simulation::framePositions() const {
+  std::vector<Vec3f> all(self_->rest.groomParticleCount);
+  framePositions(all);
+  return all;
+}
+
+void Simulation::framePositions(std::span<Vec3f> all) const {
   RINGLET_ASSERT(self_->readsBack, "framePositions of a simulation that reads nothing back");
   RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
                  "framePositions before waitFrame, or after its place was taken");
-  return self_->slotOf(self_->waited - 1).inGroomOrder(self_->rest, self_->buffers, self_->rigidHair);
+  const auto isHere = [&](std::size_t s) { return self_->isHere(s); };
+  self_->slotOf(self_->waited - 1).scatter(self_->rest, self_->buffers, self_->rigidHair, isHere, all);
 }
 
 Status Simulation::stepFrame(const HeadPose& end) {

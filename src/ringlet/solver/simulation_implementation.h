@@ -196,6 +196,7 @@ struct Simulation::Implementation {
   DeviceGroom& changed();
   Status archive(Archive& archive);
   Result<std::vector<Vec3f>> inGroomOrder(DeviceGroom::Field field) const;
+  std::vector<Vec3f> positionsOf(const FrameSlot& slot) const;
 
   // simulation_settings.cpp
   Status checkChange(const Settings& wanted) const;
