@@ -8,7 +8,7 @@
 uint found = 0;
 
 bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float r0) {
-  ContactMeeting meeting = contactMeeting(x - otherPosition, v - otherVelocity, rest.particle < otherParticle);
+  ContactMeeting meeting = contactMeeting(x - otherPosition, v - otherVelocity, isBefore(rest.particle, otherParticle));
   return isTouching(meeting, r0, parameters);
 }
 

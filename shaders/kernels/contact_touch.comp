@@ -69,7 +69,7 @@ void main() {
     do {
       ContactPair pair = pairAt(first + k);
       ContactMeeting meeting =
-          contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle), particle < pair.particle);
+          contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle), isBefore(particle, pair.particle));
       bool touching = isTouching(meeting, pair.restLength, parameters);
       if (touching) bits |= 1u << kListBlock + k;
       bool acts = touching || meeting.distance < parameters.breakFactor * pair.restLength;

@@ -66,6 +66,11 @@ uint contactAt(uint particle) {
   uvec2 two = (particle & 2) == 0 ? four.xy : four.zw;
   return (particle & 1) == 0 ? two.x : two.y;
 }
+/// Whether a particle comes before another in the whole groom. If strands are divided among devices, those of others
+/// stand last on this one; contact particles are in the groom's order everywhere.
+bool isBefore(uint particle, uint other) {
+  return kDivided ? contactAt(particle) < contactAt(other) : particle < other;
+}
 uvec4 placedPosition(uint place) { return kTexels ? recordAt(placeTexels, 2 * place) : places[place].position; }
 uvec4 placedVelocity(uint place) { return kTexels ? recordAt(placeTexels, 2 * place + 1) : places[place].velocity; }
 vec3 listedPosition(uint c) { return kTexels ? vectorAt(historyTexels, 4 * c).xyz : histories[c].position.xyz; }

@@ -53,11 +53,13 @@ TEST(RestHalo, HoldsWhatOwnStrandsMayTouch) {
     for (std::size_t own = 0; own < kParts; ++own) {
       const RestHalo halo = haloOf(whole.contacts, whole.partOf, own);
       for (std::uint32_t a = 0; a < whole.partOf.size(); ++a) {
-        bool isKnown = whole.partOf[a] == own;
+        bool isNear = false;
         for (std::uint32_t b = 0; b < whole.partOf.size(); ++b)
-          isKnown = isKnown || (b != a && whole.partOf[b] == own && whole.contacts.graph.allows(b, a));
-        EXPECT_EQ(halo.isKnown[a], isKnown) << "strand " << a;
-        known += isKnown;
+          isNear = isNear || (b != a && whole.partOf[b] == own && whole.contacts.graph.allows(b, a));
+        const bool isHere = whole.partOf[a] == own;
+        EXPECT_EQ(std::ranges::count(halo.here, a), isHere) << "strand " << a;
+        EXPECT_EQ(std::ranges::count(halo.around, a), isNear && !isHere) << "strand " << a;
+        known += isHere || isNear;
       }
     }
     EXPECT_GT(known, whole.partOf.size());
@@ -92,7 +94,8 @@ TEST(RestHalo, WhatIsKeptIsTheWholes) {
     std::optional<RestVolume> none;
     RestHalo halo = before;
     ASSERT_TRUE(restrictTo({part.rest, part.contacts, none}, halo));
-    ASSERT_EQ(halo.isHere.size(), part.rest.strands.size());
+    ASSERT_EQ(halo.here.size() + halo.around.size(), part.rest.strands.size());
+    ASSERT_EQ(halo.around.size(), part.rest.haloCount);
     const ContactParticles &all = whole.contacts.particles, &kept = part.contacts.particles;
     for (std::size_t c = 0; c < kept.particles.size(); ++c) {
       const std::uint32_t in = part.contacts.inWhole[c];
@@ -100,18 +103,18 @@ TEST(RestHalo, WhatIsKeptIsTheWholes) {
       EXPECT_EQ(part.rest.strandInGroom[kept.strands[c]], whole.rest.strandInGroom[all.strands[in]]);
       EXPECT_EQ(kept.radii[kept.strands[c]], all.radii[all.strands[in]]);
     }
-    std::uint32_t s = 0;
-    for (std::uint32_t of = 0; of < whole.partOf.size(); ++of) {
-      if (!before.isKnown[of]) continue;
-      const auto neighbours = [&](const Whole& hair, std::uint32_t strand) {
-        const ContactGraph& graph = hair.contacts.graph;
-        return inGroom(hair.rest, {graph.neighbours.begin() + graph.firstNeighbour[strand],
-                                   graph.neighbours.begin() + graph.firstNeighbour[strand + 1]});
-      };
-      EXPECT_EQ(halo.isHere[s], whole.partOf[of] == own);
-      EXPECT_EQ(neighbours(part, s), halo.isHere[s] ? neighbours(whole, of) : std::vector<std::uint32_t>{});
-      ++s;
-    }
+    EXPECT_EQ(inGroom(part.rest, halo.here), inGroom(whole.rest, before.here));
+    EXPECT_EQ(inGroom(part.rest, halo.around), inGroom(whole.rest, before.around));
+    const auto neighbours = [&](const Whole& hair, std::uint32_t strand) {
+      const ContactGraph& graph = hair.contacts.graph;
+      auto some = inGroom(hair.rest, {graph.neighbours.begin() + graph.firstNeighbour[strand],
+                                      graph.neighbours.begin() + graph.firstNeighbour[strand + 1]});
+      std::ranges::sort(some);
+      return some;
+    };
+    for (std::size_t k = 0; k < halo.here.size(); ++k)
+      EXPECT_EQ(neighbours(part, halo.here[k]), neighbours(whole, before.here[k]));
+    for (const std::uint32_t s : halo.around) EXPECT_TRUE(neighbours(part, s).empty());
     for (std::size_t k = 0; k < halo.peers.size(); ++k)
       EXPECT_EQ(inGroom(part.rest, halo.peers[k].in), inGroom(whole.rest, before.peers[k].in));
   }

@@ -56,8 +56,11 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
   auto base = buildRestState(groom, material, unloaded, order);
   if (!base) return base.error();
   for (RestState* state : {&*loaded, &*base}) {
-    if (rest.elsewhere.empty()) break;
-    if (Status status = restrictTo(*state, rest.strandInGroom); !status) return status.error();
+    if (rest.elsewhere.empty() && rest.haloCount == 0) break;
+    const std::span all(rest.strandInGroom);
+    const std::size_t here = hereCount(rest);
+    if (Status status = restrictTo(*state, all.first(here), all.subspan(here)); !status)
+      return status.error();
   }
 
   LiveMaterial self;

@@ -23,14 +23,12 @@ void sortOut(std::vector<std::uint32_t>& strands) {
 
 RestHalo haloOf(const RestContacts& contacts, std::span<const std::size_t> partOf, std::size_t own) {
   RestHalo halo;
-  for (const std::size_t part : partOf) halo.isHere.push_back(part == own);
-  halo.isKnown = halo.isHere;
   std::map<std::size_t, Shared> shared;
   for (std::uint32_t s = 0; s < partOf.size(); ++s) {
-    if (!halo.isHere[s]) continue;
+    if (partOf[s] != own) continue;
+    halo.here.push_back(s);
     contacts.eachPartner(s, [&](std::uint32_t other, std::uint32_t) {
-      if (halo.isHere[other]) return;
-      halo.isKnown[other] = true;
+      if (partOf[other] == own) return;
       Shared& with = shared[partOf[other]];
       if (with.out.empty() || with.out.back() != s) with.out.push_back(s);
       with.in.push_back(other);
@@ -38,10 +36,11 @@ RestHalo haloOf(const RestContacts& contacts, std::span<const std::size_t> partO
   }
   for (auto& [part, with] : shared) {
     sortOut(with.in);
+    halo.around.insert(halo.around.end(), with.in.begin(), with.in.end());
     halo.peers.push_back({part, std::move(with.out), std::move(with.in)});
   }
-  if (std::ranges::find(halo.isKnown, true) == halo.isKnown.end() && !halo.isKnown.empty())
-    halo.isKnown[0] = true;
+  std::ranges::sort(halo.around);
+  if (halo.here.empty() && halo.around.empty() && !partOf.empty()) halo.around.push_back(0);
   return halo;
 }
 

@@ -21,9 +21,9 @@ struct RestHalo {
     std::vector<std::uint32_t> out;  // strands of this part that its strands may touch, ascending
     std::vector<std::uint32_t> in;   // its strands that those of this part may touch, ascending
   };
-  std::vector<bool> isHere;   // of each strand: whether it is in this part
-  std::vector<bool> isKnown;  // or in the halo of it; of a part without strands one strand of another
-  std::vector<Peer> peers;    // by rising part
+  std::vector<std::uint32_t> here;    // strands of this part, ascending
+  std::vector<std::uint32_t> around;  // its halo, ascending; of a part without strands one strand of another
+  std::vector<Peer> peers;            // by rising part
 };
 
 /// partOf: of each strand. Cost: linear in strands and pairs; quadratic where any two strands may touch.

@@ -20,9 +20,12 @@ Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::si
   return isIn;
 }
 
-Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
+Status restrictTo(RestState& state, std::span<const std::uint32_t> part,
+                  std::span<const std::uint32_t> around) {
   const auto isIn = membersOf(part, state.groomStrandCount);
   if (!isIn) return isIn.error();
+  const auto isAround = membersOf(around, state.groomStrandCount);
+  if (!isAround) return isAround.error();
   RestState whole = std::exchange(state, {});
   std::swap(state.rigid, whole.rigid);
   std::swap(state.warnings, whole.warnings);
@@ -31,25 +34,33 @@ Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
   state.longestCalmStep = whole.longestCalmStep;
   state.oneSmoothing = whole.oneSmoothing;
   std::swap(state.wholeCounts, whole.wholeCounts);
-  for (std::size_t s = 0; s < whole.strands.size(); ++s) {
+  const auto keep = [&](std::size_t s) {
     layout::StrandRest strand = whole.strands[s];
-    const auto first = whole.points.begin() + strand.firstParticle;
-    if (!(*isIn)[whole.strandInGroom[s]]) {
-      state.elsewhere.push_back(
-          {whole.strandInGroom[s], whole.firstInGroom[s], {first, first + strand.particleCount}});
-      continue;
-    }
+    const auto points = whole.points.begin() + strand.firstParticle;
     const auto particles = whole.particles.begin() + strand.firstParticle;
     strand.firstParticle = static_cast<std::uint32_t>(state.points.size());
     state.strands.push_back(strand);
     state.strandInGroom.push_back(whole.strandInGroom[s]);
     state.firstInGroom.push_back(whole.firstInGroom[s]);
-    state.points.insert(state.points.end(), first, first + strand.particleCount);
+    state.points.insert(state.points.end(), points, points + strand.particleCount);
     state.particles.insert(state.particles.end(), particles, particles + strand.particleCount);
-    if (whole.edgeFactors.empty()) continue;
+    if (whole.edgeFactors.empty()) return;
     const auto factors = whole.edgeFactors.begin() + whole.strands[s].firstParticle;
     state.edgeFactors.insert(state.edgeFactors.end(), factors, factors + strand.particleCount);
+  };
+  for (std::size_t s = 0; s < whole.strands.size(); ++s) {
+    const std::uint32_t inGroom = whole.strandInGroom[s];
+    const auto first = whole.points.begin() + whole.strands[s].firstParticle;
+    if ((*isIn)[inGroom])
+      keep(s);
+    else if (!(*isAround)[inGroom])
+      state.elsewhere.push_back(
+          {inGroom, whole.firstInGroom[s], {first, first + whole.strands[s].particleCount}});
   }
+  const std::size_t here = state.strands.size();
+  for (std::size_t s = 0; s < whole.strands.size(); ++s)
+    if ((*isAround)[whole.strandInGroom[s]]) keep(s);
+  state.haloCount = state.strands.size() - here;
   std::ranges::sort(state.elsewhere, {}, &RigidStrand::strandInGroom);
   return {};
 }
@@ -75,91 +86,107 @@ Result<std::vector<std::size_t>> partOfEach(const std::vector<std::vector<std::u
 
 namespace {
 
+constexpr std::uint32_t kGone = 0xffffffff;
+
 // Where the strands and particles of a whole groom are in what is kept of it; device order.
 class Places {
  public:
-  Places(const std::vector<layout::StrandRest>& whole, const std::vector<bool>& isKept) {
+  Places(const std::vector<layout::StrandRest>& whole, const RestHalo& halo) : places_(whole.size()) {
     std::uint32_t strands = 0, particles = 0;
-    for (std::size_t s = 0; s < whole.size(); ++s) {
-      strand_.push_back(strands);
-      back_.push_back(whole[s].firstParticle - particles);
-      if (!isKept[s]) continue;
-      ++strands, particles += whole[s].particleCount;
+    for (const auto* some : {&halo.here, &halo.around}) {
+      for (const std::uint32_t s : *some) {
+        places_[s] = {strands++, whole[s].firstParticle, particles};
+        particles += whole[s].particleCount;
+      }
     }
+    count_ = strands;
   }
-  std::uint32_t strand(std::uint32_t s) const { return strand_[s]; }
-  std::uint32_t particle(std::uint32_t strand, std::uint32_t i) const { return i - back_[strand]; }
+  std::uint32_t strand(std::uint32_t s) const { return places_[s].strand; }
+  std::uint32_t particle(std::uint32_t s, std::uint32_t i) const {
+    return i - places_[s].before + places_[s].first;
+  }
+  // What is known of each strand, of those that are kept.
+  template <class T>
+  std::vector<T> kept(const std::vector<T>& all) const {
+    std::vector<T> kept(count_);
+    for (std::size_t s = 0; s < all.size(); ++s)
+      if (places_[s].strand != kGone) kept[places_[s].strand] = all[s];
+    return kept;
+  }
 
  private:
-  std::vector<std::uint32_t> strand_, back_;  // of each strand: its new place, and by how much particles move
+  struct Place {
+    std::uint32_t strand = kGone, before = 0, first = 0;  // its first particle, before and now
+  };
+  std::vector<Place> places_;
+  std::uint32_t count_ = 0;
 };
 
-template <class T>
-std::vector<T> keep(const std::vector<T>& all, const std::vector<bool>& isKept) {
-  std::vector<T> kept;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (isKept[k]) kept.push_back(all[k]);
-  return kept;
+void restrictTo(ContactGraph& graph, const RestHalo& halo, const Places& places) {
+  if (graph.everyPair) return;
+  const std::vector<std::uint32_t> first = std::exchange(graph.firstNeighbour, {0});
+  const std::vector<std::uint32_t> neighbours = std::exchange(graph.neighbours, {});
+  graph.counts.clear();
+  for (const std::uint32_t s : halo.here) {
+    for (std::uint32_t k = first[s]; k < first[s + 1]; ++k)
+      if (places.strand(neighbours[k]) != kGone) graph.neighbours.push_back(places.strand(neighbours[k]));
+    std::sort(graph.neighbours.begin() + graph.firstNeighbour.back(), graph.neighbours.end());
+    graph.firstNeighbour.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
+  }
+  graph.firstNeighbour.resize(halo.here.size() + halo.around.size() + 1, graph.firstNeighbour.back());
 }
 
 void restrictTo(RestContacts& contacts, const RestHalo& halo, const Places& places) {
   const ContactParticles whole = std::exchange(contacts.particles, {});
   ContactParticles& own = contacts.particles;
   own.baseRadius = whole.baseRadius;
-  own.radii = keep(whole.radii, halo.isKnown);
-  own.masses = keep(whole.masses, halo.isKnown);
-  own.firstOfStrand.push_back(0);
-  ContactGraph& graph = contacts.graph;
-  const std::vector<std::uint32_t> first = std::exchange(graph.firstNeighbour, {0});
-  const std::vector<std::uint32_t> neighbours = std::exchange(graph.neighbours, {});
-  graph.counts.clear();
-  for (std::uint32_t s = 0; s < halo.isKnown.size(); ++s) {
-    if (!halo.isKnown[s]) continue;
-    for (std::uint32_t c = whole.firstOfStrand[s]; c < whole.firstOfStrand[s + 1]; ++c) {
-      own.particles.push_back(places.particle(s, whole.particles[c]));
-      own.strands.push_back(places.strand(s));
-      contacts.inWhole.push_back(c);
-    }
-    own.firstOfStrand.push_back(static_cast<std::uint32_t>(own.particles.size()));
-    if (halo.isHere[s] && !graph.everyPair) {
-      for (std::uint32_t k = first[s]; k < first[s + 1]; ++k)
-        if (halo.isKnown[neighbours[k]]) graph.neighbours.push_back(places.strand(neighbours[k]));
-    }
-    graph.firstNeighbour.push_back(static_cast<std::uint32_t>(graph.neighbours.size()));
+  own.radii = places.kept(whole.radii);
+  own.masses = places.kept(whole.masses);
+  for (std::uint32_t c = 0; c < whole.particles.size(); ++c) {
+    const std::uint32_t s = whole.strands[c];
+    if (places.strand(s) == kGone) continue;
+    own.particles.push_back(places.particle(s, whole.particles[c]));
+    own.strands.push_back(places.strand(s));
+    contacts.inWhole.push_back(c);
   }
+  restrictTo(contacts.graph, halo, places);
   contacts.unthinned.reset();
-  contacts.volume.groups = keep(contacts.volume.groups, halo.isKnown);
-  contacts.volume.isIn = keep(contacts.volume.isIn, halo.isKnown);
+  contacts.volume.groups = places.kept(contacts.volume.groups);
+  contacts.volume.isIn = places.kept(contacts.volume.isIn);
 }
 
 void restrictTo(RestVolume& volume, const RestHalo& halo, const Places& places) {
-  std::vector<bool> isHere;
-  for (const std::uint32_t s : volume.strands) isHere.push_back(halo.isHere[s]);
-  volume.particles = keep(volume.particles, isHere);
-  volume.strands = keep(volume.strands, isHere);
-  volume.masses = keep(volume.masses, isHere);
-  volume.densities = keep(volume.densities, isHere);
-  volume.ownDensities = keep(volume.ownDensities, isHere);
-  for (std::size_t i = 0; i < volume.strands.size(); ++i) {
-    std::uint32_t& s = volume.strands[i];
-    volume.particles[i] = places.particle(s, volume.particles[i]);
-    s = places.strand(s);
+  const auto end = static_cast<std::uint32_t>(halo.here.size());
+  const RestVolume whole = std::exchange(volume, {});
+  volume.cell = whole.cell, volume.largestMass = whole.largestMass, volume.cells = whole.cells;
+  for (std::size_t i = 0; i < whole.particles.size(); ++i) {
+    const std::uint32_t s = whole.strands[i];
+    if (places.strand(s) >= end) continue;
+    volume.particles.push_back(places.particle(s, whole.particles[i]));
+    volume.strands.push_back(places.strand(s));
+    volume.masses.push_back(whole.masses[i]);
+    volume.densities.push_back(whole.densities[i]);
+    volume.ownDensities.push_back(whole.ownDensities[i]);
   }
 }
 
 }  // namespace
 
 Status restrictTo(const RestHair& hair, RestHalo& halo) {
-  const Places places(hair.state.strands, halo.isKnown);
+  const auto inGroom = [&](const std::vector<std::uint32_t>& strands) {
+    std::vector<std::uint32_t> all;
+    for (const std::uint32_t s : strands) all.push_back(hair.state.strandInGroom[s]);
+    return all;
+  };
+  const Places places(hair.state.strands, halo);
   restrictTo(hair.contacts, halo, places);
   if (hair.volume) restrictTo(*hair.volume, halo, places);
-  if (Status done = restrictTo(hair.state, keep(hair.state.strandInGroom, halo.isKnown)); !done) return done;
-  halo.isHere = keep(halo.isHere, halo.isKnown);
-  for (RestHalo::Peer& peer : halo.peers) {
-    for (std::uint32_t& s : peer.out) s = places.strand(s);
-    for (std::uint32_t& s : peer.in) s = places.strand(s);
-  }
-  halo.isKnown.assign(halo.isHere.size(), true);
+  if (Status done = restrictTo(hair.state, inGroom(halo.here), inGroom(halo.around)); !done) return done;
+  const auto renumber = [&](std::vector<std::uint32_t>& strands) {
+    for (std::uint32_t& s : strands) s = places.strand(s);
+  };
+  for (RestHalo::Peer& peer : halo.peers) renumber(peer.out), renumber(peer.in);
+  renumber(halo.here), renumber(halo.around);
   return {};
 }
 

@@ -18,10 +18,12 @@ namespace ringlet {
 /// Cost: linear.
 Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::size_t strandCount);
 
-/// Keeps the simulated strands that are in `part`, groom order. Of the others only the rest points are kept
+/// Keeps the simulated strands that are in `part`, and after them those that are `around` it
+/// (RestState::haloCount); both in groom order. Of the others only the rest points are kept
 /// (RestState::elsewhere). Members about the whole groom do not change. Errors: a strand that the groom does
 /// not have, or one that is listed twice. Cost: linear.
-Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
+Status restrictTo(RestState& state, std::span<const std::uint32_t> part,
+                  std::span<const std::uint32_t> around = {});
 
 /// The part of each strand, device order. Errors: as restrictTo; a strand that is in no part or in two.
 Result<std::vector<std::size_t>> partOfEach(const std::vector<std::vector<std::uint32_t>>& parts,
@@ -33,8 +35,10 @@ struct RestHair {
   RestContacts& contacts;
   std::optional<RestVolume>& volume;
 };
-/// Keeps the strands that a part knows: rest/rest_halo.h. Of strands in its halo contact particles are kept,
-/// but not whom they may touch, nor what they are in the volume. Cost: linear.
+/// Keeps the strands that a part knows, by a halo of the whole, which then has their new numbers. Contact
+/// particles stay in the whole's order, by which searches list them, and those of a strand are not known by
+/// firstOfStrand. Of strands around the part it is not kept whom they may touch, nor what they are in the
+/// volume. Cost: linear.
 Status restrictTo(const RestHair& hair, RestHalo& halo);
 
 }  // namespace ringlet

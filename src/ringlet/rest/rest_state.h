@@ -39,10 +39,16 @@ struct RestState {
   std::vector<std::uint32_t> wholeCounts;  // particles of every simulated strand, here or not, rising
   bool oneSmoothing = false;               // bendBeta equals coreBeta for all of them
   std::vector<RigidStrand> elsewhere;      // strands that are simulated elsewhere, in groom order
+  // Beside those of `elsewhere`, the last of the strands above are simulated elsewhere too: a part's halo
+  // (rest/rest_halo.h), which rises by itself.
+  std::size_t haloCount = 0;
   double longestCalmStep = 0;              // longest outer step that needs no warning [s]
   std::vector<std::string> warnings;       // for the user, with numbers
   std::size_t materialWarningCount = 0;    // number of the first of them, which depend on the material
 };
+
+/// Number of strands that are simulated here: the first ones.
+inline std::size_t hereCount(const RestState& rest) { return rest.strands.size() - rest.haloCount; }
 
 /// The geometry of each strand, in groom order. No setting and no material changes it, so that whoever makes
 /// several rest states of one groom measures it once. Fails as buildRestState does on a groom. Cost: nearly

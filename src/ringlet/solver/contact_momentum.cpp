@@ -20,8 +20,7 @@ Vec3d givenByPairs(const layout::ContactSystem& system, const Vec3d& v) {
 
 }  // namespace
 
-Result<ContactMomentum> contactMomentum(const DeviceChunk& hair, const RestState& rest, ContactKinds kinds,
-                                        const std::function<bool(std::size_t)>& isHere) {
+Result<ContactMomentum> contactMomentum(const DeviceChunk& hair, const RestState& rest, ContactKinds kinds) {
   const std::size_t count = rest.points.size();
   auto systems = downloadAll<layout::ContactSystem>(hair.contactSystems, kinds.pairs ? count : 0);
   if (!systems) return systems.error();
@@ -30,8 +29,7 @@ Result<ContactMomentum> contactMomentum(const DeviceChunk& hair, const RestState
   auto solved = downloadAll<layout::vec4>(hair.solved, count);
   if (!solved) return solved.error();
   ContactMomentum all;
-  for (std::size_t s = 0; s < rest.strands.size(); ++s) {
-    if (!isHere(s)) continue;
+  for (std::size_t s = 0; s < hereCount(rest); ++s) {
     const layout::StrandRest& strand = rest.strands[s];
     for (std::uint32_t i = strand.firstParticle; i < strand.firstParticle + strand.particleCount; ++i) {
       const Vec3d v{(*solved)[i].x, (*solved)[i].y, (*solved)[i].z};

@@ -76,11 +76,11 @@ std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactPa
 
 // For sampledContact (shared/contact_buffers.glsl), of divided hair; and the largest number in a sample.
 std::pair<std::vector<std::uint32_t>, std::uint32_t> sampledHere(const RestContacts& contacts,
-                                                                 const std::vector<bool>& isHere,
+                                                                 std::size_t hereCount,
                                                                  std::uint32_t stride) {
   std::vector<std::vector<std::uint32_t>> byRemainder(stride);
   for (std::uint32_t c = 0; c < contacts.inWhole.size(); ++c)
-    if (isHere[contacts.particles.strands[c]]) byRemainder[contacts.inWhole[c] % stride].push_back(c);
+    if (contacts.particles.strands[c] < hereCount) byRemainder[contacts.inWhole[c] % stride].push_back(c);
   std::vector<std::uint32_t> begins{stride + 1}, all;
   std::size_t most = 0;
   for (const std::vector<std::uint32_t>& some : byRemainder) {
@@ -96,8 +96,9 @@ std::pair<std::vector<std::uint32_t>, std::uint32_t> sampledHere(const RestConta
 
 Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& rest,
                                           const Settings& settings, const RestContacts& contacts,
-                                          const std::vector<bool>& isHere, DeviceGroom& groom, int room) {
+                                          DeviceGroom& groom, int room) {
   const ContactParticles& particles = contacts.particles;
+  const bool divided = !contacts.inWhole.empty();
   ContactStage self;
   self.device_ = &device;
   self.groom_ = &groom;
@@ -114,7 +115,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (self.sampleStride_ > 0) {
     const std::uint32_t stride = self.sampleStride_;
     self.mostSampled_ = static_cast<std::uint32_t>((count + stride - 1) / stride);
-    if (!isHere.empty()) std::tie(samples, self.mostSampled_) = sampledHere(contacts, isHere, stride);
+    if (divided) std::tie(samples, self.mostSampled_) = sampledHere(contacts, hereCount(rest), stride);
   }
   if (self.contactGroups() > device.properties().maxGroupCount) {
     return Error{fmt::format(
@@ -132,14 +133,14 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   }
   for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
     const auto description = describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper,
-                                                   inGroups, kGroupSize, texels, !isHere.empty());
+                                                   inGroups, kGroupSize, texels, divided);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
     self.kernels_.push_back(std::move(*kernel));
   }
 
-  const auto table = neighbourTable(contacts.graph, contacts.volume, isHere);
+  const auto table = neighbourTable(contacts.graph, contacts.volume, rest.haloCount);
   const std::uint64_t gridWords =
       (inGroups ? 4 : 2) * self.bucketCount_ + 1 + self.bucketCount_ / layout::kBucketBlock + 1 + 3 * count;
   const std::uint64_t needed =

@@ -40,11 +40,10 @@ class ContactStage {
  public:
   /// Fails, with the numbers and what to do, where lists are larger than the device's buffers. `groom` is of
   /// one chunk, and must live as long, in one place. room: as KernelChoice::contactRoom.
-  /// isHere: of each strand, device order; others have no lists and no contacts here; none: all are here.
-  /// Of divided hair `rest` and `contacts` are those of a part (rest/rest_part.h).
+  /// Of divided hair `rest` and `contacts` are those of a part (rest/rest_part.h), which has no lists and no
+  /// contacts of its halo.
   static Result<ContactStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                     const RestContacts& contacts, const std::vector<bool>& isHere,
-                                     DeviceGroom& groom, int room);
+                                     const RestContacts& contacts, DeviceGroom& groom, int room);
 
   /// Number of kernels that no other simulation on this device had made before.
   std::size_t newKernelCount() const { return newKernels_.size(); }

@@ -37,14 +37,16 @@ std::size_t rowBytes(DividedHair::Rows rows) {
 Result<DividedHair> DividedHair::create(gpu::Device& device, const RestContacts& contacts,
                                         const RestHalo& halo, PartLink& link, const DeviceChunk& hair) {
   DividedHair self(link);
-  const ContactParticles& all = contacts.particles;
+  // The contact particles of each strand.
+  std::vector<std::vector<std::uint32_t>> particlesOf(contacts.particles.radii.size());
+  for (std::size_t c = 0; c < contacts.particles.particles.size(); ++c)
+    particlesOf[contacts.particles.strands[c]].push_back(contacts.particles.particles[c]);
   const auto make = [&](Direction& direction, const gpu::KernelDescription& description,
                         std::vector<std::uint32_t> RestHalo::Peer::*strands) -> Status {
     std::vector<std::uint32_t> particles;
     for (const RestHalo::Peer& peer : halo.peers) {
       for (const std::uint32_t s : peer.*strands)
-        particles.insert(particles.end(), all.particles.begin() + all.firstOfStrand[s],
-                         all.particles.begin() + all.firstOfStrand[s + 1]);
+        particles.insert(particles.end(), particlesOf[s].begin(), particlesOf[s].end());
       direction.ends.push_back(static_cast<std::uint32_t>(particles.size()));
     }
     auto kernel = gpu::Kernel::create(device, description);

@@ -1,6 +1,7 @@
 // Implements solver/frame_slot.h.
 #include "ringlet/solver/frame_slot.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "ringlet/base/packed.h"
@@ -45,12 +46,12 @@ std::vector<std::span<const layout::vec4>> FrameSlot::readPositions() const {
 }
 
 void FrameSlot::scatter(const RestState& rest, const DeviceGroom& groom, const RigidHair& rigidHair,
-                        const std::function<bool(std::size_t)>& isHere, std::span<Vec3f> inGroomOrder) const {
+                        std::span<Vec3f> inGroomOrder) const {
   const auto chunks = readPositions();
   for (std::size_t c = 0; c < chunks.size(); ++c) {
     const GroomChunk& part = groom.chunks[c].part;
-    for (std::size_t s = part.strandBegin; s < part.strandEnd; ++s) {
-      if (!isHere(s)) continue;
+    const std::size_t end = std::min<std::size_t>(part.strandEnd, hereCount(rest));
+    for (std::size_t s = part.strandBegin; s < end; ++s) {
       const std::size_t from = rest.strands[s].firstParticle - part.particleBegin, to = rest.firstInGroom[s];
       for (std::size_t i = 0; i < rest.strands[s].particleCount; ++i)
         inGroomOrder[to + i] = unpacked(chunks[c][from + i]);

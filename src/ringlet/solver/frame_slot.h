@@ -1,9 +1,7 @@
 // FrameSlot: a place for a frame in flight: its recorded commands and the host memory for its positions.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,9 +33,9 @@ struct FrameSlot {
   void recordPositions(gpu::CommandList& list, const DeviceGroom& groom) const;
   /// Reads positions back now, after a frame that is not recorded.
   Status downloadPositions(const DeviceGroom& groom);
-  /// Writes the positions at the frame's end of the strands for which isHere, to where they are in the groom.
+  /// Writes the positions at the frame's end of the strands here to where they are in the groom.
   void scatter(const RestState& rest, const DeviceGroom& groom, const RigidHair& rigidHair,
-               const std::function<bool(std::size_t)>& isHere, std::span<Vec3f> inGroomOrder) const;
+               std::span<Vec3f> inGroomOrder) const;
   /// The positions read back, by chunk, in device order; empty if they are not read back.
   std::vector<std::span<const layout::vec4>> readPositions() const;
   std::uint64_t bytes() const;

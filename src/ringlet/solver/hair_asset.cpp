@@ -41,21 +41,6 @@ Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
   return rangesOfPart(*ranges, counts);
 }
 
-// The ranges, cut to the consecutive strands that are stepped here.
-std::vector<StrandRange> rangesHere(std::span<const StrandRange> ranges, const RestState& rest,
-                                    const std::vector<bool>& isHere) {
-  std::vector<StrandRange> runs;
-  for (const StrandRange& range : ranges) {
-    for (std::uint32_t s = range.begin; s < range.end; ++s) {
-      if (!isHere[s]) continue;
-      if (s == range.begin || !isHere[s - 1]) runs.push_back({range.shape, s, s, 0, range.chunk});
-      runs.back().end = s + 1;
-      runs.back().longest = rest.strands[s].particleCount;  // they rise
-    }
-  }
-  return runs;
-}
-
 // Restricts a groom in parts to what the link's own part knows.
 Result<RestHalo> restrictTo(const RestHair& hair, const PartLink& link) {
   const auto partOf = partOfEach(link.parts(), hair.state);
@@ -142,11 +127,10 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   const auto rangesFor = [&](bool amongBodies) -> Result<std::vector<StrandRange>> {
-    const auto ranges = rangesOf(counts, self->rest.wholeCounts, *limits, choice,
-                                 strandWork(settings, material, self->kinds(), amongBodies));
+    const auto ranges = rangesOf(std::span(counts).first(hereCount(self->rest)), self->rest.wholeCounts,
+                                 *limits, choice, strandWork(settings, material, self->kinds(), amongBodies));
     if (!ranges) return ranges.error();
-    std::vector<StrandRange> cut = cutRanges(*ranges, *chunks);
-    return self->halo ? rangesHere(cut, self->rest, self->halo->isHere) : cut;
+    return cutRanges(*ranges, *chunks);
   };
   auto ranges = rangesFor(hasBodies);
   if (!ranges) return ranges.error();

@@ -31,7 +31,7 @@ struct HairAsset::Implementation {
   DeviceLimits limits;                     // of the device, with the chosen subgroup width
   std::uint32_t groupSize = 0;             // workgroup size of strand kernels
   RestState rest{};                        // without its particles, which are on the device
-  std::optional<RestHalo> halo{};          // of divided hair with contacts, which knows these strands only
+  std::optional<RestHalo> halo{};          // of divided hair with contacts
   std::optional<RestContacts> contacts{};  // with contacts
   std::optional<RestVolume> volume{};      // if some strands meet as a volume
   std::vector<StrandRange> ranges{};

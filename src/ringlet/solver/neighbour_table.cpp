@@ -10,14 +10,13 @@
 namespace ringlet {
 
 std::vector<std::array<std::uint32_t, 4>> neighbourTable(const ContactGraph& graph,
-                                                         const VolumeStrands& volume,
-                                                         const std::vector<bool>& isHere) {
+                                                         const VolumeStrands& volume, std::size_t haloCount) {
   constexpr std::array<std::uint32_t, 4> kEmpty{layout::kNoStrand, layout::kNoStrand, layout::kNoStrand,
                                                 layout::kNoStrand};
   const std::size_t strandCount = volume.groups.size();
   std::vector<std::array<std::uint32_t, 4>> table(strandCount);
   for (std::size_t s = 0; s < strandCount; ++s)
-    table[s] = {0, 0, volume.groups[s], isHere.empty() || isHere[s] ? 0u : 1u};
+    table[s] = {0, 0, volume.groups[s], s + haloCount < strandCount ? 0u : 1u};
   if (graph.everyPair) return table;
   for (std::size_t s = 0; s < strandCount; ++s) {
     const std::span neighbours(graph.neighbours.begin() + graph.firstNeighbour[s],

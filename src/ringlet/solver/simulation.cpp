@@ -130,9 +130,7 @@ Status Simulation::Implementation::addContacts() {
                    .pairs = atRest.graph.pairs,
                    .volumeStrands = atRest.volume.count};
   if (asset->kinds().pairs) {
-    const std::vector<bool> all;
-    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest,
-                                      asset->halo ? asset->halo->isHere : all, buffers, choice.contactRoom);
+    auto stage = ContactStage::create(device.gpu(), rest, settings, atRest, buffers, choice.contactRoom);
     if (!stage) return stage.error();
     contacts = std::move(*stage);
   }
@@ -231,8 +229,7 @@ Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom:
 
 std::vector<Vec3f> Simulation::Implementation::positionsOf(const FrameSlot& slot) const {
   std::vector<Vec3f> all(rest.groomParticleCount);
-  slot.scatter(
-      rest, buffers, rigidHair, [&](std::size_t s) { return isHere(s); }, all);
+  slot.scatter(rest, buffers, rigidHair, all);
   return all;
 }
 
@@ -362,8 +359,7 @@ Result<SimulationReport> Simulation::report() const {
     total.firstNonfiniteStrand = strand;
     total.firstNonfiniteParticle = first + r.firstNonfinite;
   };
-  for (std::size_t s = 0; s < reports->size(); ++s)
-    if (self_->isHere(s)) add((*reports)[s], s, 0, self_->keptOf(s), 0);
+  for (std::size_t s = 0; s < hereCount(self_->rest); ++s) add((*reports)[s], s, 0, self_->keptOf(s), 0);
   for (std::size_t k = 0; k < self_->pieces.size(); ++k) {
     const FallenPiece& piece = self_->pieces[k];
     add((*ofPieces)[k], piece.strand, piece.begin, piece.end, piece.begin - 1);
@@ -386,8 +382,7 @@ Result<ContactReport> Simulation::contactReport() const {
     report.rebuilds = self_->contacts->rebuilds();
     report.pairTests = self_->contacts->pairTests();
   }
-  const auto isHere = [&](std::size_t s) { return self_->isHere(s); };
-  const auto momentum = contactMomentum(self_->buffers.chunks[0], self_->rest, self_->contactKinds(), isHere);
+  const auto momentum = contactMomentum(self_->buffers.chunks[0], self_->rest, self_->contactKinds());
   if (!momentum) return momentum.error();
   report.momentum = *momentum;
   report.derive();

@@ -398,8 +398,7 @@ void Simulation::framePositions(std::span<Vec3f> all) const {
   RINGLET_ASSERT(self_->readsBack, "framePositions of a simulation that reads nothing back");
   RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
                  "framePositions before waitFrame, or after its place was taken");
-  const auto isHere = [&](std::size_t s) { return self_->isHere(s); };
-  self_->slotOf(self_->waited - 1).scatter(self_->rest, self_->buffers, self_->rigidHair, isHere, all);
+  self_->slotOf(self_->waited - 1).scatter(self_->rest, self_->buffers, self_->rigidHair, all);
 }
 
 Status Simulation::stepFrame(const HeadPose& end) {

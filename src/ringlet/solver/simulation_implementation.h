@@ -187,7 +187,6 @@ struct Simulation::Implementation {
                        std::span<const std::size_t> newKernels) const;
 
   // simulation.cpp
-  bool isHere(std::size_t strand) const { return !asset->halo || asset->halo->isHere[strand]; }
   ContactKinds contactKinds() const { return {contacts.has_value(), volume.has_value()}; }
   Status addContacts();
   Status forgetContacts();
