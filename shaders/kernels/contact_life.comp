@@ -33,8 +33,8 @@ void append(ContactForce force, ContactLife life) {
 void liveOn(ContactLife before) {
   vec4 other = guessOf(before.particle);
   float r0 = before.restLength;
-  ContactMeeting meeting =
-      contactMeeting(x - positionOf(before.particle), v - velocityOf(before.particle), isBefore(rest.particle, before.particle));
+  ContactMeeting meeting = contactMeeting(x - positionOf(before.particle), v - velocityOf(before.particle),
+                                          isBefore(rest.particle, before.particle));
   bool touching = isTouching(meeting, r0, parameters);
   vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, parameters);
   if (shares == vec2(0)) return;

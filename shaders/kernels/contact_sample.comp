@@ -18,7 +18,8 @@ void main() {
   uint c = sampledContact(gl_GlobalInvocationID.x);
   if (c == kNoContact) return;
   ContactRest self = contactOf(c);
-  if (!search(c, positionOf(self.particle), velocityOf(self.particle), groupOf(self.strand), 0.0)) control.isHalted = kHaltedByTurns;
+  if (!search(c, positionOf(self.particle), velocityOf(self.particle), groupOf(self.strand), 0.0))
+    control.isHalted = kHaltedByTurns;
   uint list = listOf(c);
   uint count = lists[list];
   uint listed = 0;

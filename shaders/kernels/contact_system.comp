@@ -29,7 +29,8 @@ void main() {
       acting &= acting - 1;
       ContactPair pair = pairAt(first + k);
       vec3 other = velocityOf(pair.particle);
-      ContactMeeting meeting = contactMeeting(x - positionOf(pair.particle), v - other, isBefore(rest.particle, pair.particle));
+      ContactMeeting meeting =
+          contactMeeting(x - positionOf(pair.particle), v - other, isBefore(rest.particle, pair.particle));
       bool pushes = (bits >> kListBlock + k & 1) != 0;
       if (pushes && !isMet(pair.restLength - meeting.distance, meeting.separation, parameters.seconds)) {
         pushes = false;

@@ -68,8 +68,8 @@ void main() {
     uint k = 0;
     do {
       ContactPair pair = pairAt(first + k);
-      ContactMeeting meeting =
-          contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle), isBefore(particle, pair.particle));
+      ContactMeeting meeting = contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle),
+                                              isBefore(particle, pair.particle));
       bool touching = isTouching(meeting, pair.restLength, parameters);
       if (touching) bits |= 1u << kListBlock + k;
       bool acts = touching || meeting.distance < parameters.breakFactor * pair.restLength;

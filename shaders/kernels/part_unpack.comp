@@ -1,5 +1,5 @@
-// If strands are divided among devices: unpacks the rows of contact particles that other devices step. The reference has
-// no counterpart: it has all strands.
+// If strands are divided among devices: unpacks the rows of contact particles that other devices step. The reference
+// has no counterpart: it has all strands.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/part_buffers.glsl"

@@ -1,7 +1,7 @@
 // Sums over the parcels in the eight cells around a node of the volume's grid. Neighbouring cells along x are
-// consecutive, so the eight are four ranges. The kernel that includes this defines what is summed (take), and moves what
-// its low numbers hold beyond 16 bits into the high ones (carry). Terms are integers, so that no sum depends on their
-// order; a number is split because 31 bits have no room for the sum of many.
+// consecutive, so the eight are four ranges. The kernel that includes this defines what is summed (take), and moves
+// what its low numbers hold beyond 16 bits into the high ones (carry). Terms are integers, so that no sum depends on
+// their order; a number is split because 31 bits have no room for the sum of many.
 #ifndef RINGLET_VOLUME_NODES
 #define RINGLET_VOLUME_NODES
 

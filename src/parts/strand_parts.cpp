@@ -103,7 +103,8 @@ Result<Parts> divideStrands(const Groom& groom, const Material& material, const 
   if (!rest) return rest.error();
   if (rest->strands.empty()) return dealStrands(groom, count);
   ContactSettings near = settings.contacts;
-  if (!near.prunePairs) near.prunePairs = true, near.minOverlaps = 1;  // any two may touch: those that are near
+  if (!near.prunePairs)
+    near.prunePairs = true, near.minOverlaps = 1;  // any two may touch: those that are near
   const RestContacts contacts = buildRestContacts(*rest, near);
   if (!contacts.kinds.pairs) return dealStrands(groom, count);
   const auto partOf = divide(strandGraph(*rest, contacts), static_cast<int>(count));

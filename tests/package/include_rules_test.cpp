@@ -113,6 +113,22 @@ TEST(IncludeRules, TheViewKnowsNoProgram) {
       EXPECT_NE(include.rfind("view/", 0), 0u) << file << " includes " << include;
 }
 
+// Strands are divided by what they are at rest, before any device has them.
+TEST(IncludeRules, ThePartsKnowNoDevice) {
+  const std::set<std::string> allowed = {"base", "groom", "scene", "rest"};
+  for (const fs::path& file : sourcesBelow("src/parts")) {
+    for (const std::string& include : includesOf(file)) {
+      const std::string module = moduleOf(include);
+      EXPECT_TRUE(module.empty() || allowed.count(module)) << file << " includes " << include;
+      for (const char* other : {"program/", "reference/", "parity/", "view/", "Eigen"})
+        EXPECT_NE(include.rfind(other, 0), 0u) << file << " includes " << include;
+    }
+  }
+  for (const fs::path& file : sourcesBelow("src/ringlet"))
+    for (const std::string& include : includesOf(file))
+      EXPECT_NE(include.rfind("parts/", 0), 0u) << file << " includes " << include;
+}
+
 // Paths below src, from a list that CMake wrote: "a.h|b.h".
 std::set<std::string> listed(const std::string& list) {
   std::set<std::string> paths;

@@ -42,9 +42,9 @@ struct RestState {
   // Beside those of `elsewhere`, the last of the strands above are simulated elsewhere too: a part's halo
   // (rest/rest_halo.h), which rises by itself.
   std::size_t haloCount = 0;
-  double longestCalmStep = 0;              // longest outer step that needs no warning [s]
-  std::vector<std::string> warnings;       // for the user, with numbers
-  std::size_t materialWarningCount = 0;    // number of the first of them, which depend on the material
+  double longestCalmStep = 0;            // longest outer step that needs no warning [s]
+  std::vector<std::string> warnings;     // for the user, with numbers
+  std::size_t materialWarningCount = 0;  // number of the first of them, which depend on the material
 };
 
 /// Number of strands that are simulated here: the first ones.

@@ -17,6 +17,7 @@ Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Record
   if (Status status = work(); !status) return status;
   recorder.barrier();
   buffers.recordControl(recorder);
+  if (volume) volume->recordControl(recorder);
   if (Status status = recorder.submitAndWait(); !status) return status;
   for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
     stageMilliseconds[stage] += milliseconds;
@@ -94,6 +95,10 @@ Status Simulation::Implementation::meetFirst(FrameRecording& frame, gpu::Recorde
     const auto meet = [&]() -> Status {
       if (!asks) {
         if (Status status = findOthers(); !status) return status;
+      }
+      if (volume) {
+        volume->recordReach(recorder);
+        recorder.barrier();
       }
       recordFirstContacts(frame, step);
       recordSums(frame, step, true);

@@ -12,7 +12,6 @@
 #include "layout/contacts.h"
 #include "layout/strands.h"
 #include "layout/volume.h"
-#include "ringlet/base/assert.h"
 #include "ringlet/gpu/device_buffers.h"
 
 namespace ringlet {
@@ -61,12 +60,6 @@ layout::VolumeControl emptyControl() {
 
 // Numbers of each node in the buffer of sums, of gather and of density (shared/volume_buffers.glsl).
 constexpr std::size_t kSumsOfNode = 8, kDensitiesOfNode = 2;
-
-// Where strands are divided, the host reads and writes these between submissions.
-Result<gpu::Buffer> makeSeen(gpu::Device& device, std::size_t bytes, bool divided, const std::string& name) {
-  return divided ? gpu::Buffer::create(device, bytes, gpu::BufferKind::stream, name)
-                 : createZero(device, bytes, name);
-}
 
 std::uint32_t groupsOf(std::uint64_t particles) {
   return static_cast<std::uint32_t>((particles + kVolumeGroupSize - 1) / kVolumeGroupSize);
@@ -124,7 +117,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (!states) return states.error();
   auto brought = createZero(device, count * sizeof(layout::vec4), "volume brought");
   if (!brought) return brought.error();
-  auto sums = makeSeen(device, sumBytes, divided, "volume sums");
+  auto sums = gpu::Buffer::create(device, sumBytes, gpu::BufferKind::stream, "volume sums");
   if (!sums) return sums.error();
   auto located = createZero(device, count * sizeof(layout::vec4), "volume located");
   if (!located) return located.error();
@@ -134,11 +127,15 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (!parcels) return parcels.error();
   auto nodes = createZero(device, capacity * sizeof(layout::vec4), "volume nodes");
   if (!nodes) return nodes.error();
-  auto control = makeSeen(device, sizeof(layout::VolumeControl), divided, "volume control");
+  auto control = createZero(device, sizeof(layout::VolumeControl), "volume control");
   if (!control) return control.error();
+  auto controlRead = gpu::Buffer::create(device, sizeof(layout::VolumeControl), gpu::BufferKind::stream,
+                                         "volume control read back");
+  if (!controlRead) return controlRead.error();
   self.buffers_.emplace(Buffers{std::move(*particles), std::move(*states), std::move(*brought),
                                 std::move(*cells), std::move(*parcels), std::move(*nodes),
-                                std::move(*control), std::move(*located), std::move(*sums)});
+                                std::move(*control), std::move(*located), std::move(*sums),
+                                std::move(*controlRead)});
   if (Status status = self.forget(); !status) return status.error();
   for (const auto& kernel : self.kernels_) {
     auto bindings = gpu::Bindings::create(*kernel, self.bufferTable());
@@ -151,12 +148,13 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
 std::uint64_t VolumeStage::bytes() const {
   const Buffers& b = *buffers_;
   return b.particles.bytes() + b.states.bytes() + b.brought.bytes() + b.located.bytes() + b.cells.bytes() +
-         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.sums.bytes();
+         b.parcels.bytes() + b.nodes.bytes() + b.control.bytes() + b.sums.bytes() + b.controlRead.bytes();
 }
 
 gpu::BufferTable VolumeStage::bufferTable() const {
   using namespace layout;
-  const auto& [particles, states, brought, cells, parcels, nodes, control, located, sums] = *buffers_;
+  const auto& [particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead] =
+      *buffers_;
   const DeviceChunk& hair = groom_->chunks[0];
   return {{kBindVolumePositions, hair.positions},
           {kBindVolumeVelocities, hair.velocities},
@@ -275,28 +273,36 @@ void VolumeStage::recordMeans(gpu::CommandList& list, SubmissionPace& pace, std:
   list.endStage();
 }
 
-layout::VolumeControl& VolumeStage::seenControl() const {
-  RINGLET_ASSERT(isDivided_, "of divided hair only, whose control the host sees");
-  return *reinterpret_cast<layout::VolumeControl*>(buffers_->control.mapped().data());
+void VolumeStage::recordControl(gpu::CommandList& list) const {
+  list.copyBuffer(buffers_->control, buffers_->controlRead, sizeof(layout::VolumeControl));
+}
+void VolumeStage::recordReach(gpu::CommandList& list) const {
+  for (const std::size_t at :
+       {offsetof(layout::VolumeControl, least), offsetof(layout::VolumeControl, greatest)})
+    list.copyBuffer(buffers_->controlRead, buffers_->control, 3 * sizeof(std::int32_t), at, at);
+}
+
+layout::VolumeControl& VolumeStage::hostControl() const {
+  return *reinterpret_cast<layout::VolumeControl*>(buffers_->controlRead.mapped().data());
 }
 
 std::array<std::int32_t, 6> VolumeStage::reach() const {
-  const layout::VolumeControl& c = seenControl();
+  const layout::VolumeControl& c = hostControl();
   return {-c.least[0], -c.least[1], -c.least[2], c.greatest[0], c.greatest[1], c.greatest[2]};
 }
 void VolumeStage::setReach(const std::array<std::int32_t, 6>& reach) {
-  layout::VolumeControl& c = seenControl();
+  layout::VolumeControl& c = hostControl();
   for (std::size_t axis = 0; axis < 3; ++axis)
     c.least[axis] = -reach[axis], c.greatest[axis] = reach[axis + 3];
 }
 
 std::span<std::uint32_t> VolumeStage::sums() {
   auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
-  return {all, kSumsOfNode * seenControl().cellCount};
+  return {all, kSumsOfNode * hostControl().cellCount};
 }
 std::span<std::uint32_t> VolumeStage::densities(bool isFirst) {
   auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
-  const layout::VolumeControl& c = seenControl();
+  const layout::VolumeControl& c = hostControl();
   const bool sorted = isFirst && c.untilSort + 1 == parameters_.sortSteps;
   return {all + kSumsOfNode * parameters_.cellCapacity, sorted ? kDensitiesOfNode * c.cellCount : 0};
 }

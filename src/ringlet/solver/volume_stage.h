@@ -52,9 +52,12 @@ class VolumeStage {
   void recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
 
-  /// If strands are divided, between submissions. After recordBrought of a step's first iteration: the cells
-  /// that particles here are in, {-least, greatest}, to be replaced by the largest of all devices before
-  /// recordSort.
+  /// If strands are divided: records the control's way to the host, at the end of every submission, and that
+  /// of the reach back, before recordSort.
+  void recordControl(gpu::CommandList& list) const;
+  void recordReach(gpu::CommandList& list) const;
+  /// Between submissions. After recordBrought of a step's first iteration: the cells that particles here are
+  /// in, {-least, greatest}, to be replaced by the largest of all devices before recordReach.
   std::array<std::int32_t, 6> reach() const;
   void setReach(const std::array<std::int32_t, 6>& reach);
   /// After recordSums: the sums, to be replaced by those over all devices before recordMeans. Those of
@@ -76,7 +79,7 @@ class VolumeStage {
 
  private:
   struct Buffers {
-    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums;
+    gpu::Buffer particles, states, brought, cells, parcels, nodes, control, located, sums, controlRead;
   };
   VolumeStage() = default;
   gpu::BufferTable bufferTable() const;
@@ -85,7 +88,7 @@ class VolumeStage {
   void dispatchParticles(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step) const;
   void dispatchIndirect(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                         std::uint64_t offset) const;
-  layout::VolumeControl& seenControl() const;
+  layout::VolumeControl& hostControl() const;
 
   std::vector<std::shared_ptr<const gpu::Kernel>> kernels_;  // by VolumeKernel
   std::vector<std::size_t> newKernels_;
