@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "ringlet/groom/generate.h"
+#include "ringlet/rest/rest_part.h"
+#include "ringlet/solver/sampled_contacts.h"
 #include "ringlet/solver/shared_link.h"
 #include "tests/kernels/sample_hairs.h"
 #include "tests/support/gpu_test.h"
@@ -181,6 +183,89 @@ TEST_F(DividedHair, HasTheBitsOfTheWhole) {
       EXPECT_NEAR(contacts->momentum.sizes, whole->contacts.momentum.sizes,
                   1e-9 * whole->contacts.momentum.sizes);
     }
+  }
+}
+
+// Strands that are apart at rest and put into one place part along y, the first of the groom upwards, also if
+// another part steps it.
+TEST_F(DividedHair, PartsWhatIsInOnePlaceAsTheWholeDoes) {
+  Hair hair{"in one place", {}};
+  hair.groom.metresPerUnit = 1;
+  std::vector<Vec3f> hanging;
+  for (int s = 0; s < 4; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 8; ++i) strand.push_back(Vec3f(Vec3d{0.02 * s, -0.01 * i, 0}));
+    hair.groom.addStrand(strand);
+    hanging.insert(hanging.end(), strand.begin(), strand.end());
+  }
+  hair.settings.contacts.on = true;
+  hair.settings.contacts.method = ContactMethod::explicitPairs;
+  hair.settings.contacts.radius = 0.005;
+  HairState inOnePlace{hanging, std::vector<Vec3f>(hanging.size())};
+  for (std::size_t k = 8; k < hanging.size(); ++k)
+    if (k % 8 > 2) inOnePlace.positions[k] = hanging[k % 8];
+  const auto stepped = [&](const ComputeDevice& device, const Hair& own) -> Result<HairState> {
+    const auto asset = build(device, own);
+    if (!asset) return asset.error();
+    auto simulation = make(*asset, own, kHeads[0]);
+    if (!simulation) return simulation.error();
+    if (Status put = simulation->setState(inOnePlace); !put) return put.error();
+    if (Status done = simulation->stepFrame(kHeads[0].at(0)); !done) return done.error();
+    return simulation->state();
+  };
+  const auto whole = stepped(device(), hair);
+  ASSERT_TRUE(whole) << whole.error().message;
+  const Parts parts{{1, 3}, {0, 2}};
+  const auto links = SharedLink::connect(parts);
+  std::vector<Result<HairState>> states(2, Error{"did not run"});
+  std::vector<std::jthread> threads;
+  for (std::size_t k = 0; k < 2; ++k) {
+    threads.emplace_back([&, k] {
+      const auto device = ComputeDevice::open();
+      if (!device) return;
+      Hair own = hair;
+      own.kernel.link = links[k].get();
+      states[k] = stepped(*device, own);
+      if (!states[k]) links[k]->fail(states[k].error());
+    });
+  }
+  threads.clear();
+  for (std::size_t k = 0; k < 2; ++k) {
+    ASSERT_TRUE(states[k]) << states[k].error().message;
+    EXPECT_EQ(differentPoints(hair.groom, parts[k], *states[k], *whole), 0) << "part " << k;
+  }
+}
+
+// All parts together sample what undivided hair does.
+TEST(SampledContacts, AreThoseOfTheWhole) {
+  HeadParameters head{.strandCount = 40};
+  head.curl.particleCount = 20;
+  Settings settings;
+  settings.contacts.on = true;
+  settings.contacts.prunePairs = true;
+  const auto rest = buildRestState(*makeHead(head), {}, settings);
+  ASSERT_TRUE(rest);
+  const RestContacts whole = buildRestContacts(*rest, settings.contacts);
+  std::vector<std::size_t> partOf;
+  for (std::size_t s = 0; s < rest->strands.size(); ++s) partOf.push_back(s * s % 3);
+  for (const std::uint32_t stride : {1u, 7u, 32u}) {
+    std::vector<int> sampled(whole.particles.particles.size());
+    for (std::size_t own = 0; own < 3; ++own) {
+      RestState state = *rest;
+      RestContacts contacts = whole;
+      std::optional<RestVolume> none;
+      RestHalo halo = haloOf(whole, partOf, own);
+      ASSERT_TRUE(restrictTo({state, contacts, none}, halo));
+      const auto [list, most] = sampledContacts(contacts, hereCount(state), stride);
+      for (std::uint32_t r = 0; r < stride; ++r) {
+        EXPECT_LE(list[r + 1] - list[r], most);
+        for (std::uint32_t k = list[r]; k < list[r + 1]; ++k) {
+          EXPECT_EQ(contacts.inWhole[list[k]] % stride, r);
+          ++sampled[contacts.inWhole[list[k]]];
+        }
+      }
+    }
+    EXPECT_EQ(sampled, std::vector<int>(sampled.size(), 1)) << "stride " << stride;
   }
 }
 

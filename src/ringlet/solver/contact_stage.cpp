@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "layout/strands.h"
@@ -16,6 +15,7 @@
 #include "ringlet/scene/packed_contacts.h"
 #include "ringlet/solver/contact_kernels.h"
 #include "ringlet/solver/neighbour_table.h"
+#include "ringlet/solver/sampled_contacts.h"
 
 namespace ringlet {
 namespace {
@@ -74,24 +74,6 @@ std::vector<std::uint32_t> contactIndices(const RestState& rest, const ContactPa
   return indices;
 }
 
-// For sampledContact (shared/contact_buffers.glsl), of divided hair; and the largest number in a sample.
-std::pair<std::vector<std::uint32_t>, std::uint32_t> sampledHere(const RestContacts& contacts,
-                                                                 std::size_t hereCount,
-                                                                 std::uint32_t stride) {
-  std::vector<std::vector<std::uint32_t>> byRemainder(stride);
-  for (std::uint32_t c = 0; c < contacts.inWhole.size(); ++c)
-    if (contacts.particles.strands[c] < hereCount) byRemainder[contacts.inWhole[c] % stride].push_back(c);
-  std::vector<std::uint32_t> begins{stride + 1}, all;
-  std::size_t most = 0;
-  for (const std::vector<std::uint32_t>& some : byRemainder) {
-    all.insert(all.end(), some.begin(), some.end());
-    begins.push_back(stride + 1 + static_cast<std::uint32_t>(all.size()));
-    most = std::max(most, some.size());
-  }
-  begins.insert(begins.end(), all.begin(), all.end());
-  return {begins, static_cast<std::uint32_t>(most)};
-}
-
 }  // namespace
 
 Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& rest,
@@ -111,12 +93,13 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
   self.largestRadius_ = contacts.largestRadius;
   const std::uint64_t count = self.particles_.size();
-  std::vector<std::uint32_t> samples{0};  // unused if all strands are here
+  SampledContacts samples{{0}, 0};  // of divided hair only
   if (self.sampleStride_ > 0) {
     const std::uint32_t stride = self.sampleStride_;
-    self.mostSampled_ = static_cast<std::uint32_t>((count + stride - 1) / stride);
-    if (divided) std::tie(samples, self.mostSampled_) = sampledHere(contacts, hereCount(rest), stride);
+    samples.most = static_cast<std::uint32_t>((count + stride - 1) / stride);
+    if (divided) samples = sampledContacts(contacts, hereCount(rest), stride);
   }
+  self.mostSampled_ = samples.most;
   if (self.contactGroups() > device.properties().maxGroupCount) {
     return Error{fmt::format(
         "{} contact particles are more than the {} this device takes at once; use a larger radius "
@@ -166,7 +149,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   if (!histories) return histories.error();
   auto guesses = createZero(device, rest.points.size() * sizeof(layout::vec4), "contact guesses");
   if (!guesses) return guesses.error();
-  auto sampled = createFilled(device, samples, "contacts of samples");
+  auto sampled = createFilled(device, samples.list, "contacts of samples");
   if (!sampled) return sampled.error();
   self.buffers_.emplace(Buffers{std::move(*rests), std::move(*neighbours), std::move(*indices),
                                 std::move(*grid), std::move(*places), std::move(*histories),

@@ -2,10 +2,12 @@
 #include "ringlet/solver/shared_link.h"
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
 namespace ringlet {
@@ -14,6 +16,7 @@ namespace ringlet {
 struct SharedLink::Meeting {
   explicit Meeting(std::size_t partCount) : messages(partCount), numbers(partCount) {}
 
+  // The others are rarely late, and waking a thread takes longer than they are.
   Status wait() {
     std::unique_lock lock(mutex);
     const std::uint64_t now = round;
@@ -21,6 +24,10 @@ struct SharedLink::Meeting {
       arrived = 0, ++round;
       allHere.notify_all();
     }
+    lock.unlock();
+    constexpr int kLooks = 1000;
+    for (int k = 0; k < kLooks && round == now; ++k) std::this_thread::yield();
+    lock.lock();
     allHere.wait(lock, [&] { return round != now || failure; });
     if (failure) return *failure;
     return {};
@@ -29,7 +36,7 @@ struct SharedLink::Meeting {
   std::mutex mutex;
   std::condition_variable allHere;
   std::size_t arrived = 0;
-  std::uint64_t round = 0;
+  std::atomic<std::uint64_t> round = 0;
   std::optional<Error> failure;
   // Of each part, while all read them.
   std::vector<std::span<const Message>> messages;
@@ -59,7 +66,9 @@ template <class Number, class Join>
 Status SharedLink::reduce(std::span<Number> numbers, const Join& join) {
   meeting_->numbers[own()] = numbers.data();
   if (Status here = meeting_->wait(); !here) return here;
-  std::vector<Number> all(numbers.begin(), numbers.end());
+  joined_.resize(numbers.size_bytes());
+  const std::span all(reinterpret_cast<Number*>(joined_.data()), numbers.size());
+  std::ranges::copy(numbers, all.begin());
   for (std::size_t part = 0; part < meeting_->numbers.size(); ++part) {
     if (part == own()) continue;
     const auto* theirs = static_cast<const Number*>(meeting_->numbers[part]);

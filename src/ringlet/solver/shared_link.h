@@ -31,6 +31,7 @@ class SharedLink : public PartLink {
   SharedLink(std::vector<std::vector<std::uint32_t>> parts, std::size_t own, std::shared_ptr<Meeting> meeting)
       : PartLink(std::move(parts), own), meeting_(std::move(meeting)) {}
   std::shared_ptr<Meeting> meeting_;
+  std::vector<std::byte> joined_;  // while the others read what it will replace
 };
 
 }  // namespace ringlet
