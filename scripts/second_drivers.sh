@@ -87,7 +87,7 @@ fetch_mesa() {
 
 icd() { env "VK_ICD_FILENAMES=$1" "VK_DRIVER_FILES=$1" "${@:2}"; }
 
-# quick DRIVER PREFIX...: gpu tests, conform, lists, repeats, a volume beside contacts, heads and cuts, and pictures.
+# quick DRIVER PREFIX...: gpu tests, conform, lists, repeats, a volume beside contacts, divided hair, heads and cuts, and pictures.
 quick() {
   local driver=$1
   shift
@@ -97,6 +97,8 @@ quick() {
   try "$driver" "a run with contacts repeats" "$@" $build/tests/kernels_tests --gtest_brief=1 \
     --gtest_filter='ContactStep.RepeatsBitwise*:VolumeStep.RepeatsBitwise*'
   try "$driver" "a volume beside contacts" "$@" $build/tests/kernels_tests --gtest_brief=1 --gtest_filter='VolumeStep.Beside*'
+  try "$driver" "divided hair" "$@" $build/tests/kernels_tests --gtest_brief=1 \
+    --gtest_filter='VolumeGather.*:DividedHair.PartsWhat*'
   try "$driver" "many heads, cuts, profiles" "$@" $build/tests/kernels_tests --gtest_brief=1 \
     --gtest_filter='HairFrames*:*OneOfManyHeads*:Cut.*:CutContacts.Lands*:Profiles.*'
   try "$driver" "pictures" "$@" $build/tests/program_tests --gtest_brief=1 --gtest_filter='Golden.*'
