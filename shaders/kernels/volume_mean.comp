@@ -1,5 +1,5 @@
-// If strands are divided among devices: computes the mean and the density at each node from the sums over the particles
-// of all devices. The reference has no counterpart: it has all strands.
+// If strands are divided among devices: computes the mean at each node from the sums over the particles of all devices,
+// and in a step that sorts particles into cells the density. The reference has no counterpart: it has all strands.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
@@ -12,6 +12,8 @@ void main() {
     high[k] = sums[nodeSum(node) + k];
     low[k] = sums[nodeSum(node) + 4 + k];
   }
+  nodes[node].xyz = meanRate(fromSums(high, low));
+  if (control.indirectDensities[0] == 0) return;
   vec4 density = fromSums(ivec4(sums[densitySum(node)]), ivec4(sums[densitySum(node) + 1]));
-  nodes[node] = vec4(meanRate(fromSums(high, low)), densityFrom(density.x));
+  nodes[node].w = densityFrom(density.x);
 }

@@ -94,8 +94,7 @@ class SplitBackend : public Backend {
     if (!archive.isWhole())
       return Error{
           "the checkpoint is of hair that was divided otherwise; go on with as many devices or ranks, and "
-          "the "
-          "ringlet that began the run"};
+          "with the ringlet that began the run"};
     return {};
   }
   Result<SimulationReport> report() override {

@@ -51,10 +51,12 @@ struct RestContacts {
     const auto meet = [&](std::uint32_t other, std::uint32_t count) {
       if (other != strand && !(volume.hasGroups() && groups[strand] == groups[other])) tell(other, count);
     };
-    for (std::uint32_t other = 0; graph.everyPair && other < groups.size(); ++other) meet(other, 1);
-    if (graph.everyPair) return;
-    for (std::uint32_t k = graph.firstNeighbour[strand]; k < graph.firstNeighbour[strand + 1]; ++k)
-      meet(graph.neighbours[k], graph.counts[k]);
+    if (graph.everyPair) {
+      for (std::uint32_t other = 0; other < groups.size(); ++other) meet(other, 1);
+    } else {
+      for (std::uint32_t k = graph.firstNeighbour[strand]; k < graph.firstNeighbour[strand + 1]; ++k)
+        meet(graph.neighbours[k], graph.counts[k]);
+    }
   }
 
   /// Warnings for the user, a sentence each: about gaps or raised radii, and about pruning that leaves no

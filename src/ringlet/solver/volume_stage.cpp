@@ -303,7 +303,7 @@ std::span<std::uint32_t> VolumeStage::sums() {
 std::span<std::uint32_t> VolumeStage::densities(bool isFirst) {
   auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
   const layout::VolumeControl& c = hostControl();
-  const bool sorted = isFirst && c.untilSort + 1 == parameters_.sortSteps;
+  const bool sorted = isFirst && c.indirectDensities[0] > 0;
   return {all + kSumsOfNode * parameters_.cellCapacity, sorted ? kDensitiesOfNode * c.cellCount : 0};
 }
 
