@@ -67,6 +67,7 @@ class VolumeGather : public GpuTest {
     control.cellCount = kNodes;
     control.cellsPerMetre = 1, control.cell = 1;
     for (std::uint32_t& size : control.size) size = kSide;
+    for (std::uint32_t& groups : control.indirectDensities) groups = 1;  // as in a step that sorts
     auto halt = createZero(gpu(), sizeof(layout::ContactControl), "halt");
     auto unused = createZero(gpu(), 4096, "unused");
     auto cells = createFilled(gpu(), words, "cells");
