@@ -1,10 +1,13 @@
 // rest/rest_halo.h and rest/rest_part.h: what parts of hair know of each other agrees, and is enough.
 #include "ringlet/rest/rest_halo.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "ringlet/groom/generate.h"
@@ -20,11 +23,11 @@ struct Whole {
   std::vector<std::size_t> partOf;
 };
 
-constexpr std::size_t kParts = 3;
+constexpr std::size_t kParts = 3, kStrands = 180;
 
 // A head whose strands are in three parts, side by side.
 Whole dividedHead(bool prunes) {
-  HeadParameters head{.strandCount = 90};
+  HeadParameters head{.strandCount = kStrands};
   head.curl.particleCount = 16;
   Settings settings;
   settings.contacts.on = true;
@@ -85,6 +88,21 @@ TEST(RestHalo, PartsExpectWhatTheOthersSend) {
   EXPECT_GT(messages, 0u);
 }
 
+// Those that others may touch come first: they are stepped first, and their rows sent.
+TEST(RestHalo, TheBorderComesFirst) {
+  const Whole whole = dividedHead(true);
+  for (std::size_t own = 0; own < kParts; ++own) {
+    const RestHalo halo = haloOf(whole.contacts, whole.partOf, own);
+    std::set<std::uint32_t> sent;
+    for (const RestHalo::Peer& peer : halo.peers) sent.insert(peer.out.begin(), peer.out.end());
+    const std::span all(halo.here);
+    const auto border = all.first(halo.borderCount), inner = all.subspan(halo.borderCount);
+    EXPECT_TRUE(std::ranges::equal(border, sent));
+    EXPECT_TRUE(std::ranges::is_sorted(inner));
+    EXPECT_FALSE(border.empty() || inner.empty());
+  }
+}
+
 // In a part strands, particles and neighbours have other numbers; they are the same.
 TEST(RestHalo, WhatIsKeptIsTheWholes) {
   const Whole whole = dividedHead(true);
@@ -93,7 +111,7 @@ TEST(RestHalo, WhatIsKeptIsTheWholes) {
     Whole part = whole;
     std::optional<RestVolume> none;
     RestHalo halo = before;
-    ASSERT_TRUE(restrictTo({part.rest, part.contacts, none}, halo));
+    restrictTo({part.rest, part.contacts, none}, halo);
     ASSERT_EQ(halo.here.size() + halo.around.size(), part.rest.strands.size());
     ASSERT_EQ(halo.around.size(), part.rest.haloCount);
     const ContactParticles &all = whole.contacts.particles, &kept = part.contacts.particles;
@@ -123,12 +141,15 @@ TEST(RestHalo, WhatIsKeptIsTheWholes) {
 TEST(RestHalo, EveryStrandIsInOnePart) {
   const Whole whole = dividedHead(true);
   std::vector<std::vector<std::uint32_t>> parts(2);
-  for (std::uint32_t s = 0; s < 90; ++s) parts[s % 2].push_back(s);
+  for (std::uint32_t s = 0; s < kStrands; ++s) parts[s % 2].push_back(s);
   EXPECT_TRUE(partOfEach(parts, whole.rest));
   parts[0].push_back(1);
   EXPECT_NE(partOfEach(parts, whole.rest).error().message.find("strand 1 is in 2 parts"), std::string::npos);
   parts[0].pop_back(), parts[0].pop_back();
-  EXPECT_NE(partOfEach(parts, whole.rest).error().message.find("strand 88 is in 0 parts"), std::string::npos);
+  EXPECT_NE(partOfEach(parts, whole.rest)
+                .error()
+                .message.find(fmt::format("strand {} is in 0 parts", kStrands - 2)),
+            std::string::npos);
 }
 
 }  // namespace

@@ -57,10 +57,11 @@ Result<LiveMaterial> LiveMaterial::create(const RestState& rest, const Material&
   if (!base) return base.error();
   for (RestState* state : {&*loaded, &*base}) {
     if (rest.elsewhere.empty() && rest.haloCount == 0) break;
-    const std::span all(rest.strandInGroom);
+    std::vector<std::uint32_t> places(state->groomStrandCount), kept;  // device order of the whole
+    for (std::uint32_t s = 0; s < state->strands.size(); ++s) places[state->strandInGroom[s]] = s;
+    for (const std::uint32_t s : rest.strandInGroom) kept.push_back(places[s]);
     const std::size_t here = hereCount(rest);
-    if (Status status = restrictTo(*state, all.first(here), all.subspan(here)); !status)
-      return status.error();
+    keepStrands(*state, std::span(kept).first(here), std::span(kept).subspan(here));
   }
 
   LiveMaterial self;

@@ -34,12 +34,16 @@ RestHalo haloOf(const RestContacts& contacts, std::span<const std::size_t> partO
       with.in.push_back(other);
     });
   }
+  std::vector<bool> isBorder(partOf.size());
   for (auto& [part, with] : shared) {
+    for (const std::uint32_t s : with.out) isBorder[s] = true;
     sortOut(with.in);
     halo.around.insert(halo.around.end(), with.in.begin(), with.in.end());
     halo.peers.push_back({part, std::move(with.out), std::move(with.in)});
   }
   std::ranges::sort(halo.around);
+  const auto inner = std::ranges::stable_partition(halo.here, [&](std::uint32_t s) { return isBorder[s]; });
+  halo.borderCount = halo.here.size() - inner.size();
   if (halo.here.empty() && halo.around.empty() && !partOf.empty()) halo.around.push_back(0);
   return halo;
 }

@@ -21,7 +21,8 @@ struct RestHalo {
     std::vector<std::uint32_t> out;  // strands of this part that its strands may touch, ascending
     std::vector<std::uint32_t> in;   // its strands that those of this part may touch, ascending
   };
-  std::vector<std::uint32_t> here;    // strands of this part, ascending
+  std::vector<std::uint32_t> here;    // strands of this part: its border ascending, then the others ascending
+  std::size_t borderCount = 0;        // of them those that strands of other parts may touch
   std::vector<std::uint32_t> around;  // its halo, ascending; of a part without strands one strand of another
   std::vector<Peer> peers;            // by rising part
 };

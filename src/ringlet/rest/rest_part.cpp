@@ -20,12 +20,8 @@ Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::si
   return isIn;
 }
 
-Status restrictTo(RestState& state, std::span<const std::uint32_t> part,
-                  std::span<const std::uint32_t> around) {
-  const auto isIn = membersOf(part, state.groomStrandCount);
-  if (!isIn) return isIn.error();
-  const auto isAround = membersOf(around, state.groomStrandCount);
-  if (!isAround) return isAround.error();
+void keepStrands(RestState& state, std::span<const std::uint32_t> here,
+                 std::span<const std::uint32_t> around) {
   RestState whole = std::exchange(state, {});
   std::swap(state.rigid, whole.rigid);
   std::swap(state.warnings, whole.warnings);
@@ -34,7 +30,9 @@ Status restrictTo(RestState& state, std::span<const std::uint32_t> part,
   state.longestCalmStep = whole.longestCalmStep;
   state.oneSmoothing = whole.oneSmoothing;
   std::swap(state.wholeCounts, whole.wholeCounts);
+  std::vector<bool> isKept(whole.strands.size());
   const auto keep = [&](std::size_t s) {
+    isKept[s] = true;
     layout::StrandRest strand = whole.strands[s];
     const auto points = whole.points.begin() + strand.firstParticle;
     const auto particles = whole.particles.begin() + strand.firstParticle;
@@ -48,20 +46,25 @@ Status restrictTo(RestState& state, std::span<const std::uint32_t> part,
     const auto factors = whole.edgeFactors.begin() + whole.strands[s].firstParticle;
     state.edgeFactors.insert(state.edgeFactors.end(), factors, factors + strand.particleCount);
   };
+  for (const std::uint32_t s : here) keep(s);
+  for (const std::uint32_t s : around) keep(s);
+  state.haloCount = around.size();
   for (std::size_t s = 0; s < whole.strands.size(); ++s) {
-    const std::uint32_t inGroom = whole.strandInGroom[s];
+    if (isKept[s]) continue;
     const auto first = whole.points.begin() + whole.strands[s].firstParticle;
-    if ((*isIn)[inGroom])
-      keep(s);
-    else if (!(*isAround)[inGroom])
-      state.elsewhere.push_back(
-          {inGroom, whole.firstInGroom[s], {first, first + whole.strands[s].particleCount}});
+    state.elsewhere.push_back(
+        {whole.strandInGroom[s], whole.firstInGroom[s], {first, first + whole.strands[s].particleCount}});
   }
-  const std::size_t here = state.strands.size();
-  for (std::size_t s = 0; s < whole.strands.size(); ++s)
-    if ((*isAround)[whole.strandInGroom[s]]) keep(s);
-  state.haloCount = state.strands.size() - here;
   std::ranges::sort(state.elsewhere, {}, &RigidStrand::strandInGroom);
+}
+
+Status restrictTo(RestState& state, std::span<const std::uint32_t> part) {
+  const auto isIn = membersOf(part, state.groomStrandCount);
+  if (!isIn) return isIn.error();
+  std::vector<std::uint32_t> here;
+  for (std::uint32_t s = 0; s < state.strands.size(); ++s)
+    if ((*isIn)[state.strandInGroom[s]]) here.push_back(s);
+  keepStrands(state, here);
   return {};
 }
 
@@ -172,22 +175,16 @@ void restrictTo(RestVolume& volume, const RestHalo& halo, const Places& places) 
 
 }  // namespace
 
-Status restrictTo(const RestHair& hair, RestHalo& halo) {
-  const auto inGroom = [&](const std::vector<std::uint32_t>& strands) {
-    std::vector<std::uint32_t> all;
-    for (const std::uint32_t s : strands) all.push_back(hair.state.strandInGroom[s]);
-    return all;
-  };
+void restrictTo(const RestHair& hair, RestHalo& halo) {
   const Places places(hair.state.strands, halo);
   restrictTo(hair.contacts, halo, places);
   if (hair.volume) restrictTo(*hair.volume, halo, places);
-  if (Status done = restrictTo(hair.state, inGroom(halo.here), inGroom(halo.around)); !done) return done;
+  keepStrands(hair.state, halo.here, halo.around);
   const auto renumber = [&](std::vector<std::uint32_t>& strands) {
     for (std::uint32_t& s : strands) s = places.strand(s);
   };
   for (RestHalo::Peer& peer : halo.peers) renumber(peer.out), renumber(peer.in);
   renumber(halo.here), renumber(halo.around);
-  return {};
 }
 
 }  // namespace ringlet

@@ -18,12 +18,15 @@ namespace ringlet {
 /// Cost: linear.
 Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::size_t strandCount);
 
-/// Keeps the simulated strands that are in `part`, and after them those that are `around` it
-/// (RestState::haloCount); both in groom order. Of the others only the rest points are kept
-/// (RestState::elsewhere). Members about the whole groom do not change. Errors: a strand that the groom does
-/// not have, or one that is listed twice. Cost: linear.
-Status restrictTo(RestState& state, std::span<const std::uint32_t> part,
-                  std::span<const std::uint32_t> around = {});
+/// Keeps strands `here`, and after them those `around` (RestState::haloCount); device order, each once. Of
+/// the others only the rest points are kept (RestState::elsewhere). Members about the whole groom do not
+/// change. Cost: linear.
+void keepStrands(RestState& state, std::span<const std::uint32_t> here,
+                 std::span<const std::uint32_t> around = {});
+
+/// Keeps the simulated strands that are in `part`, groom order. Errors: a strand that the groom does not have,
+/// or one that is listed twice. Cost: linear.
+Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
 
 /// The part of each strand, device order. Errors: as restrictTo; a strand that is in no part or in two.
 Result<std::vector<std::size_t>> partOfEach(const std::vector<std::vector<std::uint32_t>>& parts,
@@ -39,6 +42,6 @@ struct RestHair {
 /// particles stay in the whole's order, by which searches list them, and those of a strand are not known by
 /// firstOfStrand. Of strands around the part it is not kept whom they may touch, nor what they are in the
 /// volume. Cost: linear.
-Status restrictTo(const RestHair& hair, RestHalo& halo);
+void restrictTo(const RestHair& hair, RestHalo& halo);
 
 }  // namespace ringlet

@@ -40,7 +40,7 @@ struct RestState {
   bool oneSmoothing = false;               // bendBeta equals coreBeta for all of them
   std::vector<RigidStrand> elsewhere;      // strands that are simulated elsewhere, in groom order
   // Beside those of `elsewhere`, the last of the strands above are simulated elsewhere too: a part's halo
-  // (rest/rest_halo.h), which rises by itself.
+  // (rest/rest_halo.h). Its border, its other strands and its halo rise each by itself.
   std::size_t haloCount = 0;
   double longestCalmStep = 0;            // longest outer step that needs no warning [s]
   std::vector<std::string> warnings;     // for the user, with numbers

@@ -30,15 +30,21 @@ std::uint64_t lanesOf(std::span<const StrandRange> ranges) {
 }
 
 // Plans for the whole groom, so that the bits of a strand do not depend on which others are stepped here.
-// There are no ranges if all strands are rigid.
-Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts,
+// The first strands are a part's border. There are no ranges if all strands are rigid.
+Result<std::vector<StrandRange>> rangesOf(std::span<const std::uint32_t> counts, std::size_t borderCount,
                                           std::span<const std::uint32_t> wholeCounts,
                                           const DeviceLimits& limits, const KernelChoice& choice,
                                           StrandWork work) {
   if (counts.empty()) return std::vector<StrandRange>{};
-  auto ranges = planRanges(wholeCounts, limits, choice, work);
-  if (!ranges) return ranges.error();
-  return rangesOfPart(*ranges, counts);
+  const auto whole = planRanges(wholeCounts, limits, choice, work);
+  if (!whole) return whole.error();
+  std::vector<StrandRange> ranges = rangesOfPart(*whole, counts.first(borderCount));
+  for (StrandRange range : rangesOfPart(*whole, counts.subspan(borderCount))) {
+    range.begin += static_cast<std::uint32_t>(borderCount);
+    range.end += static_cast<std::uint32_t>(borderCount);
+    ranges.push_back(range);
+  }
+  return ranges;
 }
 
 // Restricts a groom in parts to what the link's own part knows.
@@ -46,7 +52,7 @@ Result<RestHalo> restrictTo(const RestHair& hair, const PartLink& link) {
   const auto partOf = partOfEach(link.parts(), hair.state);
   if (!partOf) return partOf.error();
   RestHalo halo = haloOf(hair.contacts, *partOf, link.own());
-  if (Status done = restrictTo(hair, halo); !done) return done.error();
+  restrictTo(hair, halo);
   return halo;
 }
 
@@ -127,8 +133,9 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
   const auto rangesFor = [&](bool amongBodies) -> Result<std::vector<StrandRange>> {
-    const auto ranges = rangesOf(std::span(counts).first(hereCount(self->rest)), self->rest.wholeCounts,
-                                 *limits, choice, strandWork(settings, material, self->kinds(), amongBodies));
+    const auto ranges = rangesOf(std::span(counts).first(hereCount(self->rest)),
+                                 self->halo ? self->halo->borderCount : 0, self->rest.wholeCounts, *limits,
+                                 choice, strandWork(settings, material, self->kinds(), amongBodies));
     if (!ranges) return ranges.error();
     return cutRanges(*ranges, *chunks);
   };
