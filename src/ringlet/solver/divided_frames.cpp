@@ -1,5 +1,6 @@
 // Implements the frames of divided hair (divided_hair.h). A frame is several submissions, each recorded when
-// it is due; between them the parts exchange what they need of each other.
+// it is due; between them the parts exchange what they need of each other. A part steps its border first:
+// while the rows of that are on their way, the device steps the other strands.
 #include <algorithm>
 #include <array>
 
@@ -7,22 +8,42 @@
 #include "ringlet/solver/simulation_implementation.h"
 
 namespace ringlet {
+namespace {
 
-// Records and runs one submission.
+// What parts exchange after a pass: it ends a step, or begins the first; or another iteration follows.
+DividedHair::Rows rowsAfter(const SolvePass& pass) {
+  return pass.withContacts && !pass.moves ? DividedHair::Rows::solve : DividedHair::Rows::step;
+}
+
+}  // namespace
+
+// Records a submission and hands it to the device.
 template <class Work>
-Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Recorder& recorder,
-                                              const Work& work) {
+Status Simulation::Implementation::startPart(FrameRecording& frame, gpu::Recorder& recorder,
+                                             const Work& work) {
   if (Status status = recorder.begin(); !status) return status;
   frame.pace.beginRecording();
   if (Status status = work(); !status) return status;
   recorder.barrier();
   buffers.recordControl(recorder);
   if (volume) volume->recordControl(recorder);
-  if (Status status = recorder.submitAndWait(); !status) return status;
+  return recorder.submit();
+}
+
+// Waits for it.
+Status Simulation::Implementation::endPart(gpu::Recorder& recorder) {
+  if (Status status = recorder.wait(); !status) return status;
   for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
     stageMilliseconds[stage] += milliseconds;
   if (contacts) contacts->readControl();
   return buffers.control().isHalted == layout::kHaltedByTurns ? Status{Error{kTooManyNear}} : Status{};
+}
+
+template <class Work>
+Status Simulation::Implementation::submitPart(FrameRecording& frame, gpu::Recorder& recorder,
+                                              const Work& work) {
+  if (Status status = startPart(frame, recorder, work); !status) return status;
+  return endPart(recorder);
 }
 
 void Simulation::Implementation::recordRowsOut(FrameRecording& frame, DividedHair::Rows rows) const {
@@ -37,18 +58,43 @@ void Simulation::Implementation::recordRowsIn(FrameRecording& frame, DividedHair
   frame.list.endStage();
 }
 
-// What the others are to know at a step's start, and what can be measured without them.
-void Simulation::Implementation::recordStart(FrameRecording& frame, std::uint32_t step) const {
-  recordBrought(frame, step, true);
-  if (!contacts) return;
-  contacts->recordMotion(frame.list, frame.pace, layout::kOfHere);
-  recordRowsOut(frame, DividedHair::Rows::step);
+// What of a pass other parts wait for. Without rows that is the whole pass.
+Status Simulation::Implementation::recordBorder(FrameRecording& frame, const SolvePass& pass) const {
+  if (!contacts) {
+    if (Status status = recordPass(frame, pass); !status) return status;
+    recordMeasures(frame, pass);
+    return {};
+  }
+  if (Status status = recordPass(frame, pass, Of::border); !status) return status;
+  recordRowsOut(frame, rowsAfter(pass));
+  return {};
+}
+
+// The rest of a pass, while rows are exchanged.
+Status Simulation::Implementation::stepInner(FrameRecording& frame, gpu::Recorder& recorder,
+                                             const SolvePass& pass) {
+  if (!contacts) return {};
+  const auto record = [&]() -> Status {
+    if (Status status = recordPass(frame, pass, Of::inner); !status) return status;
+    recordMeasures(frame, pass);
+    return {};
+  };
+  if (Status status = startPart(frame, recorder, record); !status) return status;
+  const Status exchanged = divided->exchange(rowsAfter(pass));
+  const Status ended = endPart(recorder);
+  return exchanged ? ended : exchanged;
+}
+
+// What can be measured after a pass without the other parts.
+void Simulation::Implementation::recordMeasures(FrameRecording& frame, const SolvePass& pass) const {
+  const bool beginsStep = rowsAfter(pass) == DividedHair::Rows::step;
+  const std::uint32_t step = pass.goesOn ? pass.step + 1 : pass.step;
+  recordBrought(frame, step, beginsStep);
+  if (!beginsStep) recordSums(frame, step, false);
+  if (beginsStep && contacts) contacts->recordMotion(frame.list, frame.pace, layout::kOfHere);
 }
 
 Status Simulation::Implementation::exchangeStart() {
-  if (contacts) {
-    if (Status status = divided->exchange(DividedHair::Rows::step); !status) return status;
-  }
   ContactStage::Largest motion{};
   std::array<std::int32_t, 6> reach{};
   if (contacts) motion = contacts->largest();
@@ -115,13 +161,13 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
   gpu::Recorder& recorder = slots[slot].recorder;
   slots[slot].recorded = FrameSlot::Recorded::nothing;
   FrameRecording frame{recorder, pace, slot};
+  const SolvePass firstPass{.step = 0};
   const auto begin = [&]() -> Status {
     beginFrame(frame);
-    if (Status status = recordPass(frame, {.step = 0}); !status) return status;
-    recordStart(frame, 0);
-    return {};
+    return recordBorder(frame, firstPass);
   };
   if (Status status = submitPart(frame, recorder, begin); !status) return status;
+  if (Status status = stepInner(frame, recorder, firstPass); !status) return status;
   const std::uint32_t steps = static_cast<std::uint32_t>(settings.stepsPerFrame);
   const int iterations = settings.contacts.iterationCount(contacts.has_value());
   for (std::uint32_t step = 0; step < steps; ++step) {
@@ -129,18 +175,12 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
     for (int iteration = 1; iteration <= iterations; ++iteration) {
       const bool isFirst = iteration == 1, isLast = iteration == iterations,
                  ends = isLast && step + 1 == steps;
+      const SolvePass pass{step, true, isLast, isLast && !ends};
       const auto solve = [&]() -> Status {
         recordMeans(frame, step);
-        if (Status status = recordPass(frame, {step, true, isLast, isLast && !ends}); !status) return status;
-        if (ends) {
-          slots[slot].recordPositions(recorder, buffers);
-        } else if (isLast) {
-          recordStart(frame, step + 1);
-        } else {
-          recordBrought(frame, step, false);
-          recordSums(frame, step, false);
-          if (contacts) recordRowsOut(frame, DividedHair::Rows::solve);
-        }
+        if (!ends) return recordBorder(frame, pass);
+        if (Status status = recordPass(frame, pass); !status) return status;
+        slots[slot].recordPositions(recorder, buffers);
         return {};
       };
       const auto nothing = []() -> Status { return {}; };
@@ -160,10 +200,8 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
       } else {
         status = meetFirst(frame, recorder, step, solve);
       }
-      if (status && !isLast) {
-        if (contacts) status = divided->exchange(DividedHair::Rows::solve);
-        if (status) status = exchangeSums(false);
-      }
+      if (status && !ends) status = stepInner(frame, recorder, pass);
+      if (status && !isLast) status = exchangeSums(false);
       if (!status) return status;
     }
   }

@@ -115,18 +115,24 @@ Status Simulation::Implementation::recordFrame(FrameRecording& frame) const {
 // Of hair as a volume among bodies the first solve of a step, by which strands hear of each other, knows no
 // bodies: others hear of what those do a step later (kContactWarmth). It has kernels and dispatches of its
 // own.
-Status Simulation::Implementation::recordPass(FrameRecording& frame, const SolvePass& pass) const {
+Status Simulation::Implementation::recordPass(FrameRecording& frame, const SolvePass& pass, Of which) const {
   if (pass.goesOn && firstSolveKernels.areThere()) {
     const SolvePass now{pass.step, pass.withContacts, pass.moves, false};
-    if (Status status = recordPass(frame, now); !status) return status;
-    return recordPass(frame, {.step = pass.step + 1});
+    if (Status status = recordPass(frame, now, which); !status) return status;
+    return recordPass(frame, {.step = pass.step + 1}, which);
   }
   const bool isFirstSolve = !pass.withContacts && firstSolveKernels.areThere();
   for (const StrandKernels* of : {isFirstSolve ? &firstSolveKernels : &strandKernels, &fallenKernels}) {
     const std::size_t bodies = of == &firstSolveKernels ? 0 : world.bodyCount();
-    const auto dispatches = planPass(of->ranges, asset->limits, settings, bodies, asset->groupSize, pass,
-                                     frame.pace.mostParticleSteps());
+    auto dispatches = planPass(of->ranges, asset->limits, settings, bodies, asset->groupSize, pass,
+                               frame.pace.mostParticleSteps());
     if (!dispatches) return dispatches.error();
+    if (which != Of::all) {
+      const bool isBorder = which == Of::border;
+      std::erase_if(*dispatches, [&](const PlannedDispatch& dispatch) {
+        return isBorder != (dispatch.strandEnd <= asset->halo->borderCount);
+      });
+    }
     dispatchAll(frame, *of, *dispatches);
   }
   frame.list.barrier();

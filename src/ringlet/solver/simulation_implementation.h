@@ -249,7 +249,9 @@ struct Simulation::Implementation {
   void recordSums(FrameRecording& frame, std::uint32_t step, bool isFirst) const;
   void recordMeans(FrameRecording& frame, std::uint32_t step) const;
   Status recordContactFrame(FrameRecording& frame, std::uint32_t firstStep, bool predictFirst) const;
-  Status recordPass(FrameRecording& frame, const SolvePass& pass) const;
+  // Of which strands a dispatch is: of a part's border, or of its others (RestHalo).
+  enum class Of { all, border, inner };
+  Status recordPass(FrameRecording& frame, const SolvePass& pass, Of which = Of::all) const;
   void dispatchAll(FrameRecording& frame, const StrandKernels& of,
                    std::span<const PlannedDispatch> dispatches) const;
   FrameSlot::Recorded wantedRecording() const {
@@ -271,10 +273,15 @@ struct Simulation::Implementation {
 
   // divided_frames.cpp
   template <class Work>
+  Status startPart(FrameRecording& frame, gpu::Recorder& recorder, const Work& work);
+  Status endPart(gpu::Recorder& recorder);
+  template <class Work>
   Status submitPart(FrameRecording& frame, gpu::Recorder& recorder, const Work& work);
   void recordRowsOut(FrameRecording& frame, DividedHair::Rows rows) const;
   void recordRowsIn(FrameRecording& frame, DividedHair::Rows rows) const;
-  void recordStart(FrameRecording& frame, std::uint32_t step) const;
+  Status recordBorder(FrameRecording& frame, const SolvePass& pass) const;
+  Status stepInner(FrameRecording& frame, gpu::Recorder& recorder, const SolvePass& pass);
+  void recordMeasures(FrameRecording& frame, const SolvePass& pass) const;
   Status exchangeStart();
   Status exchangeSums(bool isFirst);
   template <class Solve>
