@@ -24,8 +24,8 @@ Result<std::vector<bool>> membersOf(std::span<const std::uint32_t> part, std::si
 void keepStrands(RestState& state, std::span<const std::uint32_t> here,
                  std::span<const std::uint32_t> around = {});
 
-/// Keeps the simulated strands that are in `part`, groom order. Errors: a strand that the groom does not have,
-/// or one that is listed twice. Cost: linear.
+/// Keeps the simulated strands that are in `part`, groom order. Errors: a strand that the groom does not
+/// have, or one that is listed twice. Cost: linear.
 Status restrictTo(RestState& state, std::span<const std::uint32_t> part);
 
 /// The part of each strand, device order. Errors: as restrictTo; a strand that is in no part or in two.

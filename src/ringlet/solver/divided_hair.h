@@ -6,6 +6,8 @@
 //   v^0 -> rows of the step -> lists, contacts -> solve -> v^1 -> rows of the solve -> contacts -> solve ->
 //   move
 //
+// Those of its border are on their way while a part steps its other strands (divided_frames.cpp).
+//
 // Of hair as a volume the parts add up the sums at the grid's nodes (volume_stage.h) in each iteration.
 #pragma once
 
