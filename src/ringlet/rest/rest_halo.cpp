@@ -15,8 +15,7 @@ struct Shared {
 
 void sortOut(std::vector<std::uint32_t>& strands) {
   std::ranges::sort(strands);
-  const auto rest = std::ranges::unique(strands);
-  strands.erase(rest.begin(), rest.end());
+  strands.erase(std::unique(strands.begin(), strands.end()), strands.end());
 }
 
 }  // namespace
@@ -42,8 +41,9 @@ RestHalo haloOf(const RestContacts& contacts, std::span<const std::size_t> partO
     halo.peers.push_back({part, std::move(with.out), std::move(with.in)});
   }
   std::ranges::sort(halo.around);
-  const auto inner = std::ranges::stable_partition(halo.here, [&](std::uint32_t s) { return isBorder[s]; });
-  halo.borderCount = halo.here.size() - inner.size();
+  const auto inner =
+      std::stable_partition(halo.here.begin(), halo.here.end(), [&](std::uint32_t s) { return isBorder[s]; });
+  halo.borderCount = static_cast<std::size_t>(inner - halo.here.begin());
   if (halo.here.empty() && halo.around.empty() && !partOf.empty()) halo.around.push_back(0);
   return halo;
 }
