@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::hasDoneFrames;
 using test::readText;
 using test::RunningProgram;
 using test::runProgram;
@@ -243,8 +244,7 @@ TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
     RunningProgram program(folder_, arguments("keys_out"));
     EXPECT_TRUE(RunningProgram::waitUntil([&] {
       const std::string lines = readText(folder_ / "stdout.txt");
-      return std::ranges::count(lines, '\n') >= c.killedAt &&
-             fs::exists(folder_ / "keys_out/checkpoint.rgk");  // which a thread writes, on a slow disk later
+      return std::ranges::count(lines, '\n') >= c.killedAt && hasDoneFrames(folder_ / "keys_out");
     }));
     program.send(SIGKILL);
     EXPECT_EQ(program.wait().exitCode, -1) << c.what << ": it ended before it was killed";

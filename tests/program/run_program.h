@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "ringlet/output/checkpoint_file.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::test {
@@ -86,6 +87,13 @@ class RunningProgram {
 inline ProgramResult runProgram(const std::filesystem::path& folder,
                                 const std::vector<std::string>& arguments) {
   return RunningProgram(folder, arguments).wait();
+}
+
+/// Whether a run in this folder has a checkpoint to go on from. That from before its first frame is none; a
+/// thread writes them, on a slow disk later.
+inline bool hasDoneFrames(const std::filesystem::path& folder) {
+  const auto checkpoint = readCheckpoint(folder / "checkpoint.rgk");
+  return checkpoint && checkpoint->frame > 0;
 }
 
 }  // namespace ringlet::test

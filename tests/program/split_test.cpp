@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::hasDoneFrames;
 using test::readText;
 using test::RunningProgram;
 using test::runProgram;
@@ -115,7 +116,7 @@ void Split::killAndGoOn(const std::string& contacts) {
   RunningProgram program(folder_, arguments);
   EXPECT_TRUE(RunningProgram::waitUntil([&] {
     const std::string lines = readText(folder_ / "stdout.txt");
-    return std::ranges::count(lines, '\n') >= 30 && fs::exists(folder_ / "killed/checkpoint.rgk");
+    return std::ranges::count(lines, '\n') >= 30 && hasDoneFrames(folder_ / "killed");
   }));
   program.send(SIGKILL);
   EXPECT_EQ(program.wait().exitCode, -1) << "it ended before it was killed";
