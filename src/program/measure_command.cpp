@@ -25,6 +25,8 @@ constexpr const char* kExample =
     "  ringlet measure groom.obj out --json          and in what `ringlet simulate` wrote\n"
     "  ringlet measure groom.obj out --against settled.obj\n"
     "                                                and how far that is from one more pose\n"
+    "  ringlet measure groom.obj auto --against explicit --without off\n"
+    "                                                three runs: do contacts let hair move as they should?\n"
     "  ringlet measure groom.obj out --plot out.svg --over softer --over stiffer\n"
     "                                                three motions of it over each other\n"
     "\n"
@@ -37,9 +39,14 @@ constexpr const char* kExample =
     "Everything is seen from the head: each strand from its root, turned as the roots together turn (one\n"
     "root, or roots on a line, cannot show every turn; the head then turns as little as they allow).\n"
     "Bounce (of the core's length), sway and settling are those after the head last drove the hair.\n"
-    "--against compares that pose, or the last frame, with one more pose, in REST's unit. With their roots\n"
+    "--against compares that pose, or the last frame, with one more, in REST's unit. With their roots\n"
     "put together it says how far particles and cores (root mean square) and tips are apart, the angle\n"
-    "between the cores' chords, and by how much turns and mean radius are more.\n"
+    "between the cores' chords, and by how much turns and mean radius are more. Of two animations it also\n"
+    "compares all frames that both have. Way: how far tips are from where they are at rest, seen from\n"
+    "the head, and which share that is of the way there; tips: how far they are apart, as a share of the\n"
+    "way there. --without is the same motion without contacts. Kept: of the overlap beyond rest that\n"
+    "--against prevents in the worst frame of that, the share that OTHER prevents; hairs are as thick as\n"
+    "contacts have them unasked. A stiff volume keeps all and moves little, so look at all three.\n"
     "--plot draws over time, of OTHER and of each --over: mean droop, core elongation and turns, kinetic\n"
     "energy of hair of 10 mg/m, and how far hairs are in each other beyond rest, the deepest and the mean,\n"
     "as shares of their reach (1: two centres in one place); hairs are as thick as contacts have them\n"
@@ -51,7 +58,10 @@ constexpr const char* kExample =
     "{droop_mm core_elongation tip_rotation_deg}; of the motion: bounce_hz sway_hz (means) settle_s (the\n"
     "last to settle) energy_ratio (last second over peak); spread {KEY: [mean, min, max]} of the last\n"
     "frame; against {KEY: [mean, min, max]} with --against: particles tip core (shares of the arc length)\n"
-    "direction_deg turns radius (shares of those at rest); per_strand with --strands; series with --plot:\n"
+    "direction_deg turns radius (shares of those at rest); against_motion, of two animations: frames way_mm\n"
+    "against_way_mm way tips kept, and each {way_mm against_way_mm tips} a frame; per_strand with "
+    "--strands;\n"
+    "series with --plot:\n"
     "seconds droop_mm core_elongation turns energy_uj deepest_contact mean_contact, a number a frame. null: "
     "nothing to\n"
     "measure; so are limited_share and velocity_residual, which only a run knows (`ringlet simulate "
@@ -106,9 +116,15 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
   command
-      ->add_option("--against", typed->plan.against,
-                   "Another pose of these strands (a groom's file), to compare with")
-      ->type_name("FILE");
+      ->add_option(
+          "--against", typed->plan.against,
+          "Another pose of these strands (a groom's file) or what another run wrote, to compare with")
+      ->type_name("PATH");
+  command
+      ->add_option("--without", typed->plan.without,
+                   "What a run without contacts wrote, to say which share of overlap is kept apart")
+      ->needs("--against")
+      ->type_name("PATH");
   CLI::Option* plotted = command
                              ->add_option("--plot", typed->plan.plot,
                                           "Draws what changes over time into a .svg or .png (needs gnuplot)")

@@ -74,6 +74,33 @@ std::string count(std::size_t number, const char* noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
+nlohmann::ordered_json besideJson(const MotionBeside& beside) {
+  nlohmann::ordered_json json;
+  json["frames"] = beside.frames.size();
+  json["way_mm"] = 1000 * beside.mean.way;
+  json["against_way_mm"] = 1000 * beside.mean.other;
+  json["way"] = orNull(beside.mean.wayShare());
+  json["tips"] = orNull(beside.mean.apartShare());
+  json["kept"] = orNull(beside.kept);
+  for (const TipWays& frame : beside.frames) {
+    json["each"]["way_mm"].push_back(1000 * frame.way);
+    json["each"]["against_way_mm"].push_back(1000 * frame.other);
+    json["each"]["tips"].emplace_back(orNull(frame.apartShare()));
+  }
+  return json;
+}
+
+std::string besideText(const MotionBeside& beside) {
+  std::string text = fmt::format(
+      "  way           tips move {} mm from rest, seen from the head, and {} mm there: {} of it\n",
+      shown(1000 * beside.mean.way, 2), shown(1000 * beside.mean.other, 2), shown(beside.mean.wayShare(), 3));
+  text += fmt::format("  tips          are {} of that way apart, on the mean of {}\n",
+                      shown(beside.mean.apartShare(), 3), count(beside.frames.size(), "frame"));
+  if (beside.kept)
+    text += fmt::format("  kept          {} of what is kept apart there\n", shown(beside.kept, 3));
+  return text;
+}
+
 }  // namespace
 
 std::string shown(std::optional<double> value, int digits) {
@@ -117,6 +144,7 @@ nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands) 
       json["against"][row.key] = {spread.mean, spread.min, spread.max};
     }
   }
+  if (measured.beside) json["against_motion"] = besideJson(*measured.beside);
   if (measured.series) json["series"] = seriesJson(*measured.series);
   if (!withStrands) return json;
 
@@ -177,6 +205,7 @@ std::string measuredText(const Measured& measured) {
     text += fmt::format("\n  against {}\n", measured.against);
     for (const DistanceRow& row : kDistanceRows)
       line(row.label, spreadOf(valuesOf(measured.distances, row, row.scale)), row.digits);
+    if (measured.beside) text += besideText(*measured.beside);
   }
   if (measured.isPose)
     text +=

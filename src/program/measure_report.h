@@ -10,8 +10,17 @@
 #include "program/measure_series.h"
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/measure/shape_distance.h"
+#include "ringlet/measure/tip_ways.h"
 
 namespace ringlet::program {
+
+/// A motion beside another of the same groom, that of --against.
+struct MotionBeside {
+  std::vector<TipWays> frames;   // those that both have
+  TipWays mean;                  // of these
+  std::optional<double> kept{};  // of the overlap beyond rest that --against prevents in the worst frame of
+                                 // --without, the share that this motion prevents
+};
 
 /// A groom alone, another pose of it, or a motion. Only the last has frames.
 struct Measured {
@@ -21,6 +30,7 @@ struct Measured {
   std::vector<ShapeDistance> distances;  // from --against, one a strand, or none
   std::string against;                   // that pose's file
   CurlNumbers numbers;
+  std::optional<MotionBeside> beside = {};  // of a motion, if that of --against is one
   std::optional<MotionSeries> series = {};  // of a motion that is to be plotted
   double seconds = 0, freeSeconds = 0;
   bool isPose = false;        // against another pose or a motion

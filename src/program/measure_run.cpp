@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "program/measure_beside.h"
 #include "program/measure_plot.h"
 #include "program/standard_error.h"
 #include "ringlet/groom/groom_file.h"
@@ -72,16 +73,22 @@ Result<Groom> readPose(const Groom& rest, const MeasurePlan& plan, bool upIsZ,
   return pose;
 }
 
-// How far `points`, in REST's unit, are from the pose of --against, if there is one.
+// How far `points` are from the pose `other` of --against, both in REST's unit.
+Result<std::vector<ShapeDistance>> distancesFrom(const GroomRuler& ruler, const Groom& rest,
+                                                 std::span<const Vec3f> points, std::span<const Vec3f> other,
+                                                 const MeasurePlan& plan) {
+  auto distances = shapeDistances(ruler, points, other, rest.metresPerUnit);
+  if (!distances) return Error{fmt::format("{}: {}", plan.against.string(), distances.error().message)};
+  return distances;
+}
+// The same where the pose is in a groom's file, if there is one.
 Result<std::vector<ShapeDistance>> measureAgainst(const GroomRuler& ruler, const Groom& rest,
                                                   std::span<const Vec3f> points, const MeasurePlan& plan,
                                                   bool upIsZ) {
   if (plan.against.empty()) return std::vector<ShapeDistance>{};
   auto pose = readPose(rest, plan, upIsZ, plan.against);
   if (!pose) return pose.error();
-  auto distances = shapeDistances(ruler, points, pose->points, rest.metresPerUnit);
-  if (!distances) return Error{fmt::format("{}: {}", plan.against.string(), distances.error().message)};
-  return distances;
+  return distancesFrom(ruler, rest, points, pose->points, plan);
 }
 
 bool isUpZ(const MeasurePlan& plan, UpAxis otherwise) {
@@ -89,7 +96,82 @@ bool isUpZ(const MeasurePlan& plan, UpAxis otherwise) {
 }
 Vec3d upOf(bool isZ) { return isZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0}; }
 
+// What `ringlet simulate` wrote into a folder, a finished file rather than one that is not; or nothing.
+std::filesystem::path animationIn(const std::filesystem::path& folder) {
+  std::error_code code;
+  for (const char* suffix : {"", ".partial"}) {
+    for (const AnimationFormat& format : animationFormats()) {
+      std::filesystem::path path = folder / fmt::format("hair{}{}", format.extension, suffix);
+      if (std::filesystem::exists(path, code)) return path;
+    }
+  }
+  return {};
+}
+
+// The file that `path` stands for: of a folder the animation in it.
+Result<std::filesystem::path> fileOf(const std::filesystem::path& path) {
+  std::error_code code;
+  if (!std::filesystem::is_directory(path, code)) return path;
+  const std::filesystem::path file = animationIn(path);
+  if (file.empty())
+    return Error{
+        fmt::format("{} holds no hair.usda, hair.usdc or hair.rgc; is it a folder that `ringlet simulate` "
+                    "wrote?",
+                    path.string())};
+  return file;
+}
+
+// Another run of REST's strands, of the same rate and unit as the one that is measured.
+Result<AnimationReader> openRun(const Groom& rest, const MeasurePlan& plan, const std::filesystem::path& path,
+                                double framesPerSecond) {
+  const auto file = fileOf(path);
+  if (!file) return file.error();
+  auto run = AnimationReader::open(*file);
+  if (!run) return run.error();
+  for (const std::string& warning : run->warnings()) warn(warning);
+  if (Status same = checkSameStrands(rest, countsOf(run->groom()), plan, *file); !same) return same.error();
+  const CacheHeader& header = run->header();
+  if (header.framesPerSecond != framesPerSecond || header.metresPerUnit != rest.metresPerUnit)
+    return Error{fmt::format(
+        "{} has {} frames a second in units of {} m, and what is compared with it {} in "
+        "units of {} m; only runs of one rate and unit can be compared",
+        file->string(), header.framesPerSecond, header.metresPerUnit, framesPerSecond, rest.metresPerUnit)};
+  return run;
+}
+
+// The runs of --against and --without, if the first is one.
+Result<std::optional<MeasureBeside>> openBeside(const Groom& rest, const MeasurePlan& plan, int frameCount,
+                                                double framesPerSecond) {
+  if (plan.against.empty()) return std::optional<MeasureBeside>{};
+  const auto file = fileOf(plan.against);
+  if (!file) return file.error();
+  if (!holdsAnimation(*file)) {
+    if (plan.without.empty()) return std::optional<MeasureBeside>{};
+    return Error{
+        fmt::format("--without compares animations, and --against names {}, a pose", plan.against.string())};
+  }
+  auto against = openRun(rest, plan, plan.against, framesPerSecond);
+  if (!against) return against.error();
+  std::optional<AnimationReader> without;
+  if (!plan.without.empty()) {
+    auto opened = openRun(rest, plan, plan.without, framesPerSecond);
+    if (!opened) return opened.error();
+    without.emplace(std::move(*opened));
+  }
+  for (const AnimationReader* run : {&*against, without ? &*without : nullptr}) {
+    if (run && run->frameCount() != frameCount)
+      warn(fmt::format("one run has {} frames and another {}; those that both have are compared", frameCount,
+                       run->frameCount()));
+  }
+  auto beside = MeasureBeside::make(rest, std::move(*against), std::move(without));
+  if (!beside) return Error{fmt::format("{}: {}", plan.rest.string(), beside.error().message)};
+  return std::optional(std::move(*beside));
+}
+
 Result<Measured> measureGroom(const MeasurePlan& plan, const std::filesystem::path& otherPath) {
+  if (!plan.without.empty())
+    return Error{fmt::format("--without compares animations, and what is measured is {}, a pose",
+                             otherPath.empty() ? plan.rest.string() : otherPath.string())};
   const bool upIsZ = isUpZ(plan, UpAxis::y);
   auto rest = read(plan.rest, plan, upIsZ);
   if (!rest) return rest.error();
@@ -154,6 +236,8 @@ Result<Measured> measureAnimation(const MeasurePlan& plan, const std::filesystem
     if (!made) return Error{fmt::format("{}: {}", plan.rest.string(), made.error().message)};
     contactRuler.emplace(std::move(*made));
   }
+  auto beside = openBeside(*rest, plan, source->frameCount(), source->header().framesPerSecond);
+  if (!beside) return beside.error();
   std::vector<ContactQuality> contacts;
   if (source->frameCount() == 0) return Error{fmt::format("{} holds no frame", path.string())};
   for (int frame = 0; frame <= source->frameCount(); ++frame) {
@@ -164,9 +248,15 @@ Result<Measured> measureAnimation(const MeasurePlan& plan, const std::filesystem
     if (Status added = motion->addFrame(points, unit); !added)
       return Error{fmt::format("{}: frame {}: {}", path.string(), frame, added.error().message)};
     if (contactRuler) contacts.push_back(contactRuler->measure(inMetres(points, unit)));
+    if (!*beside || frame == 0) continue;
+    if (Status added = (*beside)->addFrame(frame, motion->ruler(), points); !added)
+      return Error{fmt::format("{}, compared with {}: frame {}: {}", path.string(), plan.against.string(),
+                               frame, added.error().message)};
   }
 
-  auto distances = measureAgainst(motion->ruler(), *rest, source->groom().points, plan, upIsZ);
+  auto distances =
+      *beside ? distancesFrom(motion->ruler(), *rest, (*beside)->lastPoints(), (*beside)->lastAgainst(), plan)
+              : measureAgainst(motion->ruler(), *rest, source->groom().points, plan, upIsZ);
   if (!distances) return distances.error();
 
   MotionReport report = motion->report();
@@ -178,6 +268,7 @@ Result<Measured> measureAnimation(const MeasurePlan& plan, const std::filesystem
                     .numbers = {}};
   measured.numbers = curlNumbers(motion->ruler(), report);
   --measured.numbers.frameCount;  // the groom itself is none of the file's
+  if (*beside) measured.beside = (*beside)->result();
   for (const StrandMotion& strand : report.strands) measured.strands.push_back(strand.last);
   measured.motions = std::move(report.strands);
   if (contactRuler) {
@@ -193,22 +284,9 @@ Result<Measured> measureAnimation(const MeasurePlan& plan, const std::filesystem
   return measured;
 }
 
-// What `ringlet simulate` wrote into a folder, a finished file rather than one that is not; or nothing.
-std::filesystem::path animationIn(const std::filesystem::path& folder) {
-  std::error_code code;
-  for (const char* suffix : {"", ".partial"}) {
-    for (const AnimationFormat& format : animationFormats()) {
-      std::filesystem::path path = folder / fmt::format("hair{}{}", format.extension, suffix);
-      if (std::filesystem::exists(path, code)) return path;
-    }
-  }
-  return {};
-}
-
 // What became of REST: a folder stands for the animation in it.
 Result<Measured> measure(const MeasurePlan& plan, const std::filesystem::path& other) {
   namespace fs = std::filesystem;
-  fs::path path = other;
   std::error_code code;
   if (fs::is_directory(plan.rest, code) || (isAnimation(plan.rest) && !isGroomFile(plan.rest))) {
     return Error{
@@ -216,15 +294,9 @@ Result<Measured> measure(const MeasurePlan& plan, const std::filesystem::path& o
                     "`ringlet measure groom.obj {}`",
                     plan.rest.string(), plan.rest.string())};
   }
-  if (fs::is_directory(path, code)) {
-    path = animationIn(other);
-    if (path.empty())
-      return Error{
-          fmt::format("{} holds no hair.usda, hair.usdc or hair.rgc; is it a folder that `ringlet simulate` "
-                      "wrote?",
-                      other.string())};
-  }
-  return holdsAnimation(path) ? measureAnimation(plan, path) : measureGroom(plan, path);
+  const auto path = fileOf(other);
+  if (!path) return path.error();
+  return holdsAnimation(*path) ? measureAnimation(plan, *path) : measureGroom(plan, *path);
 }
 
 Status plot(const MeasurePlan& plan, const Measured& measured) {

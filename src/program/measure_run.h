@@ -13,7 +13,7 @@
 namespace ringlet::program {
 
 struct MeasurePlan {
-  std::filesystem::path rest, other, against, plot;
+  std::filesystem::path rest, other, against, without, plot;
   std::vector<std::filesystem::path> over;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;

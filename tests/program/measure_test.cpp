@@ -155,6 +155,76 @@ TEST(Measure, AgainstAThirdPose) {
     EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
 }
 
+// Curls that are stretched from frame to frame.
+void writeStretched(const std::filesystem::path& folder, const std::vector<double>& stretches,
+                    double framesPerSecond = 24) {
+  std::filesystem::create_directories(folder);
+  auto writer = UsdWriter::create(folder / "hair.usda", twoCurls(),
+                                  {.metresPerUnit = 0.01,
+                                   .framesPerSecond = framesPerSecond,
+                                   .frameCount = static_cast<int>(stretches.size())});
+  ASSERT_TRUE(writer);
+  for (const double stretch : stretches) ASSERT_TRUE(writer->addFrame(twoCurls(stretch).points));
+  ASSERT_TRUE(writer->finish());
+}
+
+// Tips of curls 25 cm long: their ways are what they are stretched by.
+TEST(Measure, AMotionAgainstAnother) {
+  const auto folder = scratchFolder("measure_beside");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  writeStretched(folder / "this", {1.02, 1.06});
+  writeStretched(folder / "that", {1.04, 1.04});
+  for (const char* that : {"that", "that/hair.usda"}) {
+    const json found = measureJson(folder, {"rest.obj", "this", "--against", that});
+    const json& beside = found["against_motion"];
+    ASSERT_TRUE(beside.is_object());
+    EXPECT_EQ(beside["frames"], 2);
+    EXPECT_NEAR(beside["way_mm"].get<double>(), 10, 1e-3);
+    EXPECT_NEAR(beside["against_way_mm"].get<double>(), 10, 1e-3);
+    EXPECT_NEAR(beside["way"].get<double>(), 1, 1e-4);
+    EXPECT_NEAR(beside["tips"].get<double>(), 0.5, 1e-4);
+    EXPECT_TRUE(beside["kept"].is_null());
+    EXPECT_NEAR(beside["each"]["way_mm"][0].get<double>(), 5, 1e-3);
+    EXPECT_NEAR(beside["each"]["way_mm"][1].get<double>(), 15, 1e-3);
+    EXPECT_NEAR(beside["each"]["tips"][1].get<double>(), 0.5, 1e-4);
+    const double length = 0.25 / std::hypot(2 * kPi * 0.01 * 8, 0.25);
+    EXPECT_NEAR(found["against"]["tip"][0].get<double>(), 0.02 * length, 1e-4 * length) << "the last frames";
+  }
+  const ProgramResult text = runProgram(folder, {"measure", "rest.obj", "this", "--against", "that"});
+  for (const char* part : {"tips move 10.00 mm from rest", "1.000 of it", "0.500 of that way apart"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+
+  // Of a longer run the frames that both have.
+  writeStretched(folder / "longer", {1.04, 1.04, 1.5});
+  const ProgramResult both =
+      runProgram(folder, {"measure", "rest.obj", "this", "--against", "longer", "--json"});
+  EXPECT_NE(both.err.find("2 frames and another 3"), std::string::npos) << both.err;
+  EXPECT_NEAR(json::parse(both.out)["against_motion"]["tips"].get<double>(), 0.5, 1e-4);
+  const ProgramResult longer =
+      runProgram(folder, {"measure", "rest.obj", "longer", "--against", "this", "--json"});
+  EXPECT_EQ(json::parse(longer.out)["against_motion"]["frames"], 2);
+}
+
+// All of what the other keeps apart, or none of it.
+TEST(Measure, WhatContactsKeep) {
+  const auto folder = scratchFolder("measure_kept");
+  ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
+  writeAnimation(folder / "apart");
+  writeAnimation(folder / "together", 0.01, 0.8);
+  writeAnimation(folder / "between", 0.01, 0.75);
+  const auto kept = [&](const char* run) {
+    return measureJson(
+        folder, {"rest.obj", run, "--against", "apart", "--without", "together"})["against_motion"]["kept"];
+  };
+  EXPECT_EQ(kept("apart"), 1);
+  EXPECT_EQ(kept("together"), 0);
+  EXPECT_GT(kept("between"), 0.01);
+  EXPECT_LT(kept("between"), 0.99);
+  const ProgramResult text =
+      runProgram(folder, {"measure", "rest.obj", "apart", "--against", "apart", "--without", "together"});
+  EXPECT_NE(text.out.find("1.000 of what is kept apart there"), std::string::npos) << text.out;
+}
+
 TEST(Measure, SaysWhatIsWrong) {
   const auto folder = scratchFolder("measure_wrong");
   ASSERT_TRUE(writeGroom(folder / "rest.obj", twoCurls()));
@@ -165,6 +235,8 @@ TEST(Measure, SaysWhatIsWrong) {
   ASSERT_TRUE(writeGroom(folder / "fewer.obj", fewer));
   ASSERT_TRUE(writeGroom(folder / "shorter.obj", shorter));
   writeAnimation(folder / "out");
+  writeAnimation(folder / "metres", 1);
+  writeStretched(folder / "fast", {1, 1}, 60);
   std::filesystem::create_directories(folder / "empty");
   struct Case {
     std::vector<std::string> arguments;
@@ -172,7 +244,8 @@ TEST(Measure, SaysWhatIsWrong) {
     const char* part;
   };
   for (const Case& c :
-       {Case{{"missing.obj"}, 4, "missing.obj"}, Case{{"rest.obj", "missing.obj"}, 4, "missing.obj"},
+       {Case{{"missing.obj"}, 4, "missing.obj"},
+        Case{{"rest.obj", "missing.obj"}, 4, "missing.obj"},
         Case{{"rest.obj", "fewer.obj"}, 1, "2 and 1 strands"},
         Case{{"rest.obj", "shorter.obj"}, 1, "strand 1 has 64 particles"},
         Case{{"fewer.obj", "out"}, 1, "1 and 2 strands"},
@@ -180,10 +253,19 @@ TEST(Measure, SaysWhatIsWrong) {
         Case{{"rest.obj", "out", "--against", "shorter.obj"}, 1, "63 in shorter.obj"},
         Case{{"rest.obj", "--against", "missing.obj"}, 4, "missing.obj"},
         Case{{"rest.obj", "empty"}, 1, "holds no hair.usda"},
+        Case{{"rest.obj", "out", "--against", "empty"}, 1, "empty holds no hair.usda"},
+        Case{{"rest.obj", "out", "--against", "metres"}, 1, "only runs of one rate and unit"},
+        Case{{"rest.obj", "out", "--against", "fast"}, 1, "only runs of one rate and unit"},
+        Case{{"fewer.obj", "out", "--against", "out"}, 1, "1 and 2 strands"},
+        Case{{"rest.obj", "out", "--against", "rest.obj", "--without", "out"}, 1, "rest.obj, a pose"},
+        Case{{"rest.obj", "rest.obj", "--against", "out", "--without", "out"}, 1, "rest.obj, a pose"},
+        Case{{"rest.obj", "out", "--without", "out"}, 2, "--against"},
         Case{{"out"}, 1, "name the groom first, as in `ringlet measure groom.obj out`"},
         Case{{"out/hair.rgc", "rest.obj"}, 1, "name the groom first"},
-        Case{{"rest.obj", "out", "--unit", "1"}, 1, "--unit 1 does not fit"}, Case{{}, 2, "REST"},
-        Case{{"rest.obj", "--up", "X"}, 2, "X"}, Case{{"rest.obj", "--unit", "-1"}, 2, "-1"}}) {
+        Case{{"rest.obj", "out", "--unit", "1"}, 1, "--unit 1 does not fit"},
+        Case{{}, 2, "REST"},
+        Case{{"rest.obj", "--up", "X"}, 2, "X"},
+        Case{{"rest.obj", "--unit", "-1"}, 2, "-1"}}) {
     auto arguments = c.arguments;
     arguments.insert(arguments.begin(), "measure");
     const ProgramResult result = runProgram(folder, arguments);
