@@ -18,9 +18,9 @@ namespace ringlet {
 namespace {
 
 constexpr std::uint32_t kMostInGroup = 256;
-constexpr std::uint32_t kShadowHairs = 10000;  // that throw shadows, for all
-constexpr double kNear = 0.01;                 // [m]
-constexpr double kMostHairs = 16384;           // before a place on average: sums stay within 32 bits
+constexpr std::uint32_t kShadowHairs = 10000;      // that throw shadows, for all
+constexpr double kNear = 0.01, kNearShare = 0.02;  // [m], and of the way to what is looked at, where less
+constexpr double kMostHairs = 16384;               // before a place on average: sums stay within 32 bits
 
 std::uint32_t groupSizeOn(const gpu::Device& device) {
   return std::min(kMostInGroup, device.properties().maxGroupInvocations);
@@ -234,7 +234,7 @@ Status HairRenderer::setFrame(const Camera& camera, const Bounds& hair, std::spa
   picture.triangleCount = triangleCount_;
   picture.shadowStride = shadowStride();
   picture.focus = static_cast<float>(size_.height / 2.0 / std::tan(camera.fieldOfView / 2));
-  picture.near = static_cast<float>(kNear);
+  picture.near = static_cast<float>(std::min(kNear, kNearShare * length(camera.target - camera.eye)));
   picture.fixedPoint = static_cast<float>(std::pow(2.0, 32) / (kMostHairs * picture.shadowCellArea));
   if (Status sent = buffers_[layout::kBindPicture].upload(std::as_bytes(std::span(&picture, 1))); !sent)
     return sent;
