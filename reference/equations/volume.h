@@ -19,12 +19,14 @@ inline double volumeGain(const ContactSettings& settings, double T) {
   return settings.volumeDrag * T + settings.volumeStiffness * T * T;
 }
 
-/// a = kappa w + k T s [m/s], from w [m/s] and s [m]; each component is cut to kVolumeMostRate.
+/// a = kappa w + k T s [m/s], from w [m/s] and s [m].
 inline Vector3<double> volumeRate(const ContactSettings& settings, double T, const Vector3<double>& w,
                                   const Vector3<double>& s) {
-  const Vector3<double> a = volumeGain(settings, T) * w + settings.volumeStiffness * T * s;
-  return a.cwiseMax(-kVolumeMostRate).cwiseMin(kVolumeMostRate);
+  return volumeGain(settings, T) * w + settings.volumeStiffness * T * s;
 }
+
+/// theta = 1 / (2 + kappa): share of J / m that the guess leaves out [1].
+inline double balanceShare(double gain) { return 1 / (2 + gain); }
 
 /// s a step later; moved: by how much in the head's frame [m].
 inline Vector3<double> fadedDisplacement(const ContactSettings& settings, double T, const Vector3<double>& s,

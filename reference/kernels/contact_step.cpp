@@ -167,6 +167,9 @@ void rememberChanges(const Field<Real>& velocities, Contacts<Real>& contacts) {
   contacts.changes.clear();
   for (std::size_t i = 0; i < velocities.size(); ++i)
     contacts.changes.push_back((velocities[i] - contacts.freeVelocities[i]).template cast<double>());
+  Field<double> ends;
+  for (const Vector3<Real>& v : velocities) ends.push_back(v.template cast<double>());
+  endVolume(ends, contacts.isPinned, contacts.volume);
 }
 
 template <class Real>
@@ -180,7 +183,9 @@ void solveContacts(const ContactSettings& settings, const VolumeFrame& frame,
   if (contacts.live.empty() && contacts.volume.isEmpty()) return;
   Field<double> places;
   for (const Vector3<Real>& x : positions) places.push_back(x.template cast<double>());
-  beginVolume(settings, frame, places, contacts.volume);
+  Field<double> free;
+  for (const Vector3<Real>& v : velocities) free.push_back(v.template cast<double>());
+  beginVolume(settings, frame, places, free, contacts.changes, contacts.volume);
 
   Field<double> solved = guessVelocities(velocities, contacts), momenta;
   const int iterations = settings.iterationCount(contacts.pairByPair);
@@ -188,7 +193,10 @@ void solveContacts(const ContactSettings& settings, const VolumeFrame& frame,
     if (iteration > 0) dropUnmet(solved, contacts);
     gatherContacts(velocities.size(), contacts);
     momenta = pairMomenta(contacts, solved);
-    addVolume(volumeMeans(settings, frame, places, solved, contacts.volume), contacts, momenta);
+    Field<double> heard = solved;  // of what the volume's means are
+    if (iteration == 0)
+      for (const VolumeParticle& p : contacts.volume.particles) heard[p.index] = p.guess;
+    addVolume(volumeMeans(settings, frame, places, heard, contacts.volume), contacts, momenta);
     setContactWeights(firstPoint, contacts, systems);
     for (std::size_t s = 0; s < systems.size(); ++s) {
       const std::size_t first = firstPoint[s], count = firstPoint[s + 1] - first;

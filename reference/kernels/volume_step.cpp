@@ -81,6 +81,7 @@ void Volume::archive(Archive& archive) {
     archive.values(std::span(p.memory.data(), 3));
     archive.values(std::span(p.place.data(), 3));
     archive.values(std::span(p.gridPlace.data(), 3));
+    archive.values(std::span(p.given.data(), 3));
   }
 }
 
@@ -116,8 +117,12 @@ Volume makeVolume(const std::vector<RestStrand<Real>>& strands, std::span<const 
 }
 
 void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, const Field<double>& positions,
-                 Volume& volume) {
+                 const Field<double>& freeVelocities, const Field<double>& changes, Volume& volume) {
+  const double theta = balanceShare(volumeGain(settings, frame.seconds));
   for (VolumeParticle& p : volume.particles) {
+    p.guess = freeVelocities[p.index];
+    if (p.isKnown && !changes.empty()) p.guess += changes[p.index];
+    if (p.isKnown && p.mass > 0) p.guess -= theta * p.given / p.mass;
     const Vector3<double> place = frame.now.conjugate() * positions[p.index];
     p.memory = p.isKnown ? fadedDisplacement(settings, frame.seconds, p.memory, place - p.place)
                          : Vector3<double>(Vector3<double>::Zero());
@@ -127,6 +132,12 @@ void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, cons
     p.isKnown = true;
   }
   volume.untilSort = (volume.untilSort > 0 ? volume.untilSort : volumeSortSteps(frame.seconds)) - 1;
+}
+
+void endVolume(const Field<double>& velocities, const std::vector<bool>& isPinned, Volume& volume) {
+  for (VolumeParticle& p : volume.particles)
+    p.given = isPinned[p.index] ? Vector3<double>(Vector3<double>::Zero())
+                                : Vector3<double>(p.momentum - p.gain * velocities[p.index]);
 }
 
 VolumeSystem volumeMeans(const ContactSettings& settings, const VolumeFrame& frame,
@@ -162,8 +173,8 @@ VolumeSystem volumeMeans(const ContactSettings& settings, const VolumeFrame& fra
     p.density = mass / (volume.cell * volume.cell * volume.cell);
     const double g = p.mass * p.share * kappa;
     const Vector3<double> given = p.mass * p.share * (mean - settings.volumeStiffness * T * p.memory);
-    system.weights[p.index] = g;
-    system.momenta[p.index] = frame.now * given + g * frame.carried(positions[p.index]);
+    p.gain = system.weights[p.index] = g;
+    p.momentum = system.momenta[p.index] = frame.now * given + g * frame.carried(positions[p.index]);
   }
   return system;
 }

@@ -36,6 +36,10 @@ struct VolumeParticle {
   double density = 0;                  // about it in the last step [kg/m^3]
   double share = 0;                    // o of this step
   bool isKnown = false;                // false: the hair was just put there
+  double gain = 0;                     // g of the last iteration [kg]
+  Vector3<double> momentum{0, 0, 0};   // and what stood with it on the right-hand side [kg m/s]
+  Vector3<double> given{0, 0, 0};      // J of the last step: momentum - g v [kg m/s]
+  Vector3<double> guess{0, 0, 0};      // of the velocity, that its first iteration's means are of [m/s]
   Vector3<double> memory{0, 0, 0};     // s [m]
   Vector3<double> place{0, 0, 0};      // in the head's frame, at the start of the step [m]
   Vector3<double> gridPlace{0, 0, 0};  // and on the grid [m]
@@ -58,9 +62,13 @@ template <class Real>
 Volume makeVolume(const std::vector<RestStrand<Real>>& strands, std::span<const std::uint32_t> firstPoint,
                   const RestContacts& rest);
 
-/// The start of a step: positions [m], of the groom.
+/// The start of a step. Of the groom: positions [m], v^0 and the change of it by the last step, or none
+/// [m/s].
 void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, const Field<double>& positions,
-                 Volume& volume);
+                 const Field<double>& freeVelocities, const Field<double>& changes, Volume& volume);
+
+/// Its end: what each particle got, at the velocities [m/s] that it ended with.
+void endVolume(const Field<double>& velocities, const std::vector<bool>& isPinned, Volume& volume);
 
 /// Of each particle of the groom: what the volume adds to its mass [kg], g, and to its right-hand side [kg
 /// m/s].

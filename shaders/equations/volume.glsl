@@ -2,12 +2,18 @@
 // nodes; ours. With T the step, lambda drag, k stiffness, o the share that others have in the density about a
 // particle, W its weight at a node, all in the head's frame:
 //
-//   kappa = lambda T + k T^2      g = m o kappa      a = kappa w + k T s, each component cut to `most`
+//   kappa = lambda T + k T^2      g = m o kappa      a = kappa w + k T s
 //   A_n = sum W g a / sum W g     the particle gets the momentum  m o (sum W A_n - k T s) - g w(v)
 //
 // w: velocity beside the rigidly carried head; s: displacement, which fades. At rest both are 0 and so is all else.
-// What particles give each other sums to 0 once w is the velocity they end with. Mirrored by
-// reference/equations/volume.h.
+// What particles give each other sums to 0 once w is the velocity they end with.
+//
+// The first iteration of a step has v^0 + c - theta J / m for that velocity: c is the change from v^0 by the last step,
+// J the momentum that the volume gave the particle in it, theta = 1 / (2 + kappa). c alone would hand an error e of the
+// mean on from step to step: in velocity, a particle whose system is l m takes kappa e / (l + kappa) of it for a change
+// by others, and J / m = l times that. With J it hands on kappa (1 - theta l) / (l + kappa), whose size is at most
+// kappa / (2 + kappa) for any l >= 1. In a steady state J sums to 0, and the guess is exact.
+// Mirrored by reference/equations/volume.h.
 #ifndef RINGLET_VOLUME
 #define RINGLET_VOLUME
 
@@ -19,10 +25,13 @@ float othersShare(float ownDensity, float density) {
 /// kappa [1].
 float volumeGain(float drag, float stiffness, float T) { return T * (drag + T * stiffness); }
 
-/// a [m/s]: w: [m/s]; s: [m]; most: [m/s].
-vec3 volumeRate(float drag, float stiffness, float T, vec3 w, vec3 s, float most) {
-  return clamp(volumeGain(drag, stiffness, T) * w + stiffness * T * s, -most, most);
+/// a [m/s]: w: [m/s]; s: [m].
+vec3 volumeRate(float drag, float stiffness, float T, vec3 w, vec3 s) {
+  return volumeGain(drag, stiffness, T) * w + stiffness * T * s;
 }
+
+/// theta [1].
+float balanceShare(float gain) { return 1.0 / (2.0 + gain); }
 
 /// s a step later: moved: by how much in the head's frame [m]; kept: exp(-T / tau).
 vec3 fadedDisplacement(vec3 s, vec3 moved, float kept) { return kept * (s + moved); }

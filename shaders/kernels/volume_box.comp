@@ -1,7 +1,6 @@
 // Decides whether this step sorts particles into cells, and then sets the box of cells around all of them; one
 // invocation. It sorts every `sortSteps` steps of the run, however the run is divided into frames. Hair that extends
-// farther than the buffer has cells for gets larger cells. A strand's own particles are a larger share of those, so
-// that other strands act on it less.
+// farther than the buffer has cells for gets larger cells, which is told to the host.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
@@ -36,6 +35,7 @@ void main() {
   control.cellCount = size.x * size.y * size.z;
   control.cell = cell;
   control.cellsPerMetre = 1.0 / cell;
+  control.largestCell = max(control.largestCell, cell);
   for (int axis = 0; axis < 3; ++axis) {
     control.low[axis] = least[axis];
     control.size[axis] = size[axis];

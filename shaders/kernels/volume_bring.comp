@@ -5,9 +5,10 @@
 #include "shared/volume_buffers.glsl"
 
 void main() {
+  uint seen = control.largest;
   uint i;
   if (!findParticle(i)) return;
   uint particle = volumeParticle(i).particle;
   parcels[locatedAt(i).w].rate =
-      rateFrom(placeOf(i).w, velocityOf(particle), positionOf(particle), memoryOf(i).xyz);
+      rateFrom(placeOf(i).w, velocityOf(particle), positionOf(particle), memoryOf(i).xyz, seen);
 }

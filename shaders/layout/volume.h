@@ -38,7 +38,8 @@ RINGLET_CONSTANT uint kBindVolumeParcelTexels = 21;  // 2 a volume particle
 RINGLET_CONSTANT uint kBindVolumeNodeTexels = 22;
 RINGLET_CONSTANT uint kBindVolumeLocatedTexels = 23;
 RINGLET_CONSTANT uint kBindVolumeCellTexels = 24;  // four numbers each
-RINGLET_CONSTANT uint kVolumeTexelBindingCount = 10;
+RINGLET_CONSTANT uint kBindVolumeAddedTexels = 25;
+RINGLET_CONSTANT uint kVolumeTexelBindingCount = 11;
 
 // Constant per volume particle, in device order: one in so many of a strand that meets others as a volume, for as many.
 struct VolumeParticle {
@@ -70,7 +71,7 @@ struct VolumeControl {
   uint indirectBlocks[3];     // over blocks of cells of a sort, or none
   uint cellCount;             // of the box, which has as many nodes
   uint indirectDensities[3];  // over nodes in a step that sorts, or none
-  uint unused1;
+  uint cut;                   // how often a particle's a was larger than mostRate, over all iterations so far
   uint indirectNodes[3];      // over nodes
   uint sorts;                 // how often particles were put into cells
   int least[3];               // of the cells particles are in, as found so far in this step
@@ -78,9 +79,9 @@ struct VolumeControl {
   int greatest[3];
   float cell;                 // [m]
   int low[3];                 // the box's first cell
-  uint unused2;
+  uint largest;               // component of a so far, as a share of mostRate, as bits
   uint size[3];               // and how many there are along each axis
-  uint unused3;
+  float largestCell;          // so far [m]
 };
 
 struct VolumeParameters {
@@ -92,9 +93,8 @@ struct VolumeParameters {
   float drag;         // lambda [1/s]
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
-  float warmth;       // as in ContactParameters
   uint sortSteps;     // particles are put into cells every so many steps; between they stay where they were
-  float mostRate;      // largest component of a that counts [m/s]
+  float mostRate;      // largest component of a that the sums have room for, volumeMostRate [m/s]
   float unitsPerGain;  // kVolumeUnits per largest g [1/kg]
   float unitsPerMass;  // kVolumeUnits per largest mass [1/kg]
 };

@@ -35,6 +35,7 @@ layout(set = 0, binding = kBindVolumeParcelTexels) uniform usamplerBuffer parcel
 layout(set = 0, binding = kBindVolumeNodeTexels) uniform usamplerBuffer nodeTexels;
 layout(set = 0, binding = kBindVolumeLocatedTexels) uniform usamplerBuffer locatedTexels;
 layout(set = 0, binding = kBindVolumeCellTexels) uniform usamplerBuffer cellTexels;
+layout(set = 0, binding = kBindVolumeAddedTexels) uniform usamplerBuffer addedTexels;
 layout(set = 0, binding = kBindVolumeSums) buffer Sums { int sums[]; };
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 
@@ -52,6 +53,7 @@ vec3 lastVelocityOf(uint particle) {
   return kTexels ? vectorAt(velocityTexels, particle).xyz : velocities[particle].xyz;
 }
 vec3 velocityOf(uint particle) { return kTexels ? vectorAt(solvedTexels, particle).xyz : solved[particle].xyz; }
+vec4 addedTo(uint particle) { return kTexels ? vectorAt(addedTexels, particle) : addedByVolume[particle]; }
 vec4 broughtBy(uint i) { return kTexels ? vectorAt(broughtTexels, i) : brought[i]; }
 uvec4 locatedAt(uint i) { return kTexels ? recordAt(locatedTexels, i) : located[i]; }
 vec4 nodeAt(uint node) { return kTexels ? vectorAt(nodeTexels, node) : nodes[node]; }
@@ -123,12 +125,19 @@ float densityFrom(float units) {
 
 /// The gain kappa: g is kappa times the mass m o.
 float gain() { return volumeGain(parameters.drag, parameters.stiffness, parameters.seconds); }
-/// What a mass m o at x with velocity v contributes to the nodes, as VolumeParcel's rate.
-vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s) {
+/// What a mass m o at x with velocity v contributes to the nodes, as VolumeParcel's rate. An a that the sums have no
+/// room for is cut, and counted. seen: control.largest, as it was when the dispatch began.
+vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s, uint seen) {
   vec3 w = inHeadFrame(v - carriedVelocity(x));
-  vec3 a = volumeRate(parameters.drag, parameters.stiffness, parameters.seconds, w, s, parameters.mostRate);
+  vec3 share =
+      volumeRate(parameters.drag, parameters.stiffness, parameters.seconds, w, s) / parameters.mostRate;
+  vec3 size = abs(share);
+  float largest = max(size.x, max(size.y, size.z));
+  // Bits of positive floats are ordered as the floats are. What was cut off has no mass.
+  if (mass > 0.0 && floatBitsToUint(largest) > seen) atomicMax(control.largest, floatBitsToUint(largest));
+  if (mass > 0.0 && largest > 1.0) atomicAdd(control.cut, 1);
   float units = parameters.unitsPerGain * mass * gain();
-  return vec4(units * (a / parameters.mostRate), units);
+  return vec4(units * clamp(share, -1.0, 1.0), units);
 }
 
 uint groupsOf(uint invocations) { return (invocations + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }

@@ -468,6 +468,7 @@ void HairRun::tellWarnings() {
     outcome_.warnings.insert(outcome_.warnings.end(), warnings.begin(), warnings.end());
   };
   add(stepper_->warnings());
+  if (outcome_.contacts) add(outcome_.contacts->warnings());
   add(backend_->deviceMessages());
 }
 

@@ -29,6 +29,8 @@ void addContactKeys(nlohmann::ordered_json& json, const SimulateOutcome& outcome
   json["pair_tests"] = orNull(known.has_value(), report.pairTests);
   json["rebuilds"] = orNull(known.has_value(), report.rebuilds);
   json["momentum_error"] = orNull(known.has_value(), report.momentumError);
+  json["volume_cut"] = orNull(known.has_value(), report.volumeCut);
+  json["volume_largest"] = orNull(known.has_value(), report.volumeLargest);
   json["raw_recall"] = orNull(known && measured, numbers.worst.rawRecall);
   json["overlap_beyond_rest_sum"] = orNull(measured.has_value(), numbers.worst.overlapBeyondRestSum);
   json["deepest_overlap_all"] = orNull(measured.has_value(), numbers.deepestOverlap);
@@ -48,7 +50,8 @@ std::string contactText(const SimulateOutcome& outcome, const ContactSettings& s
         fmt::format("  pairs         {} of {} pairs of strands that are near at rest may touch{}\n",
                     report.pairs, report.pairsUnpruned, settings.prunePairs ? "" : ", and all that are not");
     if (report.volumeStrands > 0)
-      text += fmt::format("  volume        {} strands meet as a volume\n", report.volumeStrands);
+      text += fmt::format("  volume        {} strands meet as a volume, with up to {:.2g} of its range\n",
+                          report.volumeStrands, report.volumeLargest);
   }
   if (outcome.contactNumbers) {
     const ContactNumbers& numbers = *outcome.contactNumbers;

@@ -380,6 +380,8 @@ py::dict contactReportOf(HairObject& self) {
   report["pair_tests"] = r.pairTests;
   report["rebuilds"] = r.rebuilds;
   report["momentum_error"] = r.momentumError;
+  report["volume_cut"] = r.volumeCut;
+  report["volume_largest"] = r.volumeLargest;
   return report;
 }
 
@@ -696,7 +698,10 @@ void addHairClass(py::module_& module) {
            "without a finite place now), first_nonfinite_strand, first_nonfinite_particle, degenerate_edges.")
       .def("contact_report", &contactReportOf,
            "What contacts did: a dict of contact_particles, pairs_unpruned, pairs, volume_strands, listed, "
-           "contacts, pair_tests, rebuilds, momentum_error. Without contacts all is 0.")
+           "contacts, pair_tests, rebuilds, momentum_error, volume_cut (how often hair as a volume was held "
+           "back: its coupling was larger than the sums have room for), volume_largest (the largest coupling "
+           "as "
+           "a share of that room). Without contacts all is 0.")
       .def("memory", &memoryOf,
            "Bytes of its buffers on the device, by what they are for, and their total: a dict.")
       .def(

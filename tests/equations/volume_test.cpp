@@ -41,7 +41,7 @@ struct Ball {
       p.isKnown = true;
       volume.particles.push_back(p);
     }
-    beginVolume(settings, frame, positions, volume);
+    beginVolume(settings, frame, positions, velocities, {}, volume);
   }
   VolumeSystem means() { return volumeMeans(settings, frame, positions, velocities, volume); }
 };
@@ -81,7 +81,7 @@ TEST(Volume, ADisplacementIsPulledBack) {
   for (VolumeParticle& p : ball.volume.particles) p.place.setZero(), p.mass = 1e-6, p.ownDensity = 0;
   std::fill(ball.positions.begin(), ball.positions.end(), Vector3<double>::Zero());
   ball.volume.forget();
-  beginVolume(ball.settings, ball.frame, ball.positions, ball.volume);
+  beginVolume(ball.settings, ball.frame, ball.positions, ball.velocities, {}, ball.volume);
   ball.volume.particles[7].memory = {0.002, 0, 0};
   const VolumeSystem system = ball.means();
   const double T = ball.frame.seconds, k = ball.settings.volumeStiffness;
@@ -120,6 +120,63 @@ TEST(Volume, IterationConvergesAtAnyStiffness) {
       last = change;
     }
     EXPECT_LT(change, 1e-2) << stiffness;
+  }
+}
+
+// What sums have room for follows the settings: 32 m/s beside the head together with twice a strand's length,
+// rounded up to a power of two.
+TEST(Volume, RoomOfSumsFollowsTheSettings) {
+  for (const double drag : {0.0, 600.0, 1e5}) {
+    for (const double stiffness : {0.0, 1e5, 1e9}) {
+      for (const double T : {1.0 / 24, 1.0 / 192, 1.0 / 1536}) {
+        for (const double longest : {0.001, 0.56, 3.0}) {
+          ContactSettings settings;
+          settings.volumeDrag = drag, settings.volumeStiffness = stiffness;
+          const double most = settings.volumeMostRate(T, longest);
+          EXPECT_EQ(most, std::exp2(std::round(std::log2(most))));
+          const Vector3<double> fastest =
+              volumeRate(settings, T, Vector3<double>::Constant(32), Vector3<double>::Constant(2 * longest));
+          EXPECT_GE(most, fastest.x());
+          EXPECT_LT(most, std::max(2.0, 2 * fastest.x()));
+        }
+      }
+    }
+  }
+  EXPECT_EQ(ContactSettings{}.volumeMostRate(1.0 / 192, 0.56), 512);
+}
+
+// An error e of the mean that a step's guess has becomes, a step later, by the formulas of volume.glsl for a
+// particle whose system is l m: smaller, at any gain, be the particle free or held fast. Without what it was
+// given (theta = 0) a free particle's would hardly become smaller.
+TEST(Volume, AnErrorOfTheGuessDecays) {
+  for (const double kappa : {0.01, 1.0, 5.8, 100.0, 1e6}) {
+    for (const double l : {1.0, 1.5, 10.0, 1e9}) {
+      const double e = 1, m = 1, g = m * kappa, theta = balanceShare(kappa);
+      const double change = g * e / (l * m + g), given = g * (e - change);
+      const double next = change - theta * given / m;
+      EXPECT_LE(std::abs(next), kappa / (2 + kappa) * (1 + 1e-9)) << kappa << ", " << l;
+    }
+  }
+}
+
+// Beside the guess nothing of the last step counts: what it gave is left out with its share, of hair that was
+// not just put there and does not follow the head.
+TEST(Volume, GuessesFromTheLastStep) {
+  Ball ball;
+  const Field<double> changes(ball.velocities.size(), Vector3<double>(0.1, 0, 0));
+  std::vector<bool> isPinned(ball.velocities.size());
+  isPinned[3] = true;
+  ball.means();
+  endVolume(ball.velocities, isPinned, ball.volume);
+  ball.volume.particles[5].isKnown = false;
+  beginVolume(ball.settings, ball.frame, ball.positions, ball.velocities, changes, ball.volume);
+  const double theta = 1 / (2 + volumeGain(ball.settings, ball.frame.seconds));
+  for (std::size_t i = 0; i < ball.volume.particles.size(); ++i) {
+    const VolumeParticle& p = ball.volume.particles[i];
+    Vector3<double> expected = ball.velocities[i];
+    if (i != 5) expected += changes[i];
+    if (i != 5 && i != 3) expected -= theta * (p.momentum - p.gain * ball.velocities[i]) / p.mass;
+    EXPECT_LT((p.guess - expected).norm(), 1e-12) << i;
   }
 }
 

@@ -70,6 +70,23 @@ TEST_F(CutContacts, FramesAgreeWithDouble) {
   }
 }
 
+// What has fallen for a second is faster and farther than the volume's sums have room for, and of it no more.
+TEST_F(CutContacts, WhatFellIsNotOfTheVolume) {
+  const Groom groom = denseSwatch(32);
+  Settings settings = meetingSettings();
+  settings.contacts.method = ContactMethod::volume;
+  auto hair = Simulation::create(device(), groom, {}, settings);
+  ASSERT_TRUE(hair) << hair.error().message;
+  ASSERT_TRUE(hair->cut(cutsAt(groom, 3)));
+  const std::vector<HeadPose> still(static_cast<std::size_t>(settings.stepsPerFrame));
+  for (int frame = 0; frame < 36; ++frame) ASSERT_TRUE(hair->stepFrame(still));
+  const auto points = *hair->positions();
+  EXPECT_LT(points[groom.firstPoint[2] - 1].y, -5.0f) << "nothing fell";
+  const ContactReport report = *hair->contactReport();
+  EXPECT_EQ(report.volumeCut, 0u);
+  EXPECT_LT(report.volumeLargest, 1);
+}
+
 // Two strands side by side that stand out from the head, and one above them, across both.
 Groom crossing() {
   const Vec3f roots[] = {{-0.03f, 0, 0}, {0.03f, 0, 0}, {-0.15f, 0.01f, 0.04f}};

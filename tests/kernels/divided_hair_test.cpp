@@ -199,6 +199,8 @@ TEST_F(DividedHair, HasTheBitsOfTheWhole) {
       EXPECT_EQ(contacts->listed, whole->contacts.listed);
       EXPECT_EQ(contacts->contacts, whole->contacts.contacts);
       EXPECT_EQ(contacts->pairTests, whole->contacts.pairTests);
+      EXPECT_EQ(contacts->volumeCut, whole->contacts.volumeCut);
+      EXPECT_EQ(contacts->volumeLargest, whole->contacts.volumeLargest);
       EXPECT_NEAR(contacts->momentumError, whole->contacts.momentumError, 1e-9);
       EXPECT_NEAR(contacts->momentum.sizes, whole->contacts.momentum.sizes,
                   1e-9 * whole->contacts.momentum.sizes);

@@ -201,10 +201,10 @@ const std::vector<CppStruct> kCppStructs = {
           "VolumeControl",
           sizeof(S),
           {RINGLET_MEMBER(indirectParticles), RINGLET_MEMBER(untilSort), RINGLET_MEMBER(indirectBlocks),
-           RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectDensities), RINGLET_MEMBER(unused1),
+           RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectDensities), RINGLET_MEMBER(cut),
            RINGLET_MEMBER(indirectNodes), RINGLET_MEMBER(sorts), RINGLET_MEMBER(least),
            RINGLET_MEMBER(cellsPerMetre), RINGLET_MEMBER(greatest), RINGLET_MEMBER(cell), RINGLET_MEMBER(low),
-           RINGLET_MEMBER(unused2), RINGLET_MEMBER(size), RINGLET_MEMBER(unused3)}};
+           RINGLET_MEMBER(largest), RINGLET_MEMBER(size), RINGLET_MEMBER(largestCell)}};
     }(),
     [] {
       using S = layout::VolumeParameters;
@@ -213,8 +213,8 @@ const std::vector<CppStruct> kCppStructs = {
           sizeof(S),
           {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step), RINGLET_MEMBER(seconds),
            RINGLET_MEMBER(cell), RINGLET_MEMBER(drag), RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept),
-           RINGLET_MEMBER(warmth), RINGLET_MEMBER(sortSteps), RINGLET_MEMBER(mostRate),
-           RINGLET_MEMBER(unitsPerGain), RINGLET_MEMBER(unitsPerMass)}};
+           RINGLET_MEMBER(sortSteps), RINGLET_MEMBER(mostRate), RINGLET_MEMBER(unitsPerGain),
+           RINGLET_MEMBER(unitsPerMass)}};
     }(),
     [] {
       using S = layout::PartParameters;

@@ -79,6 +79,71 @@ TEST_F(VolumeStep, FramesAgreeWithDouble) {
   }
 }
 
+// However stiff, however fast the head, and while settings change: the sums have room for all of it, and
+// frames are the reference's, which cuts nothing.
+TEST_F(VolumeStep, SumsHaveRoomAtAnySettings) {
+  struct Case {
+    const char* name;
+    double drag = 600, stiffness = 1e5, memory = 0.3, amplitude = 0.03;
+    int steps = 8;
+    bool changes = false;
+  };
+  for (const Case& c : {Case{.name = "default"}, Case{.name = "stiff", .stiffness = 1e7},
+                        Case{.name = "drag alone", .drag = 1e5, .stiffness = 0},
+                        Case{.name = "long memory", .memory = 1000}, Case{.name = "many steps", .steps = 32},
+                        Case{.name = "whip", .amplitude = 0.4}, Case{.name = "live", .changes = true}}) {
+    SCOPED_TRACE(c.name);
+    Settings settings = volumeSettings();
+    settings.stepsPerFrame = c.steps;
+    settings.contacts.volumeDrag = c.drag, settings.contacts.volumeStiffness = c.stiffness;
+    settings.contacts.volumeMemorySeconds = c.memory;
+    const Groom groom = denseSwatch(32);
+    auto simulation = Simulation::create(device(), groom, {}, settings);
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    reference::Simulation<double> reference(groom, {}, settings);
+    HeadPose before;
+    double worst = 0;
+    for (int frame = 1; frame <= 8; ++frame) {
+      if (c.changes && frame == 5) {
+        settings.contacts.volumeStiffness = 3e6, settings.contacts.volumeDrag = 3e3;
+        ASSERT_TRUE(simulation->setSettings(settings));
+        reference.change(groom, {}, settings);
+      }
+      const HeadPose next = shaken(frame, c.amplitude);
+      ASSERT_TRUE(simulation->stepFrame(next));
+      std::vector<HeadPose> poses;
+      for (int k = 1; k <= settings.stepsPerFrame; ++k)
+        poses.push_back(interpolate(before, next, double(k) / settings.stepsPerFrame));
+      reference.stepFrame(poses);
+      before = next;
+      const auto positions = hairOf(*simulation).first;
+      for (std::size_t i = 0; i < positions.size(); ++i)
+        worst = std::max(worst, (reference::toEigen<double>(positions[i]) - reference.positions()[i]).norm());
+    }
+    const auto report = *simulation->contactReport();
+    fmt::print("{}: {:.1e} m apart, {:.3f} of the room\n", c.name, worst, report.volumeLargest);
+    EXPECT_LE(worst, kMeetingMetres);
+    EXPECT_EQ(report.volumeCut, 0u);
+    EXPECT_GT(report.volumeLargest, 0);
+  }
+}
+
+// What was cut stays counted, wherever the hair is put.
+TEST_F(VolumeStep, WhatIsCutIsCounted) {
+  auto simulation =
+      Simulation::create(device(), denseSwatch(32), {}, volumeSettings(), {}, {.volumeRange = 1.0 / 1024});
+  ASSERT_TRUE(simulation) << simulation.error().message;
+  shake(*simulation, 0, 4);
+  const ContactReport before = *simulation->contactReport();
+  EXPECT_GT(before.volumeCut, 0u);
+  EXPECT_GT(before.volumeLargest, 1);
+  EXPECT_EQ(before.warnings().size(), 1u);
+  ASSERT_TRUE(simulation->setState(*simulation->state()));
+  const ContactReport after = *simulation->contactReport();
+  EXPECT_EQ(after.volumeCut, before.volumeCut);
+  EXPECT_EQ(after.volumeLargest, before.volumeLargest);
+}
+
 // As a volume strands that meet keep further from each other's ways than without: it does something.
 TEST_F(VolumeStep, HoldsStrandsTogether) {
   const auto run = [&](bool on) {
@@ -264,6 +329,10 @@ TEST_F(VolumeStep, TooManyCellsBecomeLarger) {
   shake(*simulation, 0, 4);
   EXPECT_EQ(simulation->report()->nonfinite, 0u);
   EXPECT_LT(simulation->memory().volume, 100u << 20);
+  const ContactReport report = *simulation->contactReport();
+  EXPECT_GE(report.volumeCoarsest, 2);
+  ASSERT_EQ(report.warnings().size(), 1u);
+  EXPECT_NE(report.warnings()[0].find("times as large"), std::string::npos) << report.warnings()[0];
 }
 
 // At rest nothing is displaced and nothing moves beside the head: a volume gives nothing.

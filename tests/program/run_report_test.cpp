@@ -44,7 +44,9 @@ SimulateOutcome outcome() {
                                    .contacts = 105,
                                    .pairTests = 106,
                                    .rebuilds = 107,
-                                   .momentumError = 0.015625};
+                                   .momentumError = 0.015625,
+                                   .volumeCut = 111,
+                                   .volumeLargest = 1.125};
   outcome.contactNumbers = ContactNumbers{
       .crossings = 108,
       .worst = {.overlapping = 109, .rawRecall = 0.875, .overlapBeyondRestSum = 12.5, .deepestOverlap = 0.25},
@@ -97,6 +99,8 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"pair_tests", 106},
       {"rebuilds", 107},
       {"momentum_error", 0.015625},
+      {"volume_cut", 111},
+      {"volume_largest", 1.125},
       {"raw_recall", 0.875},
       {"overlap_beyond_rest_sum", 12.5},
       {"deepest_overlap_all", 0.375},
@@ -142,11 +146,12 @@ TEST(RunReport, WhatIsNotKnownIsNull) {
       EXPECT_EQ(value, whole[key]) << key;
   }
   EXPECT_EQ(found.size(), whole.size());
-  EXPECT_EQ(nulls, (std::set<std::string>{"velocity_residual", "volume_strands", "contact_particles",
-                                          "contacts", "pairs_unpruned", "pairs", "pair_tests", "rebuilds",
-                                          "momentum_error", "raw_recall", "overlap_beyond_rest_sum",
-                                          "deepest_overlap_all", "crossings", "deepest_penetration_mm",
-                                          "inside_bodies", "device_bytes", "cache_error_bound_m"}));
+  EXPECT_EQ(nulls,
+            (std::set<std::string>{"velocity_residual", "volume_strands", "contact_particles", "contacts",
+                                   "pairs_unpruned", "pairs", "pair_tests", "rebuilds", "momentum_error",
+                                   "volume_cut", "volume_largest", "raw_recall", "overlap_beyond_rest_sum",
+                                   "deepest_overlap_all", "crossings", "deepest_penetration_mm",
+                                   "inside_bodies", "device_bytes", "cache_error_bound_m"}));
 }
 
 TEST(RunReport, TheTextHasTheSameNumbers) {
@@ -157,9 +162,10 @@ TEST(RunReport, TheTextHasTheSameNumbers) {
         "4.50 s, 62 % of it stepping; 3.50 s before, 5.50 s after",
         "1.0625 x its length in the groom; the limit touched 3.12 % of edges",
         "105 in the worst frame, momentum error 0.016; 106 pair tests, 107 rebuilds",
-        "103 of 102 pairs of strands", "0.3750 of the radii beyond rest at the deepest, 12.5 in all",
-        "recall 0.875", "crossings     108", "deepest 62.5 mm (strand 4 particle 5, frame 7)",
-        "9 particles began inside", "off by at most 0.244 mm"})
+        "103 of 102 pairs of strands", "110 strands meet as a volume, with up to 1.1 of its range",
+        "0.3750 of the radii beyond rest at the deepest, 12.5 in all", "recall 0.875", "crossings     108",
+        "deepest 62.5 mm (strand 4 particle 5, frame 7)", "9 particles began inside",
+        "off by at most 0.244 mm"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is missing in:\n" << text;
 }
 

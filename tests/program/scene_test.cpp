@@ -59,10 +59,20 @@ TEST(Scene, ListsEveryScene) {
   }
 }
 
-const std::vector<std::string> kContactKeys = {
-    "volume_strands",      "contact_particles", "contacts",       "pairs_unpruned", "pairs",
-    "pair_tests",          "rebuilds",          "momentum_error", "raw_recall",     "overlap_beyond_rest_sum",
-    "deepest_overlap_all", "crossings"};
+const std::vector<std::string> kContactKeys = {"volume_strands",
+                                               "contact_particles",
+                                               "contacts",
+                                               "pairs_unpruned",
+                                               "pairs",
+                                               "pair_tests",
+                                               "rebuilds",
+                                               "momentum_error",
+                                               "volume_cut",
+                                               "volume_largest",
+                                               "raw_recall",
+                                               "overlap_beyond_rest_sum",
+                                               "deepest_overlap_all",
+                                               "crossings"};
 
 class SceneBackends : public testing::TestWithParam<const char*> {
  protected:

@@ -170,6 +170,8 @@ TEST_F(Checkpoint, GoesOnWithTheSameBits) {
     EXPECT_EQ(contactsWere.pairTests, contactsAre.pairTests);
     EXPECT_EQ(contactsWere.rebuilds, contactsAre.rebuilds);
     EXPECT_EQ(contactsWere.momentumError, contactsAre.momentumError);
+    EXPECT_EQ(contactsWere.volumeCut, contactsAre.volumeCut);
+    EXPECT_EQ(contactsWere.volumeLargest, contactsAre.volumeLargest);
     if (pairs && !one.isStill) {
       EXPECT_GT(contactsWere.contacts, 0u) << "nothing touches, and nothing is tested";
     }

@@ -18,7 +18,7 @@ namespace {
 
 // No text, as a cache's magic (cache_format.h).
 constexpr std::string_view kMagic = "\x89RGK\r\n\x1a\n";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeaderBytes = 24;
 constexpr std::size_t kMostDifferences = 4;  // told of
 

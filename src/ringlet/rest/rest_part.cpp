@@ -162,6 +162,7 @@ void restrictTo(RestVolume& volume, const RestHalo& halo, const Places& places) 
   const auto end = static_cast<std::uint32_t>(halo.here.size());
   const RestVolume whole = std::exchange(volume, {});
   volume.cell = whole.cell, volume.largestMass = whole.largestMass, volume.cells = whole.cells;
+  volume.longestStrand = whole.longestStrand;
   for (std::size_t i = 0; i < whole.particles.size(); ++i) {
     const std::uint32_t s = whole.strands[i];
     if (places.strand(s) >= end) continue;

@@ -11,13 +11,17 @@
 namespace ringlet {
 namespace {
 
-// One in so many particles of a strand is enough: they stand no further apart along it than kVolumeSpacing
-// cells.
-std::uint32_t volumeStride(const RestState& rest, const layout::StrandRest& strand, double cell) {
+double arcLength(const RestState& rest, const layout::StrandRest& strand) {
   double arc = 0;
   for (std::uint32_t i = 0; i + 1 < strand.particleCount; ++i)
     arc += rest.particles[strand.firstParticle + i].edgeLength;
-  const double edge = arc / std::max(1.0, strand.particleCount - 1.0);
+  return arc;
+}
+
+// One in so many particles of a strand is enough: they stand no further apart along it than kVolumeSpacing
+// cells.
+std::uint32_t volumeStride(const RestState& rest, const layout::StrandRest& strand, double cell) {
+  const double edge = arcLength(rest, strand) / std::max(1.0, strand.particleCount - 1.0);
   const double most = std::max(1.0, strand.particleCount / 2.0);
   return static_cast<std::uint32_t>(std::clamp(std::floor(kVolumeSpacing * cell / edge), 1.0, most));
 }
@@ -30,9 +34,7 @@ std::uint64_t reachableCells(const RestState& rest, const VolumeStrands& volume,
   for (std::size_t s = 0; s < rest.strands.size(); ++s) {
     if (!volume.isIn[s]) continue;
     const layout::StrandRest& strand = rest.strands[s];
-    double reach = 0;
-    for (std::uint32_t i = 0; i + 1 < strand.particleCount; ++i)
-      reach += kLongest * rest.particles[strand.firstParticle + i].edgeLength;
+    const double reach = kLongest * arcLength(rest, strand);
     const Vec3d root = static_cast<Vec3d>(rest.points[strand.firstParticle]);
     low = {std::min(low.x, root.x - reach), std::min(low.y, root.y - reach), std::min(low.z, root.z - reach)};
     high = {std::max(high.x, root.x + reach), std::max(high.y, root.y + reach),
@@ -52,6 +54,7 @@ RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts) 
   for (std::uint32_t s = 0; s < rest.strands.size(); ++s) {
     if (!contacts.volume.isIn[s]) continue;
     const layout::StrandRest& strand = rest.strands[s];
+    volume.longestStrand = std::max(volume.longestStrand, arcLength(rest, strand));
     DensityGrid own(volume.cell);
     const std::size_t first = volume.particles.size();
     const std::uint32_t stride = volumeStride(rest, strand, volume.cell);

@@ -20,6 +20,7 @@ struct RestVolume {
   std::vector<float> densities;          // of all hair at each one's place at rest [kg/m^3]
   std::vector<float> ownDensities;       // of its own strand alone [kg/m^3]
   float largestMass = 0;                 // of these masses [kg]
+  double longestStrand = 0;              // its arc length [m]
   std::uint64_t cells = 0;               // that hair can reach, with strands 1.1 times as long
 };
 

@@ -19,9 +19,9 @@ inline constexpr double kContactSeenAhead = 2;
 /// more than this.
 inline constexpr double kContactMargin = 0.15;
 
-/// Warm start: a step's solve starts from its contact-free velocities and this share of the velocity change
-/// that contacts, the stretch limit and, of hair as a volume, bodies caused in the last step. 0 is a cold
-/// start, 1 may oscillate.
+/// Warm start of contacts pair by pair: a step's solve starts from its contact-free velocities and this share
+/// of the velocity change that contacts and the stretch limit caused in the last step. 0 is a cold start, 1
+/// may oscillate. Hair as a volume: equations/volume.glsl.
 inline constexpr double kContactWarmth = 0.8;
 
 /// How a contact fades in and out.
@@ -63,9 +63,10 @@ inline std::uint32_t volumeSortSteps(double stepSeconds) {
 /// Largest distance along a strand between particles that take part, in cells; each represents the particles
 /// around it.
 inline constexpr double kVolumeSpacing = 1.6;
-/// Largest component of what the volume's nodes average (shaders/equations/volume.glsl) [m/s]; what is faster
-/// counts as this. A power of two.
-inline constexpr double kVolumeMostRate = 32;
+/// Speed beside the head up to which the volume's sums have room for hair [m/s].
+inline constexpr double kVolumeMostSpeed = 32;
+/// And stretch of a strand, where Settings::maxStretch allows more.
+inline constexpr double kVolumeMostStretch = 2;
 
 /// Where one contact particle in q takes part, its radius is multiplied by q to this power.
 inline constexpr double kThinnedRadiusPower = 0.2;
@@ -126,8 +127,17 @@ struct ContactSettings {
   std::optional<double> volumeCell;  // cell size [m], 1e-5 to 10; unset: kVolumeCellRadii radii, or more
                                      // where particles are farther apart
   double volumeDrag = 600;           // towards the velocity of the hair around [1/s], 0 to 1e5
-  double volumeStiffness = 1e5;      // towards its displacement [1/s^2], 0 to 1e9
+  double volumeStiffness = 6e4;      // towards its displacement [1/s^2], 0 to 1e9
   double volumeMemorySeconds = 0.3;  // time in which a displacement is forgotten [s], 0.001 to 1000
+
+  /// Largest component of a = kappa w + k T s (shaders/equations/volume.glsl) that the volume's sums have
+  /// room for [m/s]: of w up to kVolumeMostSpeed together with s up to twice the length of the longest
+  /// strand, stretched [m], which is the farthest that a tip gets from where it was. A power of two, at
+  /// least 1. The sums resolve 2^-30 of it: by default below 1e-6 m/s of w and 1e-8 m of s.
+  double volumeMostRate(double stepSeconds, double longestStrand) const {
+    const double kT = volumeStiffness * stepSeconds, kappa = stepSeconds * (volumeDrag + kT);
+    return std::exp2(std::ceil(std::log2(std::max(1.0, kappa * kVolumeMostSpeed + kT * 2 * longestStrand))));
+  }
 
   /// Whether strands may meet as a volume. The paper's contacts, with a taper in time, are pairs.
   bool mayBeVolume() const {

@@ -60,6 +60,7 @@ struct KernelChoice {
   std::uint64_t mostBufferBytes = 0;  // of one buffer; larger grooms are cut into chunks
   std::uint64_t mostDeviceBytes = 0;  // of all buffers
   int contactRoom = 1;                // factor on the initial room of contact lists, for tests
+  double volumeRange = 1;             // factor on ContactSettings::volumeMostRate, a power of two, for tests
 };
 
 }  // namespace ringlet

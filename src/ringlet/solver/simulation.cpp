@@ -2,6 +2,8 @@
 // (simulation_kernels.cpp): what is made at creation, and the ways to and from the hair's state.
 #include "ringlet/solver/simulation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -135,8 +137,8 @@ Status Simulation::Implementation::addContacts() {
     contacts = std::move(*stage);
   }
   if (asset->volume) {
-    auto stage =
-        VolumeStage::create(device.gpu(), rest, settings, *asset->volume, asset->halo.has_value(), buffers);
+    auto stage = VolumeStage::create(device.gpu(), rest, settings, *asset->volume, asset->halo.has_value(),
+                                     buffers, choice.volumeRange);
     if (!stage) return stage.error();
     volume = std::move(*stage);
   }
@@ -370,6 +372,26 @@ Result<SimulationReport> Simulation::report() const {
   return total;
 }
 
+std::vector<std::string> ContactReport::warnings() const {
+  std::vector<std::string> sentences;
+  if (volumeCut > 0) {
+    sentences.push_back(fmt::format(
+        "hair that meets as a volume was held back {} times, at most by a factor of {:.3g}: it moved faster "
+        "than {} m/s beside the head, or farther than twice its length. Look for jumps in the motion of the "
+        "head and the roots, or use --contacts explicit",
+        volumeCut, volumeLargest, kVolumeMostSpeed));
+  }
+  if (volumeCoarsest > 1) {
+    sentences.push_back(fmt::format(
+        "hair that meets as a volume extended over more cells than there is room for, so that cells became "
+        "{:.3g} "
+        "times as large and hair was coupled over as much more. Use a larger --volume-cell, or look for hair "
+        "that is far away",
+        volumeCoarsest));
+  }
+  return sentences;
+}
+
 Result<ContactReport> Simulation::contactReport() const {
   if (Status status = self_->finishFrames(); !status) return status.error();
   ContactReport report = self_->contactReport;
@@ -381,6 +403,12 @@ Result<ContactReport> Simulation::contactReport() const {
     report.contactSides = *sides;
     report.rebuilds = self_->contacts->rebuilds();
     report.pairTests = self_->contacts->pairTests();
+  }
+  if (self_->volume) {
+    const auto reached = self_->volume->reached();
+    if (!reached) return reached.error();
+    report.volumeCut = reached->cut, report.volumeLargest = reached->largest;
+    report.volumeCoarsest = reached->coarsest;
   }
   const auto momentum = contactMomentum(self_->buffers.chunks[0], self_->rest, self_->contactKinds());
   if (!momentum) return momentum.error();

@@ -6,6 +6,7 @@
 //   device:         1 ............................ 2 ................................ 3
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -66,6 +67,10 @@ struct ContactReport {
   std::uint64_t pairTests = 0;  // pairs of particles tested since the simulation began, over all steps
   std::uint64_t rebuilds = 0;   // of the lists, since the simulation began
   double momentumError = 0;     // of the last step: |sum of contact momenta| over the sum of their sizes
+  std::uint64_t volumeCut = 0;  // how often a particle's coupling to the volume was cut, since the simulation
+                                // began: it was larger than the volume's sums have room for
+  double volumeLargest = 0;     // the largest coupling as a share of that room; above 1 it was cut
+  double volumeCoarsest = 0;    // the largest cell of the volume's grid as a multiple of that asked for
   // What listed, contacts and momentumError come from, of the strands that are simulated here: each pair has
   // two sides.
   std::uint64_t listedSides = 0, contactSides = 0;
@@ -78,9 +83,13 @@ struct ContactReport {
   /// Another part of the same hair (KernelChoice::link).
   void add(const ContactReport& part) {
     listedSides += part.listedSides, contactSides += part.contactSides, pairTests += part.pairTests;
+    volumeCut += part.volumeCut, volumeLargest = std::max(volumeLargest, part.volumeLargest);
+    volumeCoarsest = std::max(volumeCoarsest, part.volumeCoarsest);
     momentum = {momentum.sum + part.momentum.sum, momentum.sizes + part.momentum.sizes};
     derive();
   }
+  /// Sentences for people: where the volume had no room for hair, and what to do.
+  std::vector<std::string> warnings() const;
 };
 
 /// Sizes of a simulation's buffers in bytes (docs/memory.md).

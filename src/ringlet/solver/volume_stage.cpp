@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -68,10 +69,13 @@ std::uint32_t groupsOf(std::uint64_t particles) {
 }  // namespace
 
 Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                        const RestVolume& volume, bool divided, DeviceGroom& groom) {
+                                        const RestVolume& volume, bool divided, DeviceGroom& groom,
+                                        double range) {
   VolumeStage self;
   self.isDivided_ = divided;
   self.largestMass_ = volume.largestMass;
+  self.longestStrand_ = volume.longestStrand;
+  self.range_ = range;
   self.groom_ = &groom;
   self.densities_ = volume.densities;
   const std::uint64_t count = volume.particles.size();
@@ -79,7 +83,6 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   self.parameters_.count = static_cast<std::uint32_t>(count);
   self.parameters_.cellCapacity = capacity;
   self.parameters_.cell = static_cast<float>(volume.cell);
-  self.parameters_.warmth = static_cast<float>(kContactWarmth);
   self.setSettings(settings);
   if (groupsOf(count) > device.properties().maxGroupCount) {
     return Error{
@@ -180,7 +183,8 @@ gpu::BufferTable VolumeStage::bufferTable() const {
           {kBindVolumeStateTexels, states},
           {kBindVolumeBroughtTexels, brought},
           {kBindVolumeParcelTexels, parcels},
-          {kBindVolumeNodeTexels, nodes}};
+          {kBindVolumeNodeTexels, nodes},
+          {kBindVolumeAddedTexels, hair.addedByVolume}};
 }
 
 Status VolumeStage::release(std::span<const std::uint32_t> particles) {
@@ -201,7 +205,8 @@ void VolumeStage::setSettings(const Settings& settings) {
   // A term of the sums has kVolumeUnits at most. Without drag and stiffness there are none.
   constexpr auto kUnits = static_cast<double>(layout::kVolumeUnits);
   const double gain = T * (settings.contacts.volumeDrag + T * settings.contacts.volumeStiffness);
-  parameters_.mostRate = static_cast<float>(kVolumeMostRate);
+  const double longest = std::min(settings.maxStretch, kVolumeMostStretch) * longestStrand_;
+  parameters_.mostRate = static_cast<float>(range_ * settings.contacts.volumeMostRate(T, longest));
   parameters_.unitsPerMass = static_cast<float>(kUnits / largestMass_);
   parameters_.unitsPerGain = gain > 0 ? static_cast<float>(kUnits / (largestMass_ * gain)) : 0.0f;
 }
@@ -310,8 +315,19 @@ std::span<std::uint32_t> VolumeStage::densities(bool isFirst) {
 Status VolumeStage::forget() {
   const std::vector<layout::VolumeState> states = unknownStates(densities_);
   if (Status status = buffers_->states.upload(std::as_bytes(std::span(states))); !status) return status;
-  const layout::VolumeControl control = emptyControl();
+  const auto before = downloadAll<layout::VolumeControl>(buffers_->control, 1);
+  if (!before) return before.error();
+  layout::VolumeControl control = emptyControl();
+  control.cut = before->front().cut, control.largest = before->front().largest;
+  control.largestCell = before->front().largestCell;
   return buffers_->control.upload(std::as_bytes(std::span(&control, 1)));
+}
+
+Result<VolumeReach> VolumeStage::reached() const {
+  const auto control = downloadAll<layout::VolumeControl>(buffers_->control, 1);
+  if (!control) return control.error();
+  return VolumeReach{control->front().cut, double{std::bit_cast<float>(control->front().largest)},
+                     double{control->front().largestCell} / double{parameters_.cell}};
 }
 
 Status VolumeStage::archive(Archive& archive) {

@@ -29,13 +29,22 @@
 
 namespace ringlet {
 
+/// What the volume had room for, since the simulation began: how often a particle's a was cut, the largest
+/// component of a as a share of ContactSettings::volumeMostRate, and the largest cell as a multiple of
+/// that asked for.
+struct VolumeReach {
+  std::uint32_t cut = 0;
+  double largest = 0, coarsest = 0;
+};
+
 class VolumeStage {
  public:
   /// Fails, with the numbers and what to do, where the device lacks memory. `groom` is of one chunk, and must
   /// live as long, in one place.
-  /// divided: other devices step other strands of the volume, which `volume` lacks.
+  /// divided: other devices step other strands of the volume, which `volume` lacks. range: as
+  /// KernelChoice::volumeRange.
   static Result<VolumeStage> create(gpu::Device& device, const RestState& rest, const Settings& settings,
-                                    const RestVolume& volume, bool divided, DeviceGroom& groom);
+                                    const RestVolume& volume, bool divided, DeviceGroom& groom, double range);
 
   /// Number of kernels that no other simulation on this device had made before.
   std::size_t newKernelCount() const { return newKernels_.size(); }
@@ -75,6 +84,9 @@ class VolumeStage {
   /// last solve.
   Status archive(Archive& archive);
 
+  /// Whether the sums had room for what particles contributed, since the simulation began.
+  Result<VolumeReach> reached() const;
+
   std::uint64_t bytes() const;
 
  private:
@@ -98,6 +110,8 @@ class VolumeStage {
   std::vector<float> densities_;  // at rest
   layout::VolumeParameters parameters_{};
   float largestMass_ = 0;
+  double longestStrand_ = 0;  // as RestVolume's
+  double range_ = 1;          // KernelChoice::volumeRange
   bool isDivided_ = false;
 };
 
