@@ -46,6 +46,7 @@ class GpuBackend : public Backend {
   Result<SimulationReport> report() override { return simulation_.report(); }
   Result<ContactReport> contactReport() override { return simulation_.contactReport(); }
   std::map<std::string, double> stageMilliseconds() const override { return simulation_.stageMilliseconds(); }
+  std::optional<HostMilliseconds> hostMilliseconds() const override { return simulation_.hostMilliseconds(); }
   std::size_t rigidStrandCount() const override { return simulation_.rigidStrandCount(); }
   std::vector<std::string> warnings() const override { return simulation_.warnings(); }
   /// The validation layer's too, where it is on.

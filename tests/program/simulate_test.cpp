@@ -114,7 +114,18 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
     EXPECT_TRUE(out["stages_ms"][stage].is_number()) << stage;
   for (const char* part : {"start", "frames", "finish"})
     EXPECT_GE(out["wall_s"][part].get<double>(), 0) << part;
-  for (const char* whom : {"device", "writer"}) EXPECT_GE(out["waits_ms"][whom].get<double>(), 0) << whom;
+  const bool isOnDevice = GetParam() == std::string("gpu");
+  for (const char* whom : {"device", "writer", "scatter"})
+    EXPECT_GE(out["waits_ms"][whom].get<double>(), 0) << whom;
+  for (const char* whom : {"submit", "fence"})
+    EXPECT_EQ(out["waits_ms"][whom].is_number(), isOnDevice) << whom;
+  EXPECT_EQ(out["stages_ms"].contains("copy_out"), isOnDevice);
+  EXPECT_NEAR(out["ms_per_frame"].get<double>(), out["stages_ms"]["strand_step"].get<double>(), 1e-9);
+  EXPECT_GT(out["frame_ms"]["least"].get<double>(), 0);
+  EXPECT_GE(out["frame_ms"]["median"].get<double>(), out["frame_ms"]["least"].get<double>());
+  EXPECT_GE(out["frame_ms"]["first"].get<double>(), out["frame_ms"]["least"].get<double>());
+  EXPECT_GE(7 * out["ms_per_frame"].get<double>(),
+            out["frame_ms"]["first"].get<double>() + 6 * out["frame_ms"]["least"].get<double>() - 1e-9);
   const double computed = 7 * out["ms_per_frame"].get<double>() / 1000;
   EXPECT_NEAR(out["compute_share"].get<double>(), computed / out["wall_s"]["frames"].get<double>(), 1e-9);
   for (const char* key : {"device", "driver", "kernel"})
