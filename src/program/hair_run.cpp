@@ -190,6 +190,7 @@ class HairRun {
   const FrameObserver& observer_;
   SimulateOutcome outcome_;
 
+  std::optional<EndsUnheard> unheard_;
   std::optional<RunFolder> folder_;
   RunCheckpoints checkpoints_;
   std::unique_ptr<Backend> backend_;
@@ -225,6 +226,9 @@ Status HairRun::makeHair() {
     if (!made) return made.error();
     checkpoints_ = std::move(*made);
   }
+  // Until the first frame is there, in which drivers compile too. In a sweep others write, and ranks end
+  // together.
+  if (options_.runNumber == 0 && ranks().count <= 1) unheard_.emplace();
   auto backend = makeBackend(input_, options_);
   if (!backend) return backend.error();
   backend_ = std::move(*backend);
@@ -361,6 +365,7 @@ Status HairRun::stepAll() {
     underWay_ = {frame + 1, {}, poses.heads.back(), {bodies.begin(), bodies.end()}};
   }
   if (Status taken = takeUnderWay(); !taken) return taken;
+  unheard_.reset();
   if (frame < options_.frameCount && checkpoints_.areWanted()) {
     if (Status saved = saveAt(frame); !saved) return saved;
   }
@@ -374,7 +379,9 @@ Status HairRun::takeUnderWay() {
   if (!underWay_) return {};
   ComputedFrame frame = std::move(*underWay_);
   underWay_.reset();
-  if (Status waited = stepper_->waitFrame(); !waited) return afterWritten(waited.error());
+  const Status waited = stepper_->waitFrame();
+  unheard_.reset();
+  if (!waited) return afterWritten(waited.error());
   {
     Stopwatch watch(readbackTime_);
     frame.positions = stepper_->framePositions();
