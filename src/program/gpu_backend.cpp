@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "program/backend.h"
-#include "program/cache_folder.h"
 #include "program/compile_note.h"
+#include "program/open_device.h"
 #include "program/standard_error.h"
 #include "program/tuned_shapes.h"
 #include "ringlet/solver/shape_plan.h"
@@ -53,6 +53,7 @@ class GpuBackend : public Backend {
   std::vector<std::string> deviceMessages() const override {
     std::vector<std::string> all;
     if (!tuned_.warning.empty()) all.push_back(tuned_.warning);
+    if (std::string left = whatIsLeftOut(); !left.empty()) all.push_back(std::move(left));
     const std::vector<std::string> messages = device_.validationMessages();
     for (std::size_t i = messagesBefore_; i < messages.size(); ++i)
       all.push_back("Vulkan validation: " + messages[i]);
@@ -83,7 +84,7 @@ bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
 }  // namespace
 
 Result<ComputeDevice> openGpu(const std::string& device) {
-  auto opened = ComputeDevice::open(device, cacheFolder());
+  auto opened = openDevice(device);
   if (!opened)
     return Error{opened.error().message + " (`--backend reference` runs without Vulkan, slowly)",
                  opened.error().fault};

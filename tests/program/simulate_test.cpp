@@ -458,6 +458,31 @@ class Interruption : public testing::Test {
   }
 };
 
+// $RINGLET_WITHOUT: the same bits by another way.
+TEST_F(Interruption, ADeviceDoesWithoutWhatIsNamed) {
+  RINGLET_NEEDS_DEVICE(folder_);
+  const auto simulated = [&](const char* without) {
+    setenv("RINGLET_WITHOUT", without, 1);
+    const auto result =
+        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
+    unsetenv("RINGLET_WITHOUT");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return json::parse(result.out, nullptr, false);
+  };
+  const json all = simulated(""), few = simulated("texels,timestamps");
+  EXPECT_TRUE(all["stages_ms"].contains("copy_out"));
+  EXPECT_FALSE(few["stages_ms"].contains("copy_out"));
+  EXPECT_GT(few["stages_ms"]["strand_step"].get<double>(), 0) << "by the host's clock";
+  EXPECT_EQ(few["positions_hash"], all["positions_hash"]);
+  EXPECT_EQ(all["warnings"].dump().find("RINGLET_WITHOUT"), std::string::npos);
+  EXPECT_NE(few["warnings"].dump().find("without texels,timestamps"), std::string::npos) << few["warnings"];
+  setenv("RINGLET_WITHOUT", "texels,luck", 1);
+  const auto wrong = runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "-o", "out"});
+  unsetenv("RINGLET_WITHOUT");
+  EXPECT_EQ(wrong.exitCode, 1);
+  EXPECT_NE(wrong.err.find("there is no luck"), std::string::npos) << wrong.err;
+}
+
 TEST_F(Interruption, CtrlCKeepsFinishedFrames) {
   RunningProgram program(folder_, arguments_);
   EXPECT_TRUE(waitForFrames());
