@@ -41,7 +41,7 @@ items() {
     item "kernels_of_${part// /_}" 60 ringlet kernels --statistics --only "$part" --json "$json"
   done
   # Shapes, lanes x run.
-  item tune 90 ringlet tune --seconds 60 --particles 16 32 64 128 --json --quiet
+  item tune 90 ringlet tune --seconds 60 --particles 16 32 64 128 --quiet --report "$json"
   # Hair alone with 1 to 32 steps a dispatch, all of the same length: what a step costs falls towards its arithmetic.
   for steps in 1 2 4 16 32; do
     simulate steps_$steps 40 10000x32 --steps-per-frame $steps --fps $((192 / steps)) --frames 200
