@@ -47,8 +47,8 @@ items() {
     simulate steps_$steps 40 10000x32 --steps-per-frame $steps --fps $((192 / steps)) --frames 200
   done
   # Many heads, pictures, contacts by stage without a scene, frames that are held against the reference.
-  item heads_100 40 heads_bench 100 100 32
-  item heads_16 40 heads_bench 16 1000 64
+  item heads_100 40 heads_bench 100 100 32 --json
+  item heads_16 40 heads_bench 16 1000 64 --json
   simulate render_run 20 1000x64 --frames 12 --cache float32
   item render_30000 40 ringlet render "$work/run-render_run" --hairs 30000 --size 1920x1080 --json --quiet -o "$work/pictures"
   item render_100000 40 ringlet render "$work/run-render_run" --hairs 100000 --size 1920x1080 --json --quiet -o "$work/pictures"
