@@ -47,7 +47,8 @@ find_driver() {
   finds_gpu && return 0
   [ -n "${VK_DRIVER_FILES:-}" ] && { finds_any; return; }
   export LD_LIBRARY_PATH=$LD_LIBRARY_PATH:/usr/local/nvidia/lib64:/usr/local/nvidia/lib:/usr/lib/x86_64-linux-gnu
-  local file folder library files=() which
+  local file folder library files=() which vendor=/usr/local/nvidia/share/glvnd/egl_vendor.d/10_nvidia.json
+  [ -f $vendor ] && export __EGL_VENDOR_LIBRARY_FILENAMES=$vendor
   for file in /usr/local/nvidia/share/vulkan/icd.d/*.json /opt/*/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json \
     /usr/share/vulkan/icd.d/*.json; do
     [ -f "$file" ] && files+=("$file")
@@ -150,7 +151,7 @@ ending() {
 }
 # Of a result, what a person wants to see at once.
 figure() {
-  grep -oE '"(ms_per_frame|median_ms|seconds_per_frame|kernel|conforms)": *("[^"]*"|[0-9.e+-]+|true|false)' <<<"$1" | head -n 4 | tr '\n' ' '
+  grep -oE '"(ms_per_frame|median|seconds_per_frame|kernel|conforms)": *("[^"]*"|[0-9.e+-]+|true|false)' <<<"$1" | head -n 4 | tr '\n' ' '
 }
 
 # Grooms, made on other cores while the first items run.
