@@ -131,7 +131,7 @@ void contacts(benchmark::State& state) {
   }
   double step = 0;
   for (const auto& [stage, values] : samples) {
-    if (stage == "readback" || stage == "write" || stage == "cpu_per_core") continue;
+    if (stage == kCopyStage || stage == "cpu_per_core") continue;
     step += median(values);
   }
   const double build = median(samples["contact_grid"]), query = median(samples["contact_query"]);

@@ -1,10 +1,13 @@
 // What many heads of one asset take for a frame: one by one, together in one submission, and, for comparison,
 // as many strands on one head. Verified before it is timed: each head together with the others has the bits
-// it has alone. Run: build/release/bench/heads_bench [HEADS [STRANDS [PARTICLES]]]
+// it has alone. Run: build/release/bench/heads_bench [HEADS [STRANDS [PARTICLES]]] [--json]
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/clocks.h"
@@ -84,7 +87,44 @@ Result<HairAsset> assetOf(const ComputeDevice& device, int strands, int particle
   return groom ? HairAsset::build(device, *groom, {}, {}, {.heads = heads}) : groom.error();
 }
 
-Status run(int headCount, int strands, int particles) {
+struct Figures {
+  std::string device, kernel, wholeKernel;
+  double created = 0;       // another head [ms]
+  std::vector<Time> times;  // as kWays
+};
+constexpr const char* kWays[] = {"one by one", "together", "one groom"};
+
+struct Asked {
+  int headCount = 100, strands = 100, particles = 32;
+};
+
+void print(const Asked& asked, const Figures& found) {
+  fmt::print("{} heads of {} x {} on {}, {}; one of {} x {}, {}\n", asked.headCount, asked.strands,
+             asked.particles, found.device, found.kernel, asked.strands * asked.headCount, asked.particles,
+             found.wholeKernel);
+  fmt::print("  each head is, bit for bit, where it is alone; another head takes {:.2f} ms to make\n",
+             found.created);
+  fmt::print("  frame of all       wall [ms]   CPU [ms]   wall by one groom's\n");
+  for (std::size_t w = 0; w < found.times.size(); ++w)
+    fmt::print("  {:<16} {:10.1f} {:10.1f} {:12.2f}\n", kWays[w], found.times[w].wall, found.times[w].cpu,
+               found.times[w].ratio);
+}
+
+void printJson(const Asked& asked, const Figures& found) {
+  nlohmann::ordered_json json{{"heads", asked.headCount},        {"strands", asked.strands},
+                              {"particles", asked.particles},    {"device", found.device},
+                              {"kernel", found.kernel},          {"one_groom_kernel", found.wholeKernel},
+                              {"ms_to_make_head", found.created}};
+  for (std::size_t w = 0; w < found.times.size(); ++w)
+    json["frame_of_all"].push_back({{"way", kWays[w]},
+                                    {"wall_ms", found.times[w].wall},
+                                    {"cpu_ms", found.times[w].cpu},
+                                    {"wall_by_one_groom", found.times[w].ratio}});
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+Result<Figures> measure(const Asked& asked) {
+  const auto [headCount, strands, particles] = asked;
   const auto device = ComputeDevice::open();
   if (!device) return device.error();
   const auto asset = assetOf(*device, strands, particles, headCount);
@@ -101,9 +141,9 @@ Status run(int headCount, int strands, int particles) {
   if (!one) return one.error();
 
   for (int frame = 0; frame < kVerified; ++frame) {
-    if (Status status = stepEach(*alone, frame); !status) return status;
-    if (Status status = stepTogether(*together, frame); !status) return status;
-    if (Status status = stepEach(*one, frame); !status) return status;
+    if (Status status = stepEach(*alone, frame); !status) return status.error();
+    if (Status status = stepTogether(*together, frame); !status) return status.error();
+    if (Status status = stepEach(*one, frame); !status) return status.error();
   }
   for (int k = 0; k < headCount; ++k) {
     if ((*alone)[k].framePositions() != (*together)[k].framePositions())
@@ -114,25 +154,31 @@ Status run(int headCount, int strands, int particles) {
                                  [&](int frame) { return stepTogether(*together, frame); },
                                  [&](int frame) { return stepEach(*one, frame); }});
   if (!times) return times.error();
-  fmt::print("{} heads of {} x {} on {}, {}; one of {} x {}, {}\n", headCount, strands, particles,
-             device->name(), together->front().kernelDescription(), strands * headCount, particles,
-             one->front().kernelDescription());
-  fmt::print("  each head is, bit for bit, where it is alone; another head takes {:.2f} ms to make\n",
-             created);
-  fmt::print("  frame of all       wall [ms]   CPU [ms]   wall by one groom's\n");
-  const char* names[] = {"one by one", "together", "one groom"};
-  for (std::size_t w = 0; w < times->size(); ++w)
-    fmt::print("  {:<16} {:10.1f} {:10.1f} {:12.2f}\n", names[w], (*times)[w].wall, (*times)[w].cpu,
-               (*times)[w].ratio);
-  return {};
+  return Figures{device->name(), together->front().kernelDescription(), one->front().kernelDescription(),
+                 created, *times};
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  const auto number = [&](int i, int otherwise) { return count > i ? std::atoi(arguments[i]) : otherwise; };
-  const Status status = run(number(1, 100), number(2, 100), number(3, 32));
-  if (status) return 0;
-  fmt::print(stderr, "heads_bench: {}\n", status.error().message);
-  return 1;
+  std::vector<int> numbers;
+  bool isJson = false;
+  for (int i = 1; i < count; ++i) {
+    if (std::string_view(arguments[i]) == "--json") {
+      isJson = true;
+    } else {
+      numbers.push_back(std::atoi(arguments[i]));
+    }
+  }
+  const auto number = [&](std::size_t i, int otherwise) {
+    return numbers.size() > i ? numbers[i] : otherwise;
+  };
+  const Asked asked{number(0, 100), number(1, 100), number(2, 32)};
+  const auto found = measure(asked);
+  if (!found) {
+    fmt::print(stderr, "heads_bench: {}\n", found.error().message);
+    return 1;
+  }
+  isJson ? printJson(asked, *found) : print(asked, *found);
+  return 0;
 }

@@ -1,8 +1,9 @@
-// Whole frames of the Simulation class: hair alone, with contacts, with bodies. First that a frame of a small
-// groom of the same kind is what the reference says, then medians of a frame of 8 steps in which the
-// head turns. Run: build/release/bench/step_bench
+// Whole frames of the Simulation class: hair alone, with contacts (as they are chosen, and all pair by pair),
+// with bodies. First that a frame of a small groom of the same kind is what the reference says, then medians
+// of a frame of 8 steps in which the head turns. Run: build/release/bench/step_bench
 //
-// * device_ms: all stages on the device; of them strand_ms, and contact_ms all that contacts add.
+// * device_ms: all stages of stepping on the device; of them strand_ms, and contact_ms all that contacts add.
+// * copy_ms: of positions to the host, on the device too.
 // * wall_ms: stepFrame and positions() together; readback_ms: positions() alone.
 // * cpu_ms: of the process, all cores together.
 //
@@ -31,7 +32,8 @@ constexpr double kAgreement = 1e-5, kAgreementAmongBodies = 1e-4;
 
 const ComputeDevice* device = nullptr;
 
-enum class Kind { hair, contacts, bodies };
+enum class Kind { hair, contacts, explicitContacts, bodies };
+bool hasContacts(Kind kind) { return kind == Kind::contacts || kind == Kind::explicitContacts; }
 
 Groom headOf(int strands, int particles) {
   HeadParameters head;
@@ -44,7 +46,8 @@ Groom headOf(int strands, int particles) {
 
 Settings settingsOf(Kind kind) {
   Settings settings;
-  settings.contacts.on = kind == Kind::contacts;
+  settings.contacts.on = hasContacts(kind);
+  if (kind == Kind::explicitContacts) settings.contacts.method = ContactMethod::explicitPairs;
   return settings;
 }
 
@@ -110,7 +113,7 @@ Status verify(int strands, int particles, Kind kind) {
   if (!found) return found.error();
   const auto expected = referenceAfter<double>(groom, kind, poses);
   double allowed = kind == Kind::bodies ? kAgreementAmongBodies : kAgreement;
-  if (kind == Kind::contacts) allowed += distance(referenceAfter<float>(groom, kind, poses), expected);
+  if (hasContacts(kind)) allowed += distance(referenceAfter<float>(groom, kind, poses), expected);
   const double off = distance(*found, expected);
   if (off <= allowed) return {};
   return Error{fmt::format(
@@ -137,7 +140,7 @@ Status timeFrame(Simulation& simulation, int frame, FrameSamples& samples) {
   double sum = 0;
   for (const auto& [stage, milliseconds] : simulation.stageMilliseconds()) {
     samples.stages[stage].push_back(milliseconds - before[stage]);
-    sum += milliseconds - before[stage];
+    if (stage != kCopyStage) sum += milliseconds - before[stage];
   }
   samples.device.push_back(sum);
   return {};
@@ -152,6 +155,7 @@ void report(benchmark::State& state, FrameSamples& samples) {
   state.counters["device_ms"] = median(samples.device);
   state.counters["strand_ms"] = strand;
   state.counters["contact_ms"] = contact;
+  state.counters["copy_ms"] = samples.stages.contains(kCopyStage) ? median(samples.stages[kCopyStage]) : 0;
   state.counters["wall_ms"] = median(samples.wall);
   state.counters["readback_ms"] = median(samples.readback);
   state.counters["cpu_ms"] = median(samples.cpu);
@@ -178,8 +182,10 @@ void frames(benchmark::State& state, int strands, int particles, Kind kind) {
 }
 
 void registerAll() {
-  const std::pair<const char*, Kind> kinds[] = {
-      {"hair", Kind::hair}, {"contacts", Kind::contacts}, {"bodies", Kind::bodies}};
+  const std::pair<const char*, Kind> kinds[] = {{"hair", Kind::hair},
+                                                {"contacts", Kind::contacts},
+                                                {"explicit", Kind::explicitContacts},
+                                                {"bodies", Kind::bodies}};
   const std::pair<int, int> grooms[] = {{1'000, 64}, {1'500, 64}, {10'000, 32}, {100'000, 16}};
   for (const auto& [name, kind] : kinds) {
     for (const auto& [strands, particles] : grooms) {

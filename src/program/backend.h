@@ -69,6 +69,10 @@ class Backend {
   virtual Result<ContactReport> contactReport() = 0;
   /// By stage of computing, summed over all frames waited for [ms].
   virtual std::map<std::string, double> stageMilliseconds() const = 0;
+  /// Whether these can be asked for after every frame; not where that is a message.
+  virtual bool tellsTimesOfFrames() const { return true; }
+  /// What the host spent on the device, summed likewise; none without a device, or with several.
+  virtual std::optional<HostMilliseconds> hostMilliseconds() const { return {}; }
   /// Number of strands that are carried rigidly (rest/rigid_strands.h).
   virtual std::size_t rigidStrandCount() const = 0;
   /// Of the hair and its settings; and of the device: its own watchers', its tuned shapes where they cannot

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +20,7 @@
 #include "program/conform_facts.h"
 #include "program/conform_probes.h"
 #include "program/exit_codes.h"
+#include "program/growing_report.h"
 #include "ringlet/gpu/device.h"
 
 namespace ringlet::program {
@@ -53,7 +54,7 @@ constexpr const char* kHelp =
     "The last line is `conforms`, or `does not conform` after a list of what is wrong.\n"
     "\n"
     "--json keys: facts (as printed) quick checks (of each name outcome figure tolerance detail\n"
-    "compile_seconds) conforms.\n"
+    "compile_seconds) conforms (null until all is checked). The file is whole after each check.\n"
     "\n"
     "Exit status: 0 conforms, 1 does not conform or something failed, 2 wrong usage.";
 
@@ -85,7 +86,7 @@ std::string lineOf(const Check& check) {
 }
 
 nlohmann::ordered_json asJson(const nlohmann::ordered_json& facts, const Typed& typed,
-                              const std::vector<Check>& checks, bool conforms) {
+                              const std::vector<Check>& checks, std::optional<bool> conforms) {
   nlohmann::ordered_json json{{"facts", facts}, {"quick", typed.quick}, {"checks", nlohmann::json::array()}};
   const auto orNull = [](const std::optional<double>& number) {
     return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
@@ -98,20 +99,13 @@ nlohmann::ordered_json asJson(const nlohmann::ordered_json& facts, const Typed& 
                               {"detail", check.detail},
                               {"compile_seconds", check.compileSeconds}});
   }
-  json["conforms"] = conforms;
+  json["conforms"] = conforms ? nlohmann::ordered_json(*conforms) : nlohmann::ordered_json();
   return json;
 }
 
 int fail(const Error& error) {
   say("ringlet conform: {}\n", error.message);
   return exitCodeOf(error);
-}
-
-int writeJson(const std::filesystem::path& path, const nlohmann::ordered_json& json) {
-  std::ofstream file(path);
-  file << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.close();
-  return file ? kExitFine : fail({fmt::format("cannot write {}", path.string()), Fault::output});
 }
 
 // A line as soon as it is there: some take a driver's compiler many seconds.
@@ -126,10 +120,14 @@ int run(const Typed& typed) {
   if (!typed.breaks.empty())
     fmt::print("  The kernel {} has an error on purpose (--break).\n\n", typed.breaks);
   std::vector<Check> checks;
+  const GrowingReport report(typed.json);
+  Status written = report.grow(asJson(facts, typed, checks, {}));
+  if (!written) return fail(written.error());
   const auto tell = [&](const Check& check) {
     fmt::print("{}\n", lineOf(check));
     std::fflush(stdout);
     checks.push_back(check);
+    if (written) written = report.grow(asJson(facts, typed, checks, {}));
   };
   runProbes(*device, tell);
   runCases({*device, *withoutTexels, typed.quick}, tell);
@@ -145,11 +143,8 @@ int run(const Typed& typed) {
     if (check.outcome == Check::Outcome::wrong) fmt::print("  {}\n", check.name);
   }
   fmt::print("\n{}\n", conforms ? "conforms" : "does not conform");
-  if (!typed.json.empty()) {
-    if (const int exitCode = writeJson(typed.json, asJson(facts, typed, checks, conforms));
-        exitCode != kExitFine)
-      return exitCode;
-  }
+  written = report.finish(asJson(facts, typed, checks, conforms));
+  if (!written) return fail(written.error());
   return conforms ? kExitFine : kExitFailed;
 }
 

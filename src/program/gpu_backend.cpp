@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "program/backend.h"
-#include "program/cache_folder.h"
 #include "program/compile_note.h"
+#include "program/open_device.h"
 #include "program/standard_error.h"
 #include "program/tuned_shapes.h"
 #include "ringlet/solver/shape_plan.h"
@@ -46,12 +46,14 @@ class GpuBackend : public Backend {
   Result<SimulationReport> report() override { return simulation_.report(); }
   Result<ContactReport> contactReport() override { return simulation_.contactReport(); }
   std::map<std::string, double> stageMilliseconds() const override { return simulation_.stageMilliseconds(); }
+  std::optional<HostMilliseconds> hostMilliseconds() const override { return simulation_.hostMilliseconds(); }
   std::size_t rigidStrandCount() const override { return simulation_.rigidStrandCount(); }
   std::vector<std::string> warnings() const override { return simulation_.warnings(); }
   /// The validation layer's too, where it is on.
   std::vector<std::string> deviceMessages() const override {
     std::vector<std::string> all;
     if (!tuned_.warning.empty()) all.push_back(tuned_.warning);
+    if (std::string left = whatIsLeftOut(); !left.empty()) all.push_back(std::move(left));
     const std::vector<std::string> messages = device_.validationMessages();
     for (std::size_t i = messagesBefore_; i < messages.size(); ++i)
       all.push_back("Vulkan validation: " + messages[i]);
@@ -82,7 +84,7 @@ bool mayBeTuned(const BackendInput& input, const KernelChoice& kernel) {
 }  // namespace
 
 Result<ComputeDevice> openGpu(const std::string& device) {
-  auto opened = ComputeDevice::open(device, cacheFolder());
+  auto opened = openDevice(device);
   if (!opened)
     return Error{opened.error().message + " (`--backend reference` runs without Vulkan, slowly)",
                  opened.error().fault};

@@ -190,6 +190,7 @@ class HairRun {
   const FrameObserver& observer_;
   SimulateOutcome outcome_;
 
+  std::optional<EndsUnheard> unheard_;
   std::optional<RunFolder> folder_;
   RunCheckpoints checkpoints_;
   std::unique_ptr<Backend> backend_;
@@ -202,6 +203,7 @@ class HairRun {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point firstFrame_{}, lastFrame_{};
   std::map<std::string, double> stagesBefore_;
+  HostMilliseconds hostBefore_;
   double posesTime_ = 0, readbackTime_ = 0, waitedForWriter_ = 0;  // [ms]
   std::optional<WriterThread> disk_;                               // waits for the disk
   std::optional<FrameSink> sink_;                                  // goes first: it works on the rest
@@ -224,6 +226,9 @@ Status HairRun::makeHair() {
     if (!made) return made.error();
     checkpoints_ = std::move(*made);
   }
+  // Until the first frame is there, in which drivers compile too. In a sweep others write, and ranks end
+  // together.
+  if (options_.runNumber == 0 && ranks().count <= 1) unheard_.emplace();
   auto backend = makeBackend(input_, options_);
   if (!backend) return backend.error();
   backend_ = std::move(*backend);
@@ -239,6 +244,7 @@ Status HairRun::makeHair() {
     if (Status rolled = preRoll(*backend_, input_, options_); !rolled) return rolled;
   }
   stagesBefore_ = backend_->stageMilliseconds();
+  hostBefore_ = backend_->hostMilliseconds().value_or(HostMilliseconds{});
   auto stepper = Stepper::make(*backend_, input_, options_);
   if (!stepper) return stepper.error();
   stepper_.emplace(std::move(*stepper));
@@ -359,6 +365,7 @@ Status HairRun::stepAll() {
     underWay_ = {frame + 1, {}, poses.heads.back(), {bodies.begin(), bodies.end()}};
   }
   if (Status taken = takeUnderWay(); !taken) return taken;
+  unheard_.reset();
   if (frame < options_.frameCount && checkpoints_.areWanted()) {
     if (Status saved = saveAt(frame); !saved) return saved;
   }
@@ -372,7 +379,9 @@ Status HairRun::takeUnderWay() {
   if (!underWay_) return {};
   ComputedFrame frame = std::move(*underWay_);
   underWay_.reset();
-  if (Status waited = stepper_->waitFrame(); !waited) return afterWritten(waited.error());
+  const Status waited = stepper_->waitFrame();
+  unheard_.reset();
+  if (!waited) return afterWritten(waited.error());
   {
     Stopwatch watch(readbackTime_);
     frame.positions = stepper_->framePositions();
@@ -448,18 +457,26 @@ void HairRun::tellTimes() {
   outcome_.compileMilliseconds = backend_->compileMilliseconds();
   std::map<std::string, double> computing = backend_->stageMilliseconds();
   for (const auto& [stage, milliseconds] : stagesBefore_) computing[stage] -= milliseconds;
-  for (const auto& [stage, milliseconds] : computing) outcome_.millisecondsPerFrame += milliseconds;
+  for (const auto& [stage, milliseconds] : computing)
+    outcome_.millisecondsPerFrame += stage == kCopyStage ? 0 : milliseconds;
   outcome_.computeShare = outcome_.millisecondsPerFrame / (1000 * outcome_.wall.frames);
   outcome_.stages.merge(computing);
   outcome_.stages["readback"] = readbackTime_;
   outcome_.stages["write"] = sink_->millisecondsWriting();
   outcome_.waitedForWriter = waitedForWriter_;
+  outcome_.host = backend_->hostMilliseconds();
+  if (outcome_.host) {
+    outcome_.host->submit -= hostBefore_.submit;
+    outcome_.host->fence -= hostBefore_.fence;
+  }
   if (input_.scalp) outcome_.stages["scalp"] = posesTime_;
   if (bodyWatch_) outcome_.stages["measure_bodies"] = sink_->millisecondsWatching();
   const double frames = std::max(outcome_.frameCount - outcome_.resumedFrom, 1);
   for (auto& [stage, milliseconds] : outcome_.stages) milliseconds /= frames;
-  for (double* time : {&outcome_.millisecondsPerFrame, &outcome_.waitedForDevice, &outcome_.waitedForWriter})
+  for (double* time : {&outcome_.millisecondsPerFrame, &outcome_.waitedForDevice, &outcome_.waitedForWriter,
+                       &outcome_.scattered})
     *time /= frames;
+  if (outcome_.host) outcome_.host->submit /= frames, outcome_.host->fence /= frames;
 }
 
 void HairRun::tellWarnings() {

@@ -5,10 +5,8 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -16,8 +14,10 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/growing_report.h"
 #include "program/kernels_child.h"
 #include "program/kernels_list.h"
+#include "program/kernels_statistics.h"
 #include "ringlet/gpu/device.h"
 
 namespace ringlet::program {
@@ -37,8 +37,11 @@ constexpr const char* kHelp =
     "A line a kernel: the subgroup size it got (`-`: the driver does not tell), the seconds the driver's\n"
     "compiler took, and with --statistics what the driver tells of the machine code: registers, spilled\n"
     "registers, scratch memory, code size, waves. It needs VK_KHR_pipeline_executable_properties for that.\n"
-    "Flags: `spills` (registers did not suffice, and values go through memory), `1 wave` (a processor holds\n"
-    "one subgroup at a time and cannot hide waiting times).\n"
+    "Flags: `spills` (registers did not suffice, and values go through memory; NVIDIA's driver tells only "
+    "of\n"
+    "local memory, in which arrays are too), `1 wave` (what issues instructions has one subgroup at a time "
+    "and\n"
+    "cannot hide waiting times).\n"
     "\n"
     "lavapipe compiles to machine code only at a kernel's first use; the seconds there are those before it.\n"
     "\n"
@@ -47,7 +50,7 @@ constexpr const char* kHelp =
     "without hardware will do: RADV takes RADV_FORCE_FAMILY=navi21 and the like.\n"
     "\n"
     "--json keys: device driver kernels (of each name compiled trouble subgroup (null: not told) seconds\n"
-    "flags statistics (of each name value)).\n"
+    "flags statistics (of each name value)). The file is whole after each kernel.\n"
     "\n"
     "Exit status: 0 all compiled, 1 one did not or something failed, 2 wrong usage.";
 
@@ -70,31 +73,6 @@ Result<ComputeDevice> openDevice(const Typed& typed) {
 
 bool hasPart(const std::string& whole, const char* part) { return whole.find(part) != std::string::npos; }
 
-// By the names RADV and ANV give. Spilled scalar registers go to vector registers and cost little.
-std::vector<std::string> flagsOf(const CompiledKernel& compiled) {
-  const auto any = [&](const auto& holds) { return std::ranges::any_of(compiled.statistics, holds); };
-  std::vector<std::string> flags;
-  if (any([](const gpu::KernelStatistic& s) {
-        return hasPart(s.name, "pill") && !hasPart(s.name, "SGPR") && s.value > 0;
-      }))
-    flags.push_back("spills");
-  if (any([](const gpu::KernelStatistic& s) { return s.name == "Subgroups per SIMD" && s.value == 1; }))
-    flags.push_back("1 wave");
-  return flags;
-}
-
-// Of the statistics, what is worth a line of text; JSON has all.
-std::string statisticsText(const CompiledKernel& compiled) {
-  constexpr const char* kWorth[] = {"VGPRs",  "egister",  "pill",       "Fill",
-                                    "cratch", "ode size", "nstruction", "Subgroups"};
-  std::string text;
-  for (const gpu::KernelStatistic& one : compiled.statistics) {
-    if (std::ranges::none_of(kWorth, [&](const char* part) { return hasPart(one.name, part); })) continue;
-    text += fmt::format("{}{} {:.0f}", text.empty() ? "" : ", ", one.name, one.value);
-  }
-  return text;
-}
-
 std::string lineOf(const ListedKernel& kernel, const CompiledKernel& compiled) {
   std::string line = fmt::format("  {:<56} {:>8} {:>8}", kernel.name,
                                  compiled.subgroup ? fmt::to_string(*compiled.subgroup) : "-",
@@ -102,8 +80,8 @@ std::string lineOf(const ListedKernel& kernel, const CompiledKernel& compiled) {
   const auto add = [&](const std::string& text) {
     if (!text.empty()) line += "  " + text;
   };
-  add(statisticsText(compiled));
-  for (const std::string& flag : flagsOf(compiled)) add("[" + flag + "]");
+  add(statisticsText(compiled.statistics));
+  for (const std::string& flag : flagsOf(compiled.statistics)) add("[" + flag + "]");
   add(compiled.trouble);
   return line;
 }
@@ -112,7 +90,7 @@ Json asJson(const ListedKernel& kernel, const CompiledKernel& compiled) {
   Json json{
       {"name", kernel.name},         {"compiled", compiled.isCompiled},
       {"trouble", compiled.trouble}, {"subgroup", compiled.subgroup ? Json(*compiled.subgroup) : Json()},
-      {"seconds", compiled.seconds}, {"flags", flagsOf(compiled)},
+      {"seconds", compiled.seconds}, {"flags", flagsOf(compiled.statistics)},
       {"statistics", Json::array()}};
   for (const gpu::KernelStatistic& one : compiled.statistics)
     json["statistics"].push_back({{"name", one.name}, {"value", one.value}});
@@ -154,6 +132,8 @@ int run(const Typed& typed) {
     fmt::print("  this driver has no statistics (VK_KHR_pipeline_executable_properties)\n");
   fmt::print("  {:<56} {:>8} {:>8}\n", "kernel", "subgroup", "compiled");
   Json json{{"device", p.name}, {"driver", p.driver}, {"kernels", Json::array()}};
+  const GrowingReport report(typed.json);
+  if (Status written = report.grow(json); !written) return fail(written.error());
   int failures = 0;
   for (std::size_t k = 0; k < kernels.size(); ++k) {
     if (!hasPart(kernels[k].name, typed.only.c_str())) continue;
@@ -161,14 +141,10 @@ int run(const Typed& typed) {
     fmt::print("{}\n", lineOf(kernels[k], compiled));
     std::fflush(stdout);
     json["kernels"].push_back(asJson(kernels[k], compiled));
+    if (Status written = report.grow(json); !written) return fail(written.error());
     failures += !compiled.isCompiled;
   }
-  if (!typed.json.empty()) {
-    std::ofstream file(typed.json);
-    file << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    file.close();
-    if (!file) return fail({fmt::format("cannot write {}", typed.json.string()), Fault::output});
-  }
+  if (Status written = report.finish(json); !written) return fail(written.error());
   if (failures > 0)
     return fail(
         {fmt::format("{} of {} kernels did not compile", failures, json["kernels"].size()), Fault::compile});

@@ -32,8 +32,9 @@ class ReferenceBackend : public Backend {
 
   Status submitFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,
                      std::span<const BodyPose> rootPoses) override {
+    times_.push_back(0);
     {
-      Stopwatch watch(milliseconds_);
+      Stopwatch watch(times_.back());
       simulation_.stepFrame(stepPoses, bodyPoses, rootPoses);
     }
     inFlight_.push_back(pointsNow());
@@ -43,6 +44,8 @@ class ReferenceBackend : public Backend {
     RINGLET_ASSERT(!inFlight_.empty(), "waitFrame without submitFrame");
     waited_ = std::move(inFlight_.front());
     inFlight_.pop_front();
+    milliseconds_ += times_.front();
+    times_.pop_front();
     return {};
   }
   Status change(const Settings& settings, const Material& material, double /*keysAt*/) override {
@@ -127,7 +130,8 @@ class ReferenceBackend : public Backend {
   std::size_t rigidStrandCount_;
   ContactReport contactsAtRest_;
   reference::Simulation<double> simulation_;
-  double milliseconds_ = 0;
+  std::deque<double> times_;  // of the frames in flight [ms]
+  double milliseconds_ = 0;   // of those waited for
 };
 
 }  // namespace

@@ -175,6 +175,7 @@ class RemoteBackend : public Backend {
     return both ? Result<ContactReport>(both->second) : both.error();
   }
   std::map<std::string, double> stageMilliseconds() const override { return facts().stages; }
+  bool tellsTimesOfFrames() const override { return false; }
   std::size_t rigidStrandCount() const override { return facts().rigidStrandCount; }
   std::vector<std::string> warnings() const override { return facts().warnings; }
   std::vector<std::string> deviceMessages() const override { return facts().messages; }

@@ -11,10 +11,10 @@
 #include <optional>
 #include <string>
 
-#include "program/cache_folder.h"
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/interruption.h"
+#include "program/open_device.h"
 #include "program/render_options.h"
 #include "program/render_run.h"
 #include "program/run_report.h"
@@ -210,7 +210,7 @@ int run(const RenderOptions& typed) {
   if (isFilm(typed.output)) {
     if (Status can = checkFilms(); !can) return fail(can.error());
   }
-  const auto device = ComputeDevice::open(typed.device, cacheFolder());
+  const auto device = openDevice(typed.device);
   if (!device) return fail(device.error());
   const RenderPlan plan = renderPlanOf(typed);
   const auto outcome = isSceneFile(typed.input)       ? runScene(typed, *device, plan)

@@ -1,7 +1,7 @@
 // Implements rendered_sheet.h.
 #include "program/rendered_sheet.h"
 
-#include "program/cache_folder.h"
+#include "program/open_device.h"
 #include "program/render_run.h"
 #include "program/run_writers.h"
 #include "ringlet/output/animation_reader.h"
@@ -29,7 +29,7 @@ Status checkRenderedSheet(const RunOptions& options) {
 }
 
 Status writeRenderedSheet(const LoadedScene& scene, const RunOptions& options) {
-  const auto device = ComputeDevice::open(options.device, cacheFolder());
+  const auto device = openDevice(options.device);
   if (!device) return device.error();
   RenderPlan plan;
   plan.target.path = options.folder / "sheet.png";

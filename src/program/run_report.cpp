@@ -82,11 +82,23 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["particles"] = outcome.particleCount;
   json["rigid_strands"] = outcome.rigidStrandCount;
   json["ms_per_frame"] = outcome.millisecondsPerFrame;
+  const auto& times = outcome.frameTimes;
+  json["frame_ms"] = times ? nlohmann::ordered_json{{"first", times->first},
+                                                    {"median", times->median},
+                                                    {"least", times->least}}
+                           : nlohmann::ordered_json();
   json["stages_ms"] = outcome.stages;
   json["wall_s"] = {
       {"start", outcome.wall.start}, {"frames", outcome.wall.frames}, {"finish", outcome.wall.finish}};
   json["compute_share"] = outcome.computeShare;
-  json["waits_ms"] = {{"device", outcome.waitedForDevice}, {"writer", outcome.waitedForWriter}};
+  const auto hostTime = [&](double HostMilliseconds::*part) {
+    return outcome.host ? nlohmann::ordered_json((*outcome.host).*part) : nlohmann::ordered_json();
+  };
+  json["waits_ms"] = {{"device", outcome.waitedForDevice},
+                      {"writer", outcome.waitedForWriter},
+                      {"submit", hostTime(&HostMilliseconds::submit)},
+                      {"fence", hostTime(&HostMilliseconds::fence)},
+                      {"scatter", outcome.scattered}};
   json["max_edge_stretch"] = outcome.report.maxEdgeStretch;  // null where it is not finite
   json["limited_share"] = outcome.report.limitedShare;
   json["nonfinite"] = outcome.report.nonfinite;

@@ -72,6 +72,12 @@ struct RunSeconds {
   double finish = 0;  // closing files, last.obj, the sheet
 };
 
+/// Of the frames' times of stepping [ms]. The first is of the run's own: in it a driver may compile, and how
+/// long work takes is not known yet.
+struct FrameMilliseconds {
+  double first = 0, median = 0, least = 0;
+};
+
 /// What came of it. Times of stages and waits: per finished frame [ms].
 struct SimulateOutcome {
   int frameCount = 0;  // finished
@@ -83,6 +89,11 @@ struct SimulateOutcome {
   double computeShare = 0;  // of wall.frames: stepping
   // What the loop over frames waited for stepping, and for room among frames to be written.
   double waitedForDevice = 0, waitedForWriter = 0;
+  std::optional<FrameMilliseconds> frameTimes;  // none: no frame, or ranks step the hair
+  // Of one device: handing frames to it and standing at its fences, which may be while the loop submits or
+  // waits; and putting positions into groom order.
+  std::optional<HostMilliseconds> host;
+  double scattered = 0;
   SimulationReport report;
   std::optional<double> velocityResidual;  // the report's, where it was measured
   std::optional<ContactReport> contacts;   // where they are on; contacts and momentumError of the worst frame

@@ -1,7 +1,9 @@
 // Stepper: what the frames of a run are stepped by, and looked at meanwhile.
 #pragma once
 
+#include <algorithm>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,8 +37,11 @@ class Stepper {
     return watch_ ? lookAtSteps(poses) : poses.submit(*backend_);
   }
   Status waitFrame() {
-    Stopwatch stopwatch(waiting_);
-    if (!watch_) return backend_->waitFrame();
+    if (!watch_) {
+      const Status waited = timedWait();
+      if (waited) noteTime();
+      return waited;
+    }
     waited_ = std::move(looked_.front());
     looked_.pop_front();
     return {};
@@ -45,6 +50,7 @@ class Stepper {
   std::vector<Vec3f> framePositions() {
     if (watch_) return std::move(waited_);
     std::vector<Vec3f> all(pointCount_);
+    Stopwatch stopwatch(scattering_);
     backend_->framePositions(all);
     return all;
   }
@@ -69,6 +75,8 @@ class Stepper {
   /// What was seen goes into the outcome.
   Status tell(SimulateOutcome& outcome) const {
     outcome.waitedForDevice = waiting_;
+    outcome.scattered = scattering_;
+    outcome.frameTimes = timesOf(times_);
     if (hasContacts_) {
       auto report = backend_->contactReport();
       if (!report) return report.error();
@@ -89,7 +97,35 @@ class Stepper {
   Stepper(Backend& backend, const RunInput& input)
       : backend_(&backend),
         pointCount_(input.groom.points.size()),
-        hasContacts_(input.settings.contacts.on) {}
+        hasContacts_(input.settings.contacts.on),
+        before_(sumOf(backend.stageMilliseconds())) {}
+
+  Status timedWait() {
+    Stopwatch stopwatch(waiting_);
+    return backend_->waitFrame();
+  }
+
+  // Stages of stepping.
+  static double sumOf(const std::map<std::string, double>& stages) {
+    double sum = 0;
+    for (const auto& [stage, milliseconds] : stages) sum += stage == kCopyStage ? 0 : milliseconds;
+    return sum;
+  }
+  static std::optional<FrameMilliseconds> timesOf(std::vector<double> times) {
+    if (times.empty()) return {};
+    FrameMilliseconds told{.first = times.front()};
+    const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+    std::ranges::nth_element(times, middle);
+    told.median = *middle;
+    told.least = *std::ranges::min_element(times);
+    return told;
+  }
+  // Of the frame that is over now.
+  void noteTime() {
+    if (!backend_->tellsTimesOfFrames()) return;
+    const double now = sumOf(backend_->stageMilliseconds());
+    times_.push_back(now - std::exchange(before_, now));
+  }
 
   Status lookAtSteps(const FramePoses& poses) {
     for (std::size_t step = 0; step < poses.heads.size(); ++step) {
@@ -100,6 +136,7 @@ class Stepper {
       if (Status seen = look(); !seen) return seen;
     }
     looked_.push_back(std::move(now_));
+    noteTime();
     Stopwatch stopwatch(measuring_);
     if (!watch_->endFrame() || !hasContacts_) return {};
     auto report = backend_->contactReport();
@@ -124,7 +161,9 @@ class Stepper {
   std::vector<Vec3f> now_, waited_;          // positions, where watch_ looks at steps
   std::deque<std::vector<Vec3f>> looked_{};  // of frames not waited for
   ContactReport worst_;
-  double waiting_ = 0, measuring_ = 0;  // [ms]
+  double waiting_ = 0, measuring_ = 0, scattering_ = 0;  // [ms]
+  double before_;                                        // of stepping, in frames so far [ms]
+  std::vector<double> times_{};                          // of each frame [ms]
 };
 
 }  // namespace ringlet::program

@@ -45,6 +45,8 @@ class ThreadedBackend : public Backend {
   Result<SimulationReport> report() override { return settled().report(); }
   Result<ContactReport> contactReport() override { return settled().contactReport(); }
   std::map<std::string, double> stageMilliseconds() const override { return settled().stageMilliseconds(); }
+  bool tellsTimesOfFrames() const override { return hair_->tellsTimesOfFrames(); }
+  std::optional<HostMilliseconds> hostMilliseconds() const override { return settled().hostMilliseconds(); }
   std::size_t rigidStrandCount() const override { return hair_->rigidStrandCount(); }
   std::vector<std::string> warnings() const override { return settled().warnings(); }
   std::vector<std::string> deviceMessages() const override { return settled().deviceMessages(); }

@@ -15,9 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "program/cache_folder.h"
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/growing_report.h"
+#include "program/open_device.h"
 #include "program/run_report.h"
 #include "program/tune_run.h"
 #include "program/tuned_shapes.h"
@@ -49,16 +50,23 @@ constexpr const char* kHelp =
     "\n"
     "--json keys: device driver rounds left_out (shapes there was no time for) subgroup (the fastest width)\n"
     "shapes (of each particles shape lanes run (0: serial) subgroup\n"
-    "ns_per_particle_step model_ns_per_particle_step difference against) file\n"
+    "ns_per_particle_step model_ns_per_particle_step difference against) troubles file\n"
     "interrupted. difference: the farthest particle from where `against` has it after a frame, as a share "
     "of\n"
-    "the strands' length.\n"
+    "the strands' length. troubles: of each particles shape lanes run subgroup message: a shape that cannot "
+    "be had, "
+    "or\n"
+    "that is not where another is after a frame; the others are timed, and nothing is remembered.\n"
+    "--report: the file is whole after each shape and round, a second apart at least; of a shape that is not "
+    "timed\n"
+    "yet, ns_per_particle_step is null.\n"
     "\n"
-    "Exit status: 0 done, 1 something failed, 2 wrong usage, 130 Ctrl-C (nothing is remembered).";
+    "Exit status: 0 done, 1 something failed or a shape is wrong, 2 wrong usage, 130 Ctrl-C (nothing is "
+    "remembered).";
 
 // The command line as typed.
 struct Typed {
-  std::filesystem::path groom;
+  std::filesystem::path groom, report;
   std::vector<std::uint32_t> particles;
   std::string device;
   TuneOptions options;
@@ -70,16 +78,27 @@ nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& ou
   nlohmann::ordered_json json{{"device", device.name()},          {"driver", device.driver()},
                               {"rounds", outcome.rounds},         {"left_out", outcome.leftOut},
                               {"subgroup", outcome.subgroupSize}, {"shapes", nlohmann::json::array()}};
+  const auto shapeOf = [](const auto& one) {
+    return nlohmann::ordered_json{{"particles", one.particleCount},
+                                  {"shape", one.shape.describe()},
+                                  {"lanes", one.shape.serial() ? 0 : one.shape.lanes},
+                                  {"run", one.shape.particlesPerLane},
+                                  {"subgroup", one.subgroupSize}};
+  };
   for (const TimedShape& one : outcome.timed) {
-    json["shapes"].push_back({{"particles", one.particleCount},
-                              {"shape", one.shape.describe()},
-                              {"lanes", one.shape.serial() ? 0 : one.shape.lanes},
-                              {"run", one.shape.particlesPerLane},
-                              {"subgroup", one.subgroupSize},
-                              {"ns_per_particle_step", one.nanoseconds},
-                              {"model_ns_per_particle_step", one.model},
-                              {"difference", one.difference},
-                              {"against", one.against.describe()}});
+    nlohmann::ordered_json shape = shapeOf(one);
+    shape["ns_per_particle_step"] =
+        one.nanoseconds > 0 ? nlohmann::ordered_json(one.nanoseconds) : nlohmann::ordered_json();
+    shape["model_ns_per_particle_step"] = one.model;
+    shape["difference"] = one.difference;
+    shape["against"] = one.against.describe();
+    json["shapes"].push_back(std::move(shape));
+  }
+  json["troubles"] = nlohmann::json::array();
+  for (const ShapeTrouble& one : outcome.troubles) {
+    nlohmann::ordered_json trouble = shapeOf(one);
+    trouble["message"] = one.error.message;
+    json["troubles"].push_back(std::move(trouble));
   }
   json["file"] = file.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(file.string());
   json["interrupted"] = outcome.interrupted;
@@ -134,20 +153,25 @@ int run(Typed& typed) {
   if (!lengths) return fail(lengths.error());
   typed.options.lengths = std::move(*lengths);
   typed.options.showProgress = !typed.quiet;
-  const auto device = ComputeDevice::open(typed.device, cacheFolder());
+  const auto device = openDevice(typed.device);
   if (!device) return fail(device.error());
+  const GrowingReport report(typed.report);
+  if (report.isThere())
+    typed.options.grow = [&](const TuneOutcome& soFar) { return report.grow(asJson(*device, soFar, {})); };
   const auto outcome = timeShapes(*device, typed.options);
   if (!outcome) return fail(outcome.error());
 
   // The table is shown even where it cannot be remembered.
   Result<std::filesystem::path> file = std::filesystem::path{};
-  if (!outcome->interrupted) file = rememberShapes(*device, outcome->costs, outcome->subgroupSize);
+  if (!outcome->interrupted && outcome->troubles.empty())
+    file = rememberShapes(*device, outcome->costs, outcome->subgroupSize);
   const std::filesystem::path written = file ? *file : std::filesystem::path{};
   for (const std::string& message : device->validationMessages())
     say("ringlet tune: warning: Vulkan validation: {}\n", message);
   if (outcome->leftOut > 0)
     say("ringlet tune: warning: no time for {} of the shapes; give it more with --seconds\n",
         outcome->leftOut);
+  if (Status told = report.finish(asJson(*device, *outcome, written)); !told) return fail(told.error());
   if (typed.json) {
     printJson(asJson(*device, *outcome, written));
   } else if (!typed.quiet && !outcome->interrupted) {
@@ -156,6 +180,11 @@ int run(Typed& typed) {
   if (outcome->interrupted) {
     say("ringlet tune: interrupted; nothing was remembered\n");
     return kExitInterrupted;
+  }
+  for (const ShapeTrouble& one : outcome->troubles) say("ringlet tune: {}\n", one.error.message);
+  if (!outcome->troubles.empty()) {
+    say("ringlet tune: nothing was remembered\n");
+    return exitCodeOf(outcome->troubles.front().error);
   }
   return file ? kExitFine : fail(file.error());
 }
@@ -194,6 +223,10 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
       ->check(between(0.1, 3600))
       ->type_name("S");
   addDeviceOption(*command, typed->device);
+  command
+      ->add_option("--report", typed->report,
+                   "Writes the JSON to this file, too, and what is known meanwhile")
+      ->type_name("FILE");
   command->add_flag("--json", typed->json, "Print one JSON object instead of the table");
   command->add_flag("--quiet", typed->quiet, "No progress bar and no table");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });

@@ -148,22 +148,28 @@ struct Runner {
     return {};
   }
 
-  // Of the samples; a clock too coarse for a frame shows 0, which no cost can be.
-  void finish(std::span<const ShapeCost> model) {
-    const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-    std::ranges::nth_element(samples, middle);
+  // Of the samples so far; a clock too coarse for a frame shows 0, which no cost can be.
+  TimedShape finished(const DeviceLimits& limits) const {
+    TimedShape timed = result;
+    const auto model = shapeCosts(atWidth(limits, timed.subgroupSize));
+    timed.model = std::ranges::find(model, timed.shape, &ShapeCost::shape)->nanoseconds /
+                  (timed.shape.serial() ? 1 : timed.particleCount);
+    if (samples.empty()) return timed;
+    std::vector<double> sorted = samples;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, middle);
     const double particleSteps =
-        static_cast<double>(strandCount) * result.particleCount * Settings{}.stepsPerFrame;
-    result.nanoseconds = std::max(1e6 * *middle / particleSteps, 1e-6);
-    result.model = std::ranges::find(model, result.shape, &ShapeCost::shape)->nanoseconds /
-                   (result.shape.serial() ? 1 : result.particleCount);
+        static_cast<double>(strandCount) * timed.particleCount * Settings{}.stepsPerFrame;
+    timed.nanoseconds = std::max(1e6 * *middle / particleSteps, 1e-6);
+    return timed;
   }
 };
 
-Error inShape(const Entry& entry, const Error& cause) {
-  return Error{fmt::format("strands of {} particles in the shape {}: {}", entry.particleCount,
-                           entry.shape.describe(), cause.message),
-               cause.fault};
+ShapeTrouble troubleOf(const Entry& entry, const Error& cause) {
+  return {entry.particleCount, entry.shape, entry.subgroupSize,
+          Error{fmt::format("strands of {} particles in the shape {}: {}", entry.particleCount,
+                            entry.shape.describe(), cause.message),
+                cause.fault}};
 }
 
 // Holds the last of them against the first of its length.
@@ -181,9 +187,7 @@ Status verifyLast(std::vector<Runner>& runners) {
   if (difference <= kAgreement) return {};
   return Error{fmt::format(
       "strands of {} particles in the shapes {} and {} are {:.1e} of their length apart after a frame, "
-      "{:.0e} is "
-      "allowed: one of the two is wrong on this device. Nothing was remembered; `--backend reference` tells "
-      "which",
+      "{:.0e} is allowed: one of the two is wrong on this device; `--backend reference` tells which",
       last.result.particleCount, first.result.shape.describe(), last.result.shape.describe(), difference,
       kAgreement)};
 }
@@ -232,8 +236,17 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
     return clock.seconds() < share * options.seconds;
   };
   catchInterruption();
-
   std::vector<Runner> runners;
+  // What is known so far, no more often than it takes little time.
+  double grown = -1;
+  const auto grow = [&]() -> Status {
+    if (!options.grow || clock.seconds() < grown + 1) return {};
+    grown = clock.seconds();
+    TuneOutcome soFar = outcome;
+    for (const Runner& runner : runners) soFar.timed.push_back(runner.finished(limits));
+    return options.grow(soFar);
+  };
+
   for (std::size_t e = 0; e < entries.size() && !wasInterrupted(); ++e) {
     const Entry& entry = entries[e];
     const bool endsPair = entry.isOfPair && e % 2 == 1;
@@ -243,11 +256,21 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
     }
     const auto filling = (limits.isCpu ? kParticlesOnCpu : kParticlesOnGpu) / entry.particleCount;
     const auto strandCount = options.strandCount ? static_cast<std::uint32_t>(*options.strandCount) : filling;
-    auto runner = Runner::create(device, entry, std::max(strandCount, 1u));
-    if (!runner) return inShape(entry, runner.error());
-    runners.push_back(std::move(*runner));
-    if (Status verified = verifyLast(runners); !verified) return verified.error();
+    auto runner = [&] {
+      const EndsUnheard compiling;
+      return Runner::create(device, entry, std::max(strandCount, 1u));
+    }();
+    if (!runner) {
+      outcome.troubles.push_back(troubleOf(entry, runner.error()));
+      if (runner.error().fault == Fault::deviceLost) return outcome.troubles.back().error;
+    } else {
+      runners.push_back(std::move(*runner));
+      if (Status verified = verifyLast(runners); !verified)
+        outcome.troubles.push_back({entry.particleCount, entry.shape, entry.subgroupSize, verified.error()});
+    }
+    if (Status grew = grow(); !grew) return grew.error();
   }
+  if (runners.empty() && !outcome.troubles.empty()) return outcome.troubles.front().error;
 
   while (!wasInterrupted() && outcome.rounds < kMostRounds &&
          (isTimeFor(1) || outcome.rounds < kFewestRounds)) {
@@ -255,20 +278,20 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
       if (Status timed = runner.time(); !timed) return timed.error();
     }
     ++outcome.rounds;
+    if (Status grew = grow(); !grew) return grew.error();
   }
   outcome.interrupted = wasInterrupted();
-  if (outcome.interrupted) return outcome;
 
   std::vector<WidthTime> times;
-  for (Runner& runner : runners) {
-    runner.finish(shapeCosts(atWidth(limits, runner.result.subgroupSize)));
-    const TimedShape& one = runner.result;
+  for (const Runner& runner : runners) {
+    const TimedShape one = runner.finished(limits);
     outcome.timed.push_back(one);
     times.push_back({one.particleCount, one.subgroupSize, one.nanoseconds});
   }
   std::ranges::stable_sort(outcome.timed, {}, &TimedShape::particleCount);
+  if (outcome.interrupted) return outcome;
   outcome.subgroupSize = fastestSubgroupSize(times);
-  outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
+  if (outcome.troubles.empty()) outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
   return outcome;
 }
 

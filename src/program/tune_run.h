@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,12 +14,16 @@
 
 namespace ringlet::program {
 
+struct TuneOutcome;
+
 struct TuneOptions {
   std::vector<std::uint32_t> lengths{16, 32, 64, 128};  // particles a strand, rising
   std::optional<int> strandCount;                       // of each length; none: enough to fill the device
   double seconds =
       20;  // after which no shape is begun and no round; the first two shapes and three rounds are
   bool showProgress = true;
+  /// What is known so far, after each shape that is made and each round; a second apart at least.
+  std::function<Status(const TuneOutcome& soFar)> grow{};
 };
 
 /// A shape with strands of one length.
@@ -32,20 +37,30 @@ struct TimedShape {
   StrandShape against;
 };
 
+/// A shape that is not to be trusted on this device, or cannot be had: nothing is remembered then.
+struct ShapeTrouble {
+  std::uint32_t particleCount = 0;  // of a strand
+  StrandShape shape;
+  std::uint32_t subgroupSize = 0;
+  Error error;
+};
+
 struct TuneOutcome {
-  std::vector<TimedShape> timed;   // by length
-  std::vector<ShapeCost> costs;    // for KernelChoice::measured, at the fastest width
+  std::vector<TimedShape> timed;  // by length
+  std::vector<ShapeTrouble> troubles;
+  std::vector<ShapeCost> costs;    // for KernelChoice::measured, at the fastest width; none with troubles
   std::uint32_t subgroupSize = 0;  // that width
   int rounds = 0;
   std::size_t leftOut = 0;   // shapes there was no time for
-  bool interrupted = false;  // Ctrl-C came; nothing is timed
+  bool interrupted = false;  // Ctrl-C came; what was timed until then is there, without costs
 };
 
 /// Of these lengths (of particles, one a strand) four at most that stand for all, the longest among them.
 std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts);
 
-/// Fails where two shapes are further apart than 1e-5 of the strands' length after a frame, where there is
-/// nothing to choose from, and as Simulation::create does. About `seconds` of time, most of it compiling.
+/// Two shapes that are further apart than 1e-5 of the strands' length after a frame, and one that cannot be
+/// made, are troubles, and the others are timed. Fails where there is nothing to choose from, the device is
+/// lost, and no shape can be made. About `seconds` of time, most of it compiling.
 Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& options);
 
 }  // namespace ringlet::program

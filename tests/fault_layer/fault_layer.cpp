@@ -4,7 +4,8 @@
 //   ...
 //
 // The 17th call of vkQueueSubmit, and all after it, return -4, VK_ERROR_DEVICE_LOST, without reaching the
-// driver.
+// driver. With `hang` for the number they do not return.
+#include <unistd.h>
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
 
@@ -25,6 +26,7 @@ struct Fault {
   std::string call;
   long at = 0;
   VkResult result = VK_SUCCESS;
+  bool hangs = false;
 };
 
 const Fault& fault() {
@@ -36,6 +38,7 @@ const Fault& fault() {
     const std::size_t first = all.find(':'), second = all.find(':', first + 1);
     parsed.call = all.substr(0, first);
     parsed.at = std::atol(all.c_str() + first + 1);
+    parsed.hangs = all.substr(second + 1) == "hang";
     parsed.result = static_cast<VkResult>(std::atol(all.c_str() + second + 1));
     return parsed;
   }();
@@ -44,7 +47,9 @@ const Fault& fault() {
 
 bool failsNow() {
   static std::atomic<long> calls = 0;
-  return ++calls >= fault().at;
+  const bool isTime = ++calls >= fault().at;
+  while (isTime && fault().hangs) sleep(1);
+  return isTime;
 }
 
 template <class Function>

@@ -12,6 +12,7 @@ namespace ringlet {
 namespace {
 
 using nlohmann::json;
+using test::RunningProgram;
 using test::runProgram;
 using test::scratchFolder;
 
@@ -61,6 +62,29 @@ class Conform : public testing::Test {
   std::filesystem::path folder_;
   json report_;
 };
+
+TEST_F(Conform, WhatIsKnownIsThereWhenItIsKilled) {
+  const auto file = folder_ / "report.json";
+  RunningProgram program(folder_, {"conform", "--json", "report.json"});
+  const auto known = [&] {
+    const json report = json::parse(test::readText(file), nullptr, false);
+    return report.is_object() ? report["checks"].size() : 0;
+  };
+  EXPECT_TRUE(RunningProgram::waitUntil([&] { return std::filesystem::exists(file) && known() >= 2; }));
+  program.send(SIGKILL);
+  program.wait();
+  report_ = json::parse(test::readText(file), nullptr, false);
+  ASSERT_TRUE(report_.is_object()) << "it is whole at every moment";
+  EXPECT_GE(report_["checks"].size(), 2u);
+  EXPECT_TRUE(report_["conforms"].is_null());
+  EXPECT_FALSE(report_["facts"]["device"].is_null());
+}
+
+TEST_F(Conform, AReportThatCannotBeWrittenIsSaidAtOnce) {
+  const auto result = runProgram(folder_, {"conform", "--json", "none/report.json"});
+  EXPECT_EQ(result.exitCode, 5) << result.err;
+  EXPECT_EQ(result.out.find(" right "), std::string::npos) << result.out;
+}
 
 TEST_F(Conform, ThisDeviceDoes) {
   const auto result = conform({});

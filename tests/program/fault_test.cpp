@@ -107,6 +107,40 @@ TEST_F(Fault, EverySignalThatEndsARunKeepsItsFrames) {
   }
 }
 
+// The layer stands for a driver that compiles for minutes, or a device that takes as long for its first
+// frame.
+TEST_F(Fault, ASignalIsHeardWhileTheDriverIsAtWork) {
+  RINGLET_NEEDS_DEVICE(folder_);
+  setenv("VK_LAYER_PATH", RINGLET_LAYER_DIR, 1);
+  setenv("VK_INSTANCE_LAYERS", "VK_LAYER_RINGLET_fault", 1);
+  for (const char* fault : {"vkCreateComputePipelines:1:hang", "vkWaitForFences:1:hang"}) {
+    fs::remove_all(folder_ / "out");
+    setenv("RINGLET_FAULT", fault, 1);
+    RunningProgram program(
+        folder_, {"simulate", "curl.obj", "--frames", "2", "--checkpoint", "1", "--quiet", "-o", "out"});
+    EXPECT_TRUE(RunningProgram::waitUntil([&] { return fs::exists(folder_ / "out"); }));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    program.send(SIGTERM);
+    // A program that does not hear it would be waited for until the test's own end.
+    std::jthread late([&](const std::stop_token& over) {
+      for (int i = 0; i < 100 && !over.stop_requested(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      if (!over.stop_requested()) program.send(SIGKILL);
+    });
+    const auto result = program.wait();
+    late.request_stop();
+    EXPECT_EQ(result.exitCode, 130) << fault << result.err;
+    EXPECT_NE(result.err.find("while the driver was at work"), std::string::npos) << result.err;
+    unsetenv("RINGLET_FAULT");
+    // The folder is free.
+    const auto again = runProgram(folder_, {"simulate", "curl.obj", "--frames", "2", "--checkpoint", "1",
+                                            "--resume", "--quiet", "-o", "out"});
+    EXPECT_EQ(again.exitCode, 0) << again.err;
+    EXPECT_TRUE(fs::exists(folder_ / "out/hair.usda"));
+  }
+  unsetenv("VK_INSTANCE_LAYERS");
+}
+
 TEST_F(Fault, AFolderThatVanishesIsSaid) {
   RunningProgram program(folder_, {"simulate", "curl.obj", "--backend", "reference", "--frames", "200",
                                    "--quiet", "--json-progress", "-o", "out"});

@@ -10,6 +10,7 @@ namespace ringlet {
 namespace {
 
 using nlohmann::json;
+using test::RunningProgram;
 using test::runProgram;
 using test::scratchFolder;
 
@@ -43,6 +44,22 @@ TEST_F(Kernels, CompileInEveryKindOfWork) {
        {"hair alone, lanes", "hair alone, serial", "contacts, serial", "bodies in air, serial",
         "point_jacobi, serial", "paper, serial", "contact_motion", "contact_query", "contact_gather"})
     EXPECT_NE(names.find(part), std::string::npos) << part << " is not there:\n" << names;
+}
+
+TEST_F(Kernels, WhatIsKnownIsThereWhenItIsKilled) {
+  const auto file = folder_ / "kernels.json";
+  RunningProgram program(folder_, {"kernels", "--only", "contact_", "--json", "kernels.json"});
+  const auto known = [&] {
+    const json report = json::parse(test::readText(file), nullptr, false);
+    return report.is_object() ? report["kernels"].size() : 0;
+  };
+  EXPECT_TRUE(RunningProgram::waitUntil([&] { return std::filesystem::exists(file) && known() >= 1; }));
+  program.send(SIGKILL);
+  EXPECT_EQ(program.wait().exitCode, -1) << "it was not done";
+  const json report = json::parse(test::readText(file), nullptr, false);
+  ASSERT_TRUE(report.is_object()) << "it is whole at every moment";
+  EXPECT_EQ(report["kernels"][0]["compiled"], true);
+  EXPECT_FALSE(report["driver"].get<std::string>().empty());
 }
 
 // The process that compiles the first kernel, by itself: one JSON line.

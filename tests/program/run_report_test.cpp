@@ -54,6 +54,9 @@ SimulateOutcome outcome() {
   outcome.bodyNumbers = BodyNumbers{.deepest = 0.0625, .strand = 4, .particle = 5, .frame = 6, .inside = 9};
   outcome.device = "a device";
   outcome.driver = "a driver";
+  outcome.frameTimes = {.first = 8.5, .median = 2.125, .least = 2};
+  outcome.host = {.submit = 0.0625, .fence = 1.125};
+  outcome.scattered = 0.375;
   outcome.kernel = "a kernel";
   outcome.isTuned = true;
   outcome.deviceBytes = 123456;
@@ -83,10 +86,12 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"particles", 88},
       {"rigid_strands", 2},
       {"ms_per_frame", 2.5},
+      {"frame_ms", {{"first", 8.5}, {"median", 2.125}, {"least", 2.0}}},
       {"stages_ms", {{"strand_step", 2.25}, {"readback", 0.5}, {"write", 0.75}}},
       {"wall_s", {{"start", 3.5}, {"frames", 4.5}, {"finish", 5.5}}},
       {"compute_share", 0.625},
-      {"waits_ms", {{"device", 1.25}, {"writer", 1.75}}},
+      {"waits_ms",
+       {{"device", 1.25}, {"writer", 1.75}, {"submit", 0.0625}, {"fence", 1.125}, {"scatter", 0.375}}},
       {"max_edge_stretch", 1.0625},
       {"limited_share", 0.03125},
       {"nonfinite", 3},

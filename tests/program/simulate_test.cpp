@@ -114,7 +114,18 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
     EXPECT_TRUE(out["stages_ms"][stage].is_number()) << stage;
   for (const char* part : {"start", "frames", "finish"})
     EXPECT_GE(out["wall_s"][part].get<double>(), 0) << part;
-  for (const char* whom : {"device", "writer"}) EXPECT_GE(out["waits_ms"][whom].get<double>(), 0) << whom;
+  const bool isOnDevice = GetParam() == std::string("gpu");
+  for (const char* whom : {"device", "writer", "scatter"})
+    EXPECT_GE(out["waits_ms"][whom].get<double>(), 0) << whom;
+  for (const char* whom : {"submit", "fence"})
+    EXPECT_EQ(out["waits_ms"][whom].is_number(), isOnDevice) << whom;
+  EXPECT_EQ(out["stages_ms"].contains("copy_out"), isOnDevice);
+  EXPECT_NEAR(out["ms_per_frame"].get<double>(), out["stages_ms"]["strand_step"].get<double>(), 1e-9);
+  EXPECT_GT(out["frame_ms"]["least"].get<double>(), 0);
+  EXPECT_GE(out["frame_ms"]["median"].get<double>(), out["frame_ms"]["least"].get<double>());
+  EXPECT_GE(out["frame_ms"]["first"].get<double>(), out["frame_ms"]["least"].get<double>());
+  EXPECT_GE(7 * out["ms_per_frame"].get<double>(),
+            out["frame_ms"]["first"].get<double>() + 6 * out["frame_ms"]["least"].get<double>() - 1e-9);
   const double computed = 7 * out["ms_per_frame"].get<double>() / 1000;
   EXPECT_NEAR(out["compute_share"].get<double>(), computed / out["wall_s"]["frames"].get<double>(), 1e-9);
   for (const char* key : {"device", "driver", "kernel"})
@@ -446,6 +457,31 @@ class Interruption : public testing::Test {
     });
   }
 };
+
+// $RINGLET_WITHOUT: the same bits by another way.
+TEST_F(Interruption, ADeviceDoesWithoutWhatIsNamed) {
+  RINGLET_NEEDS_DEVICE(folder_);
+  const auto simulated = [&](const char* without) {
+    setenv("RINGLET_WITHOUT", without, 1);
+    const auto result =
+        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
+    unsetenv("RINGLET_WITHOUT");
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return json::parse(result.out, nullptr, false);
+  };
+  const json all = simulated(""), few = simulated("texels,timestamps");
+  EXPECT_TRUE(all["stages_ms"].contains("copy_out"));
+  EXPECT_FALSE(few["stages_ms"].contains("copy_out"));
+  EXPECT_GT(few["stages_ms"]["strand_step"].get<double>(), 0) << "by the host's clock";
+  EXPECT_EQ(few["positions_hash"], all["positions_hash"]);
+  EXPECT_EQ(all["warnings"].dump().find("RINGLET_WITHOUT"), std::string::npos);
+  EXPECT_NE(few["warnings"].dump().find("without texels,timestamps"), std::string::npos) << few["warnings"];
+  setenv("RINGLET_WITHOUT", "texels,luck", 1);
+  const auto wrong = runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "-o", "out"});
+  unsetenv("RINGLET_WITHOUT");
+  EXPECT_EQ(wrong.exitCode, 1);
+  EXPECT_NE(wrong.err.find("there is no luck"), std::string::npos) << wrong.err;
+}
 
 TEST_F(Interruption, CtrlCKeepsFinishedFrames) {
   RunningProgram program(folder_, arguments_);

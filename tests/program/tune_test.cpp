@@ -15,6 +15,7 @@ namespace ringlet {
 namespace {
 
 using nlohmann::json;
+using test::RunningProgram;
 using test::runProgram;
 using test::scratchFolder;
 
@@ -106,6 +107,47 @@ TEST_F(Tune, RemembersWhatItMeasuredAndRunsUseIt) {
   const auto untuned = runProgram(
       folder_, {"scene", "hanging_curl", "--particles", "5", "--seconds", "0.05", "--json", "--untuned"});
   EXPECT_EQ(json::parse(untuned.out, nullptr, false)["tuned"], false) << untuned.err;
+}
+
+TEST_F(Tune, WhatIsKnownIsThereWhenItIsKilled) {
+  const auto report = folder_ / "tune.json";
+  RunningProgram program(folder_, {"tune", "--particles", "5", "--strands", "2", "--seconds", "600",
+                                   "--quiet", "--report", "tune.json"});
+  const auto known = [&] {
+    const json said = json::parse(test::readText(report), nullptr, false);
+    return said.is_object() ? said["shapes"].size() : 0;
+  };
+  EXPECT_TRUE(RunningProgram::waitUntil([&] { return std::filesystem::exists(report) && known() >= 1; }));
+  program.send(SIGKILL);
+  program.wait();
+  const json said = json::parse(test::readText(report), nullptr, false);
+  ASSERT_TRUE(said.is_object()) << "it is whole at every moment";
+  EXPECT_EQ(said["shapes"][0]["particles"], 5);
+  EXPECT_TRUE(said["file"].is_null());
+  EXPECT_FALSE(std::filesystem::exists(file()));
+}
+
+// A shape that the driver does not make. The layer (tests/fault_layer) lets the third kernel fail and all
+// after it.
+TEST_F(Tune, AShapeThatFailsIsNotedAndTheOthersAreTimed) {
+  setenv("VK_LAYER_PATH", RINGLET_LAYER_DIR, 1);
+  setenv("VK_INSTANCE_LAYERS", "VK_LAYER_RINGLET_fault", 1);
+  setenv("RINGLET_FAULT", "vkCreateComputePipelines:3:-13", 1);
+  const auto result = runProgram(folder_, {"tune", "--particles", "5", "8", "--strands", "2", "--seconds",
+                                           "600", "--report", "tune.json"});
+  unsetenv("RINGLET_FAULT");
+  unsetenv("VK_INSTANCE_LAYERS");
+  EXPECT_EQ(result.exitCode, 11) << result.err;
+  EXPECT_NE(result.err.find("nothing was remembered"), std::string::npos) << result.err;
+  const json said = json::parse(test::readText(folder_ / "tune.json"), nullptr, false);
+  ASSERT_TRUE(said.is_object()) << result.err;
+  EXPECT_GE(said["shapes"].size(), 1u);
+  EXPECT_GE(said["troubles"].size(), 1u);
+  EXPECT_EQ(said["shapes"].size() + said["troubles"].size(), 5u);
+  for (const json& shape : said["shapes"]) EXPECT_GT(shape["ns_per_particle_step"].get<double>(), 0) << shape;
+  for (const json& trouble : said["troubles"])
+    EXPECT_NE(trouble["message"].get<std::string>().find(trouble["shape"]), std::string::npos) << trouble;
+  EXPECT_FALSE(std::filesystem::exists(file()));
 }
 
 // Each of three shapes, whichever is the fastest in truth.

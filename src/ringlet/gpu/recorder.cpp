@@ -15,6 +15,7 @@ namespace ringlet::gpu {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr std::uint32_t kStagesPerPool = 64;                   // two timestamps each
 constexpr std::uint32_t kQueriesPerPool = 2 * kStagesPerPool;  // pools are added as stages come
@@ -37,6 +38,7 @@ struct Recorder::State {
   Clock::time_point submitted;
   double submissionMilliseconds = 0,
          ownMilliseconds = 0;  // from submit; from the wait before, if that is later
+  double submitMilliseconds = 0, fenceMilliseconds = 0;
   std::vector<std::pair<std::string, double>> stageMilliseconds;
 
   ~State() {
@@ -217,6 +219,7 @@ Status Recorder::write() {
 Status Recorder::submit() {
   RINGLET_ASSERT(self_->phase == State::Phase::recording || self_->phase == State::Phase::recorded,
                  "submit without a recording, or before wait");
+  const Clock::time_point begin = Clock::now();
   if (self_->phase == State::Phase::recording) {
     RINGLET_ASSERT(!isStageOpen(), "submit before endStage");
     isOpen_ = false;
@@ -229,15 +232,17 @@ Status Recorder::submit() {
   const VkResult submitted = self_->device->submit(std::span(self_->parts).first(self_->partCount), fence);
   if (submitted != VK_SUCCESS) return vulkanError("vkQueueSubmit", submitted, self_->attempt("submit"));
   self_->phase = State::Phase::submitted;
+  self_->submitMilliseconds = Milliseconds(Clock::now() - begin).count();
   return {};
 }
 
 Status Recorder::wait() {
   RINGLET_ASSERT(self_->phase == State::Phase::submitted, "wait without submit");
+  const Clock::time_point begin = Clock::now();
   if (Status status = self_->waitForFence(); !status) return status;  // its end is still to come
   self_->phase = State::Phase::recorded;
-  using Milliseconds = std::chrono::duration<double, std::milli>;
   const Clock::time_point now = Clock::now(), before = self_->device->noteWait(now);
+  self_->fenceMilliseconds = Milliseconds(now - begin).count();
   self_->submissionMilliseconds = Milliseconds(now - self_->submitted).count();
   self_->ownMilliseconds = Milliseconds(now - std::max(self_->submitted, before)).count();
   return self_->readStages();
@@ -252,5 +257,7 @@ const std::vector<std::pair<std::string, double>>& Recorder::stageMilliseconds()
   return self_->stageMilliseconds;
 }
 double Recorder::submissionMilliseconds() const { return self_->submissionMilliseconds; }
+double Recorder::submitMilliseconds() const { return self_->submitMilliseconds; }
+double Recorder::fenceMilliseconds() const { return self_->fenceMilliseconds; }
 
 }  // namespace ringlet::gpu

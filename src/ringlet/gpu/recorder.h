@@ -40,6 +40,9 @@ class Recorder : public CommandList {
   const std::vector<std::pair<std::string, double>>& stageMilliseconds() const;
   /// From submit to the end of wait, on the host's clock [ms].
   double submissionMilliseconds() const;
+  /// On the host's clock, what the last submit took, and how long the last wait stood at its fence [ms].
+  double submitMilliseconds() const;
+  double fenceMilliseconds() const;
 
  private:
   struct State;

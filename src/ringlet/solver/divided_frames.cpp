@@ -33,8 +33,7 @@ Status Simulation::Implementation::startPart(FrameRecording& frame, gpu::Recorde
 // Waits for it.
 Status Simulation::Implementation::endPart(gpu::Recorder& recorder) {
   if (Status status = recorder.wait(); !status) return status;
-  for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
-    stageMilliseconds[stage] += milliseconds;
+  addTimes(recorder);
   if (contacts) contacts->readControl();
   return buffers.control().isHalted == layout::kHaltedByTurns ? Status{Error{kTooManyNear}} : Status{};
 }

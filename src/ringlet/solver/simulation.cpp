@@ -430,6 +430,8 @@ std::map<std::string, double> Simulation::stageMilliseconds() const {
   return all;
 }
 
+HostMilliseconds Simulation::hostMilliseconds() const { return self_->hostMilliseconds; }
+
 Result<std::vector<std::array<float, 4>>> Simulation::tap(std::uint32_t field) const {
   RINGLET_ASSERT(self_->choice.taps && field < layout::kTapCount,
                  "taps are written only with KernelChoice::taps");

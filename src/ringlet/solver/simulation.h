@@ -158,6 +158,15 @@ struct ListedContact {
   float stiffnessShare = 0, dampingShare = 0;
 };
 
+/// Stage of the copy of positions to the host, which is no stepping.
+inline constexpr const char* kCopyStage = "copy_out";
+
+/// What the host spent on the device [ms].
+struct HostMilliseconds {
+  double submit = 0;  // handing frames to it, and recording them where they are new
+  double fence = 0;   // standing at its fences
+};
+
 /// Threads: one at a time; simulations of one device or asset may run on different threads.
 ///
 /// Strands that float32 cannot hold, and a few that would need far more steps than the others, are carried
@@ -298,8 +307,10 @@ class Simulation {
   /// rigidly), a sentence each.
   const std::vector<std::string>& warnings() const;
   /// Milliseconds spent on the device, by stage, summed over all frames waited for; by GPU timestamps where
-  /// the device has them.
+  /// the device has them, and then with kCopyStage.
   std::map<std::string, double> stageMilliseconds() const;
+  /// What the host spent on the device, summed likewise.
+  HostMilliseconds hostMilliseconds() const;
   /// Present sizes; a frame in flight may still enlarge contact lists. The driver may need a little more for
   /// each of some dozen buffers.
   DeviceMemory memory() const;

@@ -88,9 +88,13 @@ void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
   frame.list.barrier();
 }
 
-// What a frame brings back to the host, also one without steps.
+// What a frame brings back to the host, also one without steps. Without timestamps a submission's time is
+// divided among its stages: stepping then keeps all of it.
 void Simulation::Implementation::recordEnd(FrameRecording& frame) const {
+  const bool isTimed = readsBack && device.gpu().properties().hasTimestamps;
+  if (isTimed) frame.list.beginStage(kCopyStage);
   slots[frame.slot].recordPositions(frame.list, buffers);
+  if (isTimed) frame.list.endStage();
   if (contacts || volume) buffers.recordControl(frame.list);
 }
 
@@ -307,6 +311,13 @@ Status Simulation::Implementation::finishFrames(std::uint64_t end) {
   return {};
 }
 
+void Simulation::Implementation::addTimes(const gpu::Recorder& recorder) {
+  for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
+    stageMilliseconds[stage] += milliseconds;
+  hostMilliseconds.submit += recorder.submitMilliseconds();
+  hostMilliseconds.fence += recorder.fenceMilliseconds();
+}
+
 // A frame that stopped because a list was too long goes on from its step with longer ones: no pair is
 // dropped. Commands of a host's are done.
 Status Simulation::Implementation::runToEnd(std::size_t slot) {
@@ -314,8 +325,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
   for (bool isHosts = std::exchange(slots[slot].isHosts, false);; isHosts = false) {
     if (!isHosts) {
       if (Status status = recorder.wait(); !status) return status;
-      for (const auto& [stage, milliseconds] : recorder.stageMilliseconds())
-        stageMilliseconds[stage] += milliseconds;
+      addTimes(recorder);
     }
     if (contacts) contacts->readControl();
     if ((contacts || volume) && buffers.control().isHalted == layout::kHaltedByTurns) {

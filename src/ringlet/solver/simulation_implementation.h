@@ -164,6 +164,8 @@ struct Simulation::Implementation {
     return secondsBefore + static_cast<double>(stepsDone - stepsBefore) * settings.stepSeconds();
   }
   std::map<std::string, double> stageMilliseconds{};
+  HostMilliseconds hostMilliseconds{};
+  void addTimes(const gpu::Recorder& recorder);  // of its last submission
 
   double compileMilliseconds = 0;
 
