@@ -160,8 +160,8 @@ void writeStretched(const std::filesystem::path& folder, const std::vector<doubl
                     double framesPerSecond = 24) {
   std::filesystem::create_directories(folder);
   auto writer = UsdWriter::create(folder / "hair.usda", twoCurls(),
-                                  {.metresPerUnit = 0.01,
-                                   .framesPerSecond = framesPerSecond,
+                                  {.framesPerSecond = framesPerSecond,
+                                   .metresPerUnit = 0.01,
                                    .frameCount = static_cast<int>(stretches.size())});
   ASSERT_TRUE(writer);
   for (const double stretch : stretches) ASSERT_TRUE(writer->addFrame(twoCurls(stretch).points));

@@ -85,8 +85,8 @@ class DenseMotion : public SceneTest {
         Simulation::create(device(), scene.groom, scene.material, scene.settings,
                            {.head = scene.motion.poseAt(0),
                             .oneStepEarlier = scene.motion.poseAt(-scene.settings.stepSeconds()),
-                            .rootShifts = scene.rootShifts,
-                            .bodies = scene.bodies});
+                            .bodies = scene.bodies,
+                            .rootShifts = scene.rootShifts});
     EXPECT_TRUE(simulation) << simulation.error().message;
     for (int frame = 0; frame < scene.frameCount(); ++frame)
       EXPECT_TRUE(simulation->stepFrame(posesOfFrame(scene, frame)));
