@@ -59,10 +59,8 @@ uint invocationOfDispatch() {
 
 // Source invocation `offset` lanes towards the root or the tip; where there is none, this one itself, whose value the
 // caller must not use.
-uint rootward(uint offset) { return lane >= offset ? gl_SubgroupInvocationID - offset : gl_SubgroupInvocationID; }
-uint tipward(uint offset) {
-  return lane + offset < kLanes ? gl_SubgroupInvocationID + offset : gl_SubgroupInvocationID;
-}
+uint rootward(uint offset) { return gl_SubgroupInvocationID - (lane >= offset ? offset : 0u); }
+uint tipward(uint offset) { return gl_SubgroupInvocationID + (lane + offset < kLanes ? offset : 0u); }
 
 float fromRootward(float x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
 vec2 fromRootward(vec2 x, uint offset) { return subgroupShuffle(x, rootward(offset)); }
