@@ -9,7 +9,7 @@ int high = 0;
 int low = 0;
 
 void take(VolumeParcel parcel, float weight) {
-  int term = int(weight * parcel.place.w);
+  int term = int(roundEven(weight * parcel.place.w));
   high += term >> 16;
   low += term & 0xffff;
 }

@@ -8,7 +8,7 @@ ivec4 high = ivec4(0);
 ivec4 low = ivec4(0);
 
 void take(VolumeParcel parcel, float weight) {
-  ivec4 term = ivec4(weight * parcel.rate);
+  ivec4 term = ivec4(roundEven(weight * parcel.rate));
   high += term >> 16;
   low += term & 0xffff;
 }
