@@ -27,6 +27,14 @@ TEST(InParallel, ThreadsShareTheWork) {
   EXPECT_EQ(threads.size(), 4u);
 }
 
+TEST(InParallel, PartsAreHandedOutOnce) {
+  for (const std::size_t count : {0u, 1u, 64u, 1000u}) {
+    std::vector<std::atomic<int>> done(count);
+    eachInParallel(4, count, 64, [&](std::size_t i) { ++done[i]; });
+    for (std::size_t i = 0; i < count; ++i) EXPECT_EQ(done[i], 1) << i << " of " << count;
+  }
+}
+
 TEST(InParallel, WhatAnyThrowsComesToTheCaller) {
   const auto caller = std::this_thread::get_id();
   for (const bool inCaller : {false, true}) {

@@ -89,6 +89,20 @@ TEST(ContactGraph, OverlapsAreThoseOfAllPairs) {
   }
 }
 
+// Radii from one to some hundred times the least: spheres of several sizes of cells meet.
+TEST(ContactGraph, OverlapsOfAnyRadiiAreThoseOfAllPairs) {
+  ContactSettings gapless;
+  gapless.fillGaps = true;
+  gapless.radius = 0.001;
+  for (const ContactSample& sample : contactSamples()) {
+    const RestState rest = restOf(sample.groom);
+    const ContactParticles contacts = chooseContactParticles(rest, gapless);
+    for (double enlargement : {1.0, 3.0})
+      EXPECT_EQ(countOverlaps(rest, contacts, enlargement), byAllPairs(rest, contacts, enlargement))
+          << sample.name << " " << enlargement;
+  }
+}
+
 TEST(ContactGraph, ParallelLinesOverlapAsCounted) {
   // Spheres h apart along two lines D apart: i and j overlap where D^2 + ((i - j) h)^2 < E^2.
   Groom groom = metres();

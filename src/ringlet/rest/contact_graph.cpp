@@ -6,47 +6,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "ringlet/base/box_pairs.h"
 #include "ringlet/groom/seeded_random.h"
 
 namespace ringlet {
 namespace {
-
-// The overlaps of one strand, counted by the other: a counter per strand, of which only those used are
-// cleared.
-class OverlapRow {
- public:
-  explicit OverlapRow(std::size_t strandCount) : counts_(strandCount, 0) {}
-
-  void add(std::uint32_t other) {
-    if (counts_[other]++ == 0) touched_.push_back(other);
-  }
-  void moveTo(std::vector<StrandOverlap>& overlaps, std::uint32_t strand) {
-    for (std::uint32_t other : touched_) {
-      overlaps.push_back({std::min(strand, other), std::max(strand, other), counts_[other]});
-      counts_[other] = 0;
-    }
-    touched_.clear();
-  }
-
- private:
-  std::vector<std::uint32_t> counts_, touched_;
-};
-
-void sortAndMerge(std::vector<StrandOverlap>& overlaps) {
-  std::sort(overlaps.begin(), overlaps.end(), [](const StrandOverlap& x, const StrandOverlap& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  });
-  std::size_t merged = 0;
-  for (const StrandOverlap& o : overlaps) {
-    if (merged > 0 && overlaps[merged - 1].a == o.a && overlaps[merged - 1].b == o.b) {
-      overlaps[merged - 1].count += o.count;
-    } else {
-      overlaps[merged++] = o;
-    }
-  }
-  overlaps.resize(merged);
-}
 
 void dropWeak(std::vector<StrandOverlap>& overlaps, int minOverlaps) {
   std::erase_if(overlaps,
@@ -111,35 +74,6 @@ bool ContactGraph::allows(std::uint32_t a, std::uint32_t b) const {
   if (everyPair) return a != b;
   const auto begin = neighbours.begin();
   return std::binary_search(begin + firstNeighbour[a], begin + firstNeighbour[a + 1], b);
-}
-
-std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactParticles& particles,
-                                         double enlargement) {
-  const std::size_t strandCount = particles.strandCount();
-  std::vector<Box> boxes;
-  boxes.reserve(particles.particles.size());
-  for (std::size_t i = 0; i < particles.particles.size(); ++i) {
-    const double reach = enlargement * particles.radii[particles.strands[i]];
-    boxes.push_back({static_cast<Vec3d>(rest.points[particles.particles[i]]), {reach, reach, reach}});
-  }
-  const BoxPairs pairs(boxes);
-
-  std::vector<StrandOverlap> overlaps;
-  OverlapRow row(strandCount);
-  for (std::uint32_t a = 0; a < strandCount; ++a) {
-    for (std::uint32_t i = particles.firstOfStrand[a]; i < particles.firstOfStrand[a + 1]; ++i) {
-      pairs.visitPartners(i, [&](std::size_t j) {
-        const std::uint32_t b = particles.strands[j];
-        if (b == a) return;
-        const double reach = enlargement * (double{particles.radii[a]} + double{particles.radii[b]});
-        if (length(boxes[i].centre - boxes[j].centre) < reach) row.add(b);
-      });
-    }
-    row.moveTo(overlaps, a);
-  }
-  // A pair is met from either end, so it may have two rows.
-  sortAndMerge(overlaps);
-  return overlaps;
 }
 
 ContactGraph pruneStrandPairs(std::span<const StrandOverlap> overlaps, const RestState& rest,

@@ -9,20 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/rest/strand_overlaps.h"
 #include "ringlet/scene/contact_settings.h"
 
 namespace ringlet {
-
-/// Two strands (device order) and the number of pairs of their enlarged spheres that overlap at rest.
-struct StrandOverlap {
-  std::uint32_t a, b;  // a < b
-  std::uint32_t
-      count;  // n_ab, of contact particles i of a and j of b with |p_i - p_j| < enlargement (r_a + r_b)
-
-  bool operator==(const StrandOverlap&) const = default;
-};
 
 struct ContactGraph {
   bool everyPair = false;  // no pruning: any two strands may touch, and these arrays are empty
@@ -38,11 +29,6 @@ struct ContactGraph {
   /// Whether two different strands (device order) may touch.
   bool allows(std::uint32_t a, std::uint32_t b) const;
 };
-
-/// All pairs of strands that overlap, by a, then b. Cost: linear in contact particles and their overlaps;
-/// memory by pairs of strands only.
-std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactParticles& particles,
-                                         double enlargement);
 
 /// Keeps the pairs with minOverlaps or more. Of these it keeps those that are among the maxNeighbours
 /// strongest of both strands (by count, then by the other's place in the groom), and of these all but a

@@ -5,16 +5,18 @@
 #include <map>
 #include <numeric>
 #include <span>
-#include <unordered_map>
 #include <utility>
 
 #include "layout/strands.h"
+#include "ringlet/rest/cell_map.h"
 #include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/density_grid.h"
 #include "ringlet/scene/contact_settings.h"
 
 namespace ringlet {
 namespace {
+
+constexpr std::size_t kStrandsPerPart = 64;
 
 // tell(i, mass) of each particle of a strand.
 template <class Tell>
@@ -23,20 +25,29 @@ void eachParticle(const RestState& rest, const layout::StrandRest& strand, Tell&
     tell(i, double(rest.particles[i].mass) * strand.massUnit);
 }
 
-// Of each strand, in strands like itself.
-std::vector<double> strandDensities(const RestState& rest, double cell) {
+// Of each strand, in strands like itself. Masses are added in device order by one thread: the order of a sum
+// is in its bits.
+std::vector<double> strandDensities(const RestState& rest, double cell, unsigned threadCount) {
   DensityGrid all(cell);
   for (const layout::StrandRest& strand : rest.strands)
     eachParticle(rest, strand, [&](std::uint32_t i, double mass) { all.add(rest.points[i], mass); });
-  std::vector<double> densities;
-  for (const layout::StrandRest& strand : rest.strands) {
+  std::vector<double> densities(rest.strands.size());
+  SharedParts parts(rest.strands.size(), kStrandsPerPart);
+  inParallel(threadCount, [&] {
     DensityGrid own(cell);
-    eachParticle(rest, strand, [&](std::uint32_t i, double mass) { own.add(rest.points[i], mass); });
-    double shares = 0;
-    eachParticle(rest, strand,
-                 [&](std::uint32_t i, double) { shares += own.at(rest.points[i]) / all.at(rest.points[i]); });
-    densities.push_back(strand.particleCount / shares);
-  }
+    parts.take([&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        const layout::StrandRest& strand = rest.strands[s];
+        own.clear();
+        eachParticle(rest, strand, [&](std::uint32_t i, double mass) { own.add(rest.points[i], mass); });
+        double shares = 0;
+        eachParticle(rest, strand, [&](std::uint32_t i, double) {
+          shares += own.at(rest.points[i]) / all.at(rest.points[i]);
+        });
+        densities[s] = strand.particleCount / shares;
+      }
+    });
+  });
   return densities;
 }
 
@@ -51,12 +62,11 @@ std::vector<std::uint32_t> joinedThroughCells(const RestState& rest, const std::
                                               double cell) {
   std::vector<std::uint32_t> groups(rest.strands.size());
   std::iota(groups.begin(), groups.end(), 0u);
-  std::unordered_map<std::uint64_t, std::uint32_t> someStrand;  // of each cell
+  CellMap<std::uint32_t> someStrand;  // of each cell
   for (std::uint32_t s = 0; s < rest.strands.size(); ++s) {
     if (!isIn[s]) continue;
     eachParticle(rest, rest.strands[s], [&](std::uint32_t i, double) {
-      const std::uint32_t there =
-          someStrand.try_emplace(DensityGrid::cellOf(rest.points[i], cell), s).first->second;
+      const std::uint32_t there = someStrand.at(DensityGrid::cellOf(rest.points[i], cell), s);
       const auto [least, most] = std::minmax({firstOf(groups, s), firstOf(groups, there)});
       groups[most] = least;
     });
@@ -98,9 +108,9 @@ DenseStrands noDenseStrands(const RestState& rest) {
   return none;
 }
 
-DenseStrands findDenseStrands(const RestState& rest) {
+DenseStrands findDenseStrands(const RestState& rest, unsigned threadCount) {
   const double cell = volumeCellFor(rest, radiusOfRoots(rest));
-  const std::vector<double> densities = strandDensities(rest, cell);
+  const std::vector<double> densities = strandDensities(rest, cell, threadCount);
   DenseStrands dense = noDenseStrands(rest);
   for (std::size_t s = 0; s < densities.size(); ++s) dense.isIn[s] = densities[s] >= kDenseStrands / 2;
   dense.groups = joinedThroughCells(rest, dense.isIn, cell);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ringlet/base/in_parallel.h"
 #include "ringlet/rest/rest_state.h"
 
 namespace ringlet {
@@ -20,8 +21,8 @@ struct DenseStrands {
 /// The density of a strand is the harmonic mean over its particles of the density of all hair over that of
 /// the strand alone, in cells of the default size. Strands with half of kDenseStrands or more that share
 /// cells are connected. If the median strand of a component has kDenseStrands or more, the component is
-/// dense. Cost: linear in particles.
-DenseStrands findDenseStrands(const RestState& rest);
+/// dense. The same with any number of threads. Cost: linear in particles.
+DenseStrands findDenseStrands(const RestState& rest, unsigned threadCount = coreCount());
 
 DenseStrands noDenseStrands(const RestState& rest);
 

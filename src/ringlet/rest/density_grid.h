@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 
 #include "ringlet/base/vec3.h"
+#include "ringlet/rest/cell_map.h"
 
 namespace ringlet {
 
@@ -27,16 +27,18 @@ class DensityGrid {
 
   /// Adds a mass [kg] at a place [m].
   void add(Vec3f place, double mass) {
-    eachNode(place, [&](std::uint64_t node, double weight) { nodes_[node] += weight * mass; });
+    eachNode(place, [&](std::uint64_t node, double weight) { nodes_.at(node, 0) += weight * mass; });
   }
   /// Density at a place [kg/m^3].
   double at(Vec3f place) const {
     double sum = 0;
     eachNode(place, [&](std::uint64_t node, double weight) {
-      if (const auto it = nodes_.find(node); it != nodes_.end()) sum += weight * it->second;
+      if (const double* mass = nodes_.find(node)) sum += weight * *mass;
     });
     return sum / (cell_ * cell_ * cell_);
   }
+  /// Forgets all masses and keeps the memory.
+  void clear() { nodes_.clear(); }
 
  private:
   static constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
@@ -64,7 +66,7 @@ class DensityGrid {
   }
 
   double cell_;
-  std::unordered_map<std::uint64_t, double> nodes_;
+  CellMap<double> nodes_;  // mass at each [kg]
 };
 
 }  // namespace ringlet

@@ -12,12 +12,14 @@ std::vector<std::string> RestContacts::warnings() const {
   return all;
 }
 
-RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings) {
+RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings, unsigned threadCount) {
   ContactParticles particles = chooseContactParticles(rest, settings);
   const bool automatic = settings.mayBeVolume() && settings.method == ContactMethod::automatic;
-  const DenseStrands dense = automatic || settings.detail < 1 ? findDenseStrands(rest) : noDenseStrands(rest);
+  const DenseStrands dense =
+      automatic || settings.detail < 1 ? findDenseStrands(rest, threadCount) : noDenseStrands(rest);
   VolumeStrands volume = chooseVolumeStrands(rest, particles, dense, settings);
-  ContactGraph graph = pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement), rest, settings);
+  ContactGraph graph =
+      pruneStrandPairs(countOverlaps(rest, particles, settings.enlargement, threadCount), rest, settings);
   RestContacts contacts;
   contacts.kinds = {meetPairByPair(volume, graph), volume.count > 0};
   contacts.overlapsPerParticle =

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/in_parallel.h"
 #include "ringlet/rest/contact_graph.h"
 #include "ringlet/rest/contact_particles.h"
 #include "ringlet/rest/rest_state.h"
@@ -64,7 +65,8 @@ struct RestContacts {
   std::vector<std::string> warnings() const;
 };
 
-/// Cost: that of countOverlaps, mostly.
-RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings);
+/// The same with any number of threads. Cost: that of countOverlaps, mostly.
+RestContacts buildRestContacts(const RestState& rest, const ContactSettings& settings,
+                               unsigned threadCount = coreCount());
 
 }  // namespace ringlet

@@ -22,6 +22,8 @@ namespace {
 // Further away [m] nothing is: squares of such numbers, and of speeds between them, are still floats.
 constexpr double kFarthest = 1e9;
 
+constexpr std::size_t kStrandsPerPart = 64;  // that a thread takes at once
+
 layout::vec3 packed3(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -304,13 +306,12 @@ Result<std::vector<StrandSize>> sizesOf(const Groom& groom) {
       tooShort - sizes.begin(), tooShort->length, kLeastStrandLength)};
 }
 
-std::vector<StrandGeometry> geometryOf(const Groom& groom) {
-  std::vector<StrandGeometry> geometry;
-  geometry.reserve(groom.strandCount());
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+std::vector<StrandGeometry> geometryOf(const Groom& groom, unsigned threadCount) {
+  std::vector<StrandGeometry> geometry(groom.strandCount());
+  eachInParallel(threadCount, groom.strandCount(), kStrandsPerPart, [&](std::size_t s) {
     const RestCurve curve(inMetres(groom.strand(s), groom.metresPerUnit));
-    geometry.push_back(strandGeometry(curve.points, curve.arcs));
-  }
+    geometry[s] = strandGeometry(curve.points, curve.arcs);
+  });
   return geometry;
 }
 
@@ -335,7 +336,7 @@ Result<Survey> surveyOf(const Groom& groom, const Material& material, const Sett
   const std::size_t count = groom.strandCount();
   RINGLET_ASSERT(known.empty() || known.size() == count, "the geometry is of this groom");
   Survey survey{.sizes = std::move(*sizes),
-                .measured = known.empty() ? geometryOf(groom) : std::vector<StrandGeometry>(),
+                .measured = known.empty() ? geometryOf(groom, coreCount()) : std::vector<StrandGeometry>(),
                 .geometry = known,
                 .longestSteps = std::vector<double>(count),
                 .isRigid = std::vector<bool>(count)};
@@ -410,10 +411,10 @@ Groom groomOf(const RestState& state) {
   return groom;
 }
 
-Result<std::vector<StrandGeometry>> measureGeometry(const Groom& groom) {
+Result<std::vector<StrandGeometry>> measureGeometry(const Groom& groom, unsigned threadCount) {
   if (Status status = checkGroom(groom); !status) return status.error();
   if (const auto sizes = sizesOf(groom); !sizes) return sizes.error();
-  return geometryOf(groom);
+  return geometryOf(groom, threadCount);
 }
 
 Result<RestState> buildRestState(const Groom& groom, const Material& material, const Settings& settings,

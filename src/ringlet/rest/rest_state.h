@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "layout/strands.h"
+#include "ringlet/base/in_parallel.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
@@ -51,9 +52,9 @@ struct RestState {
 inline std::size_t hereCount(const RestState& rest) { return rest.strands.size() - rest.haloCount; }
 
 /// The geometry of each strand, in groom order. No setting and no material changes it, so that whoever makes
-/// several rest states of one groom measures it once. Fails as buildRestState does on a groom. Cost: nearly
-/// half of buildRestState's.
-Result<std::vector<StrandGeometry>> measureGeometry(const Groom& groom);
+/// several rest states of one groom measures it once. The same with any number of threads. Fails as
+/// buildRestState does on a groom. Cost: nearly half of buildRestState's.
+Result<std::vector<StrandGeometry>> measureGeometry(const Groom& groom, unsigned threadCount = coreCount());
 
 /// Fails on settings out of range, an empty groom, points that are not finite or more than 1e9 m away, and
 /// where half the strands have no length. Cost: three passes over the groom, in double. `order`: the groom's

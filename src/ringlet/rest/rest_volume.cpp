@@ -11,6 +11,8 @@
 namespace ringlet {
 namespace {
 
+constexpr std::size_t kStrandsPerPart = 64;
+
 double arcLength(const RestState& rest, const layout::StrandRest& strand) {
   double arc = 0;
   for (std::uint32_t i = 0; i + 1 < strand.particleCount; ++i)
@@ -45,18 +47,45 @@ std::uint64_t reachableCells(const RestState& rest, const VolumeStrands& volume,
   return cells < 1e18 ? static_cast<std::uint64_t>(cells) : std::uint64_t{1} << 60;
 }
 
+// Of each strand's particles. Masses are added in device order by one thread: the order of a sum is in its
+// bits.
+void setDensities(const RestState& rest, RestVolume& volume, unsigned threadCount) {
+  const std::size_t count = volume.particles.size();
+  const auto placeOf = [&](std::size_t k) { return rest.points[volume.particles[k]]; };
+  DensityGrid all(volume.cell);
+  for (std::size_t k = 0; k < count; ++k) all.add(placeOf(k), volume.masses[k]);
+  std::vector<std::size_t> firsts;  // of each strand's particles, and the end
+  for (std::size_t k = 0; k < count; ++k)
+    if (k == 0 || volume.strands[k] != volume.strands[k - 1]) firsts.push_back(k);
+  firsts.push_back(count);
+
+  volume.densities.resize(count);
+  volume.ownDensities.resize(count);
+  SharedParts parts(firsts.size() - 1, kStrandsPerPart);
+  inParallel(threadCount, [&] {
+    DensityGrid own(volume.cell);
+    parts.take([&](std::size_t begin, std::size_t end) {
+      for (std::size_t s = begin; s < end; ++s) {
+        own.clear();
+        for (std::size_t k = firsts[s]; k < firsts[s + 1]; ++k) own.add(placeOf(k), volume.masses[k]);
+        for (std::size_t k = firsts[s]; k < firsts[s + 1]; ++k) {
+          volume.densities[k] = static_cast<float>(all.at(placeOf(k)));
+          volume.ownDensities[k] = static_cast<float>(own.at(placeOf(k)));
+        }
+      }
+    });
+  });
+}
+
 }  // namespace
 
-RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts) {
+RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts, unsigned threadCount) {
   RestVolume volume;
   volume.cell = contacts.volume.cell;
-  DensityGrid all(volume.cell);
   for (std::uint32_t s = 0; s < rest.strands.size(); ++s) {
     if (!contacts.volume.isIn[s]) continue;
     const layout::StrandRest& strand = rest.strands[s];
     volume.longestStrand = std::max(volume.longestStrand, arcLength(rest, strand));
-    DensityGrid own(volume.cell);
-    const std::size_t first = volume.particles.size();
     const std::uint32_t stride = volumeStride(rest, strand, volume.cell);
     for (std::uint32_t k = rest.strandInGroom[s] % stride; k < strand.particleCount; k += stride) {
       const std::uint32_t i = strand.firstParticle + k;
@@ -64,14 +93,9 @@ RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts) 
       volume.particles.push_back(i);
       volume.strands.push_back(s);
       volume.masses.push_back(mass);
-      all.add(rest.points[i], mass);
-      own.add(rest.points[i], mass);
     }
-    for (std::size_t k = first; k < volume.particles.size(); ++k)
-      volume.ownDensities.push_back(static_cast<float>(own.at(rest.points[volume.particles[k]])));
   }
-  for (const std::uint32_t i : volume.particles)
-    volume.densities.push_back(static_cast<float>(all.at(rest.points[i])));
+  setDensities(rest, volume, threadCount);
   for (const float mass : volume.masses) volume.largestMass = std::max(volume.largestMass, mass);
   volume.cells = reachableCells(rest, contacts.volume, volume.cell);
   return volume;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ringlet/base/in_parallel.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 
@@ -24,8 +25,9 @@ struct RestVolume {
   std::uint64_t cells = 0;               // that hair can reach, with strands 1.1 times as long
 };
 
-/// Densities are trilinear, on a grid of cell size h. `rest` must still have its particles. Cost: linear in
-/// particles.
-RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts);
+/// Densities are trilinear, on a grid of cell size h. `rest` must still have its particles. The same with any
+/// number of threads. Cost: linear in particles.
+RestVolume buildRestVolume(const RestState& rest, const RestContacts& contacts,
+                           unsigned threadCount = coreCount());
 
 }  // namespace ringlet

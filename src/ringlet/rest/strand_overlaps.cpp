@@ -1,0 +1,193 @@
+// Implements rest/strand_overlaps.h: spheres meet in a sweep over cells (rest/sphere_cells.h), each thread
+// counts what it finds, and the counts are added strand by strand. They are integers: who found what, and
+// when, leaves no trace.
+#include "ringlet/rest/strand_overlaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "ringlet/rest/sphere_cells.h"
+
+namespace ringlet {
+namespace {
+
+constexpr std::size_t kCellsPerPart = 4096, kStrandsPerPart = 64;
+
+// Cells are this much larger than the largest sphere in them: by more than rounding moves a centre.
+constexpr double kCellMargin = 1 + 1e-6;
+
+// Cells along an axis, at most: their numbers fit into 32 bits, and rounding stays below the margin.
+constexpr double kMostCells = 0x1p30;
+
+using Lists = std::vector<std::vector<StrandOverlap>>;
+
+// Counts of pairs as they are met. A pair is met by many spheres one after another; where another pair takes
+// its slot it is noted with what was counted, and may be counted on later.
+class PairCounts {
+ public:
+  void add(std::uint32_t a, std::uint32_t b) {
+    if (a > b) std::swap(a, b);
+    StrandOverlap& slot = slots_[(a * 73856093u ^ b * 19349663u) >> 16 & (kSlots - 1)];
+    if (slot.a != a || slot.b != b) {
+      note(slot);
+      slot = {a, b, 0};
+    }
+    ++slot.count;
+  }
+  void moveTo(Lists& lists) {
+    for (StrandOverlap& slot : slots_) note(std::exchange(slot, {}));
+    std::ranges::move(noted_, std::back_inserter(lists));
+  }
+
+ private:
+  static constexpr std::size_t kSlots = 1 << 15;       // 384 KB: they stay in a core's own cache
+  static constexpr std::size_t kListLength = 1 << 16;  // lists that do not grow are not copied
+
+  void note(const StrandOverlap& slot) {
+    if (slot.count == 0) return;
+    if (noted_.empty() || noted_.back().size() == kListLength) noted_.emplace_back().reserve(kListLength);
+    noted_.back().push_back(slot);
+  }
+
+  std::vector<StrandOverlap> slots_{kSlots};
+  Lists noted_;
+};
+
+// Spheres of one size of cell, each size half the one before, so that a few large ones do not make all cells
+// large; and with them all that are smaller, which look them up.
+struct SizeOfCells {
+  SphereCells own, smaller;
+};
+
+std::vector<SizeOfCells> sortBySize(std::vector<Sphere> spheres, double enlargement) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3d low{kInfinity, kInfinity, kInfinity}, high = -low;
+  float largest = 0;
+  for (const Sphere& sphere : spheres) {
+    const auto c = static_cast<Vec3d>(sphere.centre);
+    low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
+    high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    largest = std::max(largest, sphere.radius);
+  }
+  const Vec3d extent = high - low;
+  const double smallestCell = std::max({extent.x, extent.y, extent.z}) / kMostCells;
+  const auto cellFor = [&](float radius) {
+    return std::max(2 * enlargement * radius * kCellMargin, smallestCell);
+  };
+  std::vector<SizeOfCells> sizes;
+  for (double cell = cellFor(largest); !spheres.empty(); cell /= 2) {
+    const auto own = std::partition(spheres.begin(), spheres.end(),
+                                    [&](const Sphere& sphere) { return cellFor(sphere.radius) <= cell / 2; });
+    if (own != spheres.end())
+      sizes.push_back({{{own, spheres.end()}, low, cell}, {{spheres.begin(), own}, low, cell}});
+    spheres.erase(own, spheres.end());
+  }
+  return sizes;
+}
+
+// Of all threads; a pair may be in several lists, and more than once.
+Lists meet(const std::vector<SizeOfCells>& sizes, double enlargement, unsigned threadCount) {
+  Lists lists;
+  std::mutex mutex;
+  for (const SizeOfCells& size : sizes) {
+    SharedParts parts(size.own.cellCount(), kCellsPerPart);
+    inParallel(threadCount, [&] {
+      PairCounts counts;
+      const auto compare = [&](const Sphere& a, const Sphere& b) {
+        const double reach = enlargement * (double{a.radius} + double{b.radius});
+        const Vec3d gap = static_cast<Vec3d>(a.centre) - static_cast<Vec3d>(b.centre);
+        if (a.strand != b.strand && length(gap) < reach) counts.add(a.strand, b.strand);
+      };
+      parts.take([&](std::size_t begin, std::size_t end) {
+        size.own.eachNear(size.own, begin, end, compare);
+        size.own.eachNear(size.smaller, begin, end, compare);
+      });
+      const std::lock_guard lock(mutex);
+      counts.moveTo(lists);
+    });
+  }
+  return lists;
+}
+
+// What was noted of each strand with those above it, strand by strand.
+struct Noted {
+  struct Count {
+    std::uint32_t other, count;
+  };
+  std::vector<std::uint64_t> first;  // of each strand, and the end
+  std::vector<Count> counts;
+
+  Noted(Lists lists, std::size_t strandCount) : first(strandCount + 1) {
+    for (const auto& list : lists)
+      for (const StrandOverlap& o : list) ++first[o.a + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    counts.resize(first.back());
+    std::vector<std::uint64_t> next(first.begin(), first.end() - 1);
+    for (auto& list : lists) {
+      for (const StrandOverlap& o : list) counts[next[o.a]++] = {o.b, o.count};
+      list = {};
+    }
+  }
+  std::span<Count> of(std::size_t strand) {
+    return std::span(counts).subspan(first[strand], first[strand + 1] - first[strand]);
+  }
+};
+
+// One strand's counts: a counter for each other, of which only those used are cleared.
+class OverlapRow {
+ public:
+  explicit OverlapRow(std::size_t strandCount) : counts_(strandCount, 0) {}
+
+  // Each other once, ascending, in the first places. Returns how many they are.
+  std::size_t add(std::span<Noted::Count> noted) {
+    for (const Noted::Count& one : noted) {
+      if (counts_[one.other] == 0) touched_.push_back(one.other);
+      counts_[one.other] += one.count;
+    }
+    std::ranges::sort(touched_);
+    std::size_t added = 0;
+    for (const std::uint32_t other : touched_) noted[added++] = {other, std::exchange(counts_[other], 0)};
+    touched_.clear();
+    return added;
+  }
+
+ private:
+  std::vector<std::uint32_t> counts_, touched_;
+};
+
+}  // namespace
+
+std::vector<StrandOverlap> countOverlaps(const RestState& rest, const ContactParticles& particles,
+                                         double enlargement, unsigned threadCount) {
+  const std::size_t strandCount = particles.strandCount();
+  std::vector<Sphere> spheres;
+  spheres.reserve(particles.particles.size());
+  for (std::size_t i = 0; i < particles.particles.size(); ++i) {
+    const std::uint32_t strand = particles.strands[i];
+    spheres.push_back({rest.points[particles.particles[i]], particles.radii[strand], strand});
+  }
+  Noted noted(meet(sortBySize(std::move(spheres), enlargement), enlargement, threadCount), strandCount);
+
+  std::vector<std::size_t> others(strandCount);  // of each strand
+  SharedParts parts(strandCount, kStrandsPerPart);
+  inParallel(threadCount, [&] {
+    OverlapRow row(strandCount);
+    parts.take([&](std::size_t begin, std::size_t end) {
+      for (std::size_t a = begin; a < end; ++a) others[a] = row.add(noted.of(a));
+    });
+  });
+  std::vector<StrandOverlap> overlaps;
+  overlaps.reserve(std::accumulate(others.begin(), others.end(), std::size_t{0}));
+  for (std::uint32_t a = 0; a < strandCount; ++a)
+    for (const Noted::Count& one : noted.of(a).first(others[a]))
+      overlaps.push_back({a, one.other, one.count});
+  return overlaps;
+}
+
+}  // namespace ringlet
