@@ -25,8 +25,10 @@ inline Vector3<double> volumeRate(const ContactSettings& settings, double T, con
   return volumeGain(settings, T) * w + settings.volumeStiffness * T * s;
 }
 
-/// theta = 1 / (2 + kappa): share of J / m that the guess leaves out [1].
-inline double balanceShare(double gain) { return 1 / (2 + gain); }
+/// What the guess adds to v^0 [m/s], from the last step's change c [m/s] and what it gave, J / m [m/s].
+inline Vector3<double> guessedChange(double gain, const Vector3<double>& c, const Vector3<double>& given) {
+  return kVolumeWarmth * (c - given / (2 + gain));
+}
 
 /// s a step later; moved: by how much in the head's frame [m].
 inline Vector3<double> fadedDisplacement(const ContactSettings& settings, double T, const Vector3<double>& s,

@@ -118,11 +118,11 @@ Volume makeVolume(const std::vector<RestStrand<Real>>& strands, std::span<const 
 
 void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, const Field<double>& positions,
                  const Field<double>& freeVelocities, const Field<double>& changes, Volume& volume) {
-  const double theta = balanceShare(volumeGain(settings, frame.seconds));
+  const double kappa = volumeGain(settings, frame.seconds);
   for (VolumeParticle& p : volume.particles) {
     p.guess = freeVelocities[p.index];
-    if (p.isKnown && !changes.empty()) p.guess += changes[p.index];
-    if (p.isKnown && p.mass > 0) p.guess -= theta * p.given / p.mass;
+    if (p.isKnown && !changes.empty() && p.mass > 0)
+      p.guess += guessedChange(kappa, changes[p.index], p.given / p.mass);
     const Vector3<double> place = frame.now.conjugate() * positions[p.index];
     p.memory = p.isKnown ? fadedDisplacement(settings, frame.seconds, p.memory, place - p.place)
                          : Vector3<double>(Vector3<double>::Zero());

@@ -94,6 +94,7 @@ struct VolumeParameters {
   float drag;         // lambda [1/s]
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
+  float warmth;       // kVolumeWarmth
   uint sortSteps;     // particles are put into cells every so many steps; between they stay where they were
   float mostRate;      // largest component of a that the sums have room for, volumeMostRate [m/s]
   float unitsPerGain;  // kVolumeUnits per largest g [1/kg]

@@ -213,8 +213,8 @@ const std::vector<CppStruct> kCppStructs = {
           sizeof(S),
           {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step), RINGLET_MEMBER(seconds),
            RINGLET_MEMBER(cell), RINGLET_MEMBER(drag), RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept),
-           RINGLET_MEMBER(sortSteps), RINGLET_MEMBER(mostRate), RINGLET_MEMBER(unitsPerGain),
-           RINGLET_MEMBER(unitsPerMass)}};
+           RINGLET_MEMBER(warmth), RINGLET_MEMBER(sortSteps), RINGLET_MEMBER(mostRate),
+           RINGLET_MEMBER(unitsPerGain), RINGLET_MEMBER(unitsPerMass)}};
     }(),
     [] {
       using S = layout::PartParameters;

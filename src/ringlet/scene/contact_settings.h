@@ -63,6 +63,9 @@ inline std::uint32_t volumeSortSteps(double stepSeconds) {
 /// Largest distance along a strand between particles that take part, in cells; each represents the particles
 /// around it.
 inline constexpr double kVolumeSpacing = 1.6;
+/// Warm start of hair as a volume (equations/volume.glsl). With 1 hair at 4 steps a frame does not come to
+/// rest; with less 8 and 16 steps are farther apart.
+inline constexpr double kVolumeWarmth = 0.9;
 /// Speed beside the head up to which the volume's sums have room for hair [m/s].
 inline constexpr double kVolumeMostSpeed = 32;
 /// And stretch of a strand, where Settings::maxStretch allows more.
@@ -127,7 +130,7 @@ struct ContactSettings {
   std::optional<double> volumeCell;  // cell size [m], 1e-5 to 10; unset: kVolumeCellRadii radii, or more
                                      // where particles are farther apart
   double volumeDrag = 600;           // towards the velocity of the hair around [1/s], 0 to 1e5
-  double volumeStiffness = 6e4;      // towards its displacement [1/s^2], 0 to 1e9
+  double volumeStiffness = 7e4;      // towards its displacement [1/s^2], 0 to 1e9
   double volumeMemorySeconds = 0.3;  // time in which a displacement is forgotten [s], 0.001 to 1000
 
   /// Largest component of a = kappa w + k T s (shaders/equations/volume.glsl) that the volume's sums have

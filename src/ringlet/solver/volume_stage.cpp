@@ -83,6 +83,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   self.parameters_.count = static_cast<std::uint32_t>(count);
   self.parameters_.cellCapacity = capacity;
   self.parameters_.cell = static_cast<float>(volume.cell);
+  self.parameters_.warmth = static_cast<float>(kVolumeWarmth);
   self.setSettings(settings);
   if (groupsOf(count) > device.properties().maxGroupCount) {
     return Error{
