@@ -5,8 +5,9 @@
 #include <chrono>
 #include <ctime>
 #include <limits>
-#include <thread>
 #include <vector>
+
+#include "ringlet/base/in_parallel.h"  // coreCount
 
 namespace ringlet::bench {
 
@@ -20,8 +21,6 @@ inline double processCpuSeconds() {
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
-
-inline unsigned coreCount() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 /// NaN without samples.
 inline double median(std::vector<double> values) {

@@ -125,7 +125,7 @@ void contacts(benchmark::State& state) {
     auto before = simulation->stageMilliseconds();
     const double cpu = processCpuSeconds();
     if (!simulation->stepFrame(HeadPose{})) return state.SkipWithError("a step failed");
-    samples["cpu_per_core"].push_back(1e3 * (processCpuSeconds() - cpu) / bench::coreCount());
+    samples["cpu_per_core"].push_back(1e3 * (processCpuSeconds() - cpu) / coreCount());
     for (const auto& [stage, milliseconds] : simulation->stageMilliseconds())
       samples[stage].push_back(milliseconds - before[stage]);
   }
