@@ -142,7 +142,7 @@ TEST(Volume, RoomOfSumsFollowsTheSettings) {
       }
     }
   }
-  EXPECT_EQ(ContactSettings{}.volumeMostRate(1.0 / 192, 0.56), 512);
+  EXPECT_EQ(ContactSettings{}.volumeMostRate(1.0 / 192, 0.56), 1024);
 }
 
 // An error e of the mean that a step's guess has becomes, a step later, by the formulas of volume.glsl for a
