@@ -8,11 +8,12 @@
 // w: velocity beside the rigidly carried head; s: displacement, which fades. At rest both are 0 and so is all else.
 // What particles give each other sums to 0 once w is the velocity they end with.
 //
-// The first iteration of a step has v^0 + beta (c - theta J / m) for that velocity: c is the change from v^0 by the last
-// step, J the momentum that the volume gave the particle in it, beta = kVolumeWarmth, theta = 1 / (2 + kappa). c alone
-// would hand an error e of the mean on from step to step: a particle whose system is l m takes kappa / (l + kappa) of it
-// for a change by others, and J / m is l times that. With J it hands on beta kappa (1 - theta l) / (l + kappa) of e, whose
-// size is at most beta kappa / (2 + kappa) for any l >= 1. In a steady state J sums to 0, and the guess lacks 1 - beta of c.
+// The first iteration of a step has v^0 + beta (c - theta J / m) for that velocity: c is the change from v^0 by the
+// last step, J the momentum that the volume gave the particle in it, beta = kVolumeWarmth, theta = 1 / (2 + kappa).
+// c alone would hand an error e of the mean on from step to step: a particle whose system is l m takes kappa / (l +
+// kappa) of it for a change by others, and J / m is l times that. With J it hands on beta kappa (1 - theta l) / (l +
+// kappa) of e, whose size is at most beta kappa / (2 + kappa) for any l >= 1. In a steady state J sums to 0, and the
+// guess lacks 1 - beta of c.
 // Mirrored by reference/equations/volume.h.
 #ifndef RINGLET_VOLUME
 #define RINGLET_VOLUME
