@@ -382,6 +382,7 @@ py::dict contactReportOf(HairObject& self) {
   report["momentum_error"] = r.momentumError;
   report["volume_cut"] = r.volumeCut;
   report["volume_largest"] = r.volumeLargest;
+  report["volume_coarsest"] = r.volumeCoarsest;
   return report;
 }
 
@@ -700,8 +701,8 @@ void addHairClass(py::module_& module) {
            "What contacts did: a dict of contact_particles, pairs_unpruned, pairs, volume_strands, listed, "
            "contacts, pair_tests, rebuilds, momentum_error, volume_cut (how often hair as a volume was held "
            "back: its coupling was larger than the sums have room for), volume_largest (the largest coupling "
-           "as "
-           "a share of that room). Without contacts all is 0.")
+           "as a share of that room), volume_coarsest (the largest cell as a multiple of that asked for). "
+           "Without contacts all is 0.")
       .def("memory", &memoryOf,
            "Bytes of its buffers on the device, by what they are for, and their total: a dict.")
       .def(

@@ -384,9 +384,8 @@ std::vector<std::string> ContactReport::warnings() const {
   if (volumeCoarsest > 1) {
     sentences.push_back(fmt::format(
         "hair that meets as a volume extended over more cells than there is room for, so that cells became "
-        "{:.3g} "
-        "times as large and hair was coupled over as much more. Use a larger --volume-cell, or look for hair "
-        "that is far away",
+        "{:.3g} times as large and hair was coupled over as much more. Use a larger --volume-cell, or look "
+        "for hair that is far away",
         volumeCoarsest));
   }
   return sentences;
