@@ -24,8 +24,7 @@ void main() {
   // J / m, of a particle that is of the volume and does not follow the head.
   bool isFree = self.inverseMassUnit * self.mass > 0.0;
   vec3 given = isFree ? (added.xyz - added.w * last) / (self.inverseMassUnit * self.mass) : vec3(0);
-  vec3 change =
-      isKnown ? guessedChange(parameters.warmth, gain(), last - predicted.xyz, given) : vec3(0);
+  vec3 change = isKnown ? guessedChange(parameters.warmth, gain(), last - predicted.xyz, given) : vec3(0);
   // Of a strand, a line, cells n times as large hold n times the mass in n^3 times the room.
   float coarser = cell > parameters.cell ? parameters.cell / cell : 1.0;
   float mass = self.mass * othersShare(coarser * coarser * self.ownDensity, memory.w);
