@@ -32,6 +32,10 @@ items() {
     simulate contacts_10000x32_$method 40 10000x32 --steps-per-frame 8 --frames 48 --contacts $method
   done
   simulate contacts_22813x64_auto 70 22813x64 --steps-per-frame 8 --frames 24 --contacts auto
+  # What some of the device's abilities are worth, against the run above that has them all.
+  for part in texels timestamps mapping; do
+    RINGLET_WITHOUT=$part simulate without_$part 40 10000x32 --steps-per-frame 8 --frames 48 --contacts auto
+  done
   # Bodies: their kernel is the largest by far, and may take the driver's compiler long.
   item kernels_bodies 90 ringlet kernels --statistics --only ', bodies,' --json "$json"
   item body_walk_head 60 ringlet scene walk_head --strands 1000 --json --quiet
