@@ -73,6 +73,9 @@ vec3 pullOnRun(int k) {
 }
 
 // The elastic force of the edge that ends at the run's first particle.
-vec3 forceFromRootward() { return lane == 0 ? vec3(0) : fromRootward(force[RUN - 1], 1); }
+vec3 forceFromRootward() {
+  vec3 before = fromRootward(force[RUN - 1], 1);  // asked by all lanes (scan/lanes.glsl)
+  return lane == 0 ? vec3(0) : before;
+}
 
 #endif
