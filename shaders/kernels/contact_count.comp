@@ -1,4 +1,4 @@
-// The grid, 1 of 5: counts the contact particles in each bucket and gives each a rank in its bucket; the order of ranks
+// The grid, 1 of 4: counts the contact particles in each bucket and gives each a rank in its bucket; the order of ranks
 // is arbitrary. If some hair meets as a volume, contact particles with no possible partner nearby get empty lists and
 // enter no bucket.
 #version 450

@@ -1,12 +1,14 @@
 // Measures the largest distance that a contact particle has moved since the lists were made, and the largest speed, by
-// which contact_decide.comp decides whether the lists are still valid; and makes the guess from which the solve starts
+// which the last workgroup decides whether the lists are still valid; and makes the guess from which the solve starts
 // (warm start). Contacts change little from step to step, so this step is expected to change v^0 by most of what the
-// last one did. Reads positions, v^0 and the velocities at the end of the last step; writes motion and speed of the
-// control, and the guesses. If strands are divided among devices, those of this one are measured before the others are
-// known. Mirrored by reference/kernels/contact_step.h.
+// last one did. Reads positions, v^0 and the velocities at the end of the last step; writes the control and the
+// guesses. If strands are divided among devices, those of this one are measured before the others are known, in a
+// dispatch that decides nothing. Mirrored by reference/kernels/contact_step.h.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
+#include "shared/contact_decision.glsl"
+#include "shared/last_group.glsl"
 
 // The maximum does not depend on the order of invocations.
 void enter(uint place, uint group) {
@@ -16,7 +18,7 @@ void enter(uint place, uint group) {
   if (hasOthers(groups, group)) atomicMax(grid[place], kSeveralGroups);
 }
 
-void main() {
+void measure() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
   if (c >= parameters.contactCount) return;
@@ -44,4 +46,10 @@ void main() {
     enter(cellGroups(bucketOf(cell)), group);
     enter(regionGroups(bucketOf(cell >> 1)), group);
   }
+}
+
+void main() {
+  measure();
+  if (kDivided && parameters.whose == kOfHere) return;
+  if (isLastGroup() && gl_LocalInvocationID.x == 0) decideLists();
 }

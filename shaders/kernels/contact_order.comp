@@ -1,4 +1,4 @@
-// The grid, 5 of 5: sorts the contact particles of each bucket by index, so that results do not depend on the order of
+// The grid, 4 of 4: sorts the contact particles of each bucket by index, so that results do not depend on the order of
 // threads, and stores positions and velocities in that order for the query.
 #version 450
 #extension GL_GOOGLE_include_directive : require

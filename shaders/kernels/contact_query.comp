@@ -1,6 +1,6 @@
 // Makes the lists: the pairs of each contact particle, from the 27 cells around it, in the order of cells and, within a
 // cell, of contact particles. Pairs of strands that may not touch are left out. Where a list finds no room, the frame
-// stops (contact_check.comp) until the host has enlarged the buffers.
+// stops (endLists) until the host has enlarged the buffers.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_search.glsl"

@@ -1,9 +1,11 @@
 // Checks for a sample of contact particles, another in each step, whether the lists still hold all pairs that touch:
-// counts the pairs that the grid finds and those of them that are not in the particle's list. The reference has no
-// counterpart: it finds all pairs in every step.
+// counts the pairs that the grid finds and those of them that are not in the particle's list. The last workgroup judges
+// by them whether new lists are due. The reference has no counterpart: it finds all pairs in every step.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "shared/contact_decision.glsl"
 #include "shared/contact_search.glsl"
+#include "shared/last_group.glsl"
 
 uint found = 0;
 
@@ -14,8 +16,7 @@ bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float 
 
 void take(ContactRest other, float R, float r0) { ++found; }
 
-void main() {
-  uint c = sampledContact(gl_GlobalInvocationID.x);
+void lookAt(uint c) {
   if (c == kNoContact) return;
   ContactRest self = contactOf(c);
   if (!search(c, positionOf(self.particle), velocityOf(self.particle), groupOf(self.strand), 0.0))
@@ -31,4 +32,10 @@ void main() {
   if (j < count) control.isHalted = kHaltedByTurns;
   if (found > 0) atomicAdd(control.sampled, found);
   if (found > listed) atomicAdd(control.missed, found - listed);
+}
+
+void main() {
+  lookAt(sampledContact(gl_GlobalInvocationID.x));
+  if (isJudgedLater()) return;
+  if (isLastGroup() && gl_LocalInvocationID.x == 0) judgeLists();
 }

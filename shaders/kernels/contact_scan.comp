@@ -1,21 +1,16 @@
-// The grid, 2 of 5: the start of each bucket within its block of buckets, and the sum of the block; one workgroup per
-// block. Resets the counts to zero for the next rebuild.
+// The grid, 2 of 4: the start of each bucket within its block of buckets, and of each block.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
-#include "scan/block_sum.glsl"
+#define RINGLET_COUNT(bucket) grid[gridCount(bucket)]
+#define RINGLET_START(bucket) grid[gridStart(bucket)]
+#define RINGLET_SUM(block) grid[gridSum(block)]
+#include "scan/bucket_starts.glsl"
 
 void main() {
-  uint each = kBucketBlock / gl_WorkGroupSize.x;  // buckets per invocation
-  uint first = gl_WorkGroupID.x * kBucketBlock + gl_LocalInvocationID.x * each;
-  uint sum = 0;
-  for (uint k = 0; k < each; ++k) sum += grid[gridCount(first + k)];
-  uint before = sumBefore(sum);
-  for (uint k = 0; k < each; ++k) {
-    uint count = grid[gridCount(first + k)];
-    grid[gridCount(first + k)] = 0;
-    grid[gridStart(first + k)] = before;
-    before += count;
-  }
-  if (gl_LocalInvocationID.x + 1 == gl_WorkGroupSize.x) grid[gridSum(gl_WorkGroupID.x)] = before;
+  uint all;
+  if (!setStarts(all)) return;
+  // The bucket beyond the last starts after all.
+  grid[gridSum(gl_NumWorkGroups.x)] = all;
+  grid[gridStart(parameters.bucketCount)] = 0;
 }

@@ -1,4 +1,4 @@
-// The grid, 4 of 5: puts contact particles into their buckets; the order within a bucket is arbitrary.
+// The grid, 3 of 4: puts contact particles into their buckets; the order within a bucket is arbitrary.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"

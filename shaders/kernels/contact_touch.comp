@@ -11,8 +11,8 @@ uint particle;  // of this invocation
 vec3 x;
 vec3 v;
 
-// What depends on the taper: whether a contact particle had contacts in the last step (metBefore), whether it has some
-// now (setMeets), and the terms of the first iteration.
+// What depends on the taper: whether the step's lists are all there (checkLists), whether a contact particle had contacts
+// in the last step (metBefore), whether it has some now (setMeets), and the terms of the first iteration.
 #ifdef RINGLET_TAPER_TIME
 const uint kMeeting = ~((1u << kListBlock) - 1);  // the bits that mean a contact
 bool metBefore(uint c) {
@@ -21,6 +21,7 @@ bool metBefore(uint c) {
 }
 void setMeets(uint c, bool meets) {}
 void beginTerms() {}
+void checkLists() {}
 void addTerms(ContactPair pair, ContactMeeting meeting, bool touching) {}
 void setTerms(ContactRest rest) {}
 #else
@@ -28,6 +29,7 @@ void setTerms(ContactRest rest) {}
 const uint kMeeting = (1u << kListBlock) - 1;
 bool metBefore(uint c) { return lists[meetsPlace(c)] != 0; }
 void setMeets(uint c, bool meets) { lists[meetsPlace(c)] = uint(meets); }
+void checkLists() { endLists(listsHadRoom()); }
 ContactTerms terms = kNoTerms;
 vec3 guess;
 void beginTerms() { guess = guessOf(particle).xyz; }
@@ -46,9 +48,10 @@ void emptyCells(uint c) {
 }
 
 void main() {
-  if (control.isHalted != 0 || !listsHadRoom()) return;
+  if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
-  if (c >= parameters.contactCount) return;
+  if (c == 0) checkLists();  // others that see it halted already would return for want of room, too
+  if (!listsHadRoom() || c >= parameters.contactCount) return;
   if (kInGroups) emptyCells(c);
   ContactRest rest = contactOf(c);
   if (isElsewhere(rest.strand)) return;

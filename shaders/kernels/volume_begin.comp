@@ -7,7 +7,6 @@
 
 void main() {
   uint seen = control.largest;
-  bool sorts = control.untilSort == 0;
   float cell = control.cell;
   uint i;
   if (!findParticle(i)) return;
@@ -30,7 +29,7 @@ void main() {
   float mass = self.mass * othersShare(coarser * coarser * self.ownDensity, memory.w);
   vec4 rate = rateFrom(mass, v + change, x, s, seen);
   states[i] = VolumeState(vec4(s, memory.w), vec4(place, mass), vec4(v, 1));
-  if (sorts) {
+  if (parameters.sorts != 0) {
     brought[i] = rate;
     if (self.mass > 0.0) reachTo(place);  // what was cut off has none: it is of the volume no more
   } else {

@@ -1,5 +1,4 @@
-// Decides whether this step sorts particles into cells, and then sets the box of cells around all of them; one
-// invocation. It sorts every `sortSteps` steps of the run, however the run is divided into frames. Hair that extends
+// Sets the box of cells around all particles, in a step that sorts them into cells; one invocation. Hair that extends
 // farther than the buffer has cells for gets larger cells, which is told to the host.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -7,16 +6,8 @@
 
 void main() {
   if (gl_GlobalInvocationID.x > 0) return;
-  control.indirectParticles[0] = 0;
-  control.indirectDensities[0] = 0;
   control.indirectBlocks[0] = 0;
   if (halt.isHalted != 0) return;
-  if (control.untilSort > 0) {
-    --control.untilSort;
-    return;
-  }
-  control.untilSort = parameters.sortSteps - 1;
-  ++control.sorts;
   ivec3 least = ivec3(control.least[0], control.least[1], control.least[2]);
   ivec3 greatest = ivec3(control.greatest[0], control.greatest[1], control.greatest[2]);
   float cell = parameters.cell;
@@ -41,13 +32,9 @@ void main() {
     control.size[axis] = size[axis];
     control.least[axis] = 0x7fffffff;
     control.greatest[axis] = -0x7fffffff;
-    control.indirectParticles[axis] = 1;
     control.indirectBlocks[axis] = 1;
     control.indirectNodes[axis] = 1;
-    control.indirectDensities[axis] = 1;
   }
-  control.indirectParticles[0] = groupsOf(parameters.count);
   control.indirectBlocks[0] = control.cellCount / kBucketBlock + 1;
   control.indirectNodes[0] = groupsOf(control.cellCount);
-  control.indirectDensities[0] = groupsOf(control.cellCount);
 }

@@ -1,13 +1,12 @@
-// Sorts particles of the volume by cell, 1 of 5: counts the particles in each cell and gives each a rank in its cell;
+// Sorts particles of the volume by cell, 1 of 4: counts the particles in each cell and gives each a rank in its cell;
 // the order of ranks is arbitrary.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
 
 void main() {
-  if (halt.isHalted != 0) return;
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= parameters.count) return;
+  uint i;
+  if (!findParticle(i)) return;
   uint cell = cellIndex(cellInBox(placeInCells(placeOf(i).xyz)));
   cells[cellOf(i)] = cell;
   cells[cellRank(i)] = atomicAdd(cells[cellCount(cell)], 1);

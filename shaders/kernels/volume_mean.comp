@@ -13,7 +13,7 @@ void main() {
     low[k] = sums[nodeSum(node) + 4 + k];
   }
   nodes[node].xyz = meanRate(fromSums(high, low));
-  if (control.indirectDensities[0] == 0) return;
+  if (parameters.sorts == 0) return;
   vec4 density = fromSums(ivec4(sums[densitySum(node)]), ivec4(sums[densitySum(node) + 1]));
   nodes[node].w = densityFrom(density.x);
 }

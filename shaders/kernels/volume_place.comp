@@ -1,4 +1,4 @@
-// Sorts particles of the volume by cell, 5 of 5: writes each particle's parcel to a place of its cell. The order within
+// Sorts particles of the volume by cell, 4 of 4: writes each particle's parcel to a place of its cell. The order within
 // a cell is arbitrary; sums over a cell do not depend on it.
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// Sorts particles of the volume by cell, 4 of 5: the start of each cell; one workgroup per block of cells.
+// Sorts particles of the volume by cell, 3 of 4: the start of each cell; one workgroup per block of cells.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"

@@ -124,8 +124,8 @@ struct ContactControl {
   uint isListed;             // there are lists
   uint indirectBuckets[3];   // over blocks of buckets
   uint parity;               // which of the two rows is in use
-  uint indirectOne[3];       // one workgroup
   uint isHalted;             // 0, kHaltedForRoom or kHaltedByTurns
+  uint finished;             // workgroups of this dispatch (shared/last_group.glsl)
   uint indirectSample[3];    // over the contact particles that are looked at to see whether lists may stay, or none
   uint isDue;                // the step makes new lists
   uint indirectQuery[3];     // over contact particles, or none

@@ -67,22 +67,19 @@ struct VolumeParcel {
 
 // The box of cells about all such particles, and what kernels tell each other.
 struct VolumeControl {
-  uint indirectParticles[3];  // workgroups over particles of a sort, or none
-  uint untilSort;             // steps until particles are next put into cells; 0: this step does
-  uint indirectBlocks[3];     // over blocks of cells of a sort, or none
-  uint cellCount;             // of the box, which has as many nodes
-  uint indirectDensities[3];  // over nodes in a step that sorts, or none
-  uint cut;                   // how often a particle's a was larger than mostRate, over all iterations so far
-  uint indirectNodes[3];      // over nodes
-  uint sorts;                 // how often particles were put into cells
-  int least[3];               // of the cells particles are in, as found so far in this step
+  uint indirectBlocks[3];  // workgroups over blocks of cells of a sort; none where everything has halted
+  uint cellCount;          // of the box, which has as many nodes
+  uint indirectNodes[3];   // over nodes
+  uint cut;                // how often a particle's a was larger than mostRate, over all iterations so far
+  int least[3];            // of the cells particles are in, as found so far in this step
   float cellsPerMetre;
   int greatest[3];
-  float cell;                 // [m]
-  int low[3];                 // the box's first cell
-  uint largest;               // component of a so far, as a share of mostRate, as bits
-  uint size[3];               // and how many there are along each axis
-  float largestCell;          // so far [m]
+  float cell;              // [m]
+  int low[3];              // the box's first cell
+  uint largest;            // component of a so far, as a share of mostRate, as bits
+  uint size[3];            // and how many there are along each axis
+  float largestCell;       // so far [m]
+  uint finished;           // workgroups of this dispatch (shared/last_group.glsl)
 };
 
 struct VolumeParameters {
@@ -95,7 +92,7 @@ struct VolumeParameters {
   float stiffness;    // k [1/s^2]
   float kept;         // share of a displacement that is still known a step later, exp(-T / tau)
   float warmth;       // kVolumeWarmth
-  uint sortSteps;     // particles are put into cells every so many steps; between they stay where they were
+  uint sorts;         // 1: this step puts particles into cells; 0: they stay where they were
   float mostRate;      // largest component of a that the sums have room for, volumeMostRate [m/s]
   float unitsPerGain;  // kVolumeUnits per largest g [1/kg]
   float unitsPerMass;  // kVolumeUnits per largest mass [1/kg]

@@ -7,7 +7,7 @@
 const uint kMostInvocations = 128;  // of a workgroup that every device runs
 shared uint blockSums[kMostInvocations];
 
-/// The sum of x over the invocations before this one. Called once, by all of the workgroup.
+/// The sum of x over the invocations before this one. Called by all of the workgroup.
 uint sumBefore(uint x) {
   uint i = gl_LocalInvocationID.x;
   blockSums[i] = x;

@@ -172,5 +172,14 @@ uint lifeEntry(uint parity, uint force) { return parity * parameters.liveBlockCo
 bool listsHadRoom() {
   return control.blocks <= parameters.blockCount && control.longestList <= parameters.mostBlocks * kListBlock;
 }
+/// Of one invocation. If lists had no room, contact kernels do nothing until the host has enlarged the buffers. If they
+/// had, the step has examined every pair in them.
+void endLists(bool hadRoom) {
+  if (hadRoom) {
+    control.pairTests += control.listed;
+  } else {
+    control.isHalted = kHaltedForRoom;
+  }
+}
 
 #endif

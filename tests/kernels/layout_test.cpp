@@ -200,11 +200,10 @@ const std::vector<CppStruct> kCppStructs = {
       return CppStruct{
           "VolumeControl",
           sizeof(S),
-          {RINGLET_MEMBER(indirectParticles), RINGLET_MEMBER(untilSort), RINGLET_MEMBER(indirectBlocks),
-           RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectDensities), RINGLET_MEMBER(cut),
-           RINGLET_MEMBER(indirectNodes), RINGLET_MEMBER(sorts), RINGLET_MEMBER(least),
-           RINGLET_MEMBER(cellsPerMetre), RINGLET_MEMBER(greatest), RINGLET_MEMBER(cell), RINGLET_MEMBER(low),
-           RINGLET_MEMBER(largest), RINGLET_MEMBER(size), RINGLET_MEMBER(largestCell)}};
+          {RINGLET_MEMBER(indirectBlocks), RINGLET_MEMBER(cellCount), RINGLET_MEMBER(indirectNodes),
+           RINGLET_MEMBER(cut), RINGLET_MEMBER(least), RINGLET_MEMBER(cellsPerMetre),
+           RINGLET_MEMBER(greatest), RINGLET_MEMBER(cell), RINGLET_MEMBER(low), RINGLET_MEMBER(largest),
+           RINGLET_MEMBER(size), RINGLET_MEMBER(largestCell), RINGLET_MEMBER(finished)}};
     }(),
     [] {
       using S = layout::VolumeParameters;
@@ -213,7 +212,7 @@ const std::vector<CppStruct> kCppStructs = {
           sizeof(S),
           {RINGLET_MEMBER(count), RINGLET_MEMBER(cellCapacity), RINGLET_MEMBER(step), RINGLET_MEMBER(seconds),
            RINGLET_MEMBER(cell), RINGLET_MEMBER(drag), RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept),
-           RINGLET_MEMBER(warmth), RINGLET_MEMBER(sortSteps), RINGLET_MEMBER(mostRate),
+           RINGLET_MEMBER(warmth), RINGLET_MEMBER(sorts), RINGLET_MEMBER(mostRate),
            RINGLET_MEMBER(unitsPerGain), RINGLET_MEMBER(unitsPerMass)}};
     }(),
     [] {
@@ -238,8 +237,8 @@ const std::vector<CppStruct> kCppStructs = {
                         RINGLET_MEMBER(isListed),
                         RINGLET_MEMBER(indirectBuckets),
                         RINGLET_MEMBER(parity),
-                        RINGLET_MEMBER(indirectOne),
                         RINGLET_MEMBER(isHalted),
+                        RINGLET_MEMBER(finished),
                         RINGLET_MEMBER(indirectSample),
                         RINGLET_MEMBER(isDue),
                         RINGLET_MEMBER(indirectQuery),

@@ -67,7 +67,6 @@ class VolumeGather : public GpuTest {
     control.cellCount = kNodes;
     control.cellsPerMetre = 1, control.cell = 1;
     for (std::uint32_t& size : control.size) size = kSide;
-    for (std::uint32_t& groups : control.indirectDensities) groups = 1;  // as in a step that sorts
     auto halt = createZero(gpu(), sizeof(layout::ContactControl), "halt");
     auto unused = createZero(gpu(), 4096, "unused");
     auto cells = createFilled(gpu(), words, "cells");
@@ -77,7 +76,7 @@ class VolumeGather : public GpuTest {
     auto block = createFilled(gpu(), std::vector{control}, "control");
     EXPECT_TRUE(halt && unused && cells && all && nodes && sums && block);
     layout::VolumeParameters parameters{};
-    parameters.count = kParcels, parameters.cellCapacity = kCells;
+    parameters.count = kParcels, parameters.cellCapacity = kCells, parameters.sorts = 1;
     parameters.mostRate = kMostRate, parameters.unitsPerMass = 1, parameters.unitsPerGain = 1;
     const auto run = [&](VolumeKernel which) {
       auto kernel = gpu::Kernel::create(gpu(), describeVolumeKernel(which, texels, divided));

@@ -14,24 +14,22 @@ namespace ringlet {
 /// taper contact_gather.comp.
 enum class ContactKernel {
   motion,
-  decide,
   count,
   scan,
-  sum,
   scatter,
   order,
   sample,
-  judge,
   query,
   touch,
-  check,
   next,
-  life  // between touch and check
+  judge,  // after sample, where strands are divided among devices
+  life,   // with the time taper, after touch
+  check   // after life
 };
 /// Number of these kernels.
 constexpr std::size_t contactKernelCount(ContactTaper taper) {
   const auto life = static_cast<std::size_t>(ContactKernel::life);
-  return taper == ContactTaper::time ? life + 1 : life;
+  return taper == ContactTaper::time ? life + 2 : life;
 }
 
 /// Invocations per workgroup.

@@ -27,7 +27,6 @@ constexpr std::uint32_t kFirstMostBlocks = 4;
 // Offsets of the group counts that the device writes for indirect dispatches.
 constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectContacts),
                         kPerBlock = offsetof(layout::ContactControl, indirectBuckets),
-                        kOne = offsetof(layout::ContactControl, indirectOne),
                         kSample = offsetof(layout::ContactControl, indirectSample),
                         kQuery = offsetof(layout::ContactControl, indirectQuery),
                         kMeeting = offsetof(layout::ContactControl, indirectMeeting);
@@ -88,6 +87,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.stepSeconds_ = settings.stepSeconds();
   self.particles_ = particles.particles;
   self.everyPair_ = contacts.graph.everyPair;
+  self.isDivided_ = divided;
   // If some hair meets as a volume, few contact particles touch others, and a sample may hold none of these.
   const bool inGroups = contacts.volume.hasGroups();
   self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
@@ -282,9 +282,10 @@ void ContactStage::recordNothing(gpu::CommandList& list) const {
   for (const std::size_t k : newKernels_) list.dispatchNothing(*kernels_[k], bindings_[k]);
 }
 
-void ContactStage::recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t whose) const {
+void ContactStage::recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
+                                std::uint32_t whose) const {
   const auto at = static_cast<std::size_t>(ContactKernel::motion);
-  layout::ContactParameters own = parameters(0);
+  layout::ContactParameters own = parameters(step);
   own.whose = whose;
   pace.beginStage(list, "contact_motion");
   list.dispatch(*kernels_[at], bindings_[at], own, contactGroups());
@@ -293,17 +294,12 @@ void ContactStage::recordMotion(gpu::CommandList& list, SubmissionPace& pace, st
 
 void ContactStage::recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
                               std::uint32_t whose) const {
-  recordMotion(list, pace, whose);
+  recordMotion(list, pace, step, whose);
   list.barrier();
-  pace.beginStage(list, "contact_motion");
-  dispatch(list, ContactKernel::decide, step, 1);
-  list.barrier();
-  list.endStage();
-
   pace.beginStage(list, "contact_grid");
   using enum ContactKernel;
   const std::pair<ContactKernel, std::uint64_t> grid[] = {
-      {count, kPerContact}, {scan, kPerBlock}, {sum, kOne}, {scatter, kPerContact}, {order, kPerContact}};
+      {count, kPerContact}, {scan, kPerBlock}, {scatter, kPerContact}, {order, kPerContact}};
   for (const auto& [kernel, offset] : grid) {
     dispatchIndirect(list, kernel, step, offset);
     list.barrier();
@@ -317,8 +313,10 @@ void ContactStage::recordGrid(gpu::CommandList& list, SubmissionPace& pace, std:
 
 void ContactStage::recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const {
   pace.beginStage(list, "contact_query");
-  dispatch(list, ContactKernel::judge, step, 1);
-  list.barrier();
+  if (isDivided_ && samples()) {
+    dispatch(list, ContactKernel::judge, step, 1);
+    list.barrier();
+  }
   dispatchIndirect(list, ContactKernel::query, step, kQuery);
   list.endStage();
 }
@@ -326,13 +324,12 @@ void ContactStage::recordLists(gpu::CommandList& list, SubmissionPace& pace, std
 void ContactStage::recordFirst(gpu::CommandList& list, SubmissionPace& pace) const {
   pace.beginStage(list, "contact_touch");
   dispatch(list, ContactKernel::touch, 0, contactGroups());
+  list.endStage();
+  if (!lives_) return;
   list.barrier();
-  if (lives_) {
-    list.endStage();
-    pace.beginStage(list, "contact_life");
-    dispatchIndirect(list, ContactKernel::life, 0, kMeeting);
-    list.barrier();
-  }
+  pace.beginStage(list, "contact_life");
+  dispatchIndirect(list, ContactKernel::life, 0, kMeeting);
+  list.barrier();
   dispatch(list, ContactKernel::check, 0, 1);
   list.endStage();
 }

@@ -53,7 +53,8 @@ class ContactStage {
   /// Records the parts of a step, in order. The caller records the barriers before and after each.
   /// whose: the contact particles whose motion is measured now (layout::kOfAll and its like): of divided hair
   /// those here with recordMotion before, and setLargest between; all, if a step is repeated.
-  void recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t whose) const;
+  void recordMotion(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
+                    std::uint32_t whose) const;
   void recordGrid(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step,
                   std::uint32_t whose = layout::kOfAll) const;
   void recordLists(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
@@ -143,7 +144,7 @@ class ContactStage {
   std::uint32_t bucketCount_ = 0;
   ListRoom near_;
   float largestRadius_ = 0;
-  bool everyPair_ = false;
+  bool everyPair_ = false, isDivided_ = false;
   std::uint32_t sampleStride_ = 0;
   std::uint32_t mostSampled_ = 0;
 };

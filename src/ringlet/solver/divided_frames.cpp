@@ -90,7 +90,7 @@ void Simulation::Implementation::recordMeasures(FrameRecording& frame, const Sol
   const std::uint32_t step = pass.goesOn ? pass.step + 1 : pass.step;
   recordBrought(frame, step, beginsStep);
   if (!beginsStep) recordSums(frame, step, false);
-  if (beginsStep && contacts) contacts->recordMotion(frame.list, frame.pace, layout::kOfHere);
+  if (beginsStep && contacts) contacts->recordMotion(frame.list, frame.pace, step, layout::kOfHere);
 }
 
 Status Simulation::Implementation::exchangeStart() {
@@ -107,11 +107,10 @@ Status Simulation::Implementation::exchangeStart() {
   return contacts ? contacts->setLargest(motion) : Status{};
 }
 
-Status Simulation::Implementation::exchangeSums(bool isFirst) {
+Status Simulation::Implementation::exchangeSums(std::uint32_t step, bool isFirst) {
   if (!volume) return {};
   if (Status status = divided->link().sum(volume->sums()); !status) return status;
-  const auto densities = volume->densities(isFirst);
-  return densities.empty() ? Status{} : divided->link().sum(densities);
+  return isFirst && volume->sorts(step) ? divided->link().sum(volume->densities()) : Status{};
 }
 
 // A step up to the first iteration of its solve, without the volume's means. If this part's lists find no
@@ -194,13 +193,13 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
       } else if (volume) {
         // The volume's means need the sums of all parts.
         status = meetFirst(frame, recorder, step, nothing);
-        if (status) status = exchangeSums(true);
+        if (status) status = exchangeSums(step, true);
         if (status) status = submitPart(frame, recorder, solve);
       } else {
         status = meetFirst(frame, recorder, step, solve);
       }
       if (status && !ends) status = stepInner(frame, recorder, pass);
-      if (status && !isLast) status = exchangeSums(false);
+      if (status && !isLast) status = exchangeSums(step, false);
       if (!status) return status;
     }
   }

@@ -171,7 +171,7 @@ void Simulation::Implementation::recordBrought(FrameRecording& frame, std::uint3
 }
 void Simulation::Implementation::recordSums(FrameRecording& frame, std::uint32_t step, bool isFirst) const {
   if (!volume) return;
-  if (isFirst) {
+  if (isFirst && volume->sorts(step)) {
     volume->recordSort(frame.list, frame.pace, step);
     frame.list.barrier();
   }

@@ -285,7 +285,7 @@ struct Simulation::Implementation {
   Status stepInner(FrameRecording& frame, gpu::Recorder& recorder, const SolvePass& pass);
   void recordMeasures(FrameRecording& frame, const SolvePass& pass) const;
   Status exchangeStart();
-  Status exchangeSums(bool isFirst);
+  Status exchangeSums(std::uint32_t step, bool isFirst);
   template <class Solve>
   Status meetFirst(FrameRecording& frame, gpu::Recorder& recorder, std::uint32_t step, const Solve& solve);
   Status runParts(std::size_t slot);

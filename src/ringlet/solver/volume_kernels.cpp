@@ -16,7 +16,6 @@
 #include "ringlet_shaders/volume_scan_plain.h"
 #include "ringlet_shaders/volume_spread_plain.h"
 #include "ringlet_shaders/volume_start_plain.h"
-#include "ringlet_shaders/volume_sum_plain.h"
 
 namespace ringlet {
 namespace {
@@ -28,12 +27,12 @@ struct Compiled {
 
 // In the order of VolumeKernel.
 const Compiled kCompiled[kVolumeKernelCount] = {
-    {"volume_begin", k_volume_begin_plain}, {"volume_box", k_volume_box_plain},
-    {"volume_count", k_volume_count_plain}, {"volume_scan", k_volume_scan_plain},
-    {"volume_sum", k_volume_sum_plain},     {"volume_start", k_volume_start_plain},
-    {"volume_place", k_volume_place_plain}, {"volume_density", k_volume_density_plain},
-    {"volume_bring", k_volume_bring_plain}, {"volume_gather", k_volume_gather_plain},
-    {"volume_mean", k_volume_mean_plain},   {"volume_spread", k_volume_spread_plain},
+    {"volume_begin", k_volume_begin_plain},     {"volume_box", k_volume_box_plain},
+    {"volume_count", k_volume_count_plain},     {"volume_scan", k_volume_scan_plain},
+    {"volume_start", k_volume_start_plain},     {"volume_place", k_volume_place_plain},
+    {"volume_density", k_volume_density_plain}, {"volume_bring", k_volume_bring_plain},
+    {"volume_gather", k_volume_gather_plain},   {"volume_mean", k_volume_mean_plain},
+    {"volume_spread", k_volume_spread_plain},
 };
 
 }  // namespace

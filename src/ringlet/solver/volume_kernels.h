@@ -11,8 +11,8 @@ namespace ringlet {
 /// In the order of a step; from count to density only in steps that put particles into cells, bring only in
 /// iterations after the first, from gather to spread in each; mean only where strands are divided among
 /// devices.
-enum class VolumeKernel { begin, box, count, scan, sum, start, place, density, bring, gather, mean, spread };
-inline constexpr std::size_t kVolumeKernelCount = 12;
+enum class VolumeKernel { begin, box, count, scan, start, place, density, bring, gather, mean, spread };
+inline constexpr std::size_t kVolumeKernelCount = 11;
 
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kVolumeGroupSize = 64;

@@ -21,10 +21,8 @@ namespace {
 // Limit of the grid's cells; hair that extends farther gets larger cells.
 constexpr std::uint64_t kMostCells = std::uint64_t{1} << 21;
 
-constexpr std::uint64_t kPerParticle = offsetof(layout::VolumeControl, indirectParticles),
-                        kPerBlock = offsetof(layout::VolumeControl, indirectBlocks),
-                        kPerNode = offsetof(layout::VolumeControl, indirectNodes),
-                        kPerSortedNode = offsetof(layout::VolumeControl, indirectDensities);
+constexpr std::uint64_t kPerBlock = offsetof(layout::VolumeControl, indirectBlocks),
+                        kPerNode = offsetof(layout::VolumeControl, indirectNodes);
 
 std::uint32_t cellCapacity(std::uint64_t wanted) {
   const std::uint64_t blocks = std::min(wanted + wanted / 500, kMostCells) / layout::kBucketBlock + 1;
@@ -197,12 +195,11 @@ Status VolumeStage::release(std::span<const std::uint32_t> particles) {
 }
 
 void VolumeStage::setSettings(const Settings& settings) {
-  const double T = settings.stepSeconds();
+  const double T = stepSeconds_ = settings.stepSeconds();
   parameters_.seconds = static_cast<float>(T);
   parameters_.drag = static_cast<float>(settings.contacts.volumeDrag);
   parameters_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
   parameters_.kept = static_cast<float>(std::exp(-T / settings.contacts.volumeMemorySeconds));
-  parameters_.sortSteps = volumeSortSteps(T);
   // A term of the sums has kVolumeUnits at most. Without drag and stiffness there are none.
   constexpr auto kUnits = static_cast<double>(layout::kVolumeUnits);
   const double gain = T * (settings.contacts.volumeDrag + T * settings.contacts.volumeStiffness);
@@ -215,8 +212,10 @@ void VolumeStage::setSettings(const Settings& settings) {
 layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
   layout::VolumeParameters parameters = parameters_;
   parameters.step = step;
+  parameters.sorts = sorts(step) ? 1 : 0;
   return parameters;
 }
+bool VolumeStage::sorts(std::uint32_t step) const { return volumeSorts(step, stepSeconds_); }
 void VolumeStage::dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                            std::uint32_t groups) const {
   const auto at = static_cast<std::size_t>(kernel);
@@ -249,17 +248,15 @@ void VolumeStage::recordSort(gpu::CommandList& list, SubmissionPace& pace, std::
   pace.beginStage(list, "volume_sort");
   dispatch(list, box, step, 1);
   list.barrier();
-  dispatchIndirect(list, count, step, kPerParticle);
+  dispatchParticles(list, count, step);
   list.barrier();
   dispatchIndirect(list, scan, step, kPerBlock);
   list.barrier();
-  dispatch(list, sum, step, 1);
-  list.barrier();
   dispatchIndirect(list, start, step, kPerBlock);
   list.barrier();
-  dispatchIndirect(list, place, step, kPerParticle);
+  dispatchParticles(list, place, step);
   list.barrier();
-  dispatchIndirect(list, density, step, kPerSortedNode);
+  dispatchIndirect(list, density, step, kPerNode);
   list.endStage();
 }
 
@@ -306,11 +303,9 @@ std::span<std::uint32_t> VolumeStage::sums() {
   auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
   return {all, kSumsOfNode * hostControl().cellCount};
 }
-std::span<std::uint32_t> VolumeStage::densities(bool isFirst) {
+std::span<std::uint32_t> VolumeStage::densities() {
   auto* all = reinterpret_cast<std::uint32_t*>(buffers_->sums.mapped().data());
-  const layout::VolumeControl& c = hostControl();
-  const bool sorted = isFirst && c.indirectDensities[0] > 0;
-  return {all + kSumsOfNode * parameters_.cellCapacity, sorted ? kDensitiesOfNode * c.cellCount : 0};
+  return {all + kSumsOfNode * parameters_.cellCapacity, kDensitiesOfNode * hostControl().cellCount};
 }
 
 Status VolumeStage::forget() {
@@ -340,12 +335,7 @@ Status VolumeStage::archive(Archive& archive) {
   if (archive.isReading()) {
     if (Status status = b.control.upload(std::as_bytes(std::span(*control))); !status) return status;
   }
-  std::vector<gpu::Buffer*> kept{&b.states};
-  if (control->front().untilSort > 0) kept.insert(kept.end(), {&b.cells, &b.parcels, &b.located, &b.nodes});
-  for (gpu::Buffer* buffer : kept) {
-    if (Status status = archiveBuffer(archive, *buffer); !status) return status;
-  }
-  return {};
+  return archiveBuffer(archive, b.states);
 }
 
 }  // namespace ringlet

@@ -55,8 +55,9 @@ class VolumeStage {
   /// kernels do nothing if contacts of pairs have halted. Contributions of the particles in an iteration, the
   /// first of a step or a later one.
   void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
-  /// Once per step. In each iteration, the sums of contributions at the grid's nodes, and what the means give
-  /// the particles.
+  /// In a step that sorts, once. In each iteration, the sums of contributions at the grid's nodes, and what
+  /// the means give the particles.
+  bool sorts(std::uint32_t step) const;
   void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
@@ -69,10 +70,10 @@ class VolumeStage {
   /// in, {-least, greatest}, to be replaced by the largest of all devices before recordReach.
   std::array<std::int32_t, 6> reach() const;
   void setReach(const std::array<std::int32_t, 6>& reach);
-  /// After recordSums: the sums, to be replaced by those over all devices before recordMeans. Those of
-  /// densities are empty in later iterations and in steps that do not sort.
+  /// After recordSums: the sums, to be replaced by those over all devices before recordMeans; after
+  /// recordSort those of densities too.
   std::span<std::uint32_t> sums();
-  std::span<std::uint32_t> densities(bool isFirst);
+  std::span<std::uint32_t> densities();
 
   /// These particles of the groom, by device index, ascending, are of the volume no more: they have fallen.
   Status release(std::span<const std::uint32_t> particles);
@@ -110,6 +111,7 @@ class VolumeStage {
   std::vector<float> densities_;  // at rest
   layout::VolumeParameters parameters_{};
   float largestMass_ = 0;
+  double stepSeconds_ = 0;
   double longestStrand_ = 0;  // as RestVolume's
   double range_ = 1;          // KernelChoice::volumeRange
   bool isDivided_ = false;
