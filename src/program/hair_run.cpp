@@ -474,7 +474,7 @@ void HairRun::tellTimes() {
   const double frames = std::max(outcome_.frameCount - outcome_.resumedFrom, 1);
   for (auto& [stage, milliseconds] : outcome_.stages) milliseconds /= frames;
   for (double* time : {&outcome_.millisecondsPerFrame, &outcome_.waitedForDevice, &outcome_.waitedForWriter,
-                       &outcome_.scattered})
+                       &outcome_.copied})
     *time /= frames;
   if (outcome_.host) outcome_.host->submit /= frames, outcome_.host->fence /= frames;
 }

@@ -98,7 +98,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
                       {"writer", outcome.waitedForWriter},
                       {"submit", hostTime(&HostMilliseconds::submit)},
                       {"fence", hostTime(&HostMilliseconds::fence)},
-                      {"scatter", outcome.scattered}};
+                      {"copy", outcome.copied}};
   json["max_edge_stretch"] = outcome.report.maxEdgeStretch;  // null where it is not finite
   json["limited_share"] = outcome.report.limitedShare;
   json["nonfinite"] = outcome.report.nonfinite;

@@ -67,7 +67,7 @@ constexpr const char* kExample =
     "frames,\n"
     "finish) compute_share (stepping, of wall_s.frames) waits_ms (per frame, for device and "
     "writer;\n"
-    "the host's time for submit, fence and, of positions into the groom's order, scatter)\n"
+    "the host's time for submit, fence and, of positions out of the frame, copy)\n"
     "max_edge_stretch limited_share nonfinite velocity_residual (of the "
     "velocity solve,\n"
     "worst strand and step; measuring it takes a few per cent of the step's time; null for paper, with "

@@ -91,9 +91,9 @@ struct SimulateOutcome {
   double waitedForDevice = 0, waitedForWriter = 0;
   std::optional<FrameMilliseconds> frameTimes;  // none: no frame, or ranks step the hair
   // Of one device: handing frames to it and standing at its fences, which may be while the loop submits or
-  // waits; and putting positions into groom order.
+  // waits; and copying positions out of the frame.
   std::optional<HostMilliseconds> host;
-  double scattered = 0;
+  double copied = 0;
   SimulationReport report;
   std::optional<double> velocityResidual;  // the report's, where it was measured
   std::optional<ContactReport> contacts;   // where they are on; contacts and momentumError of the worst frame

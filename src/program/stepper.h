@@ -50,7 +50,7 @@ class Stepper {
   std::vector<Vec3f> framePositions() {
     if (watch_) return std::move(waited_);
     std::vector<Vec3f> all(pointCount_);
-    Stopwatch stopwatch(scattering_);
+    Stopwatch stopwatch(copying_);
     backend_->framePositions(all);
     return all;
   }
@@ -75,7 +75,7 @@ class Stepper {
   /// What was seen goes into the outcome.
   Status tell(SimulateOutcome& outcome) const {
     outcome.waitedForDevice = waiting_;
-    outcome.scattered = scattering_;
+    outcome.copied = copying_;
     outcome.frameTimes = timesOf(times_);
     if (hasContacts_) {
       auto report = backend_->contactReport();
@@ -161,7 +161,7 @@ class Stepper {
   std::vector<Vec3f> now_, waited_;          // positions, where watch_ looks at steps
   std::deque<std::vector<Vec3f>> looked_{};  // of frames not waited for
   ContactReport worst_;
-  double waiting_ = 0, measuring_ = 0, scattering_ = 0;  // [ms]
+  double waiting_ = 0, measuring_ = 0, copying_ = 0;  // [ms]
   double before_;                                        // of stepping, in frames so far [ms]
   std::vector<double> times_{};                          // of each frame [ms]
 };

@@ -34,16 +34,16 @@ TEST_F(Memory, OfAParticleAndAStrand) {
   Settings airy;
   airy.air.on = true;
   const DeviceMemory plain = of({}, {});
-  EXPECT_EQ(plain.particles, 64 * particleCount_);
+  EXPECT_EQ(plain.particles, 68 * particleCount_);
   EXPECT_EQ(plain.strands, 136 * strandCount_);
   EXPECT_EQ(plain.rootPoses + plain.contacts + plain.contactLists, 0u);
   EXPECT_EQ(plain.world, 341u * 48);
-  EXPECT_EQ(plain.frames, 2 * (16 * particleCount_ + 341 * 48));
+  EXPECT_EQ(plain.frames, 2 * (12 * particleCount_ + 341 * 48));
   EXPECT_EQ(plain.total(), plain.particles + plain.strands + plain.world + plain.frames);
   for (const KernelChoice& kernel : {KernelChoice{}, serial}) {
-    EXPECT_EQ(of({}, kernel).particles, 64 * particleCount_);
-    EXPECT_EQ(of({}, kernel, true).particles, 64 * particleCount_) << "bodies cost particles nothing";
-    EXPECT_EQ(of(airy, kernel).particles, 64 * particleCount_);
+    EXPECT_EQ(of({}, kernel).particles, 68 * particleCount_);
+    EXPECT_EQ(of({}, kernel, true).particles, 68 * particleCount_) << "bodies cost particles nothing";
+    EXPECT_EQ(of(airy, kernel).particles, 68 * particleCount_);
   }
   const DeviceMemory moving = of({}, {.movingRoots = true});
   EXPECT_EQ(moving.rootPoses, 64 * (8 + 1) * strandCount_);
@@ -51,7 +51,7 @@ TEST_F(Memory, OfAParticleAndAStrand) {
   const DeviceMemory pulled = of({}, {.forces = true});
   EXPECT_EQ(pulled.particles, plain.particles + 16 * particleCount_);
   EXPECT_EQ(pulled.frames, plain.frames + 2 * 16 * particleCount_);
-  EXPECT_EQ(of({}, {.taps = true}).particles, (64 + 128) * particleCount_);
+  EXPECT_EQ(of({}, {.taps = true}).particles, (68 + 128) * particleCount_);
 }
 
 TEST_F(Memory, OfContacts) {
@@ -61,7 +61,7 @@ TEST_F(Memory, OfContacts) {
   auto simulation = make(settings);
   ASSERT_TRUE(simulation);
   const DeviceMemory memory = simulation->memory();
-  EXPECT_EQ(memory.particles, (64 + 64) * particleCount_);
+  EXPECT_EQ(memory.particles, (68 + 64) * particleCount_);
   const std::uint64_t contacts = simulation->contactReport()->contactParticles;
   ASSERT_GT(contacts, 0u);
   // A contact particle: 140 and two buckets of 8 or more, up to twice as many; a particle 20; a strand 16,
@@ -88,7 +88,7 @@ TEST_F(Memory, OfAVolume) {
   auto simulation = make(settings);
   ASSERT_TRUE(simulation);
   const DeviceMemory memory = simulation->memory();
-  EXPECT_EQ(memory.particles, (64 + 32) * particleCount_);
+  EXPECT_EQ(memory.particles, (68 + 32) * particleCount_);
   EXPECT_EQ(memory.contacts + memory.contactLists, 0u);
   EXPECT_GT(memory.volume, 24u << 10);  // a block of cells at the least
   EXPECT_LT(memory.volume, 140 * particleCount_ + (24u << 21) + (64u << 10));

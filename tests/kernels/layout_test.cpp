@@ -4,6 +4,7 @@
 #include "layout/contacts.h"
 #include "layout/fields.h"
 #include "layout/follow.h"
+#include "layout/frame.h"
 #include "layout/parts.h"
 #include "layout/picture.h"
 #include "layout/pose.h"
@@ -214,6 +215,11 @@ const std::vector<CppStruct> kCppStructs = {
            RINGLET_MEMBER(cell), RINGLET_MEMBER(drag), RINGLET_MEMBER(stiffness), RINGLET_MEMBER(kept),
            RINGLET_MEMBER(warmth), RINGLET_MEMBER(sorts), RINGLET_MEMBER(mostRate),
            RINGLET_MEMBER(unitsPerGain), RINGLET_MEMBER(unitsPerMass)}};
+    }(),
+    [] {
+      using S = layout::FrameParameters;
+      return CppStruct{
+          "FrameParameters", sizeof(S), {RINGLET_MEMBER(count), RINGLET_MEMBER(begin), RINGLET_MEMBER(end)}};
     }(),
     [] {
       using S = layout::PartParameters;

@@ -56,7 +56,7 @@ SimulateOutcome outcome() {
   outcome.driver = "a driver";
   outcome.frameTimes = {.first = 8.5, .median = 2.125, .least = 2};
   outcome.host = {.submit = 0.0625, .fence = 1.125};
-  outcome.scattered = 0.375;
+  outcome.copied = 0.375;
   outcome.kernel = "a kernel";
   outcome.isTuned = true;
   outcome.deviceBytes = 123456;
@@ -91,7 +91,7 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"wall_s", {{"start", 3.5}, {"frames", 4.5}, {"finish", 5.5}}},
       {"compute_share", 0.625},
       {"waits_ms",
-       {{"device", 1.25}, {"writer", 1.75}, {"submit", 0.0625}, {"fence", 1.125}, {"scatter", 0.375}}},
+       {{"device", 1.25}, {"writer", 1.75}, {"submit", 0.0625}, {"fence", 1.125}, {"copy", 0.375}}},
       {"max_edge_stretch", 1.0625},
       {"limited_share", 0.03125},
       {"nonfinite", 3},

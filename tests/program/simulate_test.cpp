@@ -115,7 +115,7 @@ TEST_P(Backends, WritesAllFilesAndAllNumbers) {
   for (const char* part : {"start", "frames", "finish"})
     EXPECT_GE(out["wall_s"][part].get<double>(), 0) << part;
   const bool isOnDevice = GetParam() == std::string("gpu");
-  for (const char* whom : {"device", "writer", "scatter"})
+  for (const char* whom : {"device", "writer", "copy"})
     EXPECT_GE(out["waits_ms"][whom].get<double>(), 0) << whom;
   for (const char* whom : {"submit", "fence"})
     EXPECT_EQ(out["waits_ms"][whom].is_number(), isOnDevice) << whom;

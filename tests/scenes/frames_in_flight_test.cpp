@@ -80,6 +80,7 @@ class FramesInFlight : public GpuTest {
       }
       EXPECT_TRUE(simulation.waitFrame());
       frames.push_back(simulation.framePositions());
+      EXPECT_TRUE(std::ranges::equal(simulation.frameView(), frames.back()));
     }
     return atEnd(simulation, std::move(frames));
   }

@@ -63,6 +63,7 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& consta
   return DeviceChunk{.part = part,
                      .particles = constants.particles,
                      .strands = constants.strands,
+                     .framePlaces = constants.framePlaces,
                      .positions = std::move(*positions),
                      .velocities = std::move(*velocities),
                      .reports = std::move(*reports),
@@ -74,16 +75,21 @@ Result<DeviceChunk> createChunk(gpu::Device& device, const ConstantChunk& consta
 
 }  // namespace
 
+std::uint64_t mostBufferBytes(const gpu::Device& device, const KernelChoice& choice) {
+  const gpu::DeviceProperties& p = device.properties();
+  const std::uint64_t most = std::min({p.maxStorageBufferRange, p.maxAllocationBytes,
+                                       std::uint64_t{std::numeric_limits<std::uint32_t>::max()}});
+  return choice.mostBufferBytes > 0 ? std::min(most, choice.mostBufferBytes) : most;
+}
+
 Result<std::vector<GroomChunk>> cutForDevice(const gpu::Device& device,
                                              std::span<const std::uint32_t> particleCounts,
                                              const GroomRecords& records, const Settings& settings,
                                              const KernelChoice& choice) {
   const gpu::DeviceProperties& p = device.properties();
-  std::uint64_t most = std::min({p.maxStorageBufferRange, p.maxAllocationBytes,
-                                 std::uint64_t{std::numeric_limits<std::uint32_t>::max()}});
+  std::uint64_t most = mostBufferBytes(device, choice);
   if (!settings.contacts.on && isSeenAsTexels(device, kLeastTexelBytes))
     most = std::min(most, p.maxTexelRecords * sizeof(layout::vec4));
-  if (choice.mostBufferBytes > 0) most = std::min(most, choice.mostBufferBytes);
   auto chunks = cutGroom(particleCounts, records, most,
                          settings.contacts.on ? "contacts"
                          : choice.taps        ? "taps"
@@ -224,8 +230,8 @@ std::uint64_t DeviceGroom::largestTexels() const {
 std::uint64_t DeviceGroom::particleBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
-    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles->bytes() + c.taps.bytes() +
-             c.solved.bytes() + c.contactSystems.bytes() + c.addedByVolume.bytes();
+    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles->bytes() + c.framePlaces->bytes() +
+             c.taps.bytes() + c.solved.bytes() + c.contactSystems.bytes() + c.addedByVolume.bytes();
   return bytes;
 }
 
@@ -238,8 +244,8 @@ std::uint64_t DeviceGroom::strandBytes() const {
 std::uint64_t DeviceGroom::sharedBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
-    bytes +=
-        (own.empty() ? c.particles->bytes() : 0) + (hasOwnStrands || !own.empty() ? 0 : c.strands->bytes());
+    bytes += c.framePlaces->bytes() + (own.empty() ? c.particles->bytes() : 0) +
+             (hasOwnStrands || !own.empty() ? 0 : c.strands->bytes());
   return bytes;
 }
 

@@ -29,6 +29,7 @@ namespace ringlet {
 struct ConstantChunk {
   GroomChunk part;
   std::shared_ptr<gpu::Buffer> particles, strands;
+  std::shared_ptr<const gpu::Buffer> framePlaces{};  // of each particle (frame_readback.h)
 
   /// Fails when the device lacks memory.
   /// `strands`, `particles`, `factors`: all of the groom, in device order; no factors, or of each particle.
@@ -42,10 +43,13 @@ struct ConstantChunk {
 /// What kernels see of some of the strands of one head.
 struct DeviceChunk {
   GroomChunk part;
-  std::shared_ptr<const gpu::Buffer> particles, strands;
+  std::shared_ptr<const gpu::Buffer> particles, strands, framePlaces;
   gpu::Buffer positions, velocities, reports, taps;
   gpu::Buffer solved, contactSystems, addedByVolume;  // empty unless needed (GroomRecords)
 };
+
+/// The largest buffer that a kernel may bind [bytes].
+std::uint64_t mostBufferBytes(const gpu::Device& device, const KernelChoice& choice);
 
 /// The chunks a device wants a groom in: as large as storage allows, and as texels do where it sees as many
 /// as the smallest storage buffers hold, as kernels read those faster. With contacts a strand may meet any

@@ -178,7 +178,7 @@ Status Simulation::Implementation::runParts(std::size_t slot) {
         recordMeans(frame, step);
         if (!ends) return recordBorder(frame, pass);
         if (Status status = recordPass(frame, pass); !status) return status;
-        slots[slot].recordPositions(recorder, buffers);
+        slots[slot].recordPositions(recorder);
         return {};
       };
       const auto nothing = []() -> Status { return {}; };

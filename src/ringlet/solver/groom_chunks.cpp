@@ -7,6 +7,7 @@
 
 #include "layout/contacts.h"
 #include "layout/strands.h"
+#include "ringlet/base/vec3.h"
 
 namespace ringlet {
 namespace {
@@ -29,6 +30,8 @@ GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, 
   GroomRecords records;
   records.position = records.velocity = sizeof(layout::vec4);
   records.particleRest = sizeof(layout::ParticleRest);
+  records.place = sizeof(std::uint32_t);
+  records.positionInFrame = sizeof(Vec3f);
   if (choice.taps) records.taps = layout::kTapCount * sizeof(layout::vec4);
   if (kinds.any()) records.solved = sizeof(layout::vec4);
   if (kinds.pairs) records.contactSystem = sizeof(layout::ContactSystem);

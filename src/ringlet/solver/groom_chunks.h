@@ -19,17 +19,19 @@ namespace ringlet {
 
 /// Bytes per particle or per strand in each of the buffers; 0: the buffer is not needed.
 struct GroomRecords {
-  std::uint64_t position = 0, velocity = 0, particleRest = 0, taps = 0, solved = 0;
+  std::uint64_t position = 0, velocity = 0, particleRest = 0, taps = 0, solved = 0, place = 0;
   std::uint64_t contactSystem = 0, addedByVolume = 0, force = 0, goals = 0;
   std::uint64_t strandRest = 0, report = 0, rootPoses = 0;
+  std::uint64_t positionInFrame = 0;
 
   std::uint64_t perParticle() const {
-    return position + velocity + particleRest + taps + solved + contactSystem + addedByVolume + force + goals;
+    return position + velocity + particleRest + taps + solved + place + contactSystem + addedByVolume +
+           force + goals;
   }
   std::uint64_t perStrand() const { return strandRest + report + rootPoses; }
   // In addition for each frame in flight, in host memory: positions read back; forces, goals and poses
   // written.
-  std::uint64_t perParticleOfFrame() const { return position + force + goals; }
+  std::uint64_t perParticleOfFrame() const { return positionInFrame + force + goals; }
   std::uint64_t perStrandOfFrame() const { return rootPoses; }
 };
 

@@ -156,13 +156,18 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   self->groupSize = strandGroupSize(*limits, self->places ? lanes * self->places->headsOfRow() : lanes);
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
   if (!plan) return plan.error();  // before anything else is made
+  self->framePlaces = FramePlaces::of(self->rest);
   for (const GroomChunk& chunk : *chunks) {
     auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles,
                                            self->rest.edgeFactors, chunk);
     if (!constants) return constants.error();
+    auto places = self->framePlaces.onDevice(device.gpu(), chunk);
+    if (!places) return places.error();
+    constants->framePlaces = std::move(*places);
     self->constants.push_back(std::move(*constants));
   }
   self->rest.particles = {};  // they are on the device
+  self->framePlaces.places = {};
   return HairAsset(std::move(self));
 }
 

@@ -27,7 +27,7 @@ class HairAsset {
  public:
   /// Fails, with advice, on settings out of range, on a groom with fewer than one strand or with
   /// non-finite points, and when the device lacks memory. Cost: some passes over the groom in double, and
-  /// with contacts a search for pairs of strands; 32 bytes a particle and 112 a strand of device memory.
+  /// with contacts a search for pairs of strands; 36 bytes a particle and 112 a strand of device memory.
   static Result<HairAsset> build(const ComputeDevice& device, const Groom& groom, const Material& material,
                                  const Settings& settings, const KernelChoice& kernel = {},
                                  BodyUse bodies = BodyUse::none);

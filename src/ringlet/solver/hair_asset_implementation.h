@@ -11,6 +11,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/rest/rest_volume.h"
 #include "ringlet/solver/device_groom.h"
+#include "ringlet/solver/frame_readback.h"
 #include "ringlet/solver/groom_chunks.h"
 #include "ringlet/solver/hair_asset.h"
 #include "ringlet/solver/head_places.h"
@@ -38,8 +39,9 @@ struct HairAsset::Implementation {
   std::vector<StrandRange> firstRanges{};  // of the first solve of a step, if that has kernels of its own
   GroomRecords records{};
   std::vector<ConstantChunk> constants{};
-  std::shared_ptr<HeadPlaces> places{};              // of many small heads; none: each has its own buffers
-  std::optional<GroomGoal> goal{};                   // where Settings::goal is on
+  FramePlaces framePlaces{};             // without those of each particle, which are on the device
+  std::shared_ptr<HeadPlaces> places{};  // of many small heads; none: each has its own buffers
+  std::optional<GroomGoal> goal{};       // where Settings::goal is on
   std::optional<std::vector<GoalUnit>> goalUnits{};  // with goals
 
   ContactKinds kinds() const { return contacts ? contacts->kinds : ContactKinds{}; }

@@ -116,7 +116,8 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   if (Status status = self->addContacts(); !status) return status.error();
   if (Status status = self->makeKernels(); !status) return status.error();
   for (std::size_t slot = 0; slot < kFramesInFlight; ++slot) {
-    auto made = FrameSlot::create(device, self->buffers, initial.readsBack);
+    auto made = FrameSlot::create(device, self->buffers, constant.framePlaces,
+                                  mostBufferBytes(device, constant.choice), initial.readsBack);
     if (!made) return made.error();
     self->slots.push_back(std::move(*made));
     if (Status status = self->recordSlot(slot); !status) return status.error();
@@ -231,7 +232,7 @@ Result<std::vector<Vec3f>> Simulation::Implementation::inGroomOrder(DeviceGroom:
 
 std::vector<Vec3f> Simulation::Implementation::positionsOf(const FrameSlot& slot) const {
   std::vector<Vec3f> all(rest.groomParticleCount);
-  slot.scatter(rest, buffers, rigidHair, all);
+  slot.copyPositions(rest, asset->framePlaces, rigidHair, all);
   return all;
 }
 

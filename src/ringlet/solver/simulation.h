@@ -212,6 +212,8 @@ class Simulation {
   std::vector<Vec3f> framePositions() const;
   /// The same into the groom's positions; of divided hair only those of the strands here change.
   void framePositions(std::span<Vec3f> all) const;
+  /// The same in place, without a copy, for as long; not of divided hair.
+  std::span<const Vec3f> frameView() const;
 
   /// To be called when the oldest frame that recordFrames (hair_frames.h) put into a host's command buffer is
   /// done, and the host's commands that read it too; framePositions then returns it, as after waitFrame.

@@ -93,7 +93,7 @@ void Simulation::Implementation::beginFrame(FrameRecording& frame) const {
 void Simulation::Implementation::recordEnd(FrameRecording& frame) const {
   const bool isTimed = readsBack && device.gpu().properties().hasTimestamps;
   if (isTimed) frame.list.beginStage(kCopyStage);
-  slots[frame.slot].recordPositions(frame.list, buffers);
+  slots[frame.slot].recordPositions(frame.list);
   if (isTimed) frame.list.endStage();
   if (contacts || volume) buffers.recordControl(frame.list);
 }
@@ -339,9 +339,8 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
     }
     if (!isHalted) {
       const bool isWatched = settings.sleepSpeed > 0;
-      stillness.observe(
-          isWatched ? slots[slot].readPositions() : std::vector<std::span<const layout::vec4>>{},
-          settings.sleepSpeed / settings.framesPerSecond);
+      stillness.observe(isWatched ? slots[slot].positions() : std::span<const Vec3f>(),
+                        settings.sleepSpeed / settings.framesPerSecond);
       return {};
     }
     if (Status status = contacts->makeRoom(); !status) return status;
@@ -410,11 +409,20 @@ std::vector<Vec3f> Simulation::framePositions() const {
   return all;
 }
 
+const FrameSlot& Simulation::Implementation::waitedSlot() {
+  RINGLET_ASSERT(readsBack, "positions of a frame of a simulation that reads nothing back");
+  RINGLET_ASSERT(waited > 0 && submitted - waited < kFramesInFlight,
+                 "positions of a frame before waitFrame, or after its place was taken");
+  return slotOf(waited - 1);
+}
+
 void Simulation::framePositions(std::span<Vec3f> all) const {
-  RINGLET_ASSERT(self_->readsBack, "framePositions of a simulation that reads nothing back");
-  RINGLET_ASSERT(self_->waited > 0 && self_->submitted - self_->waited < kFramesInFlight,
-                 "framePositions before waitFrame, or after its place was taken");
-  self_->slotOf(self_->waited - 1).scatter(self_->rest, self_->buffers, self_->rigidHair, all);
+  self_->waitedSlot().copyPositions(self_->rest, self_->asset->framePlaces, self_->rigidHair, all);
+}
+
+std::span<const Vec3f> Simulation::frameView() const {
+  RINGLET_ASSERT(self_->asset->framePlaces.areOfGroom, "a view of the positions of divided hair");
+  return self_->waitedSlot().viewPositions(self_->rigidHair);
 }
 
 Status Simulation::stepFrame(const HeadPose& end) {

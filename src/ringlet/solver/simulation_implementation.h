@@ -241,6 +241,7 @@ struct Simulation::Implementation {
     forgetRecordings();
   }
   FrameSlot& slotOf(std::uint64_t frame) { return slots[frame % kFramesInFlight]; }
+  const FrameSlot& waitedSlot();  // of the frame waited for last
   void beginFrame(FrameRecording& frame) const;
   void recordEnd(FrameRecording& frame) const;
   Status recordFrame(FrameRecording& frame) const;

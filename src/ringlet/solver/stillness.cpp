@@ -16,10 +16,8 @@ void Stillness::begin(bool isQuiet) {
   sleeps_ = since + kFrames <= known + 1;
 }
 
-void Stillness::observe(std::span<const std::span<const layout::vec4>> chunks, double farthest) {
-  std::vector<layout::vec4> now;
-  for (const auto& chunk : chunks) now.insert(now.end(), chunk.begin(), chunk.end());
-  const auto isStill = [&](const layout::vec4& a, const layout::vec4& b) {
+void Stillness::observe(std::span<const Vec3f> now, double farthest) {
+  const auto isStill = [&](Vec3f a, Vec3f b) {
     const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
     return x * x + y * y + z * z <= farthest * farthest;  // NaN is not
   };
@@ -27,7 +25,7 @@ void Stillness::observe(std::span<const std::span<const layout::vec4>> chunks, d
   const std::uint64_t since = stillSince_[observed_ % stillSince_.size()];
   ++observed_;
   stillSince_[observed_ % stillSince_.size()] = areStill ? since : observed_ + 1;
-  before_ = std::move(now);
+  before_.assign(now.begin(), now.end());
 }
 
 void Stillness::archive(Archive& archive) {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "layout/types.h"
 #include "ringlet/base/archive.h"
+#include "ringlet/base/vec3.h"
 
 namespace ringlet {
 
@@ -24,9 +24,9 @@ class Stillness {
   bool sleeps() const { return sleeps_; }
   /// Notes a change from outside: the next frame is not quiet.
   void wake() { quietSince_ = frame_ + 2; }
-  /// Ends the oldest frame that was begun, with its positions by chunk, or none if they are unknown.
+  /// Ends the oldest frame that was begun, with its positions, or none if they are unknown.
   /// farthest: the distance below which a particle counts as not moving [m].
-  void observe(std::span<const std::span<const layout::vec4>> chunks, double farthest);
+  void observe(std::span<const Vec3f> now, double farthest);
 
   void archive(Archive& archive);
 
@@ -39,7 +39,7 @@ class Stillness {
   // This frame and all since are still; by the number of the frame at whose end it was known.
   std::array<std::uint64_t, kLag + 1> stillSince_{1, 1, 1};
   bool sleeps_ = false;
-  std::vector<layout::vec4> before_;  // positions at the end of the last frame
+  std::vector<Vec3f> before_;  // positions at the end of the last frame
 };
 
 }  // namespace ringlet

@@ -1,0 +1,65 @@
+// FrameReadback: brings the positions at a frame's end into the host's memory, in the order of the groom.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/gpu/buffer.h"
+#include "ringlet/gpu/command_list.h"
+#include "ringlet/gpu/device.h"
+#include "ringlet/gpu/kernel.h"
+#include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/device_groom.h"
+
+namespace ringlet {
+
+/// Where the particles of a device stand in its frames: of all of a groom's strands as in the groom, which
+/// has gaps for those that are carried rigidly (solver/rigid_hair.h); of a part of them without gaps, in
+/// device order.
+struct FramePlaces {
+  std::vector<std::uint32_t>
+      places;               // of each particle, device order; layout::kNoPlace for those of the halo
+  std::uint32_t count = 0;  // places of a frame
+  bool areOfGroom = true;   // else of a part
+
+  static FramePlaces of(const RestState& rest);
+  /// Those of a chunk's particles. Fails when the device lacks memory.
+  Result<std::shared_ptr<const gpu::Buffer>> onDevice(gpu::Device& device, const GroomChunk& chunk) const;
+};
+
+class FrameReadback {
+ public:
+  /// count: FramePlaces::count. mostBufferBytes: the largest buffer that a kernel may bind. Fails when the
+  /// device lacks memory.
+  static Result<FrameReadback> create(gpu::Device& device, const DeviceGroom& groom, std::uint32_t count,
+                                      std::uint64_t mostBufferBytes);
+
+  /// Records it. The caller records the barrier before.
+  void record(gpu::CommandList& list) const;
+  /// Does it now, after a frame that is not recorded.
+  Status download(const DeviceGroom& groom);
+  /// The positions, by place. Places of no particle hold what was last written there.
+  std::span<Vec3f> positions() const;
+  std::uint64_t bytes() const { return frame_.bytes(); }
+
+ private:
+  // What a dispatch writes: places [begin, end), of a chunk's particles.
+  struct Piece {
+    gpu::Bindings bindings;
+    std::uint32_t count = 0, begin = 0, end = 0;
+  };
+  explicit FrameReadback(gpu::Buffer frame) : frame_(std::move(frame)) {}
+
+  std::shared_ptr<const gpu::Kernel> kernel_;
+  gpu::Buffer frame_;
+  std::vector<gpu::Buffer> parts_;  // of it, where it is larger than a kernel may bind
+  std::vector<Piece> pieces_;
+  std::uint32_t mostGroups_ = 1;
+};
+
+}  // namespace ringlet
