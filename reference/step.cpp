@@ -373,8 +373,7 @@ void Simulation<Real>::stepOnce(std::size_t k, std::size_t steps, const HeadPose
       solveAmongBodies<Real>(rest_[s], bodies, strandOf(positions_, s), systems_[s], scratch_, velocities);
     };
     const VolumeFrame frame{toEigen<double>(head_.rotation), toEigen<double>(next.rotation),
-                            settings_.stepSeconds(),
-                            volumeSorts(static_cast<std::uint32_t>(k), settings_.stepSeconds())};
+                            settings_.stepSeconds()};
     solveContacts(settings_.contacts, frame, firstPoint_, systems_, solveOne, positions_, contacts_,
                   velocities_);
   }

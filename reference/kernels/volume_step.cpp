@@ -66,6 +66,7 @@ void Volume::release(std::uint32_t begin, std::uint32_t end) {
 }
 
 void Volume::forget() {
+  untilSort = 0;
   for (VolumeParticle& p : particles) {
     p.isKnown = false;
     p.density = p.restDensity;
@@ -73,6 +74,7 @@ void Volume::forget() {
 }
 
 void Volume::archive(Archive& archive) {
+  archive.value(untilSort);
   for (VolumeParticle& p : particles) {
     archive.value(p.density);
     archive.value(p.isKnown);
@@ -125,10 +127,11 @@ void beginVolume(const ContactSettings& settings, const VolumeFrame& frame, cons
     p.memory = p.isKnown ? fadedDisplacement(settings, frame.seconds, p.memory, place - p.place)
                          : Vector3<double>(Vector3<double>::Zero());
     p.place = place;
-    if (frame.sorts) p.gridPlace = place;
+    if (volume.untilSort == 0) p.gridPlace = place;
     p.share = othersShare(p.ownDensity, p.density);
     p.isKnown = true;
   }
+  volume.untilSort = (volume.untilSort > 0 ? volume.untilSort : volumeSortSteps(frame.seconds)) - 1;
 }
 
 void endVolume(const Field<double>& velocities, const std::vector<bool>& isPinned, Volume& volume) {

@@ -19,7 +19,8 @@ namespace ringlet::reference {
 struct VolumeFrame {
   Rotation<double> now, next;  // at its start and end
   double seconds = 0;
-  bool sorts = true;  // particles go to where they are on the grid, as in a frame's first step
+  bool sorts =
+      true;  // particles go to where they are on the grid; else they stay where the step before had them
 
   /// Velocity of a point at x that the head carries rigidly, along world axes [m/s].
   Vector3<double> carried(const Vector3<double>& x) const {
@@ -45,7 +46,8 @@ struct VolumeParticle {
 };
 
 struct Volume {
-  double cell = 0;  // h [m]
+  double cell = 0;              // h [m]
+  std::uint32_t untilSort = 0;  // steps until particles next go to where they are on the grid
   std::vector<VolumeParticle> particles;
 
   bool isEmpty() const { return particles.empty(); }

@@ -143,6 +143,14 @@ std::vector<Hair> hairsInContact() {
   Hair mixed{"mixed", parity::bunchAndStrands()};
   mixed.settings.contacts.on = true;
   all.push_back(std::move(mixed));
+  // Of 7 steps a frame, the frame before the checkpoint ends between two sorts of the volume.
+  Hair between{
+      "between sorts",
+      *makeSwatch({.curl = {.particleCount = 16}, .columnCount = 5, .rowCount = 4, .spacing = 0.006})};
+  between.settings.contacts.on = true;
+  between.settings.contacts.method = ContactMethod::volume;
+  between.settings.stepsPerFrame = 7;
+  all.push_back(std::move(between));
   HeadParameters head{.strandCount = 60};
   head.curl.particleCount = 24;
   for (const ContactMethod method : {ContactMethod::explicitPairs, ContactMethod::volume}) {

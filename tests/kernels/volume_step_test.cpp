@@ -281,7 +281,7 @@ TEST_F(VolumeStep, MayDoNothing) {
 // What is put somewhere begins anew: as hair that never was anywhere else.
 TEST_F(VolumeStep, StatesThatArePutForgetDisplacements) {
   Settings settings = volumeSettings();
-  settings.stepsPerFrame = 7;  // the last steps of a frame do not sort
+  settings.stepsPerFrame = 7;  // with an odd number frames end between two sorts
   auto moved = Simulation::create(device(), denseSwatch(32), {}, settings);
   ASSERT_TRUE(moved) << moved.error().message;
   shake(*moved, 0, 5);

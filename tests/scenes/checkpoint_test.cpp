@@ -23,7 +23,7 @@ struct Case {
   Settings settings{};
   KernelChoice kernel{};
   std::vector<Body> bodies{};
-  bool jumps = false, isStill = false;
+  bool jumps = false, isStill = false, oddSteps = false;
   Groom groom = randomGroom({2, 3, 31, 64, 64, 100, 128, 250}, 9);
 };
 
@@ -67,6 +67,9 @@ std::vector<Case> allCases() {
   cases.push_back({.name = "a volume", .groom = tuft()});
   cases.back().settings.contacts.on = true;
   cases.back().settings.contacts.method = ContactMethod::volume;
+  cases.push_back({.name = "a volume between two sorts", .groom = tuft()});
+  cases.back().settings = cases[cases.size() - 2].settings;
+  cases.back().oddSteps = true;
   cases.push_back({.name = "bodies and air", .bodies = sampleBodies()});
   cases.back().settings.air = {.on = true, .wind = {1, 0, 2}, .gust = 0.5, .turbulence = 1};
   cases.push_back({.name = "contacts, bodies and air", .bodies = sampleBodies(), .groom = tuft()});
@@ -79,7 +82,7 @@ std::vector<Case> allCases() {
   cases.back().groom.addStrand(std::vector<Vec3f>{{1, 0, 0}, {1, 1e-7f, 0}, {1, 2e-7f, 1e-5f}});
   cases.push_back({.name = "chunks", .kernel = {.mostBufferBytes = 60000}});
   cases.push_back({.name = "a jump", .jumps = true});
-  for (Case& one : cases) one.settings.stepsPerFrame = 4;
+  for (Case& one : cases) one.settings.stepsPerFrame = one.oddSteps ? 3 : 4;
   return cases;
 }
 

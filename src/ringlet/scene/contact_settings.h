@@ -56,10 +56,9 @@ using ContactBundle = std::vector<std::uint32_t>;
 inline constexpr double kVolumeCellRadii = 4;
 /// Interval at which particles are sorted into the grid's cells [s]. Between, neighbours move together.
 inline constexpr double kVolumeSortSeconds = 1.0 / 48;
-/// Whether they are in a step of a frame: in its first, and then once in that interval.
-inline bool volumeSorts(std::uint32_t stepOfFrame, double stepSeconds) {
-  const double steps = std::max(1.0, std::round(kVolumeSortSeconds / stepSeconds));
-  return std::fmod(stepOfFrame, steps) == 0;
+/// The same interval in steps, at least 1.
+inline std::uint32_t volumeSortSteps(double stepSeconds) {
+  return static_cast<std::uint32_t>(std::max(1.0, std::round(kVolumeSortSeconds / stepSeconds)));
 }
 /// Largest distance along a strand between particles that take part, in cells; each represents the particles
 /// around it.

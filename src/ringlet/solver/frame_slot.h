@@ -23,6 +23,7 @@ struct FrameSlot {
   gpu::Recorder recorder;      // destroyed first: it waits for the commands that write the others
   enum class Recorded { nothing, frame, sleep };
   Recorded recorded = Recorded::nothing;  // sleep: a frame without steps
+  std::uint32_t untilSort = 0;            // VolumeStage's, in what is recorded
   double particleSteps = 0;               // of strands, in what is recorded
   bool isHosts = false;  // the frame is in a host's commands (hair_frames.h), which tell when it is over
 

@@ -219,6 +219,7 @@ Status Simulation::Implementation::recordSlot(std::size_t slot) {
   if (Status status = recordFrame(frame); !status) return status;
   of.particleSteps = frame.particleSteps;
   of.recorded = wantedRecording();
+  if (volume) of.untilSort = volume->untilSort();
   return {};
 }
 
@@ -259,6 +260,8 @@ Result<bool> Simulation::Implementation::prepareFrame(std::span<const HeadPose> 
     writePoses(slot, stepPoses, bodyPoses, rootPoses);
     rigidHair.endFrame(rootPoses);
   }
+  if (volume && !jumps && !stillness.sleeps())
+    volume->beginFrame(static_cast<std::uint32_t>(stepPoses.size()));
   slots[slot].rigid = rigidHair.positions(head.now);
   stepsDone += stepPoses.size();
   isReadBack = readsBack;
@@ -285,7 +288,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
     }
     ++finished;
   } else if (*works) {
-    if (slots[slot].recorded != wantedRecording()) {
+    if (!isRecorded(slots[slot])) {
       if (Status status = recordSlot(slot); !status) return status;
     }
     if (Status status = slots[slot].recorder.submit(); !status) return status;

@@ -260,6 +260,9 @@ struct Simulation::Implementation {
   FrameSlot::Recorded wantedRecording() const {
     return stillness.sleeps() ? FrameSlot::Recorded::sleep : FrameSlot::Recorded::frame;
   }
+  bool isRecorded(const FrameSlot& slot) const {
+    return slot.recorded == wantedRecording() && (!volume || slot.untilSort == volume->untilSort());
+  }
   Status recordSlot(std::size_t slot);
   Status recordRest(std::size_t slot);
   Result<bool> prepareFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,

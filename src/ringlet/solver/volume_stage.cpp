@@ -195,7 +195,8 @@ Status VolumeStage::release(std::span<const std::uint32_t> particles) {
 }
 
 void VolumeStage::setSettings(const Settings& settings) {
-  const double T = stepSeconds_ = settings.stepSeconds();
+  const double T = settings.stepSeconds();
+  sorts_.setStep(T);
   parameters_.seconds = static_cast<float>(T);
   parameters_.drag = static_cast<float>(settings.contacts.volumeDrag);
   parameters_.stiffness = static_cast<float>(settings.contacts.volumeStiffness);
@@ -215,7 +216,6 @@ layout::VolumeParameters VolumeStage::parameters(std::uint32_t step) const {
   parameters.sorts = sorts(step) ? 1 : 0;
   return parameters;
 }
-bool VolumeStage::sorts(std::uint32_t step) const { return volumeSorts(step, stepSeconds_); }
 void VolumeStage::dispatch(gpu::CommandList& list, VolumeKernel kernel, std::uint32_t step,
                            std::uint32_t groups) const {
   const auto at = static_cast<std::size_t>(kernel);
@@ -309,6 +309,7 @@ std::span<std::uint32_t> VolumeStage::densities() {
 }
 
 Status VolumeStage::forget() {
+  sorts_.forget();
   const std::vector<layout::VolumeState> states = unknownStates(densities_);
   if (Status status = buffers_->states.upload(std::as_bytes(std::span(states))); !status) return status;
   const auto before = downloadAll<layout::VolumeControl>(buffers_->control, 1);
@@ -331,11 +332,17 @@ Status VolumeStage::archive(Archive& archive) {
   auto control = downloadAll<layout::VolumeControl>(b.control, 1);
   if (!control) return control.error();
   archive.value(control->front());
+  sorts_.archive(archive);
   if (archive.isShort()) return {};
   if (archive.isReading()) {
     if (Status status = b.control.upload(std::as_bytes(std::span(*control))); !status) return status;
   }
-  return archiveBuffer(archive, b.states);
+  std::vector<gpu::Buffer*> kept{&b.states};
+  if (sorts_.isBetweenSorts()) kept.insert(kept.end(), {&b.cells, &b.parcels, &b.located, &b.nodes});
+  for (gpu::Buffer* buffer : kept) {
+    if (Status status = archiveBuffer(archive, *buffer); !status) return status;
+  }
+  return {};
 }
 
 }  // namespace ringlet

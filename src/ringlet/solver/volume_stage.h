@@ -26,6 +26,7 @@
 #include "ringlet/solver/device_groom.h"
 #include "ringlet/solver/submission_pace.h"
 #include "ringlet/solver/volume_kernels.h"
+#include "ringlet/solver/volume_sorts.h"
 
 namespace ringlet {
 
@@ -51,13 +52,18 @@ class VolumeStage {
   /// Dispatches these without work, so that the driver compiles them before they are needed.
   void recordNothing(gpu::CommandList& list) const;
 
+  /// Before a frame of so many steps is recorded or submitted. `untilSort`: steps of it before the first that
+  /// sorts; recordings of frames that differ in it differ.
+  void beginFrame(std::uint32_t steps) { sorts_.beginFrame(steps); }
+  std::uint32_t untilSort() const { return sorts_.until(); }
+
   /// Records the parts of a step, in order. The caller records the barriers before and after each. The
   /// kernels do nothing if contacts of pairs have halted. Contributions of the particles in an iteration, the
   /// first of a step or a later one.
   void recordBrought(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step, bool isFirst) const;
   /// In a step that sorts, once. In each iteration, the sums of contributions at the grid's nodes, and what
   /// the means give the particles.
-  bool sorts(std::uint32_t step) const;
+  bool sorts(std::uint32_t step) const { return sorts_.sorts(step); }
   void recordSort(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordSums(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
   void recordMeans(gpu::CommandList& list, SubmissionPace& pace, std::uint32_t step) const;
@@ -111,7 +117,7 @@ class VolumeStage {
   std::vector<float> densities_;  // at rest
   layout::VolumeParameters parameters_{};
   float largestMass_ = 0;
-  double stepSeconds_ = 0;
+  VolumeSorts sorts_{};
   double longestStrand_ = 0;  // as RestVolume's
   double range_ = 1;          // KernelChoice::volumeRange
   bool isDivided_ = false;
