@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace ringlet::program {
@@ -17,10 +18,15 @@ constexpr double kSchedulers = 4;  // of an NVIDIA processor (SM), each with war
 
 bool hasPart(std::string_view whole, std::string_view part) { return whole.find(part) != whole.npos; }
 
+// NVIDIA's driver puts another number above the 32 bits of local memory.
+double valueOf(const gpu::KernelStatistic& one) {
+  return hasPart(one.name, "Local Memory") ? std::fmod(one.value, 4294967296.0) : one.value;
+}
+
 // Spilled scalar registers go to vector registers, and NVK's "to reg" to others of another kind: both cost
 // little. NVIDIA counts no spills; they are in a kernel's local memory.
 bool isSpilled(const gpu::KernelStatistic& one) {
-  if (one.value <= 0) return false;
+  if (valueOf(one) <= 0) return false;
   if (hasPart(one.name, "Local Memory")) return true;
   return hasPart(one.name, "pill") && !hasPart(one.name, "SGPR") && !hasPart(one.name, "to reg");
 }
@@ -47,7 +53,7 @@ std::string statisticsText(std::span<const gpu::KernelStatistic> statistics) {
   for (const gpu::KernelStatistic& one : statistics) {
     if (std::ranges::none_of(kWorth, [&](std::string_view part) { return hasPart(one.name, part); }))
       continue;
-    text += fmt::format("{}{} {:.0f}", text.empty() ? "" : ", ", one.name, one.value);
+    text += fmt::format("{}{} {:.0f}", text.empty() ? "" : ", ", one.name, valueOf(one));
   }
   return text;
 }

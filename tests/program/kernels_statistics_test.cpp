@@ -19,6 +19,10 @@ TEST(KernelsStatistics, SpillsAreWhatGoesThroughMemory) {
   EXPECT_EQ(flagsOf(Statistics{{"Register Count", 255}, {"Local Memory Size", 128}}), Flags{"spills"})
       << "NVIDIA";
   EXPECT_EQ(flagsOf(Statistics{{"Register Count", 255}, {"Local Memory Size", 0}}), Flags{}) << "NVIDIA";
+  // As driver 580.159 has it, for an H100.
+  EXPECT_EQ(flagsOf(Statistics{{"Local Memory Size", 68719476736.0}}), Flags{}) << "NVIDIA";
+  EXPECT_EQ(flagsOf(Statistics{{"Local Memory Size", 68719477024.0}}), Flags{"spills"}) << "NVIDIA";
+  EXPECT_EQ(statisticsText(Statistics{{"Local Memory Size", 68719477024.0}}), "Local Memory Size 288");
 }
 
 TEST(KernelsStatistics, OneWaveIsOneOfAScheduler) {
