@@ -28,6 +28,11 @@ Status FrameSink::hand(ComputedFrame frame) {
   return thread_.hand([this, frame = std::move(frame)]() mutable { return take(std::move(frame)); });
 }
 
+std::vector<Vec3f> FrameSink::takeRoom() {
+  const std::lock_guard lock(roomMutex_);
+  return std::exchange(room_, {});
+}
+
 Status FrameSink::finish() {
   if (Status shown = thread_.hand([this] { return isShown_ ? Status{} : show(); }); !shown) return shown;
   return thread_.finish();
@@ -46,8 +51,12 @@ Status FrameSink::take(ComputedFrame frame) {
     Stopwatch watch(watching_);
     readers_.bodies->look(frame.positions, frame.head, frame.bodies);
   }
-  last_ = std::move(frame);
+  std::swap(last_, frame);
   isShown_ = false;
+  {
+    const std::lock_guard lock(roomMutex_);
+    room_ = std::move(frame.positions);
+  }
   const bool canWait = readers_.needLastOnly && areFinite(last_.positions);
   if (Status shown = canWait ? Status{} : show(); !shown) return shown;
   ++frameCount_;

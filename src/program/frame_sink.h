@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,8 @@ class FrameSink {
   /// Waits while too many frames are on their way. The failure of an earlier frame comes back here or from
   /// finish; what was handed over after it is dropped.
   Status hand(ComputedFrame frame);
+  /// Memory of a frame that is done with, for positions of the next; empty if there is none yet.
+  std::vector<Vec3f> takeRoom();
   Status finish();
   /// After the frames handed over so far, as one of them.
   Status handJob(WriterThread::Job job) { return thread_.hand(std::move(job)); }
@@ -72,6 +75,8 @@ class FrameSink {
   ComputedFrame last_;
   bool isShown_ = true;  // the last frame, to observe and write
   double watching_ = 0, writing_ = 0;
+  std::mutex roomMutex_{};
+  std::vector<Vec3f> room_{};
   WriterThread thread_;  // goes first: it works on the rest
 };
 

@@ -384,7 +384,7 @@ Status HairRun::takeUnderWay() {
   if (!waited) return afterWritten(waited.error());
   {
     Stopwatch watch(readbackTime_);
-    frame.positions = stepper_->framePositions();
+    frame.positions = stepper_->framePositions(sink_->takeRoom());
   }
   Stopwatch watch(waitedForWriter_);
   return sink_->hand(std::move(frame));

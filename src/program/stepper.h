@@ -46,13 +46,13 @@ class Stepper {
     looked_.pop_front();
     return {};
   }
-  /// Of the frame waited for last, once.
-  std::vector<Vec3f> framePositions() {
+  /// Of the frame waited for last, once. `room`: memory for them, of whatever size.
+  std::vector<Vec3f> framePositions(std::vector<Vec3f> room) {
     if (watch_) return std::move(waited_);
-    std::vector<Vec3f> all(pointCount_);
+    room.resize(pointCount_);
     Stopwatch stopwatch(copying_);
-    backend_->framePositions(all);
-    return all;
+    backend_->framePositions(room);
+    return room;
   }
 
   /// All that later frames depend on, none being in flight; and back, before the first.
@@ -162,8 +162,8 @@ class Stepper {
   std::deque<std::vector<Vec3f>> looked_{};  // of frames not waited for
   ContactReport worst_;
   double waiting_ = 0, measuring_ = 0, copying_ = 0;  // [ms]
-  double before_;                                        // of stepping, in frames so far [ms]
-  std::vector<double> times_{};                          // of each frame [ms]
+  double before_;                                     // of stepping, in frames so far [ms]
+  std::vector<double> times_{};                       // of each frame [ms]
 };
 
 }  // namespace ringlet::program
