@@ -18,25 +18,19 @@ void enter(uint place, uint group) {
   if (hasOthers(groups, group)) atomicMax(grid[place], kSeveralGroups);
 }
 
-void measure() {
-  if (control.isHalted != 0) return;
-  uint c = gl_GlobalInvocationID.x;
-  if (c >= parameters.contactCount) return;
+// Of this invocation's particles. NaN counts as large.
+float motion = 0.0;
+float speed = 0.0;
+float larger(float a, float b) { return max(a, b < 1e30 ? b : 1e30); }
+
+void measure(uint c) {
   ContactRest rest = contactOf(c);
   if (kDivided && parameters.whose != kOfAll && isElsewhere(rest.strand) != (parameters.whose == kOfElsewhere)) return;
   uint particle = rest.particle;
   vec3 x = positionOf(particle);
   vec3 v = velocityOf(particle);
-  float motion = length(x - listedPosition(c)) + parameters.seconds * length(v - listedVelocity(c));
-  float speed = length(v);
-  // NaN counts as large.
-  if (!(motion < 1e30)) motion = 1e30;
-  if (!(speed < 1e30)) speed = 1e30;
-  // The bits of numbers >= 0 order as the numbers do. Most are below the maximum so far, and a read costs less than an
-  // atomic.
-  if (floatBitsToUint(motion) > control.motion) atomicMax(control.motion, floatBitsToUint(motion));
-  if (floatBitsToUint(speed) > control.speed) atomicMax(control.speed, floatBitsToUint(speed));
-
+  motion = larger(motion, length(x - listedPosition(c)) + parameters.seconds * length(v - listedVelocity(c)));
+  speed = larger(speed, length(v));
   vec3 change = control.steps > 0 ? lastVelocityOf(particle) - predictedBefore(c) : vec3(0);
   histories[c].predicted[control.parity ^ 1] = vec4(v, 0);
   guesses[particle] = vec4(v + parameters.warmth * change, rest.radius);
@@ -48,8 +42,18 @@ void measure() {
   }
 }
 
+void measureAll() {
+  if (control.isHalted != 0) return;
+  uint invocations = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+  for (uint c = gl_GlobalInvocationID.x; c < parameters.contactCount; c += invocations) measure(c);
+  // The bits of numbers >= 0 order as the numbers do. Most are below the maximum so far, and a read costs less than an
+  // atomic.
+  if (floatBitsToUint(motion) > control.motion) atomicMax(control.motion, floatBitsToUint(motion));
+  if (floatBitsToUint(speed) > control.speed) atomicMax(control.speed, floatBitsToUint(speed));
+}
+
 void main() {
-  measure();
+  measureAll();
   if (kDivided && parameters.whose == kOfHere) return;
   if (isLastGroup() && gl_LocalInvocationID.x == 0) decideLists();
 }

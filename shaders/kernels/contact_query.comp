@@ -45,7 +45,8 @@ void main() {
   }
   uvec4 self = placedPosition(place);
   vec3 velocity = uintBitsToFloat(placedVelocity(place).xyz);
-  if (!search(c, uintBitsToFloat(self.xyz), velocity, self.w, parameters.skin)) control.isHalted = kHaltedByTurns;
+  if (!search(c, uintBitsToFloat(self.xyz), velocity, self.w, parameters.skin, 0, kSearchRows))
+    control.isHalted = kHaltedByTurns;
   lists[list] = count;
   if (count > control.longestList) atomicMax(control.longestList, count);
   setListed(c, x, v);

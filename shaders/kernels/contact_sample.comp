@@ -16,26 +16,51 @@ bool isSought(vec3 otherPosition, vec3 otherVelocity, uint otherParticle, float 
 
 void take(ContactRest other, float R, float r0) { ++found; }
 
-void lookAt(uint c) {
-  if (c == kNoContact) return;
+// What the lanes of a particle found, less what its list has of that.
+uint listed = 0;
+
+// The lanes of a particle share the rows of cells and the places of the list.
+void lookAt(uint c, uint lane) {
   ContactRest self = contactOf(c);
-  if (!search(c, positionOf(self.particle), velocityOf(self.particle), groupOf(self.strand), 0.0))
+  int rows = kSearchRows / int(kSampleLanes);
+  if (!search(c, positionOf(self.particle), velocityOf(self.particle), groupOf(self.strand), 0.0, int(lane) * rows,
+              (int(lane) + 1) * rows))
     control.isHalted = kHaltedByTurns;
   uint list = listOf(c);
   uint count = lists[list];
-  uint listed = 0;
-  uint j = 0;
-  if (count > 0) do {
+  uint j = lane;
+  if (j < count) do {
     ContactPair pair = pairAt(lists[listedBlock(list, j / kListBlock)] * kListBlock + j % kListBlock);
     if (isSought(positionOf(pair.particle), velocityOf(pair.particle), pair.particle, pair.restLength)) ++listed;
-  } while (++j < count);
+    j += kSampleLanes;
+  } while (j < count);
   if (j < count) control.isHalted = kHaltedByTurns;
-  if (found > 0) atomicAdd(control.sampled, found);
-  if (found > listed) atomicAdd(control.missed, found - listed);
+}
+
+const uint kMostGroup = 128;  // invocations
+shared uvec2 sharedCounts[kSampleLanes > 1 ? kMostGroup : 1];
+
+// Called by all of the workgroup. The lanes of a particle are as far apart as the group has particles.
+void addLanes(uint lane, uint particles) {
+  uint at = gl_LocalInvocationID.x;
+  sharedCounts[at] = uvec2(found, listed);
+  barrier();
+  if (lane > 0) return;
+  for (uint other = 1; other < kSampleLanes; ++other) {
+    uvec2 counts = sharedCounts[at + other * particles];
+    found += counts.x;
+    listed += counts.y;
+  }
 }
 
 void main() {
-  lookAt(sampledContact(gl_GlobalInvocationID.x));
+  uint particles = sampledOfGroup();
+  uint lane = gl_LocalInvocationID.x / particles;
+  uint c = sampledContact(gl_WorkGroupID.x * particles + gl_LocalInvocationID.x % particles);
+  if (c != kNoContact && lane < kSampleLanes) lookAt(c, lane);
+  if (kSampleLanes > 1) addLanes(lane, particles);
+  if (lane == 0 && found > 0) atomicAdd(control.sampled, found);
+  if (lane == 0 && found > listed) atomicAdd(control.missed, found - listed);
   if (isJudgedLater()) return;
   if (isLastGroup() && gl_LocalInvocationID.x == 0) judgeLists();
 }

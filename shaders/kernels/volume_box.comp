@@ -36,5 +36,5 @@ void main() {
     control.indirectNodes[axis] = 1;
   }
   control.indirectBlocks[0] = control.cellCount / kBucketBlock + 1;
-  control.indirectNodes[0] = groupsOf(control.cellCount);
+  control.indirectNodes[0] = groupsOf(kNodeLanes * control.cellCount);
 }

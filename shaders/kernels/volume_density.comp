@@ -5,27 +5,19 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_nodes.glsl"
 
-int high = 0;
-int low = 0;
-
 void take(VolumeParcel parcel, float weight) {
   int term = int(roundEven(weight * parcel.place.w));
-  high += term >> 16;
-  low += term & 0xffff;
-}
-void carry() {
-  high += int(uint(low) >> 16);
-  low &= 0xffff;
+  high.x += term >> 16;
+  low.x += term & 0xffff;
 }
 
 void main() {
   uint node;
-  if (!findNode(node)) return;
-  sumAround(node);
+  if (!sumAround(node)) return;
   if (!kDivided) {
-    nodes[node].w = densityFrom(fromSums(ivec4(high), ivec4(low)).x);
+    nodes[node].w = densityFrom(fromSums(high, low).x);
     return;
   }
-  sums[densitySum(node)] = high;
-  sums[densitySum(node) + 1] = low;
+  sums[densitySum(node)] = high.x;
+  sums[densitySum(node) + 1] = low.x;
 }

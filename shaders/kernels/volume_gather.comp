@@ -4,23 +4,15 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_nodes.glsl"
 
-ivec4 high = ivec4(0);
-ivec4 low = ivec4(0);
-
 void take(VolumeParcel parcel, float weight) {
   ivec4 term = ivec4(roundEven(weight * parcel.rate));
   high += term >> 16;
   low += term & 0xffff;
 }
-void carry() {
-  high += ivec4(uvec4(low) >> 16);
-  low &= 0xffff;
-}
 
 void main() {
   uint node;
-  if (!findNode(node)) return;
-  sumAround(node);
+  if (!sumAround(node)) return;
   if (!kDivided) {
     nodes[node].xyz = meanRate(fromSums(high, low));
     return;

@@ -104,6 +104,9 @@ ContactForce forceAt(uint entry) {
 /// divided among devices, those of strands that are stepped here stand in a list by what their index in the whole groom
 /// leaves modulo the stride; before it, where those of each remainder begin.
 const uint kNoContact = 0xffffffffu;
+layout(constant_id = kSpecSampleLanes) const uint kSampleLanes = 1;
+/// Particles of a sample that a workgroup looks at.
+uint sampledOfGroup() { return gl_WorkGroupSize.x / kSampleLanes; }
 uint sampledContact(uint k) {
   uint remainder = control.steps % parameters.sampleStride;
   if (kDivided) {

@@ -30,7 +30,7 @@ bool isJudgedLater() { return kDivided && parameters.sampleStride > 0; }
 void dispatchGrid(bool grid, bool asks) {
   control.indirectContacts[0] = grid ? groupsOf(parameters.contactCount) : 0;
   control.indirectBuckets[0] = grid ? parameters.bucketCount / kBucketBlock : 0;
-  control.indirectSample[0] = asks ? groupsOf(parameters.mostSampled) : 0;
+  control.indirectSample[0] = asks ? (parameters.mostSampled + sampledOfGroup() - 1) / sampledOfGroup() : 0;
   for (uint axis = 1; axis < 3; ++axis) {
     control.indirectContacts[axis] = 1;
     control.indirectBuckets[axis] = 1;

@@ -34,10 +34,12 @@ bool rowHasOthers(uint first, uint group) {
   return others;
 }
 
-// Searches around contact particle c, whose position, velocity and strand's group these are. skin: distance by which
-// isSought looks farther than the pairs that may touch within the step [m]. Returns false where the driver ended a loop
-// early.
-bool search(uint c, vec3 position, vec3 velocity, uint group, float skin) {
+const int kSearchRows = 9;  // of three cells along x
+
+// Searches around contact particle c, whose position, velocity and strand's group these are, in rows [row, rowEnd).
+// skin: distance by which isSought looks farther than the pairs that may touch within the step [m]. Returns false where
+// the driver ended a loop early.
+bool search(uint c, vec3 position, vec3 velocity, uint group, float skin, int row, int rowEnd) {
   rest = contactOf(c);
   uvec4 ownNeighbours = parameters.everyPair != 0 ? uvec4(0) : neighbourRecord(rest.strand);
   precise vec3 here = position;
@@ -48,9 +50,8 @@ bool search(uint c, vec3 position, vec3 velocity, uint group, float skin) {
   precise float farthest = min(parameters.listedAhead * mostR + skin, control.cellSize);
   ivec3 cell = cellOf(x);
   uint placed = placedCount();
-  uint wanted = 9;  // turns that the loops below should make; `made` counts those they made
+  uint wanted = rowEnd - row;  // turns that the loops below should make; `made` counts those they made
   uint made = 0;
-  int row = 0;
   do {
     // Three cells along x are one range of entries, which may wrap from the last bucket to the first.
     ivec3 middle = cell + ivec3(0, row % 3 - 1, row / 3 - 1);
@@ -109,7 +110,7 @@ bool search(uint c, vec3 position, vec3 velocity, uint group, float skin) {
       entries -= looked;
     } while (entries > 0);
     ++made;
-  } while (++row < 9);
+  } while (++row < rowEnd);
   return made == wanted;
 }
 

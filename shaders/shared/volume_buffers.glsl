@@ -40,6 +40,7 @@ layout(set = 0, binding = kBindVolumeSums) buffer Sums { int sums[]; };
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
+layout(constant_id = kSpecNodeLanes) const uint kNodeLanes = 1;  // invocations that share a node: 1, 2 or 4
 
 /// Finds the volume particle of this invocation; false if there is none.
 bool findParticle(out uint i) {

@@ -1,26 +1,36 @@
 // Sums over the parcels in the eight cells around a node of the volume's grid. Neighbouring cells along x are
-// consecutive, so the eight are four ranges. The kernel that includes this defines what is summed (take), and moves
-// what its low numbers hold beyond 16 bits into the high ones (carry). Terms are integers, so that no sum depends on
-// their order; a number is split because 31 bits have no room for the sum of many.
+// consecutive, so the eight are four ranges; kNodeLanes invocations share a node, each with as many of these, and the
+// first adds theirs up: on a GPU the longest range of a crowded cell is what a dispatch takes. Terms are integers, so
+// that no sum depends on their order; a number is split because 31 bits have no room for the sum of many. The kernel
+// that includes this defines what is summed (take).
 #ifndef RINGLET_VOLUME_NODES
 #define RINGLET_VOLUME_NODES
 
 #include "shared/volume_buffers.glsl"
 
+// 65536 times `high` and `low`, so far.
+ivec4 high = ivec4(0);
+ivec4 low = ivec4(0);
+
 void take(VolumeParcel parcel, float weight);
-void carry();
+
+// What the low numbers hold beyond 16 bits goes into the high ones.
+void carry() {
+  high += ivec4(uvec4(low) >> 16);
+  low &= 0xffff;
+}
 
 // a / b; exact for a < 2^21, and faster than an integer division.
 uint quotient(uint a, uint b) { return uint((float(a) + 0.5) / float(b)); }
 
-void sumAround(uint node) {
+void sumRanges(uint node, uint first, uint end) {
   uvec3 size = boxSize();
   uint row = quotient(node, size.x);
   uint z = quotient(row, size.y);
   uvec3 at = uvec3(node - row * size.x, row - z * size.y, z);
-  uint wanted = 4;  // turns that the loops should make; `made` counts those they made
+  uint wanted = end - first;  // turns that the loops should make; `made` counts those they made
   uint made = 0;
-  uint turn = 0;
+  uint turn = first;
   do {
     uint y = at.y - (turn & 1);
     uint z = at.z - (turn >> 1);
@@ -36,14 +46,39 @@ void sumAround(uint node) {
     } while (++place < end);
     carry();
     ++made;
-  } while (++turn < 4);
+  } while (++turn < end);
   if (made != wanted) halt.isHalted = kHaltedByTurns;
 }
 
-/// Finds the node of this invocation; false if there is none.
-bool findNode(out uint node) {
-  node = gl_GlobalInvocationID.x;
-  return halt.isHalted == 0 && node < control.cellCount;
+const uint kMostGroup = 128;  // invocations
+shared ivec4 sharedHigh[kNodeLanes > 1 ? kMostGroup : 1];
+shared ivec4 sharedLow[kNodeLanes > 1 ? kMostGroup : 1];
+
+// Called by all of the workgroup. The lanes of a node are as far apart as the group has nodes.
+void addLanes(uint lane, uint nodes) {
+  uint at = gl_LocalInvocationID.x;
+  sharedHigh[at] = high;
+  sharedLow[at] = low;
+  barrier();
+  if (lane > 0) return;
+  for (uint other = 1; other < kNodeLanes; ++other) {
+    high += sharedHigh[at + other * nodes];
+    low += sharedLow[at + other * nodes];
+  }
+  carry();
+}
+
+/// Sets `high` and `low` to the sums of this invocation's node; false if it has none to write. Called once, by all
+/// invocations.
+bool sumAround(out uint node) {
+  uint nodes = gl_WorkGroupSize.x / kNodeLanes;
+  uint lane = gl_LocalInvocationID.x / nodes;
+  node = gl_WorkGroupID.x * nodes + gl_LocalInvocationID.x % nodes;
+  bool isNode = halt.isHalted == 0 && node < control.cellCount;
+  uint each = 4 / kNodeLanes;
+  if (isNode) sumRanges(node, lane * each, (lane + 1) * each);
+  if (kNodeLanes > 1) addLanes(lane, nodes);
+  return isNode && lane == 0;
 }
 
 #endif

@@ -53,16 +53,18 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
                          describeStrandKernel(shape, work.options)});
   }
   const auto add = [&](ContactKernel which, ContactTaper taper, const char* what) {
-    const auto description = describeContactKernel(which, taper, false, kContactGroupSize, texels);
+    const auto description = describeContactKernel(which, taper, false, kContactGroupSize, texels,
+                                                   contactSampleLanes(device.gpu().properties()));
     kernels.push_back({description.name + std::string(what), description});
   };
   using enum ContactKernel;
   for (std::size_t k = 0; k < contactKernelCount(ContactTaper::distance); ++k)
     add(static_cast<ContactKernel>(k), ContactTaper::distance, "");
-  for (const ContactKernel which : {touch, life, next})
+  for (const ContactKernel which : {touch, life, check, next})
     add(which, ContactTaper::time, which == touch ? ", time taper" : "");
   for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
-    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels);
+    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels,
+                                                  volumeNodeLanes(device.gpu().properties()));
     kernels.push_back({description.name, description});
   }
   return kernels;

@@ -24,6 +24,7 @@ bool leaveOut(std::string_view word, gpu::DeviceOptions& options) {
   if (word == "mapping") return options.alwaysStage = true;
   if (word == "full_subgroups") return options.withoutFullSubgroups = true;
   if (word == "atomic_int64") return options.withoutAtomicInt64 = true;
+  if (word == "cpu_forms") return options.asGpu = true;
   return word.empty();
 }
 
@@ -38,7 +39,7 @@ Result<gpu::DeviceOptions> optionsWithout(const std::string& words) {
     if (leaveOut(word, options)) continue;
     return Error{
         fmt::format("RINGLET_WITHOUT: there is no {}; it may have texels, timestamps, mapping, "
-                    "full_subgroups, atomic_int64, with commas between",
+                    "full_subgroups, atomic_int64, cpu_forms, with commas between",
                     word)};
   }
   return options;

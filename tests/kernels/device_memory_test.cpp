@@ -38,7 +38,9 @@ TEST_F(Memory, OfAParticleAndAStrand) {
   EXPECT_EQ(plain.strands, 136 * strandCount_);
   EXPECT_EQ(plain.rootPoses + plain.contacts + plain.contactLists, 0u);
   EXPECT_EQ(plain.world, 341u * 48);
-  EXPECT_EQ(plain.frames, 2 * (12 * particleCount_ + 341 * 48));
+  // A processor's positions are put into order by the host.
+  const std::uint64_t readBack = device().gpu().properties().isCpu ? 12 + 16 : 12;
+  EXPECT_EQ(plain.frames, 2 * (readBack * particleCount_ + 341 * 48));
   EXPECT_EQ(plain.total(), plain.particles + plain.strands + plain.world + plain.frames);
   for (const KernelChoice& kernel : {KernelChoice{}, serial}) {
     EXPECT_EQ(of({}, kernel).particles, 68 * particleCount_);

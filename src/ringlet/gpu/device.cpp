@@ -107,6 +107,7 @@ Candidate inspect(const Instance& instance, VkPhysicalDevice handle, int index,
   p.index = index;
   p.name = basic.deviceName;
   p.type = typeName(basic.deviceType);
+  p.isCpu = basic.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU && !options.asGpu;
   p.driver = "driver version " + versionText(basic.driverVersion);
   p.driverVersion = basic.driverVersion;
   p.vendorId = basic.vendorID;

@@ -64,6 +64,7 @@ struct DeviceProperties {
   std::uint32_t maxPushConstantBytes = 0;
   std::uint32_t maxSharedMemoryBytes = 0;    // of a workgroup
   Inspection inspection = Inspection::none;  // that was asked for, where the device has it
+  bool isCpu = false;  // kernels take the forms that suit a processor, else those for a GPU
   bool hasTimestamps = false;
   double timestampPeriod = 0;       // [ns] of one tick
   std::uint32_t timestampBits = 0;  // valid bits of a timestamp
@@ -83,6 +84,7 @@ struct DeviceOptions {
   bool withoutTimestamps = false;      // time by the host's clock
   bool withoutFullSubgroups = false;   // leave subgroup sizes to the driver
   bool withoutAtomicInt64 = false;     // two passes of 32 bits in place of one of 64
+  bool asGpu = false;                  // a processor's kernels take the forms for a GPU
   bool withoutMemoryBudget = false;    // count what this device took; a budget moves with other programs
   std::uint64_t mostTexelRecords = 0;  // a kernel sees as texels; 0: as many as the device has
   Inspection inspection = Inspection::none;  // for `ringlet kernels`; drivers crash in their own statistics

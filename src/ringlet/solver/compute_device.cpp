@@ -20,7 +20,7 @@ DeviceLimits limitsOf(const gpu::DeviceProperties& p) {
   // A strand lies within a workgroup too, whatever the width of a subgroup.
   limits.subgroupSize = std::min(p.subgroupSize, kStrandGroupSize);
   limits.hasSubgroupShuffle = p.hasSubgroupShuffle;
-  limits.isCpu = p.type == "cpu";
+  limits.isCpu = p.isCpu;
   limits.maxGroupCount = p.maxGroupCount;
   limits.endsLoopsEarly = endsLoopsEarly(p);
   if (p.canChooseSubgroupSize) {

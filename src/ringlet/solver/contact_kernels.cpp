@@ -52,7 +52,8 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 }  // namespace
 
 gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             std::uint32_t groupSize, bool texels, bool divided) {
+                                             std::uint32_t groupSize, bool texels, std::uint32_t sampleLanes,
+                                             bool divided) {
   const Compiled& compiled = compiledOf(which, taper);
   gpu::KernelDescription description;
   description.name = compiled.name;
@@ -62,7 +63,8 @@ gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper t
   description.constants = {{layout::kSpecGroupSize, groupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u},
                            {layout::kSpecInGroups, inGroups ? 1u : 0u},
-                           {layout::kSpecDivided, divided ? 1u : 0u}};
+                           {layout::kSpecDivided, divided ? 1u : 0u},
+                           {layout::kSpecSampleLanes, sampleLanes}};
   description.groupSize = groupSize;
   return description;
 }

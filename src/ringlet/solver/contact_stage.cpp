@@ -23,6 +23,9 @@ namespace {
 constexpr std::uint32_t kGroupSize = kContactGroupSize;
 // Initial limit of the blocks in a contact particle's list.
 constexpr std::uint32_t kFirstMostBlocks = 4;
+// contact_motion.comp takes what is left in turns: a maximum then takes fewer atomics, and a processor, for
+// which a barrier is dear, fewer of these.
+constexpr std::uint32_t kMotionGroups = 4096, kMotionGroupsOfCpu = 64;
 
 // Offsets of the group counts that the device writes for indirect dispatches.
 constexpr std::uint64_t kPerContact = offsetof(layout::ContactControl, indirectContacts),
@@ -88,6 +91,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.particles_ = particles.particles;
   self.everyPair_ = contacts.graph.everyPair;
   self.isDivided_ = divided;
+  self.mostMotionGroups_ = device.properties().isCpu ? kMotionGroupsOfCpu : kMotionGroups;
   // If some hair meets as a volume, few contact particles touch others, and a sample may hold none of these.
   const bool inGroups = contacts.volume.hasGroups();
   self.sampleStride_ = inGroups ? 0 : sampleStride(contacts, settings.contacts);
@@ -115,8 +119,9 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
     self.largestList_ = std::min(self.largestList_, seen);
   }
   for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
-    const auto description = describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper,
-                                                   inGroups, kGroupSize, texels, divided);
+    const auto description =
+        describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper, inGroups, kGroupSize,
+                              texels, contactSampleLanes(device.properties()), divided);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
@@ -288,7 +293,7 @@ void ContactStage::recordMotion(gpu::CommandList& list, SubmissionPace& pace, st
   layout::ContactParameters own = parameters(step);
   own.whose = whose;
   pace.beginStage(list, "contact_motion");
-  list.dispatch(*kernels_[at], bindings_[at], own, contactGroups());
+  list.dispatch(*kernels_[at], bindings_[at], own, std::min(contactGroups(), mostMotionGroups_));
   list.endStage();
 }
 

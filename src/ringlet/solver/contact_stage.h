@@ -147,6 +147,7 @@ class ContactStage {
   bool everyPair_ = false, isDivided_ = false;
   std::uint32_t sampleStride_ = 0;
   std::uint32_t mostSampled_ = 0;
+  std::uint32_t mostMotionGroups_ = 0;
 };
 
 }  // namespace ringlet

@@ -66,44 +66,82 @@ Result<FrameReadback> FrameReadback::create(gpu::Device& device, const DeviceGro
   auto frame =
       gpu::Buffer::create(device, count * kPlaceBytes, gpu::BufferKind::stream, "positions read back");
   if (!frame) return frame.error();
-  auto kernel = gpu::Kernel::create(device, describe());
-  if (!kernel) return kernel.error();
   FrameReadback self(std::move(*frame));
   std::ranges::fill(self.positions(), Vec3f());  // places of rigid strands stay so
-  self.kernel_ = std::move(*kernel);
-  self.mostGroups_ = device.properties().maxGroupCount;
-  const std::uint64_t most = placesOfPart(mostBufferBytes, self.frame_.alignment());
+  self.groom_ = &groom;
+  Status made = device.properties().isCpu ? self.makeCopies(device, groom)
+                                          : self.makePieces(device, groom, count, mostBufferBytes);
+  if (!made) return made.error();
+  return self;
+}
+
+Status FrameReadback::makeCopies(gpu::Device& device, const DeviceGroom& groom) {
+  for (const DeviceChunk& chunk : groom.chunks) {
+    auto copy = gpu::Buffer::create(device, chunk.part.particleCount() * sizeof(layout::vec4),
+                                    gpu::BufferKind::stream, "positions in device order");
+    if (!copy) return copy.error();
+    copies_.push_back(std::move(*copy));
+  }
+  return {};
+}
+
+Status FrameReadback::makePieces(gpu::Device& device, const DeviceGroom& groom, std::uint32_t count,
+                                 std::uint64_t mostBufferBytes) {
+  auto kernel = gpu::Kernel::create(device, describe());
+  if (!kernel) return kernel.error();
+  kernel_ = std::move(*kernel);
+  mostGroups_ = device.properties().maxGroupCount;
+  const std::uint64_t most = placesOfPart(mostBufferBytes, frame_.alignment());
   std::vector<std::uint32_t> begins;
   for (std::uint64_t begin = 0; begin < count; begin += most) {
     begins.push_back(static_cast<std::uint32_t>(begin));
     if (count <= most) break;
     const std::uint64_t places = std::min<std::uint64_t>(most, count - begin);
-    auto part =
-        gpu::Buffer::part(self.frame_, begin * kPlaceBytes, places * kPlaceBytes, "positions read back");
+    auto part = gpu::Buffer::part(frame_, begin * kPlaceBytes, places * kPlaceBytes, "positions read back");
     if (!part) return part.error();
-    self.parts_.push_back(std::move(*part));
+    parts_.push_back(std::move(*part));
   }
   for (const DeviceChunk& chunk : groom.chunks) {
     for (std::size_t k = 0; k < begins.size(); ++k) {
-      const gpu::Buffer& out = self.parts_.empty() ? self.frame_ : self.parts_[k];
-      auto bindings = gpu::Bindings::create(*self.kernel_, {{layout::kBindFramePositions, chunk.positions},
-                                                            {layout::kBindFramePlaces, *chunk.framePlaces},
-                                                            {layout::kBindFrameOut, out}});
+      const gpu::Buffer& out = parts_.empty() ? frame_ : parts_[k];
+      auto bindings = gpu::Bindings::create(*kernel_, {{layout::kBindFramePositions, chunk.positions},
+                                                       {layout::kBindFramePlaces, *chunk.framePlaces},
+                                                       {layout::kBindFrameOut, out}});
       if (!bindings) return bindings.error();
       const std::uint32_t end = k + 1 < begins.size() ? begins[k + 1] : count;
-      self.pieces_.push_back({std::move(*bindings), chunk.part.particleCount(), begins[k], end});
+      pieces_.push_back({std::move(*bindings), chunk.part.particleCount(), begins[k], end});
     }
   }
-  return self;
+  return {};
 }
 
 void FrameReadback::record(gpu::CommandList& list) const {
+  for (std::size_t c = 0; c < copies_.size(); ++c)
+    list.copyBuffer(groom_->chunks[c].positions, copies_[c],
+                    groom_->chunks[c].part.particleCount() * sizeof(layout::vec4));
   for (const Piece& piece : pieces_) {
     const std::uint32_t groups = std::min((piece.count + kGroupSize - 1) / kGroupSize, mostGroups_);
     if (groups == 0) continue;
     list.dispatch(*kernel_, piece.bindings, layout::FrameParameters{piece.count, piece.begin, piece.end},
                   groups);
   }
+}
+
+void FrameReadback::arrive(const FramePlaces& places) {
+  const std::span<Vec3f> all = positions();
+  for (std::size_t c = 0; c < copies_.size(); ++c) {
+    const GroomChunk& chunk = groom_->chunks[c].part;
+    const auto* values = reinterpret_cast<const layout::vec4*>(copies_[c].mapped().data());
+    const auto mine = std::span(places.places).subspan(chunk.particleBegin, chunk.particleCount());
+    for (std::size_t i = 0; i < mine.size(); ++i)
+      if (mine[i] < all.size()) all[mine[i]] = unpacked(values[i]);
+  }
+}
+
+std::uint64_t FrameReadback::bytes() const {
+  std::uint64_t sum = frame_.bytes();
+  for (const gpu::Buffer& copy : copies_) sum += copy.bytes();
+  return sum;
 }
 
 Status FrameReadback::download(const DeviceGroom& groom) {

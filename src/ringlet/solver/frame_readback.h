@@ -1,4 +1,6 @@
-// FrameReadback: brings the positions at a frame's end into the host's memory, in the order of the groom.
+// FrameReadback: brings the positions at a frame's end into the host's memory, in the order of the groom. On
+// a GPU a kernel writes them there; on a processor the host puts a copy of them into order, which costs it a
+// third of that.
 #pragma once
 
 #include <cstdint>
@@ -34,18 +36,20 @@ struct FramePlaces {
 
 class FrameReadback {
  public:
-  /// count: FramePlaces::count. mostBufferBytes: the largest buffer that a kernel may bind. Fails when the
-  /// device lacks memory.
+  /// count: FramePlaces::count. `groom` must live as long, in one place. mostBufferBytes: the largest buffer
+  /// that a kernel may bind. Fails when the device lacks memory.
   static Result<FrameReadback> create(gpu::Device& device, const DeviceGroom& groom, std::uint32_t count,
                                       std::uint64_t mostBufferBytes);
 
   /// Records it. The caller records the barrier before.
   void record(gpu::CommandList& list) const;
+  /// Once the device has done what was recorded.
+  void arrive(const FramePlaces& places);
   /// Does it now, after a frame that is not recorded.
   Status download(const DeviceGroom& groom);
   /// The positions, by place. Places of no particle hold what was last written there.
   std::span<Vec3f> positions() const;
-  std::uint64_t bytes() const { return frame_.bytes(); }
+  std::uint64_t bytes() const;
 
  private:
   // What a dispatch writes: places [begin, end), of a chunk's particles.
@@ -54,12 +58,18 @@ class FrameReadback {
     std::uint32_t count = 0, begin = 0, end = 0;
   };
   explicit FrameReadback(gpu::Buffer frame) : frame_(std::move(frame)) {}
+  Status makePieces(gpu::Device& device, const DeviceGroom& groom, std::uint32_t count,
+                    std::uint64_t mostBufferBytes);
+  Status makeCopies(gpu::Device& device, const DeviceGroom& groom);
 
   std::shared_ptr<const gpu::Kernel> kernel_;
   gpu::Buffer frame_;
   std::vector<gpu::Buffer> parts_;  // of it, where it is larger than a kernel may bind
   std::vector<Piece> pieces_;
   std::uint32_t mostGroups_ = 1;
+  // On a processor: of each chunk's positions, in device order.
+  const DeviceGroom* groom_ = nullptr;
+  std::vector<gpu::Buffer> copies_;
 };
 
 }  // namespace ringlet

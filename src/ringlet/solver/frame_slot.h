@@ -33,6 +33,10 @@ struct FrameSlot {
 
   /// Records the read-back of positions at the frame's end, if they are read back.
   void recordPositions(gpu::CommandList& list) const;
+  /// Once the device has done the frame.
+  void arrive(const FramePlaces& places) {
+    if (readback) readback->arrive(places);
+  }
   /// Reads positions back now, after a frame that is not recorded.
   Status downloadPositions(const DeviceGroom& groom);
   /// The positions read back, by place, without those of rigid strands; empty if they are not read back.

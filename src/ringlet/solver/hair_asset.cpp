@@ -166,8 +166,8 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     constants->framePlaces = std::move(*places);
     self->constants.push_back(std::move(*constants));
   }
-  self->rest.particles = {};  // they are on the device
-  self->framePlaces.places = {};
+  self->rest.particles = {};                                            // they are on the device
+  if (!device.gpu().properties().isCpu) self->framePlaces.places = {};  // likewise
   return HairAsset(std::move(self));
 }
 

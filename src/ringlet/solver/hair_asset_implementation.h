@@ -39,9 +39,9 @@ struct HairAsset::Implementation {
   std::vector<StrandRange> firstRanges{};  // of the first solve of a step, if that has kernels of its own
   GroomRecords records{};
   std::vector<ConstantChunk> constants{};
-  FramePlaces framePlaces{};             // without those of each particle, which are on the device
-  std::shared_ptr<HeadPlaces> places{};  // of many small heads; none: each has its own buffers
-  std::optional<GroomGoal> goal{};       // where Settings::goal is on
+  FramePlaces framePlaces{};                         // but on a processor without those of each particle
+  std::shared_ptr<HeadPlaces> places{};              // of many small heads; none: each has its own buffers
+  std::optional<GroomGoal> goal{};                   // where Settings::goal is on
   std::optional<std::vector<GoalUnit>> goalUnits{};  // with goals
 
   ContactKinds kinds() const { return contacts ? contacts->kinds : ContactKinds{}; }

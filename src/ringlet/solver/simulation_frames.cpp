@@ -286,6 +286,7 @@ Status Simulation::Implementation::submitFrame(std::span<const HeadPose> stepPos
       lostFrame = status.error();
       return status;
     }
+    slots[slot].arrive(asset->framePlaces);
     ++finished;
   } else if (*works) {
     if (!isRecorded(slots[slot])) {
@@ -341,6 +342,7 @@ Status Simulation::Implementation::runToEnd(std::size_t slot) {
       forgetRecordings();
     }
     if (!isHalted) {
+      slots[slot].arrive(asset->framePlaces);
       const bool isWatched = settings.sleepSpeed > 0;
       stillness.observe(isWatched ? slots[slot].positions() : std::span<const Vec3f>(),
                         settings.sleepSpeed / settings.framesPerSecond);

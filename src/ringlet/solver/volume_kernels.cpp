@@ -37,7 +37,8 @@ const Compiled kCompiled[kVolumeKernelCount] = {
 
 }  // namespace
 
-gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, bool divided) {
+gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, std::uint32_t nodeLanes,
+                                            bool divided) {
   const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
   gpu::KernelDescription description;
   description.name = compiled.name;
@@ -46,7 +47,8 @@ gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, boo
   description.pushConstantBytes = sizeof(layout::VolumeParameters);
   description.constants = {{layout::kSpecGroupSize, kVolumeGroupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u},
-                           {layout::kSpecDivided, divided ? 1u : 0u}};
+                           {layout::kSpecDivided, divided ? 1u : 0u},
+                           {layout::kSpecNodeLanes, nodeLanes}};
   description.groupSize = kVolumeGroupSize;
   return description;
 }
