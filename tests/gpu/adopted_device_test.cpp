@@ -280,7 +280,7 @@ TEST(AdoptedDevice, AHostGivesTheMemory) {
       EXPECT_TRUE(hair.state()->velocities == expected.state()->velocities);
     }
     EXPECT_GT(pool.given(), 40u);
-    const auto tooMuch = assetOn(*device, false, 20'000);
+    const auto tooMuch = assetOn(*device, false, 80'000);
     ASSERT_FALSE(tooMuch);
     EXPECT_EQ(tooMuch.error().fault, Fault::deviceMemory) << tooMuch.error().message;
   }
