@@ -15,18 +15,18 @@ vec3 wind[RUN];     // relative to the head's translation [m/s]
 // From positions and velocities at the step's start.
 void feelAir(uint step) {
   StepAir air = stepAir(step);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) wind[k] = air.wind.xyz;
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) wind[k] = air.wind.xyz;
   if (kTurbulent) {
     [[unroll]] for (uint wave = 0; wave < kWindWaves; ++wave) {
       WindWave mode = windWave(wave);
       float phase = air.phases[wave / 4][wave % 4];
-      RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k)
+      RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k)
         wind[k] += windOfMode(mode.wave.xyz, mode.amplitude.xyz, phase, p[k]);
     }
   }
   vec3 before = fromRootward(eHat[RUN - 1], 1);
   if (lane == 0) before = vec3(0);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 here = isEdge(k) ? eHat[k] : vec3(0);
     tangent[k] = directionOf((k > 0 ? eHat[max(k - 1, 0)] : before) + here);
     drag[k] = airDrag(v[k] - wind[k], tangent[k], parameters.dragStrength, parameters.dragAlong, stepSeconds());

@@ -80,7 +80,7 @@ vec3 tangentAt(int k, vec3 edgeBefore) {
 }
 
 void clearPushes() {
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     pushWeight[k] = symmetricDiagonal(0.0);
     pushMomentum[k] = vec3(0);
     pushNormal[k] = vec4(0);
@@ -191,7 +191,7 @@ bool findPushes(uint step) {
   vec3 edgeBefore = fromRootward(eHat[RUN - 1], 1);
   Room room = emptyRoom();
   float fastest = 0.0;
-  RINGLET_OVER_RUN for (int k = 0; k <= RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k <= runEnd; ++k) {
     if (k < RUN ? !isParticle(k) : !isEdge(RUN - 1)) continue;
     include(room, k < RUN ? p[min(k, RUN - 1)] : next.p);
     vec3 velocity = k < RUN ? v[min(k, RUN - 1)] : next.v;
@@ -250,7 +250,7 @@ vec3 slidingVelocity(int k) {
 
 // Friction's weights, from what the pushes came to at the velocities solved without it.
 void addFriction() {
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 n = pushNormal[k].xyz;
     rubbing[k] = isFree(k) ? frictionWeight(slidingVelocity(k), normalMomentum(k), pushBody[k].w, restEdge[k].x) : 0.0;
     pushWeight[k] = addOuter(addDiagonal(pushWeight[k], rubbing[k]), -rubbing[k], n);
@@ -260,7 +260,7 @@ void addFriction() {
 
 // And what is left of it, at the velocities solved with it.
 void rubRun() {
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 slowed = rubbed(v[k], slidingVelocity(k), rubbing[k], normalMomentum(k), pushBody[k].w, restEdge[k].x);
     if (isFree(k)) v[k] = slowed;
   }
@@ -322,7 +322,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
   vec3 startNext = fromTipward(pStart[0], 1);
   vec3 shift[RUN];
   vec3 change[RUN];
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) shift[k] = change[k] = vec3(0);
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) shift[k] = change[k] = vec3(0);
   vec3 nextShift = vec3(0);
   vec3 nextChange = vec3(0);
   if (isEdge(RUN - 1)) include(room, pNext);
@@ -377,7 +377,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
     shift[0] = rootwardShift;
     change[0] = rootwardChange;
   }
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     p[k] = isDone ? p[k] : p[k] + shift[k];
     v[k] = isDone ? v[k] : v[k] + change[k];
   }
@@ -386,7 +386,7 @@ void keepEdgesOut(uint step, Room room, bool isDone) {
 // isDone: nothing is asked of the strand.
 void keepRunOut(uint step, bool isDone) {
   Room room = emptyRoom();
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     if (!isParticle(k)) continue;
     include(room, pStart[k]);
     include(room, p[k]);

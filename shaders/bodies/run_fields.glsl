@@ -31,7 +31,7 @@ void feelFields(uint step) {
   uint f = 0;
   if (parameters.fieldCount > 0) do {
     StepField field = stepField(step * parameters.fieldCount + f);
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
       vec3 q = fieldArm(field, p[k]);
       vec3 F = fieldStrength(field, q);
       if (field.nodes[0] > 0) F += fieldGrid(field, p[k]);

@@ -12,7 +12,7 @@
 void feelGoalShape(uint step) {
   float shareBefore = float(step) / float(parameters.stepCount);
   float shareAfter = float(step + 1) / float(parameters.stepCount);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     uint i = strand.firstParticle + (isEdge(k) ? first + k : 0);
     vec4 begin = goalAtFrameStart(i);
     vec4 end = goalAtFrameEnd(i);
@@ -34,7 +34,7 @@ void feelGoalShape(uint step) {
 void feelGoals(uint step) {
   float shareBefore = float(step) / float(parameters.stepCount);
   float shareAfter = float(step + 1) / float(parameters.stepCount);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     uint i = strand.firstParticle + (isParticle(k) ? first + k : 0);
     vec4 begin = goalAtFrameStart(i);
     vec4 end = goalAtFrameEnd(i);

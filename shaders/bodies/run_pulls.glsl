@@ -9,7 +9,7 @@
 #include "shared/strand_run.glsl"
 
 void feelPulls(uint step) {
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) pulled[k] = vec4(0);
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) pulled[k] = vec4(0);
   if (kGoals && !kGoalShape) feelGoals(step);
   if (kGoals && kGoalShape) feelGoalShape(step);
   if (kFields) feelFields(step);

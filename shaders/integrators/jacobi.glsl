@@ -93,7 +93,7 @@ void solveStrandBlock(vec3 pinned[3]) {
     system.offset = multiply(system.compliance, -stepSeconds() * force[RUN - 1]);
   }
 
-  RINGLET_OVER_RUN for (int k = RUN - 2; k >= 0; --k) {
+  RINGLET_OVER_RUN for (int k = runEnd - 2; k >= 0; --k) {
     ImplicitEdge edge = implicitEdgeOf(k);
     Elimination step = eliminateEdge(edge, system.P, system.y);
     system.P = kAddsMass ? add(system.P, massOf(k)) : addDiagonal(system.P, restEdge[k].x);
@@ -120,7 +120,7 @@ void solveStrandBlock(vec3 pinned[3]) {
     v[0] = velocityFromRoot(system, boundary, pinned[0]);
     f = boundaryForce(system, boundary, v[0]);
   }
-  RINGLET_OVER_RUN for (int k = 0; k < RUN - 1; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd - 1; ++k) {
     v[k + 1] = transfer[k] * v[k] + offset[k];
     if (kLanes > 1) v[k + 1] += pull[k] * f;
   }

@@ -21,10 +21,10 @@ void findCoreDirections() {
   FilterState state = rootState;
   if (kLanes > 1) {
     if (lane > 0) state = emptyFilter();
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) smoothNext(state, e[k], strand.coreBeta);
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) smoothNext(state, e[k], strand.coreBeta);
     state = filterBeforeRun(state, rootState, strand.coreBeta);
   }
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     smoothNext(state, e[k], strand.coreBeta);
     coreDirection[k] = directionOf(smoothed(state, strand.coreBeta));
   }
@@ -43,13 +43,13 @@ void dampOnce(float dt) {
   FilterState state = rootState;
   if (kLanes > 1) {
     if (lane > 0) state = emptyFilter();
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) smoothNext(state, rateOfEdge(k, vNext), strand.coreBeta);
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) smoothNext(state, rateOfEdge(k, vNext), strand.coreBeta);
     state = filterBeforeRun(state, rootState, strand.coreBeta);
   }
   // Particle 0 waits for what the lane before finds of the edge to it.
   vec3 ofFirst = vec3(0);
   vec3 damping = vec3(0);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 rate = rateOfEdge(k, vNext);
     vec3 before = damping;
     smoothNext(state, rate, strand.coreBeta);
@@ -66,13 +66,13 @@ void limitRates() {
   vec3 vNext = fromTipward(v[0], 1);
   vec3 changeInRun[RUN];  // of particle k, by the edges of this lane
   vec3 change = vec3(0);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     float fastest = max(0.0, (restEdge[k].y - eLength[k]) / stepSeconds());
     changeInRun[k] = change;
     change += isPinned(k + 1) ? vec3(0) : limitedRateChange(rateOfEdge(k, vNext), eHat[k], fastest);
   }
   vec3 before = sumBeforeRun(change);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     if (isFree(k)) v[k] += before + changeInRun[k];
   }
 }
@@ -87,7 +87,7 @@ void loopAsThePaper(vec3 pinned[3]) {
   float dtDamping = dtForce / float(parameters.dampingLoops);
   uint loop = 0;
   do {
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
       vec3 pull = force[k] - (k > 0 ? force[max(k - 1, 0)] : forceBefore);
       if (isFree(k)) v[k] += dtForce * (pull / restEdge[k].x + pullOnRun(k));
     }

@@ -18,14 +18,14 @@ void iteratePointJacobi(vec3 pinned[3]) {
   vec3 change[RUN];
 
   vec3 forceBefore = forceFromRootward();
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     edge[k] = implicitEdgeOf(k);
     rhs[k] = rightHandSide(k, v[k], k > 0 ? force[max(k - 1, 0)] : forceBefore);
   }
   ImplicitEdge edgeBefore = ImplicitEdge(fromRootward(edge[RUN - 1].direction, 1), fromRootward(edge[RUN - 1].along, 1),
                                          fromRootward(edge[RUN - 1].across, 1));
   if (lane == 0) edgeBefore = voidEdge();
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
     Symmetric D = symmetricDiagonal(restEdge[k].x + edge[k].across + before.across);
     D = addOuter(addOuter(D, edge[k].along, edge[k].direction), before.along, before.direction);
@@ -42,7 +42,7 @@ void iteratePointJacobi(vec3 pinned[3]) {
     vec3 vBefore = fromRootward(v[RUN - 1], 1);
     vec3 vNext = fromTipward(v[0], 1);
     vec3 rootwardNow = vBefore;
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
       vec3 tipwardNow = k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext;
       ImplicitEdge before = k > 0 ? edge[max(k - 1, 0)] : edgeBefore;
       vec3 now = v[k];

@@ -18,7 +18,7 @@ void measureResidual() {
   if (lane == 0) rootwardEdge = voidEdge();
   float residualSquared = 0.0;
   float scaleSquared = 0.0;
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 rhs = rightHandSide(k, vStart[k], k > 0 ? force[max(k - 1, 0)] : forceBefore);
     ImplicitEdge edge = implicitEdgeOf(k);
     vec3 residual = rhs - restEdge[k].x * v[k];

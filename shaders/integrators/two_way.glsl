@@ -83,7 +83,7 @@ void solveFromEnds(vec3 pinned[3]) {
   Symmetric C[RUN];
   vec3 c[RUN];
   vec3 forceBefore = forceFromRootward();
-  RINGLET_OVER_RUN for (int j = 0; j < RUN; ++j) {
+  RINGLET_OVER_RUN for (int j = 0; j < runEnd; ++j) {
     int k = RUN - 1 - j;
     vec3 rootSide = rightHandSide(j, v[j], j > 0 ? force[max(j - 1, 0)] : forceBefore);
     vec3 tipSide = rightHandSide(k, v[k], k > 0 ? force[max(k - 1, 0)] : forceBefore);
@@ -111,11 +111,11 @@ void solveFromEnds(vec3 pinned[3]) {
 
   vec3 f = kLanes == 1 ? vec3(0) : forceBetweenLanes(C[RUN - 1], c[RUN - 1]);
   vec3 solved[RUN];
-  RINGLET_OVER_RUN for (int j = RUN - 1; j >= 0; --j) {
+  RINGLET_OVER_RUN for (int j = runEnd - 1; j >= 0; --j) {
     solved[j] = c[j] + multiply(C[j], f);
     f = isLinked(j) ? r[j] + f - mass[j] * solved[j] : vec3(0);
   }
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) v[k] = fromRoot ? solved[k] : solved[RUN - 1 - k];
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) v[k] = fromRoot ? solved[k] : solved[RUN - 1 - k];
 }
 
 #endif

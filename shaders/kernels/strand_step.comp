@@ -54,7 +54,7 @@ void loadStrand() {
   vec3 direction = restDirection();
   vec3 normal = someNormal(direction);
   vec3 binormal = cross(direction, normal);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     bool real = isOwn(k);
     uint i = strand.firstParticle + (real ? first + k : 0);
     p[k] = real ? positionAtStart(i) : vec3(0);
@@ -81,7 +81,7 @@ void loadStrand() {
 void measureEdges() {
   vec3 pNext = fromTipward(p[0], 1);
   vec3 vNext = fromTipward(v[0], 1);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     e[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
     dv[k] = (k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k];
     float squared = dot(e[k], e[k]);
@@ -109,7 +109,7 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
   FilterState velocity = velocityStartState;
   if (kLanes > 1) {
     if (lane > 0) bend = core = velocity = emptyFilter();
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
       smoothNext(bend, e[k], strand.bendBeta);
       if (!kOneSmoothing) smoothNext(core, e[k], strand.coreBeta);
       smoothNext(velocity, dv[k], strand.coreBeta);
@@ -125,7 +125,7 @@ void smoothCurves(vec3 edgeStart, vec3 velocityStart, vec3 rootDirection, vec3 r
   // The paper damps in its own loop.
   float damping = kIntegrator == kIntegratorPaper ? 0.0 : strand.coreDamping * share;
   float coreLength = 0.0;
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     smoothNext(bend, e[k], strand.bendBeta);
     if (!kOneSmoothing) smoothNext(core, e[k], strand.coreBeta);
     smoothNext(velocity, dv[k], strand.coreBeta);
@@ -162,7 +162,7 @@ vec4 frameAfter(int k, vec2 twist) {
 // Frames carried along the smoothed curve, each edge's target in the frame before it, stretch and bend springs.
 void shapeForces() {
   vec2 twist = twistOfRun(directionBefore[0], normalBefore[0], normalAfter);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 direction = directionBefore[k];
     vec3 normal = normalBefore[k];
     vec4 rest = restTarget[k];
@@ -187,10 +187,10 @@ void coreForces() {
   float scale = isTransposed ? coreScale * smoothedShare(strand.coreBeta) : coreScale;
   FilterState state = emptyFilter();
   if (isTransposed && kLanes > 1) {
-    RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) smoothNext(state, curveForce[k], strand.coreBeta);
+    RINGLET_OVER_RUN for (int k = runEnd - 1; k >= 0; --k) smoothNext(state, curveForce[k], strand.coreBeta);
     state = filterBeyondRun(state, strand.coreBeta);
   }
-  RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
+  RINGLET_OVER_RUN for (int k = runEnd - 1; k >= 0; --k) {
     if (isTransposed) smoothNext(state, curveForce[k], strand.coreBeta);
     vec3 core = scale * (isTransposed ? state.d : curveForce[k]);
     if (isEdge(k)) RINGLET_TAP(kTapCoreForce, first + k, vec4(core, 0));
@@ -207,7 +207,7 @@ void solveAmongBodies(uint step, vec3 pinned[3]) {
   bool pushed = false;
   uint turn = 0;
   do {
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) v[k] = vStart[k];
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) v[k] = vStart[k];
     solveStrandBlock(pinned);
     if (turn == 0) pushed = findPushes(step);
     if (turn == 1 && pushed) addFriction();
@@ -221,7 +221,7 @@ void solveVelocities(uint step) {
   [[unroll]] for (int k = 0; k < 3; ++k) {
     pinned[k] = pinnedVelocity(step, k);
   }
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) vStart[k] = v[k];
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) vStart[k] = v[k];
 #ifdef RINGLET_SURROUNDINGS
   if (kAir) feelAir(step);
   if (kPulls) feelPulls(step);
@@ -239,7 +239,7 @@ void solveVelocities(uint step) {
   if (kIntegrator == kIntegratorPaper) loopAsThePaper(pinned);
 #endif
   if (kMeasureResidual && kIntegrator != kIntegratorPaper && !kAddsMass) measureResidual();
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     if (isOwn(k)) RINGLET_TAP(kTapVelocity, first + k, vec4(v[k], 0));
   }
 }
@@ -249,14 +249,14 @@ bool limitEdges(bool velocitiesFollow, bool isDone) {
   vec3 shiftInRun[RUN];  // of particle k, by the edges of this lane
   vec3 shift = vec3(0);
   uint limited = 0;
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     float share = isDone || isPinned(k + 1) ? 0.0 : limitedEdgeShare(movedEdge[k], restEdge[k].y);
     limited += share < 0.0 ? 1 : 0;
     shiftInRun[k] = shift;
     shift += share * movedEdge[k];
   }
   vec3 before = sumBeforeRun(shift);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     vec3 s = isPinned(k) ? vec3(0) : before + shiftInRun[k];
     p[k] = isDone ? p[k] : p[k] + s;
     if (velocitiesFollow) v[k] += (1.0 / stepSeconds()) * s;
@@ -274,7 +274,7 @@ void keepAmongBodies(uint step, bool isDone) {
     keepRunOut(step, isDone);
     if (round == kKeepOutRounds) break;
     vec3 pNext = fromTipward(p[0], 1);
-    RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k)
+    RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k)
       movedEdge[k] = (k + 1 < RUN ? p[min(k + 1, RUN - 1)] : pNext) - p[k];
     isDone = !limitEdges(false, isDone);
     ++round;
@@ -286,11 +286,11 @@ void keepAmongBodies(uint step, bool isDone) {
 void moveAndLimit(uint step) {
   float T = stepSeconds();
 #ifdef RINGLET_SURROUNDINGS
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) pStart[k] = p[k];
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) pStart[k] = p[k];
 #endif
   // The moved edges from edges, not from positions: those are rounded to the hair's size, and shift / T would show it.
   vec3 vNext = fromTipward(v[0], 1);
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     p[k] = isPinned(k) ? pinAt(step + 1, min(k, kMaxRootCount - 1)) : p[k] + T * v[k];
     movedEdge[k] = e[k] + T * ((k + 1 < RUN ? v[min(k + 1, RUN - 1)] : vNext) - v[k]);
   }
@@ -303,7 +303,7 @@ void moveAndLimit(uint step) {
 void storeStrand(uint strandIndex) {
   uint nonfinite = 0;
   uint firstNonfinite = ~0u;
-  RINGLET_OVER_RUN for (int k = RUN - 1; k >= 0; --k) {
+  RINGLET_OVER_RUN for (int k = runEnd - 1; k >= 0; --k) {
     if (!isOwn(k)) continue;
     uint i = stateAt(strand.firstParticle + first + k);
     positions[i] = vec4(p[k], 0);  // whole records: parts of one cost lavapipe more
@@ -332,7 +332,7 @@ void storeStrand(uint strandIndex) {
 
 #ifdef RINGLET_CONTACTS
 void storeSolved() {
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) {
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) {
     if (isOwn(k)) solved[strand.firstParticle + first + k] = vec4(v[k], 0);
   }
 }
@@ -340,7 +340,7 @@ void storeSolved() {
 
 // The forces of a step, from positions and velocities at its start.
 void computeForces(uint step) {
-  RINGLET_OVER_RUN for (int k = 0; k < RUN; ++k) v[k] -= headVelocityChange(step);
+  RINGLET_OVER_RUN for (int k = 0; k < runEnd; ++k) v[k] -= headVelocityChange(step);
   measureEdges();
   vec3 firstEdge = rotate(rotationAtStart(step), strand.firstEdge);
   vec3 edgeStart = kIntegrator == kIntegratorPaper ? e[0] : firstEdge;
@@ -379,6 +379,9 @@ void solveOnce(uint strandIndex, bool idle) {
 void main() {
 #ifdef RINGLET_CONTACTS
   if (kContacts && control.isHalted != 0) return;
+#endif
+#ifdef RINGLET_IN_MEMORY
+  runEnd = RUN + int(parameters.strandEnd >> 31);
 #endif
   findLane();
   uint strandIndex = parameters.strandBegin + placeInHead(invocationOfDispatch() / kLanes);

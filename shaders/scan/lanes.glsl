@@ -18,9 +18,13 @@ layout(constant_id = kSpecRun) const int RUN = 16;
 #ifdef RINGLET_IN_MEMORY
 #define RINGLET_OVER_RUN [[dont_unroll]]
 const bool kInMemory = true;
+// Loops over a run end here: at RUN, which the kernel sets from a number that no compiler knows. NVIDIA's unrolls loops
+// whose ends it knows, whatever it is told, and of runs of 48 and more it then makes nothing at all.
+int runEnd;
 #else
 #define RINGLET_OVER_RUN [[unroll]]
 const bool kInMemory = false;
+const int runEnd = RUN;
 #endif
 
 #ifdef RINGLET_ONE_LANE
@@ -57,6 +61,8 @@ uint invocationOfDispatch() {
   return gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
 }
 
+// All lanes of a subgroup ask, and none in an `if`, `?:`, && or || on what differs between them: GLSL runs only one side
+// of these, and lanes that do not come along answer nothing.
 // Source invocation `offset` lanes towards the root or the tip; where there is none, this one itself, whose value the
 // caller must not use.
 uint rootward(uint offset) { return gl_SubgroupInvocationID - (lane >= offset ? offset : 0u); }
