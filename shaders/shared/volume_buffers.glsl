@@ -102,8 +102,11 @@ void reachTo(vec3 place) {
   }
 }
 uvec3 boxSize() { return uvec3(control.size[0], control.size[1], control.size[2]); }
+/// The same bits whether texels are read or not: drivers join multiplication and subtraction in the one and not in the
+/// other.
 vec3 placeInCells(vec3 place) {
-  return place * control.cellsPerMetre - vec3(control.low[0], control.low[1], control.low[2]);
+  precise vec3 inCells = place * control.cellsPerMetre - vec3(control.low[0], control.low[1], control.low[2]);
+  return inCells;
 }
 /// The cell of a place, which is in units of cells. The last cell along each axis has nodes only.
 uvec3 cellInBox(vec3 inCells) { return uvec3(clamp(floor(inCells), vec3(0), vec3(boxSize()) - 2.0)); }

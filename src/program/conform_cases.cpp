@@ -109,11 +109,19 @@ void checkSameBits(const ComputeDevice& one, const ComputeDevice& other, const G
         .compileSeconds = clock.seconds()});
 }
 
-constexpr StrandShape kSerialShape{.lanes = 1, .particlesPerLane = 128, .inMemory = true};
+StrandShape serialShape(const DeviceLimits& limits) {
+  return {.lanes = 1, .particlesPerLane = std::min(128u, limits.longestRunInMemory), .inMemory = true};
+}
+
+// Strands of these lengths, or of `longest` particles.
+Groom randomGroom(std::vector<int> lengths, std::uint32_t longest, unsigned seed) {
+  for (int& length : lengths) length = std::min(length, static_cast<int>(longest));
+  return parity::randomGroom(lengths, seed);
+}
 
 // Full strands, strands that end about the end of a lane, and short ones.
 Groom groomOf(const StrandShape& shape) {
-  if (shape.serial()) return parity::randomGroom({2, 3, 31, 64, 100, 16, 17, 65, 128}, 7);
+  if (shape.serial()) return randomGroom({2, 3, 31, 64, 100, 16, 17, 65, 128}, shape.capacity(), 7);
   const int run = static_cast<int>(shape.particlesPerLane), all = static_cast<int>(shape.capacity());
   std::vector<int> lengths;
   for (const int length : {all, 2, all - 1, run + 1, run, 3, all / 2 + 1, all})
@@ -165,7 +173,7 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
                  work == StrandWork::hairAlone && holdsSixtyFour, tell);
     }
   }
-  checkShape(cases, kSerialShape, {}, "hair alone, serial", !cases.quick, tell);
+  checkShape(cases, serialShape(limits), {}, "hair alone, serial", !cases.quick, tell);
   if (cases.quick || !limits.hasSubgroupShuffle || limits.subgroupSize == 1) return;
   const StrandShape widest{.lanes = limits.subgroupSize, .particlesPerLane = 48, .inMemory = true};
   checkShape(cases, widest, {}, "hair alone, " + widest.describe(), false, tell);
@@ -248,7 +256,8 @@ std::vector<Body> bodiesAmongStrands() {
 
 void checkSurroundings(const ConformCases& cases, const Tell& tell) {
   for (const bool isSerial : {false, true}) {
-    parity::ParityCase c{parity::randomGroom({64, 31, 50, 64, 2, 33}, 13), {}, usualSettings(), {}, 4};
+    const std::uint32_t longest = isSerial ? serialShape(cases.device.limits()).capacity() : 64;
+    parity::ParityCase c{randomGroom({64, 31, 50, 64, 2, 33}, longest, 13), {}, usualSettings(), {}, 4};
     if (isSerial) c.kernel.form = KernelChoice::Form::serial;
     const char* form = isSerial ? ", serial" : "";
     parity::ParityCase pulled = c;

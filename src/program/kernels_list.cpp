@@ -37,17 +37,17 @@ std::vector<Work> strandWorks() {
           {"paper", StrandWork::plain, {.integrator = Integrator::paper, .oneSmoothing = true}}};
 }
 
-constexpr StrandShape kSerialShape{.lanes = 1, .particlesPerLane = 64, .inMemory = true};
-
 }  // namespace
 
 std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
   const bool texels = isSeenAsTexels(device.gpu(), kLeastTexelBytes);
   std::vector<ListedKernel> kernels;
+  const StrandShape serial{
+      .lanes = 1, .particlesPerLane = std::min(64u, device.limits().longestRunInMemory), .inMemory = true};
   for (Work& work : strandWorks()) {
     work.options.texels = texels && !work.options.contacts;
     std::vector<StrandShape> shapes = plannedShapes(device.limits(), work.shapes, kUsualLengths, true);
-    if (std::ranges::none_of(shapes, &StrandShape::serial)) shapes.push_back(kSerialShape);
+    if (std::ranges::none_of(shapes, &StrandShape::serial)) shapes.push_back(serial);
     for (const StrandShape& shape : shapes)
       kernels.push_back({fmt::format("strand_step, {}, {}", work.name, shape.describe()),
                          describeStrandKernel(shape, work.options)});

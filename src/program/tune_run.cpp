@@ -49,7 +49,8 @@ struct Entry {
 };
 
 // Of each number of lanes the shortest run that holds a strand, those first which the model likes; then one
-// lane in memory: with the longest strands, and where another would have none to be held against.
+// lane in memory, if it holds one: with the longest strands, and where another would have none to be held
+// against.
 std::vector<Entry> entriesOf(std::uint32_t particleCount, bool isLongest, const DeviceLimits& limits) {
   std::vector<ShapeCost> costs = shapeCosts(limits);
   std::erase_if(costs, [&](const ShapeCost& c) {
@@ -60,7 +61,8 @@ std::vector<Entry> entriesOf(std::uint32_t particleCount, bool isLongest, const 
     return c.shape.particlesPerLane != run || hasIdleLanes;
   });
   std::ranges::stable_sort(costs, {}, &ShapeCost::nanoseconds);
-  if (isLongest || costs.size() < 2) costs.push_back({kAnySerialShape, 0});
+  const bool hasSerial = particleCount <= limits.longestRunInMemory;
+  if (hasSerial && (isLongest || costs.size() < 2)) costs.push_back({kAnySerialShape, 0});
   std::vector<Entry> entries;
   if (costs.size() < 2) return entries;  // no choice
   for (const ShapeCost& c : costs)

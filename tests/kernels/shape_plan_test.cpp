@@ -21,6 +21,7 @@ const DeviceLimits kLavapipe{8, true, true, 65535};
 const DeviceLimits kDiscrete{32, true, false, 65535};
 const DeviceLimits kDiscrete64{64, true, false, 65535};
 const DeviceLimits kWithoutShuffle{32, false, false, 65535};
+const DeviceLimits kShortRuns{.subgroupSize = 32, .hasSubgroupShuffle = true, .longestRunInMemory = 48};
 
 std::vector<StrandRange> rangesOf(std::vector<std::uint32_t> counts, const DeviceLimits& limits,
                                   const KernelChoice& choice = {}, StrandWork work = StrandWork::hairAlone) {
@@ -46,8 +47,9 @@ double costOf(const std::vector<StrandRange>& ranges, const DeviceLimits& limits
   return sum;
 }
 
-std::string messageOf(std::uint32_t particleCount, const KernelChoice& choice) {
-  const auto ranges = planRanges(std::vector{particleCount}, kLavapipe, choice);
+std::string messageOf(std::uint32_t particleCount, const KernelChoice& choice,
+                      const DeviceLimits& limits = kLavapipe) {
+  const auto ranges = planRanges(std::vector{particleCount}, limits, choice);
   return ranges ? "" : ranges.error().message;
 }
 
@@ -291,6 +293,10 @@ TEST(ShapePlan, RefusesWhatCannotBe) {
   has(messageOf(1025, {Form::serial}),
       "1025 particles does not fit this device: 1 lane of 1024 in memory hold 1024");
   has(messageOf(8193, {}), "8193 particles does not fit this device: 8 lanes of 1024 in memory hold 8192");
+  has(messageOf(64, {Form::serial, 50}, kShortRuns), "50 particles per lane was asked for; 4 to 48");
+  has(messageOf(49, {Form::serial}, kShortRuns), "1 lane of 48 in memory hold 48");
+  has(messageOf(1537, {}, kShortRuns),
+      "1537 particles does not fit this device: 32 lanes of 48 in memory hold 1536");
   for (int lanes : {-1, 3, 16}) has(messageOf(64, {.lanes = lanes}), "this device can have 1, 2, 4 or 8");
 }
 

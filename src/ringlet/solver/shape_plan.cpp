@@ -115,10 +115,11 @@ std::vector<ShapeCost> registerCandidates(const DeviceLimits& limits, const Kern
 }
 
 // Shapes with runs in memory: enough that little of a run is idle, and no more kernels than necessary.
-std::vector<std::uint32_t> runsInMemory(const KernelChoice& choice) {
+std::vector<std::uint32_t> runsInMemory(const DeviceLimits& limits, const KernelChoice& choice) {
   if (choice.particlesPerLane > 0) return {static_cast<std::uint32_t>(choice.particlesPerLane)};
   std::vector<std::uint32_t> runs;
-  for (std::uint32_t run = 8; run <= kLongestRunInMemory; run += run < 128 ? 8 : 32) runs.push_back(run);
+  for (std::uint32_t run = 8; run <= limits.longestRunInMemory; run += run < 128 ? 8 : 32)
+    runs.push_back(run);
   return runs;
 }
 
@@ -145,7 +146,7 @@ std::vector<ShapeCost> memoryCandidates(const DeviceLimits& limits, const Kernel
   std::vector<ShapeCost> costs;
   for (std::uint32_t lanes = 1; lanes <= limits.subgroupSize; lanes *= 2) {
     if (!isOffered(lanes, limits, choice) && !(lanes == 1 && hasMeasuredSerial(choice, work))) continue;
-    for (const std::uint32_t run : runsInMemory(choice)) {
+    for (const std::uint32_t run : runsInMemory(limits, choice)) {
       const StrandShape shape{lanes, run, true};
       costs.push_back({shape, unit * modelCost(shape, modelOf(limits), work)});
     }
@@ -230,7 +231,7 @@ Status checkChoice(const DeviceLimits& limits, const KernelChoice& choice, Stran
   const bool isInMemory =
       choice.form == KernelChoice::Form::memory || choice.form == KernelChoice::Form::serial;
   const int longest =
-      static_cast<int>(isInMemory ? kLongestRunInMemory : longestRun(limits, choice.lanes, work));
+      static_cast<int>(isInMemory ? limits.longestRunInMemory : longestRun(limits, choice.lanes, work));
   if (run != 0 && (run < static_cast<int>(kShortestRun) || run > longest))
     return Error{fmt::format("{} particles per lane was asked for; {} to {} are possible, 0 chooses", run,
                              kShortestRun, longest)};
