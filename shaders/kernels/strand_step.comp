@@ -300,7 +300,8 @@ void moveAndLimit(uint step) {
 #endif
 }
 
-void storeStrand(uint strandIndex) {
+// An idle strand has no particles, and its lanes store nothing.
+void storeStrand(uint strandIndex, bool idle) {
   uint nonfinite = 0;
   uint firstNonfinite = ~0u;
   RINGLET_OVER_RUN for (int k = runEnd - 1; k >= 0; --k) {
@@ -318,7 +319,7 @@ void storeStrand(uint strandIndex) {
   degenerateEdges = sumOverStrand(degenerateEdges);
   nonfinite = sumOverStrand(nonfinite);
   firstNonfinite = minOverStrand(firstNonfinite);
-  if (lane == 0) {
+  if (lane == 0 && !idle) {
     StrandReport report = reports[reportAt(strandIndex)];
     report.maxStretch = max(report.maxStretch, maxStretch);
     report.limitedEdges += limitedEdges;
@@ -359,7 +360,7 @@ void computeForces(uint step) {
 }
 
 #ifdef RINGLET_CONTACTS
-// One solve with the contacts' systems or, of the step after a move, without them. An idle strand has no particles.
+// One solve with the contacts' systems or, of the step after a move, without them.
 void solveOnce(uint strandIndex, bool idle) {
   bool moves = (parameters.phases & kPhaseMove) != 0;
   uint step = parameters.stepBegin;
@@ -371,7 +372,7 @@ void solveOnce(uint strandIndex, bool idle) {
     if (!withContacts || !moves) continue;
     moveAndLimit(step);
     measureEdges();  // the step's stretch, for the report
-    if (!idle) storeStrand(strandIndex);
+    storeStrand(strandIndex, idle);
   } while (++step < parameters.stepEnd);
 }
 #endif
@@ -406,5 +407,5 @@ void main() {
     moveAndLimit(step);
   } while (++step < parameters.stepEnd);
   measureEdges();  // the last step's stretch, for the report
-  if (!idle) storeStrand(strandIndex);
+  storeStrand(strandIndex, idle);
 }
