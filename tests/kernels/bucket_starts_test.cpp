@@ -60,7 +60,7 @@ class BucketStarts : public GpuTest {
     std::mt19937 random(blocks);
     for (int round = 0; round < 2; ++round) {
       Words numbers(sumsAt + blocks + more, 77);  // as they were left by another time
-      for (std::uint32_t b = 0; b < buckets; ++b) numbers[b] = random() % 5;
+      for (std::uint32_t b = 0; b < buckets; ++b) numbers[b] = static_cast<std::uint32_t>(random() % 5);
       Words starts(buckets + 1);
       std::partial_sum(numbers.begin(), numbers.begin() + buckets, starts.begin() + 1);
       const Words found = after(scan, numbers, blocks, parameters, *control);

@@ -50,19 +50,19 @@ bool hasResult(std::uint32_t op) {
 
 struct Instruction {
   std::uint32_t op = 0;
-  std::vector<std::uint32_t> words;  // after the first
+  std::vector<std::uint32_t> words{};  // after the first
 };
 struct Block {
   Id label = 0;
-  std::vector<Instruction> body;
+  std::vector<Instruction> body{};
   Id merge = 0, next = 0;  // of a selection or loop that begins here; a loop's continue target
   bool isLoop = false;
 };
 struct Function {
   Id id = 0;
-  std::string name;
-  std::vector<Id> parameters;
-  std::vector<Block> blocks;
+  std::string name{};
+  std::vector<Id> parameters{};
+  std::vector<Block> blocks{};
 };
 
 std::vector<Id> targetsOf(const Block& block) {

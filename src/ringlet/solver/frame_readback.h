@@ -24,8 +24,8 @@ namespace ringlet {
 /// has gaps for those that are carried rigidly (solver/rigid_hair.h); of a part of them without gaps, in
 /// device order.
 struct FramePlaces {
-  std::vector<std::uint32_t>
-      places;               // of each particle, device order; layout::kNoPlace for those of the halo
+  // Of each particle, device order; layout::kNoPlace for those of the halo.
+  std::vector<std::uint32_t> places{};
   std::uint32_t count = 0;  // places of a frame
   bool areOfGroom = true;   // else of a part
 
