@@ -37,8 +37,7 @@ void lookAt(uint c, uint lane) {
   if (j < count) control.isHalted = kHaltedByTurns;
 }
 
-const uint kMostGroup = 128;  // invocations
-shared uvec2 sharedCounts[kSampleLanes > 1 ? kMostGroup : 1];
+shared uvec2 sharedCounts[kSampleLanes > 1 ? kMostInvocations : 1];
 
 // Called by all of the workgroup. The lanes of a particle are as far apart as the group has particles.
 void addLanes(uint lane, uint particles) {

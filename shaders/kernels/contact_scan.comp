@@ -2,10 +2,15 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_buffers.glsl"
-#define RINGLET_COUNT(bucket) grid[gridCount(bucket)]
-#define RINGLET_START(bucket) grid[gridStart(bucket)]
-#define RINGLET_SUM(block) grid[gridSum(block)]
 #include "scan/bucket_starts.glsl"
+
+uint entriesOf(uint bucket) { return grid[gridCount(bucket)]; }
+void setStart(uint bucket, uint start) {
+  grid[gridCount(bucket)] = 0;
+  grid[gridStart(bucket)] = start;
+}
+uint sumOf(uint block) { return atomicOr(grid[gridSum(block)], 0); }
+uint exchangeSum(uint block, uint sum) { return atomicExchange(grid[gridSum(block)], sum); }
 
 void main() {
   uint all;

@@ -11,8 +11,8 @@ uint particle;  // of this invocation
 vec3 x;
 vec3 v;
 
-// What depends on the taper: whether the step's lists are all there (checkLists), whether a contact particle had contacts
-// in the last step (metBefore), whether it has some now (setMeets), and the terms of the first iteration.
+// What depends on the taper: whether the step's lists are all there (checkLists), whether a contact particle had
+// contacts in the last step (metBefore), whether it has some now (setMeets), and the terms of the first iteration.
 #ifdef RINGLET_TAPER_TIME
 const uint kMeeting = ~((1u << kListBlock) - 1);  // the bits that mean a contact
 bool metBefore(uint c) {

@@ -2,10 +2,15 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/volume_buffers.glsl"
-#define RINGLET_COUNT(cell) cells[cellCount(cell)]
-#define RINGLET_START(cell) cells[cellStart(cell)]
-#define RINGLET_SUM(block) cells[cellSum(block)]
 #include "scan/bucket_starts.glsl"
+
+uint entriesOf(uint cell) { return cells[cellCount(cell)]; }
+void setStart(uint cell, uint start) {
+  cells[cellCount(cell)] = 0;
+  cells[cellStart(cell)] = start;
+}
+uint sumOf(uint block) { return atomicOr(cells[cellSum(block)], 0); }
+uint exchangeSum(uint block, uint sum) { return atomicExchange(cells[cellSum(block)], sum); }
 
 void main() {
   uint all;

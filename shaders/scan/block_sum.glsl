@@ -4,7 +4,6 @@
 
 #include "shared/workgroup.glsl"
 
-const uint kMostInvocations = 128;  // of a workgroup that every device runs
 shared uint blockSums[kMostInvocations];
 
 /// The sum of x over the invocations before this one. Called by all of the workgroup.

@@ -1,27 +1,35 @@
 // Where buckets of sorted entries start, from how many each has: prefix sums over a dispatch with a workgroup per block
-// of kBucketBlock buckets. The kernel that includes this says where numbers stand: RINGLET_COUNT(bucket),
-// RINGLET_START(bucket), RINGLET_SUM(block); and it has what shared/last_group.glsl asks for.
+// of kBucketBlock buckets. The kernel that includes this says where numbers stand, and has what shared/last_group.glsl
+// asks for.
 #ifndef RINGLET_BUCKET_STARTS
 #define RINGLET_BUCKET_STARTS
 
+#include "layout/contacts.h"
 #include "scan/block_sum.glsl"
 #include "shared/last_group.glsl"
+#include "shared/workgroup.glsl"
 
-// The start of each bucket within the block of this workgroup; sets counts to 0 for the next time. The block's sum is
-// exchanged and not assigned, so that the last workgroup sees it.
+/// Entries of a bucket.
+uint entriesOf(uint bucket);
+/// Sets where a bucket starts within its block, and its entries to 0 for the next time.
+void setStart(uint bucket, uint start);
+/// By atomics, which the last workgroup sees: the sum of a block, and what it was before it is this.
+uint sumOf(uint block);
+uint exchangeSum(uint block, uint sum);
+
+// The start of each bucket within the block of this workgroup, and the block's sum.
 void startInBlock() {
   uint each = kBucketBlock / gl_WorkGroupSize.x;  // buckets per invocation
   uint first = gl_WorkGroupID.x * kBucketBlock + gl_LocalInvocationID.x * each;
   uint sum = 0;
-  for (uint k = 0; k < each; ++k) sum += RINGLET_COUNT(first + k);
+  for (uint k = 0; k < each; ++k) sum += entriesOf(first + k);
   uint before = sumBefore(sum);
   for (uint k = 0; k < each; ++k) {
-    uint count = RINGLET_COUNT(first + k);
-    RINGLET_COUNT(first + k) = 0;
-    RINGLET_START(first + k) = before;
-    before += count;
+    uint entries = entriesOf(first + k);
+    setStart(first + k, before);
+    before += entries;
   }
-  if (gl_LocalInvocationID.x + 1 == gl_WorkGroupSize.x) atomicExchange(RINGLET_SUM(gl_WorkGroupID.x), before);
+  if (gl_LocalInvocationID.x + 1 == gl_WorkGroupSize.x) exchangeSum(gl_WorkGroupID.x, before);
 }
 
 /// Sets all starts within blocks, and the sum before each block. Called once, by all invocations. True in one of them,
@@ -33,9 +41,9 @@ bool setStarts(out uint all) {
   uint first = min(gl_LocalInvocationID.x * each, gl_NumWorkGroups.x);
   uint end = min(first + each, gl_NumWorkGroups.x);
   uint sum = 0;
-  for (uint block = first; block < end; ++block) sum += atomicOr(RINGLET_SUM(block), 0);
+  for (uint block = first; block < end; ++block) sum += sumOf(block);
   uint before = sumBefore(sum);
-  for (uint block = first; block < end; ++block) before += atomicExchange(RINGLET_SUM(block), before);
+  for (uint block = first; block < end; ++block) before += exchangeSum(block, before);
   all = before;
   return gl_LocalInvocationID.x + 1 == gl_WorkGroupSize.x;
 }

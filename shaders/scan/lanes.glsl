@@ -61,8 +61,8 @@ uint invocationOfDispatch() {
   return gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
 }
 
-// All lanes of a subgroup ask, and none in an `if`, `?:`, && or || on what differs between them: GLSL runs only one side
-// of these, and lanes that do not come along answer nothing.
+// All lanes of a subgroup ask, and none in an `if`, `?:`, && or || on what differs between them: GLSL runs only one
+// side of these, and lanes that do not come along answer nothing.
 // Source invocation `offset` lanes towards the root or the tip; where there is none, this one itself, whose value the
 // caller must not use.
 uint rootward(uint offset) { return gl_SubgroupInvocationID - (lane >= offset ? offset : 0u); }

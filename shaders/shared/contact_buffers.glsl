@@ -185,4 +185,8 @@ void endLists(bool hadRoom) {
   }
 }
 
+// Of shared/last_group.glsl.
+uint addFinished() { return atomicAdd(control.finished, 1); }
+void clearFinished() { control.finished = 0; }
+
 #endif

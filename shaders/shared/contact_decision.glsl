@@ -7,6 +7,7 @@
 #define RINGLET_CONTACT_DECISION
 
 #include "shared/contact_buffers.glsl"
+#include "shared/workgroup.glsl"
 
 uint groupsOf(uint invocations) { return (invocations + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
 

@@ -1,9 +1,14 @@
 // Lets one workgroup of a dispatch do what follows on the work of all of them, so that this needs no dispatch of its
-// own. The kernel that includes this has a buffer with control.finished, which is 0 between dispatches.
+// own. The buffers of the kernel that includes this have the number of workgroups that have come so far, which is 0
+// between dispatches.
 #ifndef RINGLET_LAST_GROUP
 #define RINGLET_LAST_GROUP
 
 #include "shared/workgroup.glsl"
+
+/// Adds one to that number, and returns what it was; sets it to 0.
+uint addFinished();
+void clearFinished();
 
 shared bool isLast;
 
@@ -13,8 +18,8 @@ bool isLastGroup() {
   memoryBarrierBuffer();
   barrier();
   if (gl_LocalInvocationID.x == 0) {
-    isLast = atomicAdd(control.finished, 1) + 1 == gl_NumWorkGroups.x;
-    if (isLast) control.finished = 0;
+    isLast = addFinished() + 1 == gl_NumWorkGroups.x;
+    if (isLast) clearFinished();
   }
   memoryBarrierBuffer();
   barrier();

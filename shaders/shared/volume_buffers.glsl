@@ -146,4 +146,8 @@ vec4 rateFrom(float mass, vec3 v, vec3 x, vec3 s, uint seen) {
 
 uint groupsOf(uint invocations) { return (invocations + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x; }
 
+// Of shared/last_group.glsl.
+uint addFinished() { return atomicAdd(control.finished, 1); }
+void clearFinished() { control.finished = 0; }
+
 #endif

@@ -7,6 +7,7 @@
 #define RINGLET_VOLUME_NODES
 
 #include "shared/volume_buffers.glsl"
+#include "shared/workgroup.glsl"
 
 // 65536 times `high` and `low`, so far.
 ivec4 high = ivec4(0);
@@ -50,9 +51,8 @@ void sumRanges(uint node, uint first, uint end) {
   if (made != wanted) halt.isHalted = kHaltedByTurns;
 }
 
-const uint kMostGroup = 128;  // invocations
-shared ivec4 sharedHigh[kNodeLanes > 1 ? kMostGroup : 1];
-shared ivec4 sharedLow[kNodeLanes > 1 ? kMostGroup : 1];
+shared ivec4 sharedHigh[kNodeLanes > 1 ? kMostInvocations : 1];
+shared ivec4 sharedLow[kNodeLanes > 1 ? kMostInvocations : 1];
 
 // Called by all of the workgroup. The lanes of a node are as far apart as the group has nodes.
 void addLanes(uint lane, uint nodes) {

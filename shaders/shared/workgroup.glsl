@@ -7,4 +7,6 @@
 
 layout(local_size_x_id = kSpecGroupSize) in;
 
+const uint kMostInvocations = 128;  // of a workgroup that every device runs
+
 #endif

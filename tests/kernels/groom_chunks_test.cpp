@@ -25,7 +25,7 @@ TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
   for (std::uint32_t n : {2u, 3u, 16u, 17u, 300u}) counts.insert(counts.end(), 7, n);
   for (const bool taps : {false, true}) {
     for (const bool movingRoots : {false, true}) {
-      const GroomRecords records = groomRecords({}, {.movingRoots = movingRoots, .taps = taps}, {});
+      const GroomRecords records = groomRecords({}, {.movingRoots = movingRoots, .taps = taps}, {}, true);
       for (std::uint64_t most : {300u * 240u, 100'000u, 1u << 20}) {
         const auto chunks = cutGroom(counts, records, most);
         ASSERT_TRUE(chunks) << chunks.error().message;
@@ -51,14 +51,14 @@ TEST(GroomChunks, HoldEveryStrandOnceAndNoMoreThanTheyMay) {
 // What a groom of a million strands of 16 comes to where a buffer is 128 MiB.
 TEST(GroomChunks, OfAMillionStrandsAreFour) {
   const std::vector<std::uint32_t> counts(1'000'000, 16);
-  const auto chunks = cutGroom(counts, groomRecords({}, {}, {}), 128 * kMebibyte);
+  const auto chunks = cutGroom(counts, groomRecords({}, {}, {}, true), 128 * kMebibyte);
   ASSERT_TRUE(chunks);
   EXPECT_EQ(chunks->size(), 4u);
   EXPECT_EQ(chunks->front().particleCount(), 128 * kMebibyte / 32);
 }
 
 TEST(GroomChunks, WhatDoesNotFitIsSaidWithItsNumbers) {
-  const GroomRecords records = groomRecords({}, {.taps = true}, {});
+  const GroomRecords records = groomRecords({}, {.taps = true}, {}, true);
   const std::vector<std::uint32_t> counts{10, 10, 5000};
   const auto tooLong = cutGroom(counts, records, 128 * 1000);
   ASSERT_FALSE(tooLong);
@@ -150,7 +150,7 @@ class ChunkedGroom : public GpuTest {
     const auto uncut = make(groom, c);
     const HairState whole = moved(groom, c, start);
 
-    const GroomRecords records = groomRecords(c.settings, c.kernel, {});
+    const GroomRecords records = groomRecords(c.settings, c.kernel, {}, device().gpu().properties().isCpu);
     const std::uint64_t ofParticles = groom.points.size() * records.particleRest;
     c.kernel.mostBufferBytes = std::max(ofParticles, groom.strandCount() * records.rootPoses) * 2 / 5;
     std::vector<std::uint32_t> sorted(counts.begin(), counts.end());
@@ -250,8 +250,11 @@ TEST_F(ChunkedGroom, MoreThanTheDevicesMemoryIsRefusedWithTheNumbers) {
   const Groom groom = randomGroom(std::vector<int>(1000, 20), 3);
   const auto refused = make(groom, {"memory", {.mostDeviceBytes = kMebibyte}, {}, false, 30, {}});
   ASSERT_FALSE(refused);
-  // 20,000 x 64 + 1,000 x 136 bytes, and for frames in flight 20,000 x 32, where those come from there too.
-  const char* needs = gpu::isOneMemory(device().gpu()) ? "needs 2.0 MiB" : "needs 1.4 MiB";
+  // 20,000 x 64 + 1,000 x 136 bytes, and for frames in flight 20,000 x 56; on GPUs 68, and 24 where those
+  // come from there too.
+  const char* needs = device().gpu().properties().isCpu  ? "needs 2.4 MiB"
+                      : gpu::isOneMemory(device().gpu()) ? "needs 1.9 MiB"
+                                                         : "needs 1.4 MiB";
   expectParts(refused.error().message,
               {"a groom of 1000 strands and 20000 particles", needs, "1.0 MiB left", "use fewer"});
 }

@@ -227,10 +227,16 @@ std::uint64_t DeviceGroom::largestTexels() const {
   return largest;
 }
 
+namespace {
+std::uint64_t placesBytes(const DeviceChunk& chunk) {
+  return chunk.framePlaces ? chunk.framePlaces->bytes() : 0;
+}
+}  // namespace
+
 std::uint64_t DeviceGroom::particleBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
-    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles->bytes() + c.framePlaces->bytes() +
+    bytes += c.positions.bytes() + c.velocities.bytes() + c.particles->bytes() + placesBytes(c) +
              c.taps.bytes() + c.solved.bytes() + c.contactSystems.bytes() + c.addedByVolume.bytes();
   return bytes;
 }
@@ -244,7 +250,7 @@ std::uint64_t DeviceGroom::strandBytes() const {
 std::uint64_t DeviceGroom::sharedBytes() const {
   std::uint64_t bytes = 0;
   for (const DeviceChunk& c : chunks)
-    bytes += c.framePlaces->bytes() + (own.empty() ? c.particles->bytes() : 0) +
+    bytes += placesBytes(c) + (own.empty() ? c.particles->bytes() : 0) +
              (hasOwnStrands || !own.empty() ? 0 : c.strands->bytes());
   return bytes;
 }

@@ -29,7 +29,7 @@ namespace ringlet {
 struct ConstantChunk {
   GroomChunk part;
   std::shared_ptr<gpu::Buffer> particles, strands;
-  std::shared_ptr<const gpu::Buffer> framePlaces{};  // of each particle (frame_readback.h)
+  std::shared_ptr<const gpu::Buffer> framePlaces{};  // none on a processor (frame_readback.h)
 
   /// Fails when the device lacks memory.
   /// `strands`, `particles`, `factors`: all of the groom, in device order; no factors, or of each particle.

@@ -127,14 +127,19 @@ void FrameReadback::record(gpu::CommandList& list) const {
   }
 }
 
-void FrameReadback::arrive(const FramePlaces& places) {
+void FrameReadback::put(const FramePlaces& places, const GroomChunk& chunk,
+                        std::span<const layout::vec4> values) const {
   const std::span<Vec3f> all = positions();
+  const auto mine = std::span(places.places).subspan(chunk.particleBegin, chunk.particleCount());
+  for (std::size_t i = 0; i < mine.size(); ++i)
+    if (mine[i] < all.size()) all[mine[i]] = unpacked(values[i]);
+}
+
+void FrameReadback::arrive(const FramePlaces& places) {
   for (std::size_t c = 0; c < copies_.size(); ++c) {
-    const GroomChunk& chunk = groom_->chunks[c].part;
     const auto* values = reinterpret_cast<const layout::vec4*>(copies_[c].mapped().data());
-    const auto mine = std::span(places.places).subspan(chunk.particleBegin, chunk.particleCount());
-    for (std::size_t i = 0; i < mine.size(); ++i)
-      if (mine[i] < all.size()) all[mine[i]] = unpacked(values[i]);
+    const GroomChunk& chunk = groom_->chunks[c].part;
+    put(places, chunk, {values, chunk.particleCount()});
   }
 }
 
@@ -144,16 +149,11 @@ std::uint64_t FrameReadback::bytes() const {
   return sum;
 }
 
-Status FrameReadback::download(const DeviceGroom& groom) {
-  const std::span<Vec3f> all = positions();
-  for (const DeviceChunk& chunk : groom.chunks) {
-    const std::size_t count = chunk.part.particleCount();
-    auto places = downloadAll<std::uint32_t>(*chunk.framePlaces, count);
-    if (!places) return places.error();
-    auto values = downloadAll<layout::vec4>(chunk.positions, count);
+Status FrameReadback::download(const FramePlaces& places) {
+  for (const DeviceChunk& chunk : groom_->chunks) {
+    auto values = downloadAll<layout::vec4>(chunk.positions, chunk.part.particleCount());
     if (!values) return values.error();
-    for (std::size_t i = 0; i < count; ++i)
-      if ((*places)[i] < all.size()) all[(*places)[i]] = unpacked((*values)[i]);
+    put(places, chunk.part, *values);
   }
   return {};
 }

@@ -46,7 +46,7 @@ class FrameReadback {
   /// Once the device has done what was recorded.
   void arrive(const FramePlaces& places);
   /// Does it now, after a frame that is not recorded.
-  Status download(const DeviceGroom& groom);
+  Status download(const FramePlaces& places);
   /// The positions, by place. Places of no particle hold what was last written there.
   std::span<Vec3f> positions() const;
   std::uint64_t bytes() const;
@@ -61,15 +61,15 @@ class FrameReadback {
   Status makePieces(gpu::Device& device, const DeviceGroom& groom, std::uint32_t count,
                     std::uint64_t mostBufferBytes);
   Status makeCopies(gpu::Device& device, const DeviceGroom& groom);
+  void put(const FramePlaces& places, const GroomChunk& chunk, std::span<const layout::vec4> values) const;
 
   std::shared_ptr<const gpu::Kernel> kernel_;
   gpu::Buffer frame_;
   std::vector<gpu::Buffer> parts_;  // of it, where it is larger than a kernel may bind
   std::vector<Piece> pieces_;
   std::uint32_t mostGroups_ = 1;
-  // On a processor: of each chunk's positions, in device order.
+  std::vector<gpu::Buffer> copies_;  // on a processor: of each chunk's positions, in device order
   const DeviceGroom* groom_ = nullptr;
-  std::vector<gpu::Buffer> copies_;
 };
 
 }  // namespace ringlet

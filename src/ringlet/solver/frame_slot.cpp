@@ -23,8 +23,8 @@ void FrameSlot::recordPositions(gpu::CommandList& list) const {
   if (readback) readback->record(list);
 }
 
-Status FrameSlot::downloadPositions(const DeviceGroom& groom) {
-  return readback ? readback->download(groom) : Status{};
+Status FrameSlot::downloadPositions(const FramePlaces& places) {
+  return readback ? readback->download(places) : Status{};
 }
 
 void FrameSlot::copyPositions(const RestState& rest, const FramePlaces& places, const RigidHair& rigidHair,

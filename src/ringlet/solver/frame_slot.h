@@ -38,7 +38,7 @@ struct FrameSlot {
     if (readback) readback->arrive(places);
   }
   /// Reads positions back now, after a frame that is not recorded.
-  Status downloadPositions(const DeviceGroom& groom);
+  Status downloadPositions(const FramePlaces& places);
   /// The positions read back, by place, without those of rigid strands; empty if they are not read back.
   std::span<const Vec3f> positions() const {
     return readback ? std::span<const Vec3f>(readback->positions()) : std::span<const Vec3f>();

@@ -26,12 +26,13 @@ std::string mebibytes(std::uint64_t bytes) {
 
 }  // namespace
 
-GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds) {
+GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds,
+                          bool isCpu) {
   GroomRecords records;
   records.position = records.velocity = sizeof(layout::vec4);
   records.particleRest = sizeof(layout::ParticleRest);
-  records.place = sizeof(std::uint32_t);
-  records.positionInFrame = sizeof(Vec3f);
+  records.place = isCpu ? 0 : sizeof(std::uint32_t);
+  records.positionInFrame = sizeof(Vec3f) + (isCpu ? records.position : 0);
   if (choice.taps) records.taps = layout::kTapCount * sizeof(layout::vec4);
   if (kinds.any()) records.solved = sizeof(layout::vec4);
   if (kinds.pairs) records.contactSystem = sizeof(layout::ContactSystem);

@@ -36,7 +36,8 @@ struct GroomRecords {
 };
 
 /// `kinds`: of contacts.
-GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds);
+GroomRecords groomRecords(const Settings& settings, const KernelChoice& choice, ContactKinds kinds,
+                          bool isCpu);
 
 /// Strands [strandBegin, strandEnd) in device order, and their particles.
 struct GroomChunk {

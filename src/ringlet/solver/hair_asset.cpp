@@ -128,7 +128,7 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   self->choice.part = {};
   self->choice.geometry = nullptr;
   const std::vector<std::uint32_t> counts = particleCounts(self->rest);
-  self->records = groomRecords(settings, self->choice, self->kinds());
+  self->records = groomRecords(settings, self->choice, self->kinds(), device.gpu().properties().isCpu);
   if (!self->rest.edgeFactors.empty()) self->records.particleRest += sizeof(EdgeFactors);
   const auto chunks = cutForDevice(device.gpu(), counts, self->records, settings, choice);
   if (!chunks) return chunks.error();
@@ -161,13 +161,14 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
     auto constants = ConstantChunk::create(device.gpu(), self->rest.strands, self->rest.particles,
                                            self->rest.edgeFactors, chunk);
     if (!constants) return constants.error();
-    auto places = self->framePlaces.onDevice(device.gpu(), chunk);
-    if (!places) return places.error();
-    constants->framePlaces = std::move(*places);
+    if (!device.gpu().properties().isCpu) {
+      auto places = self->framePlaces.onDevice(device.gpu(), chunk);
+      if (!places) return places.error();
+      constants->framePlaces = std::move(*places);
+    }
     self->constants.push_back(std::move(*constants));
   }
-  self->rest.particles = {};                                            // they are on the device
-  if (!device.gpu().properties().isCpu) self->framePlaces.places = {};  // likewise
+  self->rest.particles = {};  // they are on the device
   return HairAsset(std::move(self));
 }
 

@@ -39,7 +39,7 @@ struct HairAsset::Implementation {
   std::vector<StrandRange> firstRanges{};  // of the first solve of a step, if that has kernels of its own
   GroomRecords records{};
   std::vector<ConstantChunk> constants{};
-  FramePlaces framePlaces{};                         // but on a processor without those of each particle
+  FramePlaces framePlaces{};
   std::shared_ptr<HeadPlaces> places{};              // of many small heads; none: each has its own buffers
   std::optional<GroomGoal> goal{};                   // where Settings::goal is on
   std::optional<std::vector<GoalUnit>> goalUnits{};  // with goals

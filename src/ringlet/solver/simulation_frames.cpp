@@ -385,7 +385,7 @@ Status Simulation::Implementation::jumpTo(const HeadPose& end, std::span<const B
   roots.endFrame(rootPoses);
   rigidHair.jump(rootPoses);
   if (Status status = carryTo(end); !status) return status;
-  return slotOf(submitted).downloadPositions(buffers);
+  return slotOf(submitted).downloadPositions(asset->framePlaces);
 }
 
 Status Simulation::stepFrame(std::span<const HeadPose> stepPoses, std::span<const BodyPose> bodyPoses,

@@ -17,10 +17,10 @@ struct DeviceLimits {
   bool hasSubgroupShuffle = false;
   bool isCpu = false;  // costs are those of a CPU device
   std::uint32_t maxGroupCount = 65535;
-  std::uint32_t longestRunInMemory = kLongestRunInMemory;
   bool endsLoopsEarly = false;  // silently ends the loops of an invocation after 65,535 turns in all
   std::uint32_t minSubgroupSize = 0, maxSubgroupSize = 0;  // the powers of two that can be asked for; 0: none
                                                            // but subgroupSize
+  std::uint32_t longestRunInMemory = kLongestRunInMemory;
 };
 
 /// A strand laid over a device: lanes x run.
