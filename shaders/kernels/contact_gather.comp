@@ -7,31 +7,44 @@
 #include "equations/contact_spring.glsl"
 #include "maths/symmetric.glsl"
 
+vec3 v;  // of this invocation's particle
+vec3 momentum = vec3(0);
+vec3 unmetPush = vec3(0);
+Symmetric unmet = symmetricDiagonal(0.0);
+
+void add(uint entry, ContactForce force, vec3 otherVelocity) {
+  vec3 normal = force.normal.xyz;
+  float spring = force.normal.w;
+  if (spring > 0.0 && !isMet(force.gap, dot(normal, v - otherVelocity), parameters.seconds)) {
+    unmetPush += contactPush(spring, force.gap, parameters.seconds) * normal;
+    unmet = addOuter(unmet, spring, normal);
+    forces[entry].normal.w = 0.0;
+    spring = 0.0;
+  }
+  momentum += contactMultiply(contactWeights(spring, force.damping, parameters), normal, v + otherVelocity);
+}
+
 void main() {
   if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
   ContactRest rest = contactOf(c);
-  vec3 v = velocityOf(rest.particle);
+  v = velocityOf(rest.particle);
   uint list = liveListOf(c, control.parity);
   uint count = liveLists[list];
-  vec3 momentum = vec3(0);
-  vec3 unmetPush = vec3(0);
-  Symmetric unmet = symmetricDiagonal(0.0);
-  uint j = 0;
+  uint first = 0;
   if (count > 0) do {
-    uint entry = forceEntry(list, j);
-    ContactForce force = forceAt(entry);
-    vec3 normal = force.normal.xyz;
-    float spring = force.normal.w;
-    vec3 otherVelocity = velocityOf(force.particle);
-    if (spring > 0.0 && !isMet(force.gap, dot(normal, v - otherVelocity), parameters.seconds)) {
-      unmetPush += contactPush(spring, force.gap, parameters.seconds) * normal;
-      unmet = addOuter(unmet, spring, normal);
-      forces[entry].normal.w = 0.0;
-      spring = 0.0;
+    uint entries[kAtOnce];
+    ContactForce some[kAtOnce];
+    vec3 speeds[kAtOnce];
+    for (uint j = 0; j < kAtOnce; ++j) {
+      entries[j] = forceEntry(list, min(first + j, count - 1));
+      some[j] = forceAt(entries[j]);
     }
-    momentum += contactMultiply(contactWeights(spring, force.damping, parameters), normal, v + otherVelocity);
-  } while (++j < count);
+    for (uint j = 0; j < kAtOnce; ++j) speeds[j] = velocityOf(some[j].particle);
+    for (uint j = 0; j < kAtOnce; ++j)
+      if (first + j < count) add(entries[j], some[j], speeds[j]);
+    first += kAtOnce;
+  } while (first < count);
   ContactSystem system = systems[rest.particle];
   float unit = rest.inverseMassUnit;
   vec3 push = vec3(system.diagonal.w, system.offDiagonal.w, system.momentum.w) - unit * unmetPush;

@@ -29,12 +29,11 @@ void append(ContactForce force, ContactLife life) {
   ++count;
 }
 
-// Advances a contact that touches, or did; `before` is its life before this step.
-void liveOn(ContactLife before) {
-  vec4 other = guessOf(before.particle);
+// Advances a contact that touches, or did. before: its life before this step; other: the other's guessed velocity and
+// radius; otherX, otherV: its place and v^0.
+void liveOn(ContactLife before, vec4 other, vec3 otherX, vec3 otherV) {
   float r0 = before.restLength;
-  ContactMeeting meeting = contactMeeting(x - positionOf(before.particle), v - velocityOf(before.particle),
-                                          isBefore(rest.particle, before.particle));
+  ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(rest.particle, before.particle));
   bool touching = isTouching(meeting, r0, parameters);
   vec2 shares = nextLife(sharesOf(before.shares), touching, meeting.distance, r0, parameters);
   if (shares == vec2(0)) return;
@@ -47,6 +46,50 @@ void liveOn(ContactLife before) {
          ContactLife(before.particle, lifeOfShares(shares), r0, before.stiffness));
 }
 
+void liveOn(ContactLife before[kAtOnce], uint those) {
+  vec4 others[kAtOnce];
+  vec3 places[kAtOnce];
+  vec3 speeds[kAtOnce];
+  for (uint j = 0; j < kAtOnce; ++j) {
+    others[j] = guessOf(before[j].particle);
+    places[j] = positionOf(before[j].particle);
+    speeds[j] = velocityOf(before[j].particle);
+  }
+  for (uint j = 0; j < kAtOnce; ++j)
+    if (j < those) liveOn(before[j], others[j], places[j], speeds[j]);
+}
+
+uint listBefore;  // the list of the last step's contacts, and how many they are
+uint countBefore;
+ContactLife lifeBefore(uint j) { return lifeAt(lifeEntry(control.parity ^ 1, forceEntry(listBefore, j))); }
+
+uint sought = 0;  // where the last contact was found: both lists have the same order
+bool wasCutShort = false;  // the driver ended a loop early
+
+/// Whether the contact with a particle is in the list of the last step.
+bool isKnown(uint particle) {
+  if (countBefore == 0) return false;
+  bool known = false;
+  uint looked = 0;
+  do {
+    uint at[kAtOnce];
+    ContactLife some[kAtOnce];
+    for (uint j = 0; j < kAtOnce; ++j) {
+      at[j] = sought + min(looked + j, countBefore - 1);
+      if (at[j] >= countBefore) at[j] -= countBefore;
+      some[j] = lifeBefore(at[j]);
+    }
+    uint found = countBefore;
+    for (uint j = 0; j < kAtOnce; ++j)
+      if (some[j].particle == particle) found = at[j];
+    known = found < countBefore;
+    if (known) sought = found + 1;
+    looked += kAtOnce;
+  } while (looked < countBefore && !known);
+  if (!known && looked < countBefore) wasCutShort = true;
+  return known;
+}
+
 // Each choice is a loop of its own, over the bits for which it is true: a driver that runs invocations in lockstep runs
 // an `if` for all of them. Loops test their condition after the body, which saves such a driver one turn.
 void main() {
@@ -57,21 +100,23 @@ void main() {
   v = velocityOf(rest.particle);
   guess = guessOf(rest.particle).xyz;
   list = liveListOf(c, control.parity);
-  uint parityBefore = control.parity ^ 1;
-  uint listBefore = liveListOf(c, parityBefore);
-  uint countBefore = liveLists[listBefore];
+  listBefore = liveListOf(c, control.parity ^ 1);
+  countBefore = liveLists[listBefore];
 
   // Contacts of the last step.
   uint made = 0;  // turns that the loops made; `wanted` counts those they should make
+  uint wanted = (countBefore + kAtOnce - 1) / kAtOnce;
   if (countBefore > 0) do {
-    liveOn(lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, made))));
-  } while (++made < countBefore);
+    uint first = made * kAtOnce;
+    ContactLife some[kAtOnce];
+    for (uint j = 0; j < kAtOnce; ++j) some[j] = lifeBefore(min(first + j, countBefore - 1));
+    liveOn(some, countBefore - first);
+  } while (++made * kAtOnce < countBefore);
 
   // Neighbours that touch (contact_touch.comp) and are no contacts yet.
   uint neighbourList = listOf(c);
   uint blockCount = (lists[neighbourList] + kListBlock - 1) / kListBlock;
-  uint wanted = countBefore + blockCount;
-  uint sought = 0;  // where the last one was found: both lists have the same order
+  wanted += blockCount;
   uint b = 0;
   if (blockCount > 0) do {
     uint first = lists[listedBlock(neighbourList, b)] * kListBlock;
@@ -82,29 +127,24 @@ void main() {
       uint k = findLSB(touching);
       touching &= touching - 1;
       ++made;
-      uint particle = pairAt(first + k).particle;
-      bool isKnown = false;
-      uint looked = 0;
-      if (countBefore > 0) do {
-        uint j = sought + looked < countBefore ? sought + looked : sought + looked - countBefore;
-        isKnown = isKnown || lifeAt(lifeEntry(parityBefore, forceEntry(listBefore, j))).particle == particle;
-        if (isKnown) sought = j + 1;
-      } while (++looked < countBefore && !isKnown);
-      if (isKnown) fresh &= ~(1u << k);
-      if (!isKnown && looked < countBefore) ++wanted;  // the driver ended the loop early
+      if (isKnown(pairAt(first + k).particle)) fresh &= ~(1u << k);
     } while (touching != 0);
-    wanted += bitCount(fresh);
+    wanted += (bitCount(fresh) + kAtOnce - 1) / kAtOnce;
     if (fresh != 0) do {
-      uint k = findLSB(fresh);
-      fresh &= fresh - 1;
       ++made;
-      ContactPair pair = pairAt(first + k);
-      liveOn(ContactLife(pair.particle, 0.0, pair.restLength, pair.stiffness));
+      uint bit[kAtOnce];
+      uint those = takeBits(fresh, bit);
+      ContactLife some[kAtOnce];
+      for (uint j = 0; j < kAtOnce; ++j) {
+        ContactPair pair = pairAt(first + bit[j]);
+        some[j] = ContactLife(pair.particle, 0.0, pair.restLength, pair.stiffness);
+      }
+      liveOn(some, those);
     } while (fresh != 0);
     ++made;
   } while (++b < blockCount);
   liveLists[list] = count;
   if (count > control.longestLive) atomicMax(control.longestLive, count);
-  if (made != wanted) control.isHalted = kHaltedByTurns;
+  if (made != wanted || wasCutShort) control.isHalted = kHaltedByTurns;
   setSystem(rest, terms);
 }

@@ -7,13 +7,25 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shared/contact_terms.glsl"
 
+ContactRest rest;  // this invocation's contact particle
+vec3 x;
+vec3 v;
+ContactTerms terms = kNoTerms;
+
+/// Adds a contact. Returns whether its spring would hold the pair together, and is removed.
+bool add(ContactPair pair, vec3 otherX, vec3 otherV, bool pushes) {
+  ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(rest.particle, pair.particle));
+  bool holds = pushes && !isMet(pair.restLength - meeting.distance, meeting.separation, parameters.seconds);
+  addContact(terms, pair, meeting, pushes && !holds, v + otherV);
+  return holds;
+}
+
 void main() {
   if (control.isHalted != 0 || gl_GlobalInvocationID.x >= control.meetingCount) return;
   uint c = lists[meetingPlace(gl_GlobalInvocationID.x)];
-  ContactRest rest = contactOf(c);
-  vec3 x = positionOf(rest.particle);
-  vec3 v = velocityOf(rest.particle);
-  ContactTerms terms = kNoTerms;
+  rest = contactOf(c);
+  x = positionOf(rest.particle);
+  v = velocityOf(rest.particle);
 
   uint list = listOf(c);
   uint blockCount = (lists[list] + kListBlock - 1) / kListBlock;
@@ -25,18 +37,16 @@ void main() {
     uint unmet = 0;
     uint acting = bits & ((1u << kListBlock) - 1);
     if (acting != 0) do {
-      uint k = findLSB(acting);
-      acting &= acting - 1;
-      ContactPair pair = pairAt(first + k);
-      vec3 other = velocityOf(pair.particle);
-      ContactMeeting meeting =
-          contactMeeting(x - positionOf(pair.particle), v - other, isBefore(rest.particle, pair.particle));
-      bool pushes = (bits >> kListBlock + k & 1) != 0;
-      if (pushes && !isMet(pair.restLength - meeting.distance, meeting.separation, parameters.seconds)) {
-        pushes = false;
-        unmet |= 1u << kListBlock + k;
+      uint bit[kAtOnce];
+      uint entries[kAtOnce];
+      uint those = takeBits(acting, bit);
+      for (uint j = 0; j < kAtOnce; ++j) entries[j] = first + bit[j];
+      Partners some = partnersAt(entries);
+      for (uint j = 0; j < kAtOnce; ++j) {
+        if (j >= those) continue;
+        bool pushes = (bits >> kListBlock + bit[j] & 1) != 0;
+        if (add(some.pair[j], some.x[j], some.v[j], pushes)) unmet |= 1u << kListBlock + bit[j];
       }
-      addContact(terms, pair, meeting, pushes, v + other);
     } while (acting != 0);
     if (acting != 0) isWhole = false;
     if (unmet != 0) lists[pairBits(list, b)] = bits & ~unmet;

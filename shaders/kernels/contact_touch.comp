@@ -47,6 +47,15 @@ void emptyCells(uint c) {
   }
 }
 
+/// Looks at a pair, if there is one. Returns its bits as if it were the first of its block.
+uint look(ContactPair pair, vec3 otherX, vec3 otherV, bool isThere) {
+  ContactMeeting meeting = contactMeeting(x - otherX, v - otherV, isBefore(particle, pair.particle));
+  bool touching = isThere && isTouching(meeting, pair.restLength, parameters);
+  bool acts = touching || (isThere && meeting.distance < parameters.breakFactor * pair.restLength);
+  if (acts) addTerms(pair, meeting, touching);
+  return uint(acts) | uint(touching) << kListBlock;
+}
+
 void main() {
   if (control.isHalted != 0) return;
   uint c = gl_GlobalInvocationID.x;
@@ -70,18 +79,16 @@ void main() {
     uint bits = 0;
     uint k = 0;
     do {
-      ContactPair pair = pairAt(first + k);
-      ContactMeeting meeting = contactMeeting(x - positionOf(pair.particle), v - velocityOf(pair.particle),
-                                              isBefore(particle, pair.particle));
-      bool touching = isTouching(meeting, pair.restLength, parameters);
-      if (touching) bits |= 1u << kListBlock + k;
-      bool acts = touching || meeting.distance < parameters.breakFactor * pair.restLength;
-      if (acts) bits |= 1u << k;
-      if (acts) addTerms(pair, meeting, touching);
-    } while (++k < inBlock);
+      uint entries[kAtOnce];
+      for (uint j = 0; j < kAtOnce; ++j) entries[j] = first + min(k + j, inBlock - 1);
+      Partners some = partnersAt(entries);
+      for (uint j = 0; j < kAtOnce; ++j)
+        bits |= look(some.pair[j], some.x[j], some.v[j], k + j < inBlock) << k + j;
+      k += kAtOnce;
+    } while (k < inBlock);
     lists[pairBits(list, begin / kListBlock)] = bits;
     meets = meets || (bits & kMeeting) != 0;
-    made += k;
+    made += min(k, inBlock);
     begin += kListBlock;
   } while (begin < count);
   if (made != count) control.isHalted = kHaltedByTurns;

@@ -11,7 +11,6 @@ namespace ringlet::layout {
 // Specialization constants of the contact kernels.
 RINGLET_CONSTANT uint kSpecInGroups = 2;
 RINGLET_CONSTANT uint kSpecDivided = 3;
-RINGLET_CONSTANT uint kSpecSampleLanes = 4;  // invocations that share a particle of a sample: 1, 3 or 9
 
 // Bindings of the contact kernels, all in set 0.
 RINGLET_CONSTANT uint kBindContactPositions = 0;   // vec4[particles]: as above

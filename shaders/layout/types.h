@@ -25,6 +25,7 @@ struct alignas(16) uvec4 {
 // Specialization constants: of every kernel that has one.
 RINGLET_CONSTANT uint kSpecGroupSize = 0;  // invocations of a workgroup
 RINGLET_CONSTANT uint kSpecTexels = 1;     // records are read as texels (shared/texels.glsl)
+RINGLET_CONSTANT uint kSpecForGpu = 30;    // of contacts and volumes: the form for GPUs, and not for processors
 
 #ifdef __cplusplus
 }  // namespace ringlet::layout

@@ -8,9 +8,6 @@
 namespace ringlet::layout {
 #endif
 
-// Specialization constant of the volume's kernels, beside kSpecGroupSize, kSpecTexels and kSpecDivided.
-RINGLET_CONSTANT uint kSpecNodeLanes = 4;  // invocations that share a node of the grid: 1, 2 or 4
-
 // Bindings of the volume's kernels, all in set 0.
 RINGLET_CONSTANT uint kBindVolumePositions = 0;   // vec4[particles]: as above
 RINGLET_CONSTANT uint kBindVolumeVelocities = 1;  // vec4[particles]: as above

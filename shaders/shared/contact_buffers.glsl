@@ -3,6 +3,7 @@
 #define RINGLET_CONTACT_BUFFERS
 
 #include "layout/contacts.h"
+#include "shared/at_once.glsl"
 #include "shared/texels.glsl"
 #include "shared/workgroup.glsl"
 
@@ -41,6 +42,7 @@ layout(push_constant) uniform Parameters { ContactParameters parameters; };
 
 layout(constant_id = kSpecInGroups) const bool kInGroups = false;  // strands of one group do not meet pair by pair
 layout(constant_id = kSpecDivided) const bool kDivided = false;   // other devices step some of the strands
+layout(constant_id = kSpecForGpu) const bool kForGpu = false;
 
 uvec4 neighbourRecord(uint i) { return kTexels ? recordAt(neighbourTexels, i) : neighbours[i]; }
 /// Strands of one group do not meet pair by pair (rest/volume_strands.h).
@@ -104,7 +106,8 @@ ContactForce forceAt(uint entry) {
 /// divided among devices, those of strands that are stepped here stand in a list by what their index in the whole groom
 /// leaves modulo the stride; before it, where those of each remainder begin.
 const uint kNoContact = 0xffffffffu;
-layout(constant_id = kSpecSampleLanes) const uint kSampleLanes = 1;
+/// Invocations that share a particle of a sample: on a GPU the longest search of one is what a dispatch takes.
+const uint kSampleLanes = kForGpu ? 9 : 1;
 /// Particles of a sample that a workgroup looks at.
 uint sampledOfGroup() { return gl_WorkGroupSize.x / kSampleLanes; }
 uint sampledContact(uint k) {
@@ -170,6 +173,22 @@ uint liveListOf(uint c, uint parity) { return (2 * c + parity) * (1 + parameters
 /// Index of contact j of a list among the forces, and of such an entry among the lives.
 uint forceEntry(uint list, uint j) { return liveLists[list + 1 + j / kLiveBlock] * kLiveBlock + j % kLiveBlock; }
 uint lifeEntry(uint parity, uint force) { return parity * parameters.liveBlockCount * kLiveBlock + force; }
+
+/// Pairs and the places and velocities of their others, asked for at once.
+struct Partners {
+  ContactPair pair[kAtOnce];
+  vec3 x[kAtOnce];
+  vec3 v[kAtOnce];
+};
+Partners partnersAt(uint entries[kAtOnce]) {
+  Partners some;
+  for (uint j = 0; j < kAtOnce; ++j) some.pair[j] = pairAt(entries[j]);
+  for (uint j = 0; j < kAtOnce; ++j) {
+    some.x[j] = positionOf(some.pair[j].particle);
+    some.v[j] = velocityOf(some.pair[j].particle);
+  }
+  return some;
+}
 
 /// Whether every list found room for all its pairs.
 bool listsHadRoom() {

@@ -40,7 +40,10 @@ layout(set = 0, binding = kBindVolumeSums) buffer Sums { int sums[]; };
 layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
-layout(constant_id = kSpecNodeLanes) const uint kNodeLanes = 1;  // invocations that share a node: 1, 2 or 4
+layout(constant_id = kSpecForGpu) const bool kForGpu = false;
+/// Invocations that share a node of the grid. On a GPU the longest sum at a node is what a dispatch takes; a processor's
+/// cores have enough nodes each, and lose by waiting for each other.
+const uint kNodeLanes = kForGpu ? 4 : 1;
 
 /// Finds the volume particle of this invocation; false if there is none.
 bool findParticle(out uint i) {

@@ -6,6 +6,7 @@
 #ifndef RINGLET_VOLUME_NODES
 #define RINGLET_VOLUME_NODES
 
+#include "shared/at_once.glsl"
 #include "shared/volume_buffers.glsl"
 #include "shared/workgroup.glsl"
 
@@ -39,12 +40,15 @@ void sumRanges(uint node, uint first, uint end) {
     uint last = isIn ? (z * size.y + y) * size.x + at.x : 0;
     uint place = isIn ? startOf(last - min(at.x, 1)) : 0;
     uint end = isIn ? startOf(last + 1) : 0;
-    wanted += end - place;
+    wanted += (end - place + kAtOnce - 1) / kAtOnce;
     if (place < end) do {
-      VolumeParcel parcel = parcelAt(place);
-      take(parcel, nodeWeight(parcel.place.xyz - vec3(at)));
+      VolumeParcel some[kAtOnce];
+      for (uint j = 0; j < kAtOnce; ++j) some[j] = parcelAt(min(place + j, end - 1));
+      for (uint j = 0; j < kAtOnce; ++j)
+        take(some[j], place + j < end ? nodeWeight(some[j].place.xyz - vec3(at)) : 0.0);
       ++made;
-    } while (++place < end);
+      place += kAtOnce;
+    } while (place < end);
     carry();
     ++made;
   } while (++turn < end);

@@ -54,7 +54,7 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
   }
   const auto add = [&](ContactKernel which, ContactTaper taper, const char* what) {
     const auto description = describeContactKernel(which, taper, false, kContactGroupSize, texels,
-                                                   contactSampleLanes(device.gpu().properties()));
+                                                   !device.gpu().properties().isCpu);
     kernels.push_back({description.name + std::string(what), description});
   };
   using enum ContactKernel;
@@ -63,8 +63,8 @@ std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
   for (const ContactKernel which : {touch, life, check, next})
     add(which, ContactTaper::time, which == touch ? ", time taper" : "");
   for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
-    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels,
-                                                  volumeNodeLanes(device.gpu().properties()));
+    const auto description =
+        describeVolumeKernel(static_cast<VolumeKernel>(k), texels, !device.gpu().properties().isCpu);
     kernels.push_back({description.name, description});
   }
   return kernels;

@@ -52,7 +52,7 @@ const Compiled& compiledOf(ContactKernel which, ContactTaper taper) {
 }  // namespace
 
 gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             std::uint32_t groupSize, bool texels, std::uint32_t sampleLanes,
+                                             std::uint32_t groupSize, bool texels, bool forGpu,
                                              bool divided) {
   const Compiled& compiled = compiledOf(which, taper);
   gpu::KernelDescription description;
@@ -64,7 +64,7 @@ gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper t
                            {layout::kSpecTexels, texels ? 1u : 0u},
                            {layout::kSpecInGroups, inGroups ? 1u : 0u},
                            {layout::kSpecDivided, divided ? 1u : 0u},
-                           {layout::kSpecSampleLanes, sampleLanes}};
+                           {layout::kSpecForGpu, forGpu ? 1u : 0u}};
   description.groupSize = groupSize;
   return description;
 }

@@ -35,14 +35,10 @@ constexpr std::size_t contactKernelCount(ContactTaper taper) {
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kContactGroupSize = 64;
 
-/// Invocations that share a particle of a sample: on a GPU the longest search of one is what a dispatch
-/// takes.
-inline std::uint32_t contactSampleLanes(const gpu::DeviceProperties& device) { return device.isCpu ? 1 : 9; }
-
 /// inGroups: some strands do not meet pair by pair, see VolumeStrands; texels: records are read as texels
-/// (gpu::BindingKind); sampleLanes: contactSampleLanes; divided: other devices step some of the strands.
+/// (gpu::BindingKind); forGpu: the form for GPUs; divided: other devices step some of the strands.
 gpu::KernelDescription describeContactKernel(ContactKernel which, ContactTaper taper, bool inGroups,
-                                             std::uint32_t groupSize, bool texels, std::uint32_t sampleLanes,
+                                             std::uint32_t groupSize, bool texels, bool forGpu,
                                              bool divided = false);
 
 }  // namespace ringlet

@@ -121,7 +121,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   for (std::size_t k = 0; k < contactKernelCount(self.settings_.taper); ++k) {
     const auto description =
         describeContactKernel(static_cast<ContactKernel>(k), self.settings_.taper, inGroups, kGroupSize,
-                              texels, contactSampleLanes(device.properties()), divided);
+                              texels, !device.properties().isCpu, divided);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();

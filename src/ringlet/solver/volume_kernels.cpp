@@ -37,8 +37,7 @@ const Compiled kCompiled[kVolumeKernelCount] = {
 
 }  // namespace
 
-gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, std::uint32_t nodeLanes,
-                                            bool divided) {
+gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, bool forGpu, bool divided) {
   const Compiled& compiled = kCompiled[static_cast<std::size_t>(which)];
   gpu::KernelDescription description;
   description.name = compiled.name;
@@ -48,7 +47,7 @@ gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, std
   description.constants = {{layout::kSpecGroupSize, kVolumeGroupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u},
                            {layout::kSpecDivided, divided ? 1u : 0u},
-                           {layout::kSpecNodeLanes, nodeLanes}};
+                           {layout::kSpecForGpu, forGpu ? 1u : 0u}};
   description.groupSize = kVolumeGroupSize;
   return description;
 }

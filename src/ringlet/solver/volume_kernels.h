@@ -17,12 +17,9 @@ inline constexpr std::size_t kVolumeKernelCount = 11;
 /// Invocations per workgroup.
 inline constexpr std::uint32_t kVolumeGroupSize = 64;
 
-/// Invocations that share a node of the grid. On a GPU the longest sum at a node is what a dispatch takes; a
-/// processor's cores have enough nodes each, and lose by waiting for each other.
-inline std::uint32_t volumeNodeLanes(const gpu::DeviceProperties& device) { return device.isCpu ? 1 : 4; }
-
-/// texels: records are read as texels (gpu::BindingKind); divided: other devices step some of the strands.
-gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, std::uint32_t nodeLanes,
+/// texels: records are read as texels (gpu::BindingKind); forGpu: the form for GPUs; divided: other devices
+/// step some of the strands.
+gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, bool forGpu,
                                             bool divided = false);
 
 }  // namespace ringlet

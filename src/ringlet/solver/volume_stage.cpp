@@ -106,8 +106,8 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
                 cellWords * sizeof(std::uint32_t)});
   const bool texels = isSeenAsTexels(device, std::max(largest, kLeastTexelBytes));
   for (std::size_t k = 0; k < kVolumeKernelCount; ++k) {
-    const auto description = describeVolumeKernel(static_cast<VolumeKernel>(k), texels,
-                                                  volumeNodeLanes(device.properties()), divided);
+    const auto description =
+        describeVolumeKernel(static_cast<VolumeKernel>(k), texels, !device.properties().isCpu, divided);
     if (!gpu::Kernel::isCompiled(device, description)) self.newKernels_.push_back(k);
     auto kernel = gpu::Kernel::create(device, description);
     if (!kernel) return kernel.error();
