@@ -2,15 +2,21 @@
 // field's scale (parity.h).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
 namespace ringlet::parity {
 
 // One outer step, float kernel against float reference: sums along 128 edges of values rounded to 6e-8, and
 // the order of operations is the kernel's own.
 inline constexpr double kOneStep = 2e-6;
 
-// The same for strands of up to 1,000 particles, where the rounding of a chain of turns grows as the root of
-// its length: 2e-6 sqrt(1000 / 128).
-inline constexpr double kOneStepOfLongStrands = 5.6e-6;
+// The same for strands of this many particles: the rounding of a chain of turns grows as the root of its
+// length.
+inline double oneStepOf(std::size_t particles) {
+  return kOneStep * std::sqrt(std::max(1.0, static_cast<double>(particles) / 128));
+}
 
 // 30 Chebyshev iterations of point Jacobi, far from the solution: the k-th iterate changes k^2 times as much
 // as the matrix does, whose entries are rounded to 6e-8.

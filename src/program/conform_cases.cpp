@@ -148,7 +148,7 @@ Settings usualSettings() {
 void checkShape(const ConformCases& cases, const StrandShape& shape, const Material& material,
                 const std::string& name, bool withStorage, const Tell& tell) {
   const parity::ParityCase c{groomOf(shape), material, usualSettings(), kernelOf(shape)};
-  checkStep(cases.device, c, name, parity::kOneStep, tell);
+  checkStep(cases.device, c, name, parity::oneStepOf(shape.capacity()), tell);
   checkFrame(cases.device, c, name, parity::kOneFrame, tell);
   checkSameBits(cases.device, cases.device, c.groom, material, c.settings, c.kernel,
                 name + ": the same bits again", tell);

@@ -1,6 +1,10 @@
 // Implements support/gpu_test.h.
 #include "tests/support/gpu_test.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <string_view>
@@ -71,5 +75,16 @@ void GpuTest::TearDown() {
 }
 
 ComputeDevice& GpuTest::device() { return *sharedDevice; }
+
+bool GpuTest::makes(const KernelChoice& kernel, const Groom& groom) {
+  std::uint32_t run = 0;
+  if (kernel.form == KernelChoice::Form::memory) run = static_cast<std::uint32_t>(kernel.particlesPerLane);
+  if (kernel.form == KernelChoice::Form::serial)
+    for (std::size_t s = 0; s < groom.strandCount(); ++s)
+      run = std::max(run, groom.firstPoint[s + 1] - groom.firstPoint[s]);
+  if (run <= device().limits().longestRunInMemory) return true;
+  fmt::print("LEFT OUT: this device makes no kernel of {} particles a lane in memory\n", run);
+  return false;
+}
 
 }  // namespace ringlet::test

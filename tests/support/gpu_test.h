@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "ringlet/gpu/device.h"
+#include "ringlet/groom/groom.h"
 #include "ringlet/solver/compute_device.h"
+#include "ringlet/solver/kernel_choice.h"
 
 namespace ringlet::test {
 
@@ -23,6 +25,9 @@ class GpuTest : public ::testing::Test {
   /// Opened by the first test of the process that asks, closed after the last; its end is watched for leaks.
   ComputeDevice& device();
   gpu::Device& gpu() { return device().gpu(); }
+  /// Whether the device makes this form of the strand kernel for the groom's strands. NVIDIA's compiler makes
+  /// none of long runs in memory; a test says what it leaves out for that, and goes on.
+  bool makes(const KernelChoice& kernel, const Groom& groom);
 
  private:
   std::size_t messagesBefore_ = 0;
