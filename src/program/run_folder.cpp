@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <system_error>
 #include <utility>
 
@@ -34,7 +35,9 @@ Result<RunFolder> RunFolder::open(const fs::path& folder, Leftovers leftovers) {
   if (code)
     return Error{fmt::format("cannot create the folder {}: {}", folder.string(), code.message()),
                  Fault::output};
-  auto lock = FolderLock::take(folder, "ringlet simulate");
+  // mpirun does not wait for the ranks that it kills, and a script that starts again is quick.
+  constexpr std::chrono::seconds kPatience(3);
+  auto lock = FolderLock::take(folder, "ringlet simulate", kPatience);
   if (!lock) return lock.error();
   RunFolder made(folder, std::move(*lock));
   if (Status read = made.readLeftovers(leftovers); !read) return read.error();

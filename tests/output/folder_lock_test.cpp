@@ -5,8 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 
 #include "tests/support/test_support.h"
 
@@ -45,6 +48,30 @@ TEST(FolderLock, ADeadOwnersIsTakenOver) {
   EXPECT_NE(lock->deadOwner().find("process " + std::to_string(child)), std::string::npos)
       << lock->deadOwner();
   EXPECT_NE(lock->deadOwner().find("the one that dies"), std::string::npos);
+}
+
+TEST(FolderLock, WaitsForAnOwnerThatIsAboutToEnd) {
+  const auto folder = scratchFolder("lock_ending");
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const auto lock = FolderLock::take(folder, "the one that ends");
+    if (write(ends[1], "x", 1) == 1) pause();
+    _exit(1);
+  }
+  char taken = 0;
+  ASSERT_EQ(read(ends[0], &taken, 1), 1);
+  EXPECT_FALSE(FolderLock::take(folder, "impatient"));
+  std::thread end([child] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+  });
+  const auto lock = FolderLock::take(folder, "heir", std::chrono::minutes(1));
+  end.join();
+  ASSERT_TRUE(lock) << lock.error().message;
+  EXPECT_NE(lock->deadOwner().find("the one that ends"), std::string::npos);
 }
 
 TEST(FolderLock, NeedsAFolder) {

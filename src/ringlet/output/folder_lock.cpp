@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "ringlet/base/file_fault.h"
@@ -69,8 +70,11 @@ Error cannotLock(const std::filesystem::path& folder, int code) {
 
 }  // namespace
 
-Result<FolderLock> FolderLock::take(const std::filesystem::path& folder, const std::string& command) {
+Result<FolderLock> FolderLock::take(const std::filesystem::path& folder, const std::string& command,
+                                    std::chrono::milliseconds patience) {
+  using Clock = std::chrono::steady_clock;
   const std::filesystem::path path = folder / ".ringlet.lock";
+  const Clock::time_point end = Clock::now() + patience;
   while (true) {
     const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0644);
     if (file < 0) return cannotLock(folder, errno);
@@ -80,6 +84,10 @@ Result<FolderLock> FolderLock::take(const std::filesystem::path& folder, const s
     const Owner before = ownerIn(file);
     if (isTaken || (!isLocked && isAlive(before))) {
       lock.path_.clear();  // it is not ours to remove
+      if (Clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        continue;
+      }
       return Error{fmt::format("{} is being written by {}; wait for its end, or choose another folder",
                                folder.string(), before.process > 0 ? before.described() : "another process"),
                    Fault::busy};

@@ -2,6 +2,7 @@
 // held with an advisory lock (flock), which the system releases when the process ends, however it ends.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
@@ -12,9 +13,11 @@ namespace ringlet {
 class FolderLock {
  public:
   /// Errors: another process has it (Fault::busy, with its number, host and command), or the folder cannot be
-  /// written. `command`: what to tell others. Where the file system has no locks, the owner's process is
+  /// written. `command`: what to tell others. patience: how long to wait for another process that may be
+  /// about to end, as one that was just killed is. Where the file system has no locks, the owner's process is
   /// looked for on this host.
-  static Result<FolderLock> take(const std::filesystem::path& folder, const std::string& command);
+  static Result<FolderLock> take(const std::filesystem::path& folder, const std::string& command,
+                                 std::chrono::milliseconds patience = {});
 
   FolderLock(FolderLock&& other) noexcept;
   FolderLock& operator=(FolderLock&&) = delete;
