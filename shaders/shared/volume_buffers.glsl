@@ -41,8 +41,8 @@ layout(push_constant) uniform Parameters { VolumeParameters parameters; };
 
 layout(constant_id = kSpecDivided) const bool kDivided = false;  // other devices step some of the strands
 layout(constant_id = kSpecForGpu) const bool kForGpu = false;
-/// Invocations that share a node of the grid. On a GPU the longest sum at a node is what a dispatch takes; a processor's
-/// cores have enough nodes each, and lose by waiting for each other.
+/// Invocations that share a node of the grid. On a GPU the longest sum at a node is what a dispatch takes; cores of a
+/// processor have enough nodes each, and lose by waiting for each other.
 const uint kNodeLanes = kForGpu ? 4 : 1;
 
 /// Finds the volume particle of this invocation; false if there is none.

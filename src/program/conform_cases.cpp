@@ -175,7 +175,9 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
   }
   checkShape(cases, serialShape(limits), {}, "hair alone, serial", !cases.quick, tell);
   if (cases.quick || !limits.hasSubgroupShuffle || limits.subgroupSize == 1) return;
-  const StrandShape widest{.lanes = limits.subgroupSize, .particlesPerLane = 48, .inMemory = true};
+  const StrandShape widest{.lanes = limits.subgroupSize,
+                           .particlesPerLane = std::min(48u, limits.longestRunInMemory),
+                           .inMemory = true};
   checkShape(cases, widest, {}, "hair alone, " + widest.describe(), false, tell);
 }
 

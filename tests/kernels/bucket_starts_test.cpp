@@ -80,15 +80,16 @@ class BucketStarts : public GpuTest {
 };
 
 TEST_F(BucketStarts, ArePrefixSums) {
-  const Scan contacts{"contact_scan",
-                      describeContactKernel(ContactKernel::scan, ContactTaper::distance, false, 64, false, 1),
-                      layout::kBindGrid,
-                      layout::kBindControl,
-                      sizeof(layout::ContactControl),
-                      offsetof(layout::ContactControl, finished),
-                      true};
+  const Scan contacts{
+      "contact_scan",
+      describeContactKernel(ContactKernel::scan, ContactTaper::distance, false, 64, false, false),
+      layout::kBindGrid,
+      layout::kBindControl,
+      sizeof(layout::ContactControl),
+      offsetof(layout::ContactControl, finished),
+      true};
   const Scan volume{"volume_scan",
-                    describeVolumeKernel(VolumeKernel::scan, false, 1),
+                    describeVolumeKernel(VolumeKernel::scan, false, false),
                     layout::kBindVolumeCells,
                     layout::kBindVolumeControl,
                     sizeof(layout::VolumeControl),

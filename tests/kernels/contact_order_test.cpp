@@ -60,7 +60,7 @@ class ContactOrder : public GpuTest {
       rest.particle = c, rest.strand = c / 2;
     }
     auto kernel = gpu::Kernel::create(
-        gpu(), describeContactKernel(ContactKernel::order, ContactTaper::distance, false, 64, texels, 1));
+        gpu(), describeContactKernel(ContactKernel::order, ContactTaper::distance, false, 64, texels, false));
     auto unused = createZero(gpu(), kContacts * sizeof(layout::ContactPlace), "unused");
     auto position = createFilled(gpu(), positions, "positions");
     auto rest = createFilled(gpu(), rests, "contacts");

@@ -53,9 +53,8 @@ class VolumeGather : public GpuTest {
     std::vector<std::int32_t> sums;
   };
 
-  // The nodes from these parcels; of divided strands from their sums, to which `others` are added. lanes:
-  // that share a node.
-  Nodes nodesFrom(const std::vector<InCell>& parcels, bool texels, std::uint32_t lanes, bool divided,
+  // The nodes from these parcels; of divided strands from their sums, to which `others` are added.
+  Nodes nodesFrom(const std::vector<InCell>& parcels, bool texels, bool forGpu, bool divided,
                   const std::vector<std::int32_t>& others = {}) {
     std::vector<std::uint32_t> words(kCells), starts(kCells + 1);
     std::vector<layout::VolumeParcel> stand;
@@ -80,7 +79,7 @@ class VolumeGather : public GpuTest {
     parameters.count = kParcels, parameters.cellCapacity = kCells, parameters.sorts = 1;
     parameters.mostRate = kMostRate, parameters.unitsPerMass = 1, parameters.unitsPerGain = 1;
     const auto run = [&](VolumeKernel which) {
-      auto kernel = gpu::Kernel::create(gpu(), describeVolumeKernel(which, texels, lanes, divided));
+      auto kernel = gpu::Kernel::create(gpu(), describeVolumeKernel(which, texels, forGpu, divided));
       EXPECT_TRUE(kernel);
       gpu::BufferTable buffers{{layout::kBindVolumeCells, *cells},   {layout::kBindVolumeCellTexels, *cells},
                                {layout::kBindVolumeParcels, *all},   {layout::kBindVolumeParcelTexels, *all},
@@ -90,7 +89,7 @@ class VolumeGather : public GpuTest {
       auto bindings = gpu::Bindings::create(**kernel, buffers);
       auto recorder = gpu::Recorder::create(gpu(), "nodes");
       EXPECT_TRUE(bindings && recorder && recorder->begin());
-      recorder->dispatch(**kernel, *bindings, parameters, (lanes * kNodes + 63) / 64);
+      recorder->dispatch(**kernel, *bindings, parameters, ((forGpu ? 4 : 1) * kNodes + 63) / 64);
       EXPECT_TRUE(recorder->submitAndWait());
     };
     run(VolumeKernel::gather);
@@ -114,20 +113,18 @@ void expectSameBits(const std::vector<layout::vec4>& a, const std::vector<layout
         << "node " << n;
 }
 
-constexpr std::array<std::uint32_t, 3> kLanes{1, 2, 4};
-
 // Nor on who adds them up.
 TEST_F(VolumeGather, DoesNotDependOnTheOrderOfParcels) {
   for (const bool texels : {false, true}) {
-    const auto one = nodesFrom(randomParcels(1), texels, 1, false);
-    for (const std::uint32_t lanes : kLanes)
-      expectSameBits(one.nodes, nodesFrom(randomParcels(2), texels, lanes, false).nodes);
+    const auto one = nodesFrom(randomParcels(1), texels, false, false);
+    for (const bool forGpu : {false, true})
+      expectSameBits(one.nodes, nodesFrom(randomParcels(2), texels, forGpu, false).nodes);
   }
 }
 
 TEST_F(VolumeGather, IsTheMeanInDouble) {
   const auto parcels = randomParcels(1);
-  const auto found = nodesFrom(parcels, true, 1, false).nodes;
+  const auto found = nodesFrom(parcels, true, false, false).nodes;
   for (std::uint32_t n = 0; n < kNodes; ++n) {
     const std::array<double, 3> at{double(n % kSide), double(n / kSide % kSide), double(n / kSide / kSide)};
     std::array<double, 4> sum{};
@@ -151,10 +148,10 @@ TEST_F(VolumeGather, DoesNotDependOnHowParcelsAreDivided) {
   const auto all = randomParcels(1);
   std::vector<InCell> some, rest;
   for (std::size_t k = 0; k < all.size(); ++k) (k % 3 == 0 ? some : rest).push_back(all[k]);
-  for (const std::uint32_t lanes : kLanes) {
-    const auto others = nodesFrom(rest, true, lanes, true);
-    expectSameBits(nodesFrom(some, true, lanes, true, others.sums).nodes,
-                   nodesFrom(all, true, 1, false).nodes);
+  for (const bool forGpu : {false, true}) {
+    const auto others = nodesFrom(rest, true, forGpu, true);
+    expectSameBits(nodesFrom(some, true, forGpu, true, others.sums).nodes,
+                   nodesFrom(all, true, false, false).nodes);
   }
 }
 

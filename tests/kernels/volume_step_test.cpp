@@ -309,8 +309,8 @@ TEST_F(VolumeStep, MoreThanADeviceCanLookThroughIsAnError) {
   if (!device().limits().endsLoopsEarly) GTEST_SKIP() << "this device does not end loops early";
   SwatchParameters parameters;
   parameters.curl.particleCount = 4;
-  parameters.columnCount = 250, parameters.rowCount = 140;
-  parameters.spacing = 0.001;
+  parameters.columnCount = 500, parameters.rowCount = 280;
+  parameters.spacing = 0.0005;
   Settings settings = volumeSettings();
   settings.contacts.volumeCell = 5;
   auto simulation = Simulation::create(device(), *makeSwatch(parameters), {}, settings);

@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <optional>
 #include <string_view>
+#include <vector>
+
+#include "ringlet/solver/shape_plan.h"
 
 namespace ringlet::test {
 namespace {
@@ -77,14 +80,14 @@ void GpuTest::TearDown() {
 ComputeDevice& GpuTest::device() { return *sharedDevice; }
 
 bool GpuTest::makes(const KernelChoice& kernel, const Groom& groom) {
-  std::uint32_t run = 0;
-  if (kernel.form == KernelChoice::Form::memory) run = static_cast<std::uint32_t>(kernel.particlesPerLane);
-  if (kernel.form == KernelChoice::Form::serial)
-    for (std::size_t s = 0; s < groom.strandCount(); ++s)
-      run = std::max(run, groom.firstPoint[s + 1] - groom.firstPoint[s]);
-  if (run <= device().limits().longestRunInMemory) return true;
-  fmt::print("LEFT OUT: this device makes no kernel of {} particles a lane in memory\n", run);
-  return false;
+  if (device().limits().isCpu) return true;
+  std::vector<std::uint32_t> counts;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    counts.push_back(groom.firstPoint[s + 1] - groom.firstPoint[s]);
+  std::ranges::sort(counts);
+  const auto planned = planRanges(counts, device().limits(), kernel);
+  if (!planned) fmt::print("LEFT OUT: {}\n", planned.error().message);
+  return static_cast<bool>(planned);
 }
 
 }  // namespace ringlet::test

@@ -25,8 +25,8 @@ class GpuTest : public ::testing::Test {
   /// Opened by the first test of the process that asks, closed after the last; its end is watched for leaks.
   ComputeDevice& device();
   gpu::Device& gpu() { return device().gpu(); }
-  /// Whether the device makes this form of the strand kernel for the groom's strands. NVIDIA's compiler makes
-  /// none of long runs in memory; a test says what it leaves out for that, and goes on.
+  /// Whether the device makes this form of the strand kernel for the groom's strands: a processor makes all,
+  /// a GPU none of long runs. A test says what it leaves out for that, and goes on.
   bool makes(const KernelChoice& kernel, const Groom& groom);
 
  private:
