@@ -13,6 +13,7 @@ namespace {
 
 using gpu::Buffer;
 using gpu::BufferKind;
+using gpu::BufferUse;
 
 // Bytes without a short period, different for every seed.
 std::vector<std::byte> someBytes(std::size_t count, unsigned seed) {
@@ -130,6 +131,17 @@ TEST_F(Buffers, MoveLeavesOneOwner) {
   std::vector<std::byte> found(32);
   ASSERT_TRUE(first->download(found));
   EXPECT_TRUE(found == expected);
+}
+
+// What kernels see in parts only may be larger than what they may see at once.
+TEST_F(Buffers, MayBeLargerInParts) {
+  const std::uint64_t bytes = gpu().properties().maxStorageBufferRange + 16;
+  if (bytes > std::min<std::uint64_t>(gpu().properties().maxAllocationBytes, 1u << 30))
+    GTEST_SKIP() << "kernels see all that this device allocates, or a test should not ask for it";
+  EXPECT_FALSE(Buffer::create(gpu(), bytes, BufferKind::stream, "seen as a whole"));
+  const auto large = Buffer::create(gpu(), bytes, BufferKind::stream, "seen in parts", BufferUse::inParts);
+  ASSERT_TRUE(large) << large.error().message;
+  EXPECT_EQ(large->mapped().size(), bytes);
 }
 
 TEST_F(Buffers, TooLargeIsRefusedWithBothNumbers) {

@@ -30,11 +30,12 @@ std::optional<std::uint32_t> bestHeap(const Device& device, BufferKind kind) {
   return device.memory().memoryTypes[types.front()].heapIndex;
 }
 
-Status checkSize(const DeviceProperties& limits, std::uint64_t bytes, const std::string& name) {
+Status checkSize(const DeviceProperties& limits, std::uint64_t bytes, const std::string& name,
+                 BufferUse use) {
   // The comparison comes before rounding up, which could overflow.
-  const std::uint64_t largest = std::min(limits.maxStorageBufferRange, limits.maxAllocationBytes);
+  const bool isRange = use == BufferUse::whole && limits.maxStorageBufferRange <= limits.maxAllocationBytes;
+  const std::uint64_t largest = isRange ? limits.maxStorageBufferRange : limits.maxAllocationBytes;
   if (bytes <= largest / kRecordBytes * kRecordBytes) return {};
-  const bool isRange = limits.maxStorageBufferRange <= limits.maxAllocationBytes;
   return Error{fmt::format(
       "could not make the buffer '{}' of {} bytes on {}: this device allows at most {} bytes ({}). Use less "
       "data, or another device",
@@ -77,8 +78,9 @@ Status Buffer::bind(std::uint64_t offset) {
   return {};
 }
 
-Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name) {
-  if (Status status = checkSize(device.properties(), bytes, name); !status) return status.error();
+Result<Buffer> Buffer::create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name,
+                              BufferUse use) {
+  if (Status status = checkSize(device.properties(), bytes, name, use); !status) return status.error();
   auto made = withoutMemory(device, bytes, kind, name);
   if (!made) return made;
   Buffer& self = *made;

@@ -19,10 +19,15 @@ enum class BufferKind {
   stream,   // close to the host, always mapped, coherent; for data that is often transferred
 };
 
+/// What of a buffer kernels are given: the whole, or at most parts of it (Buffer::part), which alone must be
+/// as small as the device wants it.
+enum class BufferUse { whole, inParts };
+
 class Buffer {
  public:
   /// The content is undefined until written. No bytes are fine, and can be bound. `name` is for messages.
-  static Result<Buffer> create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name);
+  static Result<Buffer> create(Device& device, std::uint64_t bytes, BufferKind kind, const std::string& name,
+                               BufferUse use = BufferUse::whole);
   /// `bytes` of `whole` from `offset` on, a multiple of its alignment(), as a buffer of its own in the same
   /// memory, which it keeps: what is written by one is read by the other, after a barrier.
   static Result<Buffer> part(const Buffer& whole, std::uint64_t offset, std::uint64_t bytes,

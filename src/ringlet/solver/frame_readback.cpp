@@ -63,8 +63,8 @@ Result<std::shared_ptr<const gpu::Buffer>> FramePlaces::onDevice(gpu::Device& de
 
 Result<FrameReadback> FrameReadback::create(gpu::Device& device, const DeviceGroom& groom,
                                             std::uint32_t count, std::uint64_t mostBufferBytes) {
-  auto frame =
-      gpu::Buffer::create(device, count * kPlaceBytes, gpu::BufferKind::stream, "positions read back");
+  auto frame = gpu::Buffer::create(device, count * kPlaceBytes, gpu::BufferKind::stream,
+                                   "positions read back", gpu::BufferUse::inParts);
   if (!frame) return frame.error();
   FrameReadback self(std::move(*frame));
   std::ranges::fill(self.positions(), Vec3f());  // places of rigid strands stay so
