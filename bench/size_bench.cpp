@@ -10,6 +10,7 @@
 
 #include "bench/clocks.h"
 #include "ringlet/groom/generate.h"
+#include "ringlet/solver/shape_plan.h"
 #include "ringlet/solver/simulation.h"
 
 namespace {
@@ -45,13 +46,29 @@ Result<FrameSeconds> step(Simulation& simulation) {
   return seconds;
 }
 
+// The lanes and run that strands, all of one length, are planned to have: fewer strands might have others,
+// and other bits.
+Result<KernelChoice> kernelOf(const ComputeDevice& device, const Groom& groom) {
+  const std::vector<std::uint32_t> counts(groom.strandCount(), groom.firstPoint[1] - groom.firstPoint[0]);
+  const auto ranges = planRanges(counts, device.limits(), {});
+  if (!ranges) return ranges.error();
+  const StrandShape& shape = ranges->front().shape;
+  KernelChoice kernel;
+  if (shape.inMemory) kernel.form = KernelChoice::Form::memory;
+  kernel.lanes = static_cast<int>(shape.lanes);
+  kernel.particlesPerLane = static_cast<int>(shape.particlesPerLane);
+  return kernel;
+}
+
 // Particles of the sampled strands that are elsewhere when those are simulated without the others.
 Result<std::size_t> countOthers(const ComputeDevice& device, const Groom& groom, std::size_t stride,
                                 const std::vector<Vec3f>& positions) {
   Groom sample;
   sample.metresPerUnit = groom.metresPerUnit;
   for (std::size_t s = 0; s < groom.strandCount(); s += stride) sample.addStrand(groom.strand(s));
-  auto simulation = Simulation::create(device, sample, {}, {});
+  const auto kernel = kernelOf(device, groom);
+  if (!kernel) return kernel.error();
+  auto simulation = Simulation::create(device, sample, {}, {}, {}, *kernel);
   if (!simulation) return simulation.error();
   if (auto stepped = step(*simulation); !stepped) return stepped.error();
   const auto alone = simulation->positions();
