@@ -12,7 +12,7 @@ namespace ringlet::parity {
 // the order of operations is the kernel's own.
 inline constexpr double kOneStep = 2e-6;
 
-// The same for strands of this many particles: the rounding of a chain of turns grows as the root of its
+// The same for strands of more than 128 particles: the rounding of a chain of turns grows as the root of its
 // length.
 inline double oneStepOf(std::size_t particles) {
   return kOneStep * std::sqrt(std::max(1.0, static_cast<double>(particles) / 128));

@@ -146,9 +146,10 @@ Settings usualSettings() {
 
 // `material` decides whether the shape is asked for by hair alone or by other work.
 void checkShape(const ConformCases& cases, const StrandShape& shape, const Material& material,
-                const std::string& name, bool withStorage, const Tell& tell) {
+                const std::string& name, bool withStorage, const Tell& tell,
+                double oneStep = parity::kOneStep) {
   const parity::ParityCase c{groomOf(shape), material, usualSettings(), kernelOf(shape)};
-  checkStep(cases.device, c, name, parity::oneStepOf(shape.capacity()), tell);
+  checkStep(cases.device, c, name, oneStep, tell);
   checkFrame(cases.device, c, name, parity::kOneFrame, tell);
   checkSameBits(cases.device, cases.device, c.groom, material, c.settings, c.kernel,
                 name + ": the same bits again", tell);
@@ -178,7 +179,8 @@ void checkShapes(const ConformCases& cases, const Tell& tell) {
   const StrandShape widest{.lanes = limits.subgroupSize,
                            .particlesPerLane = std::min(48u, limits.longestRunInMemory),
                            .inMemory = true};
-  checkShape(cases, widest, {}, "hair alone, " + widest.describe(), false, tell);
+  checkShape(cases, widest, {}, "hair alone, " + widest.describe(), false, tell,
+             parity::oneStepOf(widest.capacity()));
 }
 
 // `count` points at random in a cube of `side` [m].
