@@ -141,7 +141,7 @@ elif fetch_nvk >"$logs/fetch_nvk.txt" 2>&1; then
     try "NVK of trixie" "kernels, $gpu" run_nvk $gpu $build/ringlet kernels --statistics
   done
 else
-  skip "NVK of trixie" "could not be fetched (apt-get, gcc?)"
+  skip "NVK of trixie" "cannot be had (apt-get, gcc?)"
 fi
 
 [ ${#table[@]} -gt 0 ] || { echo "second_drivers: no driver's name begins with '$only'" >&2; exit 1; }
