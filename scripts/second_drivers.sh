@@ -4,7 +4,7 @@
 # compile. Fetches them into build/drivers (SwiftShader by npm, and it needs brotli; Mesa by apt-get from the mirror this
 # machine uses; for NVK, Debian trixie's libraries and Mesa's source too, 110 MB, and it needs gcc). What cannot be had is
 # skipped, and the table at the end says so. Nothing is installed. Needs a build: bash scripts/test.sh, or
-# cmake --preset ci && cmake --build --preset ci. Takes TIME on two cores.
+# cmake --preset ci && cmake --build --preset ci. Takes 45 to 75 minutes on two cores, of which NVK 13.
 #   bash scripts/second_drivers.sh               everything
 #   bash scripts/second_drivers.sh swiftshader   only rows whose driver begins so
 set -uo pipefail
