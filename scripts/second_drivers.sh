@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Runs what is quick on Vulkan drivers other than the machine's own: SwiftShader, lavapipe at 128 and 512 bits, newer
-# lavapipe and RADV from Debian's backports, and RADV's null hardware, which only compiles. Fetches them into
-# build/drivers (SwiftShader by npm, and it needs brotli; Mesa by apt-get from the mirror this machine uses). What cannot
-# be had is skipped, and the table at the end says so. Nothing is installed. Needs a build: bash scripts/test.sh, or
-# cmake --preset ci && cmake --build --preset ci. Takes half an hour to an hour on two cores.
+# lavapipe and RADV from Debian's backports, RADV's null hardware and NVK on a device that does nothing, which only
+# compile. Fetches them into build/drivers (SwiftShader by npm, and it needs brotli; Mesa by apt-get from the mirror this
+# machine uses; for NVK, Debian trixie's libraries and Mesa's source too, 110 MB, and it needs gcc). What cannot be had is
+# skipped, and the table at the end says so. Nothing is installed. Needs a build: bash scripts/test.sh, or
+# cmake --preset ci && cmake --build --preset ci. Takes 45 to 75 minutes on two cores, of which NVK 13.
 #   bash scripts/second_drivers.sh               everything
 #   bash scripts/second_drivers.sh swiftshader   only rows whose driver begins so
 set -uo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/.." || exit 1
 
 only=${1:-}
 drivers=$PWD/build/drivers
@@ -15,6 +16,8 @@ build=build/ci
 logs=$drivers/logs
 mkdir -p "$logs"
 [ -x $build/ringlet ] || { echo "second_drivers: no $build/ringlet; build first: cmake --preset ci && cmake --build --preset ci" >&2; exit 1; }
+# shellcheck source=scripts/second_drivers/nvk.sh
+. scripts/second_drivers/nvk.sh
 export RINGLET_REQUIRE_GPU=1 MESA_SHADER_CACHE_DISABLE=1 RINGLET_CACHE_DIR=$drivers/cache
 
 table=()
@@ -24,11 +27,13 @@ failures=0
 row() {
   table+=("$(printf '%-22s  %-34s  %-8s  %s' "$1" "$2" "$3" "$4")")
 }
+# wanted DRIVER: whether its rows are.
+wanted() { [[ ${1,,} == "${only,,}"* ]]; }
 # try DRIVER WHAT COMMAND...: one row; what the command prints goes to a log.
 try() {
   local driver=$1 what=$2 begin=$SECONDS log result=ok
   shift 2
-  [[ ${driver,,} == "${only,,}"* ]] || return 0
+  wanted "$driver" || return 0
   log="$logs/${driver// /_}-${what//[^a-zA-Z0-9]/_}.txt"
   echo "second_drivers: $driver: $what ..."
   "$@" >"$log" 2>&1 || { result=FAILED; failures=$((failures + 1)); tail -n 15 "$log"; echo "  (all of it: $log)"; }
@@ -36,7 +41,7 @@ try() {
 }
 # skip DRIVER WHY
 skip() {
-  [[ ${1,,} == "${only,,}"* ]] || return 0
+  wanted "$1" || return 0
   echo "second_drivers: SKIPPED $1: $2" >&2
   row "$1" "$2" SKIPPED ""
 }
@@ -52,27 +57,15 @@ fetch_swiftshader() {
   [ -f "$drivers/swiftshader/vk_swiftshader_icd.json" ]
 }
 
-# The mirror of this machine, from apt's sources in either format.
-mirror() {
-  sed -n 's/^URIs: *\([^ ]*\).*/\1/p' /etc/apt/sources.list.d/*.sources 2>/dev/null | head -n 1 | grep . ||
-    sed -n 's/^deb \(\[[^]]*\] *\)\{0,1\}\([^ ]*\) .*/\2/p' /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null | head -n 1 | grep .
-}
-
 # fetch_mesa: the backports' Mesa drivers, unpacked to $drivers/mesa with ICD files that name them.
 fetch_mesa() {
-  local apt=$drivers/apt suite uri keyring
+  local suite
   [ -f "$drivers/mesa/lvp.json" ] && [ -f "$drivers/mesa/radeon.json" ] && return 0
-  command -v apt-get >/dev/null || return 1
   suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-}-backports")
-  uri=$(mirror) || return 1
-  keyring=/usr/share/keyrings/debian-archive-keyring.gpg
-  mkdir -p "$apt/lists/partial" "$apt/cache/archives/partial" "$drivers/mesa/debs"
-  echo "deb [signed-by=$keyring] $uri $suite main" >"$apt/sources.list"
-  local options=(-o "Dir::Etc::SourceList=$apt/sources.list" -o Dir::Etc::SourceParts=/dev/null -o "Dir::State::Lists=$apt/lists"
-    -o "Dir::Cache=$apt/cache" -o APT::Sandbox::User=root)
-  (apt-get "${options[@]}" update && cd "$drivers/mesa/debs" &&
+  mkdir -p "$drivers/mesa/debs"
+  (use_suites "$drivers/apt" "$suite" && cd "$drivers/mesa/debs" &&
     for package in mesa-vulkan-drivers libdrm2 libdrm-amdgpu1; do
-      apt-get "${options[@]}" download "$package/$suite" || apt-get "${options[@]}" download "$package" || exit 1
+      apt_there download "$package/$suite" || apt_there download "$package" || exit 1
     done
     for deb in ./*.deb; do dpkg-deb -x "$deb" .. || exit 1; done) >"$logs/fetch_mesa.txt" 2>&1 || return 1
   local lib
@@ -111,13 +104,17 @@ for bits in 128 512; do
     --gtest_filter='*EveryShape*'
 done
 
-if fetch_swiftshader; then
+if ! wanted SwiftShader; then
+  :
+elif fetch_swiftshader; then
   quick SwiftShader icd "$drivers/swiftshader/vk_swiftshader_icd.json"
 else
   skip SwiftShader "could not be fetched (npm and brotli?)"
 fi
 
-if fetch_mesa; then
+if ! wanted "lavapipe of backports" && ! wanted "RADV of backports"; then
+  :
+elif fetch_mesa; then
   newer() { LD_LIBRARY_PATH=$(cat "$drivers/mesa/lib") icd "$drivers/mesa/$1.json" "${@:2}"; }
   quick "lavapipe of backports" newer lvp
   for family in navi21 navi31 vega10; do
@@ -128,13 +125,23 @@ else
   skip "RADV of backports" "could not be fetched (apt-get?)"
 fi
 
-radv=$(ls /usr/share/vulkan/icd.d/radeon_icd*.json 2>/dev/null | head -n 1)
+radv=$(find /usr/share/vulkan/icd.d -name 'radeon_icd*.json' 2>/dev/null | head -n 1)
 if [ -n "$radv" ]; then
   for family in navi21 vega10; do
     try "RADV of this machine" "kernels, $family" icd "$radv" env RADV_FORCE_FAMILY=$family $build/ringlet kernels
   done
 else
   skip "RADV of this machine" "no radeon_icd in /usr/share/vulkan/icd.d"
+fi
+
+if ! wanted "NVK of trixie"; then
+  :
+elif fetch_nvk >"$logs/fetch_nvk.txt" 2>&1; then
+  for gpu in sm75 sm86 sm89 sm90 sm120; do
+    try "NVK of trixie" "kernels, $gpu" run_nvk $gpu $build/ringlet kernels --statistics
+  done
+else
+  skip "NVK of trixie" "cannot be had (apt-get, gcc?)"
 fi
 
 [ ${#table[@]} -gt 0 ] || { echo "second_drivers: no driver's name begins with '$only'" >&2; exit 1; }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -19,6 +20,7 @@
 #include "program/kernels_list.h"
 #include "program/kernels_statistics.h"
 #include "ringlet/gpu/device.h"
+#include "ringlet/solver/shape_plan.h"
 
 namespace ringlet::program {
 namespace {
@@ -30,6 +32,7 @@ constexpr const char* kHelp =
     "  ringlet kernels\n"
     "  ringlet kernels --statistics --json kernels.json\n"
     "  ringlet kernels --only 'hair alone'\n"
+    "  ringlet kernels --statistics --only 'hair alone' --shapes 8x4,4x8\n"
     "  RADV_FORCE_FAMILY=navi21 ringlet kernels --statistics\n"
     "\n"
     "Compiles every kernel that a run could use on this device: the strand kernels of each kind of work in\n"
@@ -57,6 +60,7 @@ constexpr const char* kHelp =
 // The command line as typed.
 struct Typed {
   std::string device, only;
+  std::vector<std::string> shapes;  // LANESxRUN
   std::filesystem::path json;
   bool statistics = false;
   int one = -1;  // in a child: which kernel; statistics then say how
@@ -102,10 +106,32 @@ int fail(const Error& error) {
   return exitCodeOf(error);
 }
 
+// Of the device's shapes with runs in registers, those that are written as typed.
+Result<std::vector<StrandShape>> shapesOf(const Typed& typed, const DeviceLimits& limits) {
+  std::vector<StrandShape> shapes;
+  const std::vector<ShapeCost> offered = shapeCosts(limits);
+  for (const std::string& text : typed.shapes) {
+    const auto found = std::ranges::find_if(offered, [&](const ShapeCost& one) {
+      return !one.shape.inMemory && text == fmt::format("{}x{}", one.shape.lanes, one.shape.particlesPerLane);
+    });
+    if (found == offered.end())
+      return Error{fmt::format(
+          "--shapes {}: no such shape with runs in registers here; it is LANESxRUN, as in 8x4, with lanes "
+          "a power of two up to {}, and a run of {} or more",
+          text, limits.subgroupSize, kShortestRun)};
+    shapes.push_back(found->shape);
+  }
+  return shapes;
+}
+
 // With statistics first; where the driver dies of them, without.
 CompiledKernel compileSafely(const Typed& typed, int device, std::size_t index) {
-  const std::vector<std::string> arguments{"kernels", "--device", std::to_string(device), "--one",
-                                           std::to_string(index)};
+  std::vector<std::string> arguments{"kernels", "--device", std::to_string(device), "--one",
+                                     std::to_string(index)};
+  if (!typed.shapes.empty()) {
+    arguments.push_back("--shapes");
+    arguments.push_back(fmt::format("{}", fmt::join(typed.shapes, ",")));
+  }
   if (!typed.statistics) return compileInChild(arguments);
   std::vector<std::string> withStatistics = arguments;
   withStatistics.push_back("--statistics");
@@ -119,7 +145,9 @@ CompiledKernel compileSafely(const Typed& typed, int device, std::size_t index) 
 int run(const Typed& typed) {
   const auto device = openDevice(typed);
   if (!device) return fail(device.error());
-  const std::vector<ListedKernel> kernels = listKernels(*device);
+  const auto shapes = shapesOf(typed, device->limits());
+  if (!shapes) return fail(shapes.error());
+  const std::vector<ListedKernel> kernels = listKernels(*device, *shapes);
   if (typed.one >= 0) {
     if (typed.one >= static_cast<int>(kernels.size())) return fail({"there are fewer kernels than that"});
     printCompiled(compileKernel(*device, kernels[static_cast<std::size_t>(typed.one)]));
@@ -164,6 +192,11 @@ void addKernelsCommand(CLI::App& app, int& exitCode) {
   command->add_option("--json", typed->json, "Writes it to this file as one JSON object, too")
       ->type_name("FILE");
   command->add_option("--only", typed->only, "Only kernels with this in their name")->type_name("TEXT");
+  command
+      ->add_option("--shapes", typed->shapes,
+                   "Strand kernels in these shapes, LANESxRUN,..., and not in those that are planned")
+      ->type_name("SHAPES")
+      ->delimiter(',');
   // In a child process: compiles the kernel of this number and prints one line.
   command->add_option("--one", typed->one)->group("");
   command->callback([typed, &exitCode] { exitCode = run(*typed); });

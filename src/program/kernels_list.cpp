@@ -39,16 +39,19 @@ std::vector<Work> strandWorks() {
 
 }  // namespace
 
-std::vector<ListedKernel> listKernels(const ComputeDevice& device) {
+std::vector<ListedKernel> listKernels(const ComputeDevice& device, std::span<const StrandShape> shapes) {
   const bool texels = isSeenAsTexels(device.gpu(), kLeastTexelBytes);
   std::vector<ListedKernel> kernels;
   const StrandShape serial{
       .lanes = 1, .particlesPerLane = std::min(64u, device.limits().longestRunInMemory), .inMemory = true};
   for (Work& work : strandWorks()) {
     work.options.texels = texels && !work.options.contacts;
-    std::vector<StrandShape> shapes = plannedShapes(device.limits(), work.shapes, kUsualLengths, true);
-    if (std::ranges::none_of(shapes, &StrandShape::serial)) shapes.push_back(serial);
-    for (const StrandShape& shape : shapes)
+    std::vector<StrandShape> ofWork(shapes.begin(), shapes.end());
+    if (shapes.empty()) {
+      ofWork = plannedShapes(device.limits(), work.shapes, kUsualLengths, true);
+      if (std::ranges::none_of(ofWork, &StrandShape::serial)) ofWork.push_back(serial);
+    }
+    for (const StrandShape& shape : ofWork)
       kernels.push_back({fmt::format("strand_step, {}, {}", work.name, shape.describe()),
                          describeStrandKernel(shape, work.options)});
   }

@@ -1,8 +1,9 @@
 // Implements kernels_statistics.h, by the names that these give:
 //   RADV    VGPRs, SGPRs, Spilled VGPRs, Spilled SGPRs, Scratch size, Code size, Subgroups per SIMD
 //   ANV     Instruction Count, Spill count, Fill count, Scratch Memory Size, Max dispatch width
-//   NVK     Instruction count, Code Size, Number of GPRs, SLM Size, Spills to memory, Spills to reg, Max
-//   warps/SM NVIDIA  Register Count, Binary Size, Stack Size, Local Memory
+//   NVK     Instruction count, Code size, Number of GPRs, SLM size (local memory), Max warps/SM,
+//           Spills to memory, Fills from memory, Spills to reg, Fills from reg
+//   NVIDIA  Register Count, Binary Size, Stack Size, Local Memory
 #include "program/kernels_statistics.h"
 
 #include <fmt/format.h>

@@ -62,6 +62,24 @@ TEST_F(Kernels, WhatIsKnownIsThereWhenItIsKilled) {
   EXPECT_FALSE(report["driver"].get<std::string>().empty());
 }
 
+TEST_F(Kernels, StrandsAreInTheShapesThatAreAskedFor) {
+  const auto result = runProgram(
+      folder_, {"kernels", "--only", "hair alone", "--shapes", "2x5,1x7", "--json", "kernels.json"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  const json report = json::parse(test::readText(folder_ / "kernels.json"), nullptr, false);
+  ASSERT_TRUE(report.is_object());
+  ASSERT_EQ(report["kernels"].size(), 2u) << report;
+  EXPECT_EQ(report["kernels"][0]["name"], "strand_step, hair alone, lanes 2 x 5");
+  EXPECT_EQ(report["kernels"][1]["name"], "strand_step, hair alone, lanes 1 x 7");
+  EXPECT_EQ(report["kernels"][0]["compiled"], true) << report;
+
+  for (const char* none : {"3x4", "2x3", "2x9999", "2", "x", "two by four", "02x5"}) {
+    const auto refused = runProgram(folder_, {"kernels", "--shapes", none});
+    EXPECT_EQ(refused.exitCode, 1) << none;
+    EXPECT_NE(refused.err.find("power of two"), std::string::npos) << refused.err;
+  }
+}
+
 // The process that compiles the first kernel, by itself: one JSON line.
 TEST_F(Kernels, AChildPrintsOneLine) {
   const auto result = runProgram(folder_, {"kernels", "--one", "0"});

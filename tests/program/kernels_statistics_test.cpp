@@ -13,7 +13,7 @@ TEST(KernelsStatistics, SpillsAreWhatGoesThroughMemory) {
   EXPECT_EQ(flagsOf(Statistics{{"Spilled VGPRs", 16}}), Flags{"spills"}) << "RADV";
   EXPECT_EQ(flagsOf(Statistics{{"Spilled VGPRs", 0}, {"Spilled SGPRs", 40}}), Flags{}) << "RADV";
   EXPECT_EQ(flagsOf(Statistics{{"Spill count", 3}}), Flags{"spills"}) << "ANV";
-  EXPECT_EQ(flagsOf(Statistics{{"Spills to memory", 0}, {"Spills to reg", 12}, {"SLM Size", 0}}), Flags{})
+  EXPECT_EQ(flagsOf(Statistics{{"Spills to memory", 0}, {"Spills to reg", 12}, {"SLM size", 0}}), Flags{})
       << "NVK";
   EXPECT_EQ(flagsOf(Statistics{{"Spills to memory", 4}, {"Spills to reg", 12}}), Flags{"spills"}) << "NVK";
   EXPECT_EQ(flagsOf(Statistics{{"Register Count", 255}, {"Local Memory Size", 128}}), Flags{"spills"})
@@ -37,11 +37,12 @@ TEST(KernelsStatistics, TheLineHasRegistersSpillsMemoryAndCode) {
                                       {"Static cycle count", 12000},
                                       {"Max warps/SM", 8},
                                       {"Number of GPRs", 255},
-                                      {"SLM Size", 16},
+                                      {"SLM size", 16},
+                                      {"Fills from memory", 4},
                                       {"Spills to reg", 3},
-                                      {"Code Size", 76800}}),
-            "Instruction count 4039, Max warps/SM 8, Number of GPRs 255, SLM Size 16, Spills to reg 3, "
-            "Code Size 76800");
+                                      {"Code size", 76800}}),
+            "Instruction count 4039, Max warps/SM 8, Number of GPRs 255, SLM size 16, Fills from memory 4, "
+            "Spills to reg 3, Code size 76800");
   EXPECT_EQ(statisticsText(Statistics{{"Register Count", 168},
                                       {"Binary Size", 65536},
                                       {"Stack Size", 0},
