@@ -1,5 +1,5 @@
 // Mesa's no-op nouveau device, and what it lacks for newer GPUs: the classes of their engines, which NVK chooses by, and
-// the parameters it asks for. fetch_nvk.sh builds it with Mesa's sources; NOUVEAU_CHIPSET says which GPU it is.
+// the parameters it asks for. nvk.sh builds it with Mesa's sources; NOUVEAU_CHIPSET says which GPU it is.
 #include "nouveau/drm-shim/nouveau_noop.c"
 
 static const uint64_t kMemory = 16ull << 30;
