@@ -58,6 +58,8 @@ items() {
   item render_100000 40 ringlet render "$work/run-render_run" --hairs 100000 --size 1920x1080 --json --quiet -o "$work/pictures"
   item contacts_bench 60 contacts_bench --benchmark_out="$json" --benchmark_out_format=json
   item step_bench 60 step_bench --benchmark_out="$json" --benchmark_out_format=json
+  # Shapes with contacts, as a volume, among bodies: many kernels to compile.
+  item tune_work 120 ringlet tune --work contacts,volume,bodies --seconds 90 --particles 16 64 128 --quiet --report "$json"
   # What is checked: tests (by path: those that die start themselves again), a run with the validation layer, then conform.
   item gpu_tests 60 env RINGLET_REQUIRE_GPU=1 "$here/bin/gpu_tests" --gtest_brief=1
   item kernels_tests 60 env RINGLET_REQUIRE_GPU=1 "$here/bin/kernels_tests" --gtest_brief=1 \

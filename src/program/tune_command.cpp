@@ -32,6 +32,7 @@ constexpr const char* kHelp =
     "  ringlet tune\n"
     "  ringlet tune groom.hair --seconds 60\n"
     "  ringlet tune --particles 24 100 --device 0\n"
+    "  ringlet tune --work contacts,volume,bodies --seconds 120\n"
     "\n"
     "A strand is laid over a device as lanes x run, or in one lane in memory (serial). Which shape is "
     "fastest\n"
@@ -47,13 +48,20 @@ constexpr const char* kHelp =
     "takes to make counts too: few strands keep one that is soon there.\n"
     "Another shape gives other last bits: --untuned leaves it aside. Tuning again replaces what was\n"
     "measured before.\n"
+    "--work says what strands do while shapes are timed: nothing else (alone), or they meet each other, pair "
+    "by\n"
+    "pair (contacts) or as a volume, or a sphere (bodies); these three are timed with a quarter of the "
+    "strands.\n"
+    "Only times of alone are remembered: runs with other work choose shapes by the built-in model.\n"
     "\n"
-    "--json keys: device driver rounds left_out (shapes there was no time for) subgroup (the fastest width)\n"
-    "shapes (of each particles shape lanes run (0: serial) subgroup\n"
+    "--json keys: device driver rounds left_out (shapes there was no time for) subgroup (the fastest width; "
+    "0 without alone)\n"
+    "shapes (of each work particles shape lanes run (0: serial) subgroup\n"
     "ns_per_particle_step model_ns_per_particle_step difference against) troubles file\n"
     "interrupted. difference: the farthest particle from where `against` has it after a frame, as a share "
     "of\n"
-    "the strands' length. troubles: of each particles shape lanes run subgroup message: a shape that cannot "
+    "the strands' length. troubles: of each work particles shape lanes run subgroup message: a shape that "
+    "cannot "
     "be had, "
     "or\n"
     "that is not where another is after a frame; the others are timed, and nothing is remembered.\n"
@@ -68,6 +76,7 @@ constexpr const char* kHelp =
 struct Typed {
   std::filesystem::path groom, report;
   std::vector<std::uint32_t> particles;
+  std::vector<std::string> works;
   std::string device;
   TuneOptions options;
   bool json = false, quiet = false;
@@ -79,11 +88,10 @@ nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& ou
                               {"rounds", outcome.rounds},         {"left_out", outcome.leftOut},
                               {"subgroup", outcome.subgroupSize}, {"shapes", nlohmann::json::array()}};
   const auto shapeOf = [](const auto& one) {
-    return nlohmann::ordered_json{{"particles", one.particleCount},
-                                  {"shape", one.shape.describe()},
-                                  {"lanes", one.shape.serial() ? 0 : one.shape.lanes},
-                                  {"run", one.shape.particlesPerLane},
-                                  {"subgroup", one.subgroupSize}};
+    return nlohmann::ordered_json{
+        {"work", nameOf(one.work)},          {"particles", one.particleCount},
+        {"shape", one.shape.describe()},     {"lanes", one.shape.serial() ? 0 : one.shape.lanes},
+        {"run", one.shape.particlesPerLane}, {"subgroup", one.subgroupSize}};
   };
   for (const TimedShape& one : outcome.timed) {
     nlohmann::ordered_json shape = shapeOf(one);
@@ -105,19 +113,20 @@ nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& ou
   return json;
 }
 
-// The fastest of each length has a star.
+// The fastest of each work and length has a star.
 std::string asText(const ComputeDevice& device, const TuneOutcome& outcome,
                    const std::filesystem::path& file) {
   std::string text = fmt::format(
       "{} ({}), ns a particle and step, medians of {} rounds\n"
-      "  particles  shape          subgroup  measured     model  differs by\n",
+      "  work      particles  shape          subgroup  measured     model  differs by\n",
       device.name(), device.driver(), outcome.rounds);
   for (const TimedShape& one : outcome.timed) {
     const bool isFastest = std::ranges::none_of(outcome.timed, [&](const TimedShape& other) {
-      return other.particleCount == one.particleCount && other.nanoseconds < one.nanoseconds;
+      return other.work == one.work && other.particleCount == one.particleCount &&
+             other.nanoseconds < one.nanoseconds;
     });
-    text += fmt::format("  {:>9}  {:<14} {:>8} {:>9.4g} {:>9.4g}  {:.1e} from {}\n", one.particleCount,
-                        one.shape.describe() + (isFastest ? " *" : ""),
+    text += fmt::format("  {:<8}  {:>9}  {:<14} {:>8} {:>9.4g} {:>9.4g}  {:.1e} from {}\n", nameOf(one.work),
+                        one.particleCount, one.shape.describe() + (isFastest ? " *" : ""),
                         one.shape.serial() ? "" : std::to_string(one.subgroupSize), one.nanoseconds,
                         one.model, one.difference, one.against.describe());
   }
@@ -143,6 +152,15 @@ Result<std::vector<std::uint32_t>> lengthsOf(const Typed& typed) {
   return typicalLengths(std::move(counts));
 }
 
+// In the order of kTuneWorks, each once.
+std::vector<TuneWork> worksOf(const Typed& typed) {
+  std::vector<TuneWork> works;
+  for (const TuneWork work : kTuneWorks) {
+    if (std::ranges::find(typed.works, nameOf(work)) != typed.works.end()) works.push_back(work);
+  }
+  return works.empty() ? TuneOptions{}.works : works;
+}
+
 int fail(const Error& error) {
   say("ringlet tune: {}\n", error.message);
   return exitCodeOf(error);
@@ -152,6 +170,7 @@ int run(Typed& typed) {
   auto lengths = lengthsOf(typed);
   if (!lengths) return fail(lengths.error());
   typed.options.lengths = std::move(*lengths);
+  typed.options.works = worksOf(typed);
   typed.options.showProgress = !typed.quiet;
   const auto device = openDevice(typed.device);
   if (!device) return fail(device.error());
@@ -163,8 +182,7 @@ int run(Typed& typed) {
 
   // The table is shown even where it cannot be remembered.
   Result<std::filesystem::path> file = std::filesystem::path{};
-  if (!outcome->interrupted && outcome->troubles.empty())
-    file = rememberShapes(*device, outcome->costs, outcome->subgroupSize);
+  if (!outcome->costs.empty()) file = rememberShapes(*device, outcome->costs, outcome->subgroupSize);
   const std::filesystem::path written = file ? *file : std::filesystem::path{};
   for (const std::string& message : device->validationMessages())
     say("ringlet tune: warning: Vulkan validation: {}\n", message);
@@ -216,6 +234,14 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
                    "device, 1,048,576 on others)")
       ->check(wholeBetween(1, 100'000))
       ->type_name("N");
+  command
+      ->add_option(
+          "--work", typed->works,
+          "What strands do while they are timed: alone, contacts, volume, bodies, or several of these "
+          "(default alone)")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(kTuneWorkNames), std::end(kTuneWorkNames))))
+      ->delimiter(',')
+      ->type_name("WORK");
   command
       ->add_option(
           "--seconds", typed->options.seconds,

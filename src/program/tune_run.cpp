@@ -10,9 +10,9 @@
 #include <map>
 #include <utility>
 
+#include "parity/tolerances.h"
 #include "program/interruption.h"
 #include "program/progress_bar.h"
-#include "ringlet/groom/generate.h"
 #include "ringlet/solver/shape_plan.h"
 #include "ringlet/solver/simulation.h"
 #include "ringlet/solver/subgroup_choice.h"
@@ -20,15 +20,15 @@
 namespace ringlet::program {
 namespace {
 
-constexpr double kAgreement = 1e-5;  // of a strand's length, as for the double reference in tests
-constexpr double kLength = 0.25;     // of the strands [m]
+// After a frame, of a strand's length: each of two is this near to the double reference in tests.
+double agreementAt(TuneWork work) {
+  return work == TuneWork::bodies ? parity::kOneFrameAmongBodies : parity::kOneFrame;
+}
 constexpr int kFewestRounds = 3, kMostRounds = 101;
 constexpr double kShareForMaking = 0.7;  // of the time; the rest is for rounds
 // Of each length, so that no lane of the device is idle: two cores have some 16 lanes, large GPUs 300,000.
 constexpr std::uint32_t kParticlesOnCpu = 1 << 16, kParticlesOnGpu = 1 << 20;
-
-// Where the head is at the end of the frame that verifies: aside and turned.
-const HeadPose kMoved{{0.02, 0, 0.005}, {0, std::sin(0.03), 0, std::cos(0.03)}};
+constexpr std::uint32_t kFewerAtWork = 4;  // times as few with contacts or bodies, whose frames take longer
 
 class Clock {
  public:
@@ -42,6 +42,7 @@ class Clock {
 
 // A shape to be timed with strands of one length; the first two of a length are held against each other.
 struct Entry {
+  TuneWork work = TuneWork::alone;
   std::uint32_t particleCount = 0;
   StrandShape shape;
   std::uint32_t subgroupSize = 0;
@@ -51,8 +52,9 @@ struct Entry {
 // Of each number of lanes the shortest run that holds a strand, those first which the model likes; then one
 // lane in memory, if it holds one: with the longest strands, and where another would have none to be held
 // against.
-std::vector<Entry> entriesOf(std::uint32_t particleCount, bool isLongest, const DeviceLimits& limits) {
-  std::vector<ShapeCost> costs = shapeCosts(limits);
+std::vector<Entry> entriesOf(TuneWork work, std::uint32_t particleCount, bool isLongest,
+                             const DeviceLimits& limits) {
+  std::vector<ShapeCost> costs = shapeCosts(limits, strandWorkOf(work));
   std::erase_if(costs, [&](const ShapeCost& c) {
     const std::uint32_t lanes = c.shape.lanes;
     if (c.shape.inMemory) return true;
@@ -66,7 +68,7 @@ std::vector<Entry> entriesOf(std::uint32_t particleCount, bool isLongest, const 
   std::vector<Entry> entries;
   if (costs.size() < 2) return entries;  // no choice
   for (const ShapeCost& c : costs)
-    entries.push_back({particleCount, c.shape, limits.subgroupSize, entries.size() < 2});
+    entries.push_back({work, particleCount, c.shape, limits.subgroupSize, entries.size() < 2});
   return entries;
 }
 
@@ -75,31 +77,21 @@ DeviceLimits atWidth(DeviceLimits limits, std::uint32_t subgroupSize) {
   return limits;
 }
 
-// The pairs of all lengths and widths first, in case time runs out; the device's default width before others.
-// One lane in memory asks for no width.
-std::vector<Entry> allEntries(std::span<const std::uint32_t> lengths, const DeviceLimits& limits) {
+// The pairs of all kinds of work, lengths and widths first, in case time runs out; the device's default width
+// before others. One lane in memory asks for no width.
+std::vector<Entry> allEntries(const TuneOptions& options, const DeviceLimits& limits) {
   std::vector<Entry> all;
   for (const std::uint32_t width : subgroupSizes(limits)) {
-    for (const std::uint32_t length : lengths) {
-      const bool takesSerial = length == lengths.back() && width == limits.subgroupSize;
-      const auto some = entriesOf(length, takesSerial, atWidth(limits, width));
-      all.insert(all.end(), some.begin(), some.end());
+    for (const TuneWork work : options.works) {
+      for (const std::uint32_t length : options.lengths) {
+        const bool takesSerial = length == options.lengths.back() && width == limits.subgroupSize;
+        const auto some = entriesOf(work, length, takesSerial, atWidth(limits, width));
+        all.insert(all.end(), some.begin(), some.end());
+      }
     }
   }
   std::stable_partition(all.begin(), all.end(), std::mem_fn(&Entry::isOfPair));
   return all;
-}
-
-// Curls, as near to a square as their number allows.
-Result<Groom> hairOf(std::uint32_t particleCount, std::uint32_t strandCount) {
-  SwatchParameters swatch;
-  swatch.curl.length = kLength;
-  swatch.curl.turns = std::min(8.0, particleCount / 4.0);
-  swatch.curl.particleCount = static_cast<int>(particleCount);
-  swatch.columnCount = static_cast<int>(std::ceil(std::sqrt(strandCount)));
-  swatch.rowCount = static_cast<int>(strandCount) / swatch.columnCount;
-  swatch.spacing = 0.001;
-  return makeSwatch(swatch);
 }
 
 // A simulation in one shape, and what it took.
@@ -111,24 +103,23 @@ struct Runner {
   std::vector<double> samples{};  // [ms] of a frame
 
   static Result<Runner> create(const ComputeDevice& device, const Entry& entry, std::uint32_t strandCount) {
-    const auto groom = hairOf(entry.particleCount, strandCount);
-    if (!groom) return groom.error();
     KernelChoice choice;
     choice.form = entry.shape.serial() ? KernelChoice::Form::serial : KernelChoice::Form::lanes;
     choice.lanes = entry.shape.serial() ? 0 : static_cast<int>(entry.shape.lanes);
     choice.particlesPerLane = static_cast<int>(entry.shape.particlesPerLane);
     choice.subgroupSize = static_cast<int>(entry.subgroupSize);
-    auto simulation = Simulation::create(device, *groom, {}, Settings{}, {}, choice);
+    auto simulation = simulateWork(device, entry.work, entry.particleCount, strandCount, choice);
     if (!simulation) return simulation.error();
-    if (Status stepped = simulation->stepFrame(kMoved); !stepped) return stepped.error();
     auto positions = simulation->positions();
     if (!positions) return positions.error();
-    return Runner{{.particleCount = entry.particleCount,
+    const std::size_t made = positions->size() / entry.particleCount;
+    return Runner{{.work = entry.work,
+                   .particleCount = entry.particleCount,
                    .shape = entry.shape,
                    .subgroupSize = entry.subgroupSize,
                    .against = {}},
                   std::move(*simulation),
-                  groom->strandCount(),
+                  made,
                   std::move(*positions)};
   }
 
@@ -139,13 +130,12 @@ struct Runner {
       const double apart = length(static_cast<Vec3d>(positions[i]) - static_cast<Vec3d>(other.positions[i]));
       if (!(apart <= largest)) largest = apart;
     }
-    return largest / kLength;
+    return largest / kTunedLength;
   }
 
-  // The head stands where it came to, so that all see the same.
   Status time() {
     const double before = simulation.stageMilliseconds()["strand_step"];
-    if (Status stepped = simulation.stepFrame(kMoved); !stepped) return stepped;
+    if (Status stepped = stepWork(result.work, simulation); !stepped) return stepped;
     samples.push_back(simulation.stageMilliseconds()["strand_step"] - before);
     return {};
   }
@@ -153,7 +143,7 @@ struct Runner {
   // Of the samples so far; a clock too coarse for a frame shows 0, which no cost can be.
   TimedShape finished(const DeviceLimits& limits) const {
     TimedShape timed = result;
-    const auto model = shapeCosts(atWidth(limits, timed.subgroupSize));
+    const auto model = shapeCosts(atWidth(limits, timed.subgroupSize), strandWorkOf(timed.work));
     timed.model = std::ranges::find(model, timed.shape, &ShapeCost::shape)->nanoseconds /
                   (timed.shape.serial() ? 1 : timed.particleCount);
     if (samples.empty()) return timed;
@@ -167,18 +157,23 @@ struct Runner {
   }
 };
 
+// In messages, before what it is about.
+std::string workBefore(TuneWork work) {
+  return work == TuneWork::alone ? "" : fmt::format("{}: ", nameOf(work));
+}
+
 ShapeTrouble troubleOf(const Entry& entry, const Error& cause) {
-  return {entry.particleCount, entry.shape, entry.subgroupSize,
-          Error{fmt::format("strands of {} particles in the shape {}: {}", entry.particleCount,
-                            entry.shape.describe(), cause.message),
+  return {entry.work, entry.particleCount, entry.shape, entry.subgroupSize,
+          Error{fmt::format("{}strands of {} particles in the shape {}: {}", workBefore(entry.work),
+                            entry.particleCount, entry.shape.describe(), cause.message),
                 cause.fault}};
 }
 
-// Holds the last of them against the first of its length.
+// Holds the last of them against the first of its work and length.
 Status verifyLast(std::vector<Runner>& runners) {
   Runner& last = runners.back();
   Runner& first = *std::ranges::find_if(runners, [&](const Runner& runner) {
-    return runner.result.particleCount == last.result.particleCount;
+    return runner.result.work == last.result.work && runner.result.particleCount == last.result.particleCount;
   });
   if (&first == &last) return {};
   const double difference = last.differenceFrom(first);
@@ -186,19 +181,21 @@ Status verifyLast(std::vector<Runner>& runners) {
   last.result.against = first.result.shape;
   if (first.result.difference == 0)
     first.result.difference = difference, first.result.against = last.result.shape;
-  if (difference <= kAgreement) return {};
+  const double allowed = agreementAt(last.result.work);
+  if (difference <= allowed) return {};
   return Error{fmt::format(
-      "strands of {} particles in the shapes {} and {} are {:.1e} of their length apart after a frame, "
+      "{}strands of {} particles in the shapes {} and {} are {:.1e} of their length apart after a frame, "
       "{:.0e} is allowed: one of the two is wrong on this device; `--backend reference` tells which",
-      last.result.particleCount, first.result.shape.describe(), last.result.shape.describe(), difference,
-      kAgreement)};
+      workBefore(last.result.work), last.result.particleCount, first.result.shape.describe(),
+      last.result.shape.describe(), difference, allowed)};
 }
 
-// A shape that holds strands of several lengths costs what it does on average.
+// Of hair alone. A shape that holds strands of several lengths costs what it does on average.
 std::vector<ShapeCost> costsOf(std::span<const TimedShape> timed, std::uint32_t subgroupSize) {
   std::vector<ShapeCost> costs;
   std::vector<int> counts;
   for (const TimedShape& one : timed) {
+    if (one.work != TuneWork::alone) continue;
     if (one.subgroupSize != subgroupSize && !one.shape.serial()) continue;
     const double cost = one.nanoseconds * (one.shape.serial() ? 1 : one.particleCount);
     const auto found = std::ranges::find(costs, one.shape, &ShapeCost::shape);
@@ -226,7 +223,7 @@ std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts) {
 Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& options) {
   const Clock clock;
   const DeviceLimits limits = device.limits();
-  const std::vector<Entry> entries = allEntries(options.lengths, limits);
+  const std::vector<Entry> entries = allEntries(options, limits);
   if (entries.empty())
     return Error{
         fmt::format("{} has only one lane in memory for strands of {} particles; there is nothing to choose",
@@ -256,7 +253,8 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
       outcome.leftOut = entries.size() - e;
       break;
     }
-    const auto filling = (limits.isCpu ? kParticlesOnCpu : kParticlesOnGpu) / entry.particleCount;
+    const auto filling = (limits.isCpu ? kParticlesOnCpu : kParticlesOnGpu) / entry.particleCount /
+                         (entry.work == TuneWork::alone ? 1 : kFewerAtWork);
     const auto strandCount = options.strandCount ? static_cast<std::uint32_t>(*options.strandCount) : filling;
     auto runner = [&] {
       const EndsUnheard compiling;
@@ -268,7 +266,8 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
     } else {
       runners.push_back(std::move(*runner));
       if (Status verified = verifyLast(runners); !verified)
-        outcome.troubles.push_back({entry.particleCount, entry.shape, entry.subgroupSize, verified.error()});
+        outcome.troubles.push_back(
+            {entry.work, entry.particleCount, entry.shape, entry.subgroupSize, verified.error()});
     }
     if (Status grew = grow(); !grew) return grew.error();
   }
@@ -288,10 +287,12 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
   for (const Runner& runner : runners) {
     const TimedShape one = runner.finished(limits);
     outcome.timed.push_back(one);
-    times.push_back({one.particleCount, one.subgroupSize, one.nanoseconds});
+    if (one.work == TuneWork::alone) times.push_back({one.particleCount, one.subgroupSize, one.nanoseconds});
   }
-  std::ranges::stable_sort(outcome.timed, {}, &TimedShape::particleCount);
-  if (outcome.interrupted) return outcome;
+  std::ranges::stable_sort(outcome.timed, {}, [](const TimedShape& one) {
+    return std::pair{one.work, one.particleCount};
+  });
+  if (outcome.interrupted || times.empty()) return outcome;
   outcome.subgroupSize = fastestSubgroupSize(times);
   if (outcome.troubles.empty()) outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
   return outcome;

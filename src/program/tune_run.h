@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "program/tune_work.h"
 #include "ringlet/base/result.h"
 #include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/strand_shape.h"
@@ -17,6 +18,7 @@ namespace ringlet::program {
 struct TuneOutcome;
 
 struct TuneOptions {
+  std::vector<TuneWork> works{TuneWork::alone};         // each once
   std::vector<std::uint32_t> lengths{16, 32, 64, 128};  // particles a strand, rising
   std::optional<int> strandCount;                       // of each length; none: enough to fill the device
   double seconds =
@@ -28,6 +30,7 @@ struct TuneOptions {
 
 /// A shape with strands of one length.
 struct TimedShape {
+  TuneWork work = TuneWork::alone;
   std::uint32_t particleCount = 0;  // of a strand
   StrandShape shape;
   std::uint32_t subgroupSize = 0;
@@ -39,6 +42,7 @@ struct TimedShape {
 
 /// A shape that is not to be trusted on this device, or cannot be had: nothing is remembered then.
 struct ShapeTrouble {
+  TuneWork work = TuneWork::alone;
   std::uint32_t particleCount = 0;  // of a strand
   StrandShape shape;
   std::uint32_t subgroupSize = 0;
@@ -46,9 +50,10 @@ struct ShapeTrouble {
 };
 
 struct TuneOutcome {
-  std::vector<TimedShape> timed;  // by length
+  std::vector<TimedShape> timed;  // by work and length
   std::vector<ShapeTrouble> troubles;
-  std::vector<ShapeCost> costs;    // for KernelChoice::measured, at the fastest width; none with troubles
+  std::vector<ShapeCost>
+      costs;  // of hair alone, for KernelChoice::measured, at the fastest width; none with troubles
   std::uint32_t subgroupSize = 0;  // that width
   int rounds = 0;
   std::size_t leftOut = 0;   // shapes there was no time for
@@ -58,9 +63,9 @@ struct TuneOutcome {
 /// Of these lengths (of particles, one a strand) four at most that stand for all, the longest among them.
 std::vector<std::uint32_t> typicalLengths(std::vector<std::uint32_t> counts);
 
-/// Two shapes that are further apart than 1e-5 of the strands' length after a frame, and one that cannot be
-/// made, are troubles, and the others are timed. Fails where there is nothing to choose from, the device is
-/// lost, and no shape can be made. About `seconds` of time, most of it compiling.
+/// Two shapes that are further apart after a frame than 1e-5 of the strands' length, among bodies 1e-4, and
+/// one that cannot be made, are troubles, and the others are timed. Fails where there is nothing to choose
+/// from, the device is lost, and no shape can be made. About `seconds` of time, most of it compiling.
 Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& options);
 
 }  // namespace ringlet::program

@@ -109,6 +109,52 @@ TEST_F(Tune, RemembersWhatItMeasuredAndRunsUseIt) {
   EXPECT_EQ(json::parse(untuned.out, nullptr, false)["tuned"], false) << untuned.err;
 }
 
+// Of hair alone costs are remembered, of other work they are told.
+TEST_F(Tune, EveryWorkIsTimed) {
+  const std::vector<std::string> works{"alone", "contacts", "volume", "bodies"};
+  const auto tuned = runProgram(folder_, {"tune", "--work", "bodies,alone,volume,contacts", "--particles",
+                                          "9", "--strands", "64", "--seconds", "600", "--json"});
+  EXPECT_EQ(tuned.exitCode, 0) << tuned.err;
+  const json said = json::parse(tuned.out, nullptr, false);
+  ASSERT_TRUE(said.is_object()) << tuned.err;
+  std::vector<std::string> seen;
+  std::size_t alone = 0;
+  for (const json& shape : said["shapes"]) {
+    if (seen.empty() || seen.back() != shape["work"]) seen.push_back(shape["work"]);
+    alone += shape["work"] == "alone" ? 1 : 0;
+    EXPECT_GT(shape["ns_per_particle_step"].get<double>(), 0) << shape;
+    EXPECT_LE(shape["difference"].get<double>(), shape["work"] == "bodies" ? 1e-4 : 1e-5) << shape;
+  }
+  EXPECT_EQ(seen, works) << "each work's shapes stand together";
+  EXPECT_EQ(said["troubles"].size(), 0u) << said["troubles"];
+  const auto known = readShapeCosts(file());
+  ASSERT_TRUE(known) << known.error().message;
+  ASSERT_EQ(known->size(), 1u);
+  EXPECT_EQ(known->front().costs.size(), alone);
+
+  std::filesystem::remove(file());
+  const json others = tune({"--work", "volume", "--particles", "9"});
+  EXPECT_TRUE(others["file"].is_null()) << others;
+  EXPECT_EQ(others["subgroup"], 0);
+  EXPECT_FALSE(std::filesystem::exists(file())) << "nothing was measured of hair alone";
+}
+
+// A strand has no other to meet; hair alone is timed all the same.
+TEST_F(Tune, HairThatMeetsNothingIsATrouble) {
+  const auto result = runProgram(folder_, {"tune", "--work", "alone,contacts", "--particles", "5",
+                                           "--strands", "1", "--seconds", "600", "--json"});
+  EXPECT_EQ(result.exitCode, 1) << result.err;
+  EXPECT_NE(result.err.find("contacts: strands of 5 particles"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("met nothing"), std::string::npos) << result.err;
+  const json said = json::parse(result.out, nullptr, false);
+  ASSERT_TRUE(said.is_object()) << result.err;
+  EXPECT_GE(said["shapes"].size(), 2u);
+  for (const json& shape : said["shapes"]) EXPECT_EQ(shape["work"], "alone") << shape;
+  ASSERT_GE(said["troubles"].size(), 2u);
+  for (const json& trouble : said["troubles"]) EXPECT_EQ(trouble["work"], "contacts") << trouble;
+  EXPECT_FALSE(std::filesystem::exists(file()));
+}
+
 TEST_F(Tune, WhatIsKnownIsThereWhenItIsKilled) {
   const auto report = folder_ / "tune.json";
   RunningProgram program(folder_, {"tune", "--particles", "5", "--strands", "2", "--seconds", "600",
