@@ -118,10 +118,10 @@ TEST_F(Tune, EveryWorkIsTimed) {
   const json said = json::parse(tuned.out, nullptr, false);
   ASSERT_TRUE(said.is_object()) << tuned.err;
   std::vector<std::string> seen;
-  std::size_t alone = 0;
+  std::vector<json> alone;
   for (const json& shape : said["shapes"]) {
     if (seen.empty() || seen.back() != shape["work"]) seen.push_back(shape["work"]);
-    alone += shape["work"] == "alone" ? 1 : 0;
+    if (shape["work"] == "alone") alone.push_back(shape);
     EXPECT_GT(shape["ns_per_particle_step"].get<double>(), 0) << shape;
     EXPECT_LE(shape["difference"].get<double>(), shape["work"] == "bodies" ? 1e-4 : 1e-5) << shape;
   }
@@ -130,7 +130,12 @@ TEST_F(Tune, EveryWorkIsTimed) {
   const auto known = readShapeCosts(file());
   ASSERT_TRUE(known) << known.error().message;
   ASSERT_EQ(known->size(), 1u);
-  EXPECT_EQ(known->front().costs.size(), alone);
+  ASSERT_EQ(known->front().costs.size(), alone.size());
+  for (std::size_t i = 0; i < alone.size(); ++i) {
+    const ShapeCost& cost = known->front().costs[i];
+    const double ofParticle = cost.nanoseconds / (cost.shape.serial() ? 1 : 9);
+    EXPECT_NEAR(ofParticle / alone[i]["ns_per_particle_step"].get<double>(), 1, 1e-12) << alone[i];
+  }
 
   std::filesystem::remove(file());
   const json others = tune({"--work", "volume", "--particles", "9"});
