@@ -14,7 +14,7 @@ simulate() {
 }
 
 items() {
-  local method part steps
+  local method part steps size
   # Does it work at all?
   item conform_quick 120 ringlet conform --quick --json "$json"
   # Hair alone.
@@ -35,6 +35,10 @@ items() {
   # What some of the device's abilities are worth, against the run above that has them all.
   for part in texels timestamps mapping; do
     RINGLET_WITHOUT=$part simulate without_$part 40 10000x32 --steps-per-frame 8 --frames 48 --contacts auto
+  done
+  # Workgroups of other sizes than 64.
+  for size in 32 128; do
+    RINGLET_GROUP_SIZE=$size simulate groups_of_$size 40 1000x64 --steps-per-frame 8 --frames 200
   done
   # Bodies: their kernel is the largest by far, and may take the driver's compiler long.
   item kernels_bodies 90 ringlet kernels --statistics --only ', bodies,' --json "$json"

@@ -100,6 +100,9 @@ Result<std::unique_ptr<Backend>> makeGpuBackend(const BackendInput& input, const
     say("ringlet: {} was tuned with another driver or ringlet; `ringlet tune` does it anew\n",
         device->name());
   KernelChoice choice = gpu.kernel;
+  const auto groupSize = groupSizeAsked();
+  if (!groupSize) return groupSize.error();
+  choice.groupSize = *groupSize;
   // Costs are true only of the width they were measured at.
   if (choice.subgroupSize == 0) choice.subgroupSize = static_cast<int>(tuned.subgroupSize);
   if (choice.subgroupSize != static_cast<int>(tuned.subgroupSize)) tuned.costs.clear();

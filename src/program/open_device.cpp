@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 #include <utility>
 
@@ -51,6 +53,16 @@ Result<ComputeDevice> openDevice(const std::string& choice) {
   auto opened = gpu::Device::open(choice, *options, cacheFolder());
   if (!opened) return opened.error();
   return ComputeDevice::over(std::move(*opened));
+}
+
+Result<int> groupSizeAsked() {
+  const char* text = std::getenv("RINGLET_GROUP_SIZE");
+  if (!text || !*text) return 0;
+  int size = 0;
+  const char* end = text + std::strlen(text);
+  const auto [stop, code] = std::from_chars(text, end, size);
+  if (code == std::errc{} && stop == end && size > 0) return size;
+  return Error{fmt::format("RINGLET_GROUP_SIZE: found {}; expected a whole number above 0", text)};
 }
 
 std::string whatIsLeftOut() {

@@ -486,6 +486,35 @@ TEST_F(Interruption, ADeviceDoesWithoutWhatIsNamed) {
   EXPECT_NE(wrong.err.find("there is no luck"), std::string::npos) << wrong.err;
 }
 
+// $RINGLET_GROUP_SIZE: the same bits in other workgroups.
+TEST_F(Interruption, WorkgroupsOfAnySizeHaveTheSameBits) {
+  RINGLET_NEEDS_DEVICE(folder_);
+  const auto simulated = [&](const char* size) {
+    setenv("RINGLET_GROUP_SIZE", size, 1);
+    const auto result =
+        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
+    unsetenv("RINGLET_GROUP_SIZE");
+    return result;
+  };
+  const auto hashOf = [&](const char* size) {
+    const auto result = simulated(size);
+    EXPECT_EQ(result.exitCode, 0) << size << ": " << result.err;
+    return json::parse(result.out, nullptr, false)["positions_hash"];
+  };
+  const json usual = hashOf("");
+  for (const char* size : {"32", "64", "128"}) EXPECT_EQ(hashOf(size), usual) << size;
+  for (const char* size : {"48", "256", "1"}) {
+    const auto result = simulated(size);
+    EXPECT_EQ(result.exitCode, 1) << size;
+    EXPECT_NE(result.err.find("powers of two from"), std::string::npos) << result.err;
+  }
+  for (const char* size : {"many", "-64", "64.0", "0"}) {
+    const auto result = simulated(size);
+    EXPECT_EQ(result.exitCode, 1) << size;
+    EXPECT_NE(result.err.find("expected a whole number above 0"), std::string::npos) << result.err;
+  }
+}
+
 TEST_F(Interruption, CtrlCKeepsFinishedFrames) {
   RunningProgram program(folder_, arguments_);
   EXPECT_TRUE(waitForFrames());

@@ -154,6 +154,11 @@ Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& gro
   }
   const std::uint64_t lanes = lanesOf(self->ranges);
   self->groupSize = strandGroupSize(*limits, self->places ? lanes * self->places->headsOfRow() : lanes);
+  if (choice.groupSize != 0) {
+    const auto asked = askedGroupSize(*limits, choice.groupSize);
+    if (!asked) return asked.error();
+    self->groupSize = *asked;
+  }
   const auto plan = planFrame(self->ranges, *limits, settings, hasBodies ? 1 : 0, self->groupSize);
   if (!plan) return plan.error();  // before anything else is made
   self->framePlaces = FramePlaces::of(self->rest);

@@ -30,6 +30,7 @@ struct KernelChoice {
   int particlesPerLane = 0;  // see longestRun in shape_plan.h; 0: chosen by the plan
   int lanes = 0;             // of a strand, a power of two; 0: chosen by the plan
   int subgroupSize = 0;      // see subgroupSizes in subgroup_choice.h; 0: chosen by device
+  int groupSize = 0;         // invocations of a workgroup, to compare times; 0: chosen by device
   std::span<const ShapeCost>
       measured{};            // on this device, read until build or create returns; none: a cost model is used
   bool manyKernels = false;  // the best shape for every strand, however long kernels take to compile

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
 #include <future>
 #include <span>
 
@@ -85,6 +87,15 @@ std::string strandKernelHash() {
     for (const std::uint32_t word : code) hash = (hash ^ word) * 0x100000001b3;
   }
   return fmt::format("{:016x}", hash);
+}
+
+Result<std::uint32_t> askedGroupSize(const DeviceLimits& limits, int asked) {
+  constexpr std::uint32_t kMostAnywhere = 128;  // maxComputeWorkGroupInvocations, the least allowed
+  const auto size = static_cast<std::uint32_t>(std::max(asked, 0));
+  if (std::has_single_bit(size) && size >= limits.subgroupSize && size <= kMostAnywhere) return size;
+  return Error{fmt::format(
+      "workgroups of {} invocations were asked for; this device can have powers of two from {} to {}", asked,
+      limits.subgroupSize, kMostAnywhere)};
 }
 
 gpu::KernelDescription describeStrandKernel(const StrandShape& shape, const StrandKernelOptions& options) {

@@ -18,8 +18,13 @@ namespace ringlet {
 /// Invocations of a workgroup, at most.
 inline constexpr std::uint32_t kStrandGroupSize = 64;
 
-/// How many they are, for strands that have so many lanes together. A CPU device takes a workgroup as a task
-/// for one of its cores: small ones share out few strands too, and cost more where strands are many.
+/// How many they are where they are asked for (KernelChoice::groupSize): a power of two, a subgroup at least,
+/// so that subgroups are whole, and what every device of Vulkan has at most. Fails on others.
+Result<std::uint32_t> askedGroupSize(const DeviceLimits& limits, int asked);
+
+/// How many they are by default, for strands that have so many lanes together. A CPU device takes a workgroup
+/// as a task for one of its cores: small ones share out few strands too, and cost more where strands are
+/// many.
 inline std::uint32_t strandGroupSize(const DeviceLimits& limits, std::uint64_t lanes) {
   const bool isFew = lanes < 16 * kStrandGroupSize;
   return limits.isCpu && isFew ? std::max(8u, limits.subgroupSize) : kStrandGroupSize;
