@@ -64,7 +64,8 @@ constexpr const char* kHelp =
     "cannot "
     "be had, "
     "or\n"
-    "that is not where another is after a frame; the others are timed, and nothing is remembered.\n"
+    "that is not where another is after a frame; the others are timed, and nothing is remembered\n"
+    "where hair alone has troubles.\n"
     "--report: the file is whole after each shape and round, a second apart at least; of a shape that is not "
     "timed\n"
     "yet, ns_per_particle_step is null.\n"
@@ -201,7 +202,7 @@ int run(Typed& typed) {
   }
   for (const ShapeTrouble& one : outcome->troubles) say("ringlet tune: {}\n", one.error.message);
   if (!outcome->troubles.empty()) {
-    say("ringlet tune: nothing was remembered\n");
+    if (written.empty()) say("ringlet tune: nothing was remembered\n");
     return exitCodeOf(outcome->troubles.front().error);
   }
   return file ? kExitFine : fail(file.error());

@@ -294,7 +294,9 @@ Result<TuneOutcome> timeShapes(const ComputeDevice& device, const TuneOptions& o
   });
   if (outcome.interrupted || times.empty()) return outcome;
   outcome.subgroupSize = fastestSubgroupSize(times);
-  if (outcome.troubles.empty()) outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
+  const bool isTroubled =
+      std::ranges::find(outcome.troubles, TuneWork::alone, &ShapeTrouble::work) != outcome.troubles.end();
+  if (!isTroubled) outcome.costs = costsOf(outcome.timed, outcome.subgroupSize);
   return outcome;
 }
 

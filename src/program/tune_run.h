@@ -40,7 +40,8 @@ struct TimedShape {
   StrandShape against;
 };
 
-/// A shape that is not to be trusted on this device, or cannot be had: nothing is remembered then.
+/// A shape that is not to be trusted on this device, or cannot be had. Of hair alone: nothing is remembered
+/// then.
 struct ShapeTrouble {
   TuneWork work = TuneWork::alone;
   std::uint32_t particleCount = 0;  // of a strand
@@ -53,7 +54,7 @@ struct TuneOutcome {
   std::vector<TimedShape> timed;  // by work and length
   std::vector<ShapeTrouble> troubles;
   std::vector<ShapeCost>
-      costs;  // of hair alone, for KernelChoice::measured, at the fastest width; none with troubles
+      costs;  // of hair alone, for KernelChoice::measured, at the fastest width; none with troubles of it
   std::uint32_t subgroupSize = 0;  // that width
   int rounds = 0;
   std::size_t leftOut = 0;   // shapes there was no time for
