@@ -40,7 +40,8 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// A shape to be timed with strands of one length; the first two of a length are held against each other.
+// A shape to be timed at one work with strands of one length; the first two of these are held against each
+// other.
 struct Entry {
   TuneWork work = TuneWork::alone;
   std::uint32_t particleCount = 0;

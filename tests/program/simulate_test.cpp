@@ -459,16 +459,22 @@ class Interruption : public testing::Test {
       return at != std::string::npos && text.compare(at + key.size(), 1, "0") != 0;
     });
   }
+
+  // Two frames, with a variable in the environment.
+  auto simulateWith(const char* variable, const char* value) {
+    setenv(variable, value, 1);
+    const auto result =
+        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
+    unsetenv(variable);
+    return result;
+  }
 };
 
 // $RINGLET_WITHOUT: the same bits by another way.
 TEST_F(Interruption, ADeviceDoesWithoutWhatIsNamed) {
   RINGLET_NEEDS_DEVICE(folder_);
   const auto simulated = [&](const char* without) {
-    setenv("RINGLET_WITHOUT", without, 1);
-    const auto result =
-        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
-    unsetenv("RINGLET_WITHOUT");
+    const auto result = simulateWith("RINGLET_WITHOUT", without);
     EXPECT_EQ(result.exitCode, 0) << result.err;
     return json::parse(result.out, nullptr, false);
   };
@@ -479,9 +485,7 @@ TEST_F(Interruption, ADeviceDoesWithoutWhatIsNamed) {
   EXPECT_EQ(few["positions_hash"], all["positions_hash"]);
   EXPECT_EQ(all["warnings"].dump().find("RINGLET_WITHOUT"), std::string::npos);
   EXPECT_NE(few["warnings"].dump().find("without texels,timestamps"), std::string::npos) << few["warnings"];
-  setenv("RINGLET_WITHOUT", "texels,luck", 1);
-  const auto wrong = runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "-o", "out"});
-  unsetenv("RINGLET_WITHOUT");
+  const auto wrong = simulateWith("RINGLET_WITHOUT", "texels,luck");
   EXPECT_EQ(wrong.exitCode, 1);
   EXPECT_NE(wrong.err.find("there is no luck"), std::string::npos) << wrong.err;
 }
@@ -489,13 +493,7 @@ TEST_F(Interruption, ADeviceDoesWithoutWhatIsNamed) {
 // $RINGLET_GROUP_SIZE: the same bits in other workgroups.
 TEST_F(Interruption, WorkgroupsOfAnySizeHaveTheSameBits) {
   RINGLET_NEEDS_DEVICE(folder_);
-  const auto simulated = [&](const char* size) {
-    setenv("RINGLET_GROUP_SIZE", size, 1);
-    const auto result =
-        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
-    unsetenv("RINGLET_GROUP_SIZE");
-    return result;
-  };
+  const auto simulated = [&](const char* size) { return simulateWith("RINGLET_GROUP_SIZE", size); };
   const auto hashOf = [&](const char* size) {
     const auto result = simulated(size);
     EXPECT_EQ(result.exitCode, 0) << size << ": " << result.err;
