@@ -140,7 +140,9 @@ TEST_F(Folders, WhatAKilledRunLeavesIsClearedAway) {
     leave();
     EXPECT_EQ(simulate(how).exitCode, 0);
     for (const auto& [name, text] : files()) {
-      if (text != kSecret) EXPECT_FALSE(name.ends_with(".partial")) << name;
+      if (text != kSecret) {
+        EXPECT_FALSE(name.ends_with(".partial")) << name;
+      }
     }
     EXPECT_EQ(std::ranges::count(files(), kSecret, [](const auto& file) { return file.second; }), 3);
   }
@@ -181,7 +183,9 @@ TEST_F(Folders, ASecondSignalOfAnyKindEndsAtOnce) {
       EXPECT_TRUE(program.waitUntil([&] { return fs::exists(folder_ / "out/.ringlet.lock"); }));
       program.send(first);
       // A second one of the same kind is one with the first until that is handled.
-      if (first == second) EXPECT_TRUE(program.waitUntil([&] { return program.handles(first) == false; }));
+      if (first == second) {
+        EXPECT_TRUE(program.waitUntil([&] { return program.handles(first) == false; }));
+      }
       program.send(second);
       EXPECT_EQ(program.wait().exitCode, -1) << first << " then " << second;
     }

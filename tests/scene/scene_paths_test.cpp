@@ -80,7 +80,7 @@ TEST(ScenePaths, AConfinedSceneNamesNothingOutsideItsFolder) {
     const auto read = [&](const std::string& path, SceneReach reach) {
       return parseScene(withPath(c, path), "scene.toml", folder, {}, reach);
     };
-    for (const std::string outside :
+    for (const std::string& outside :
          {std::string("../m.toml"), (around / "m.toml").string(), std::string("below/../../m.toml"),
           std::string("link.toml"), std::string("up/m.toml"), std::string("up/new/m.toml"),
           std::string("../scene2/m.toml"), std::string("/etc/passwd")}) {
@@ -89,10 +89,11 @@ TEST(ScenePaths, AConfinedSceneNamesNothingOutsideItsFolder) {
       EXPECT_NE(refused.error().message.find(c.key), std::string::npos) << refused.error().message;
       EXPECT_NE(refused.error().message.find("to which --confined keeps it"), std::string::npos)
           << refused.error().message;
-      if (c.key != "material.file")
+      if (c.key != "material.file") {
         EXPECT_TRUE(read(outside, SceneReach::anywhere)) << c.key << " " << outside;
+      }
     }
-    for (const std::string inside :
+    for (const std::string& inside :
          {"m.toml", "below/m.toml", "./below/../m.toml", "down/m.toml", "up/scene/m.toml"})
       EXPECT_TRUE(read(inside, SceneReach::ownFolder)) << c.key << " " << inside;
   }
