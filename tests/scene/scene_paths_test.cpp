@@ -93,7 +93,7 @@ TEST(ScenePaths, AConfinedSceneNamesNothingOutsideItsFolder) {
         EXPECT_TRUE(read(outside, SceneReach::anywhere)) << c.key << " " << outside;
       }
     }
-    for (const std::string& inside :
+    for (const char* inside :
          {"m.toml", "below/m.toml", "./below/../m.toml", "down/m.toml", "up/scene/m.toml"})
       EXPECT_TRUE(read(inside, SceneReach::ownFolder)) << c.key << " " << inside;
   }
