@@ -32,8 +32,8 @@ std::vector<PathCase> pathCases() {
       {"body.moves.file", groom + "[[body]]\nname = 'b'\nshape = 'sphere'\n[body.moves]\nfile = 'PATH'\n"},
       {"camera.file", groom + "[[camera]]\nname = 'c'\nfile = 'PATH'\n"},
       {"field.file", groom + "[[field]]\nname = 'f'\nkind = 'grid'\nstrength = 1\nfile = 'PATH'\n"},
-      {"map.file", groom + "[[map]]\nnumber = 'bending'\nfile = 'PATH'\n"},
-      {"map.texture", groom + "[[map]]\nnumber = 'bending'\ntexture = 'PATH'\n"},
+      {"map.file", groom + "[[map]]\nnumber = 'bend_stiffness'\nfile = 'PATH'\n"},
+      {"map.texture", groom + "[[map]]\nnumber = 'bend_stiffness'\ntexture = 'PATH'\n"},
       {"output.hair_scalp_file", groom + "[output]\nhairs = 9\nhair_scalp_file = 'PATH'\n"},
       {"output.folder", groom + "[output]\nfolder = 'PATH'\n"},
       {"material.file", groom + "[material]\nfile = 'PATH'\n"}};
@@ -50,6 +50,7 @@ TEST(ScenePaths, EveryKeyThatIsAPathIsTried) {
   for (const SceneKey& key : sceneKeys()) {
     if (key.type == "path") all.push_back(key.table + "." + key.key);
   }
+  std::erase(tried, "body.moves.file");  // the keys of [motion] once more
   std::ranges::sort(tried);
   std::ranges::sort(all);
   EXPECT_EQ(tried, all);
