@@ -44,6 +44,9 @@ std::string withPath(const PathCase& c, const std::string& path) {
   return text.replace(text.find("PATH"), 4, path);
 }
 
+// What a map is worked out of is read with the scene, as a material is: it is visited where it is there.
+bool isOfMap(const PathCase& c) { return c.key.starts_with("map."); }
+
 TEST(ScenePaths, EveryKeyThatIsAPathIsTried) {
   std::vector<std::string> tried, all;
   for (const PathCase& c : pathCases()) tried.push_back(c.key);
@@ -58,7 +61,7 @@ TEST(ScenePaths, EveryKeyThatIsAPathIsTried) {
 
 TEST(ScenePaths, AllThatAreReadAreVisited) {
   for (const PathCase& c : pathCases()) {
-    if (c.key == "output.folder" || c.key == "material.file" || c.key == "map.file") continue;
+    if (c.key == "output.folder" || c.key == "material.file" || isOfMap(c)) continue;
     const auto scene = parseScene(withPath(c, "the/path.usda"), "scene.toml", "folder");
     ASSERT_TRUE(scene) << scene.error().message;
     std::vector<fs::path> found;
@@ -66,6 +69,15 @@ TEST(ScenePaths, AllThatAreReadAreVisited) {
     EXPECT_EQ(std::ranges::count(found, fs::path("folder/the/path.usda")), 1) << c.key;
     EXPECT_EQ(found.size(), c.scene.starts_with("[groom]\nfile = 'groom.obj'") ? 2 : 1) << c.key;
   }
+}
+
+TEST(ScenePaths, FilesOfMapsAreVisited) {
+  SceneFile scene;
+  scene.maps.push_back({.file = "factors.txt", .texture = "picture.png"});
+  std::vector<fs::path> found;
+  forEachFileOf(scene, [&](fs::path& path) { found.push_back(path), path = "new"; });
+  EXPECT_EQ(found, (std::vector<fs::path>{"factors.txt", "picture.png"}));
+  EXPECT_EQ(scene.maps[0].texture, "new") << "they may be changed";
 }
 
 TEST(ScenePaths, AConfinedSceneNamesNothingOutsideItsFolder) {
@@ -90,11 +102,11 @@ TEST(ScenePaths, AConfinedSceneNamesNothingOutsideItsFolder) {
       EXPECT_NE(refused.error().message.find(c.key), std::string::npos) << refused.error().message;
       EXPECT_NE(refused.error().message.find("to which --confined keeps it"), std::string::npos)
           << refused.error().message;
-      if (c.key != "material.file" && c.key != "map.file") {
+      if (c.key != "material.file" && !isOfMap(c)) {
         EXPECT_TRUE(read(outside, SceneReach::anywhere)) << c.key << " " << outside;
       }
     }
-    if (c.key == "map.file") continue;  // it is read with the scene, and is no material
+    if (isOfMap(c)) continue;  // it is read with the scene, and is no material
     for (const char* inside :
          {"m.toml", "below/m.toml", "./below/../m.toml", "down/m.toml", "up/scene/m.toml"})
       EXPECT_TRUE(read(inside, SceneReach::ownFolder)) << c.key << " " << inside;
