@@ -464,7 +464,7 @@ class Interruption : public testing::Test {
   auto simulateWith(const char* variable, const char* value) {
     setenv(variable, value, 1);
     const auto result =
-        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
+        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "--overwrite", "-o", "out"});
     unsetenv(variable);
     return result;
   }

@@ -90,7 +90,7 @@ TEST_F(Sweep, EachRunHasTheBitsOfSimulate) {
         scene = "changed.toml";
         std::ofstream(folder_ / scene) << base << fmt::format(fmt::runtime(axis.file), axis.values[i]);
       }
-      const auto alone = runProgram(folder_, {"simulate", scene, "--json", "-o", "alone"});
+      const auto alone = runProgram(folder_, {"simulate", scene, "--json", "--overwrite", "-o", "alone"});
       ASSERT_EQ(alone.exitCode, 0) << scene << alone.err;
       EXPECT_EQ(json::parse(alone.out)["positions_hash"], runs[i]["positions_hash"]) << axis.key;
       for (const char* file : {"hair.usda", "last.obj", "sheet.png"})
@@ -183,7 +183,7 @@ TEST_F(Sweep, ARunsSceneIsRunAgainFromAnywhere) {
     ASSERT_EQ(runProgram(made, words).exitCode, 0);
   std::ofstream(made / "files/ball.obj") << "v 0.02 -0.3 0\nv -0.02 -0.3 0\nv 0 -0.27 0.03\nv 0 -0.3 -0.03\n"
                                             "f 1 3 2\nf 1 4 3\nf 2 3 4\nf 1 2 4\n";
-  std::ofstream(made / "files/map.txt") << "0 1\n1 0.5\n2 2\n";
+  std::ofstream(made / "files/map.txt") << "0,1\n1,0.5\n2,2\n";
   std::ofstream(made / "files/m.bvh")
       << "HIERARCHY\nROOT Head\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n"
          "OFFSET 0 170 0\n}\n}\nMOTION\nFrames: 4\nFrame Time: 0.04\n0 0 0\n0 4 0\n0 9 0\n0 9 0\n";
