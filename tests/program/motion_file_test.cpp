@@ -57,8 +57,8 @@ TEST(MotionFile, TheGroomFollowsTheNodeOfAGltf) {
   for (const Case& c : {Case{{"--motion", "walk.GLB"}, 2, 0, 1},
                         Case{{"--motion", "walk.gltf", "--motion-unit", "0.5"}, 1, 0, 0.5},
                         Case{{"--motion", "walk.gltf", "--up", "Z", "--joint", "rig:head"}, 0, 2, 1}}) {
-    std::vector<std::string> arguments{"simulate",  "groom.obj", "--gravity", "0",     "--backend",
-                                       "reference", "-o",        "out",       "--json"};
+    std::vector<std::string> arguments{"simulate",  "groom.obj",   "--gravity", "0",   "--backend",
+                                       "reference", "--overwrite", "-o",        "out", "--json"};
     arguments.insert(arguments.end(), c.options.begin(), c.options.end());
     const auto result = runProgram(folder, arguments);
     ASSERT_EQ(result.exitCode, 0) << result.err;
@@ -81,8 +81,9 @@ TEST(MotionFile, SaysWhichAnimationOfAGltfItTook) {
   file.node({{"name", "Stone"}});
   std::ofstream(folder / "two.glb", std::ios::binary) << file.glb();
   const auto warningsOf = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> arguments{"simulate",  "groom.obj", "--motion", "two.glb", "--frames", "1",
-                                       "--backend", "reference", "-o",       "out",     "--json"};
+    std::vector<std::string> arguments{"simulate",    "groom.obj", "--motion",  "two.glb",
+                                       "--frames",    "1",         "--backend", "reference",
+                                       "--overwrite", "-o",        "out",       "--json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
@@ -162,7 +163,8 @@ TEST(MotionFile, MistakesAreOneSentence) {
            Case{{"--motion", "cut.glb"}, 1, "cut.glb is no glTF: it says it has"},
            Case{{"--motion", "nodd"}, 2, "did you mean nod?"},
        }) {
-    std::vector<std::string> arguments{"simulate", "groom.obj", "--backend", "reference", "-o", "out"};
+    std::vector<std::string> arguments{"simulate",    "groom.obj", "--backend", "reference",
+                                       "--overwrite", "-o",        "out"};
     arguments.insert(arguments.end(), c.options.begin(), c.options.end());
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(result.exitCode, c.exitCode) << result.err;

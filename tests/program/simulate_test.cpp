@@ -463,8 +463,8 @@ class Interruption : public testing::Test {
   // Two frames, with a variable in the environment.
   auto simulateWith(const char* variable, const char* value) {
     setenv(variable, value, 1);
-    const auto result =
-        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "--overwrite", "-o", "out"});
+    const auto result = runProgram(
+        folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "--overwrite", "-o", "out"});
     unsetenv(variable);
     return result;
   }
