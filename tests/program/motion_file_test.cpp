@@ -181,7 +181,7 @@ TEST(MotionFile, JointsWithOtherAxesAreSaidAndBindUpright) {
   const auto simulated = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "simulate");
     for (const char* more :
-         {"--gravity", "0", "--backend", "reference", "-o", "out", "--json", "--frames", "1"})
+         {"--gravity", "0", "--backend", "reference", "-o", "out", "--json", "--overwrite", "--frames", "1"})
       arguments.emplace_back(more);
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
