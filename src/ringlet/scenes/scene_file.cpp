@@ -15,6 +15,7 @@
 
 #include "ringlet/base/nearest_name.h"
 #include "ringlet/base/quoted.h"
+#include "ringlet/motion/motion_file.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
@@ -120,7 +121,7 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "scalp")) {
       readFields(*table, "scalp", scalpFields(), scene.scalp);
       if (!table->get("file"))
-        missing_.add(lineOf(*table), "found no scalp.file; expected a .gltf or .glb file");
+        missing_.add(lineOf(*table), "found no scalp.file; expected a .gltf, .glb or .vrm file");
     }
     readSimulation(file, scene.simulation);
     if (const toml::table* table = tableOf(file, "", "contacts")) {
@@ -229,7 +230,12 @@ class SceneReader {
             const auto* text = node->as_string();
             const bool mayBeNear =
                 text && !field.choices.empty() && !std::is_same_v<Value, std::vector<std::string>>;
-            problems_.addFound(*node, key, mayBeNear ? oneOf(field.choices, text->get()) : expectedOf(field));
+            std::string expected = mayBeNear ? oneOf(field.choices, text->get()) : expectedOf(field);
+            const bool isFile = mayBeNear && std::filesystem::path(text->get()).has_extension();
+            if (isFile && field.choices == motionNames())
+              expected +=
+                  fmt::format("; a {} file goes into {}", kMotionEndings, KnownKey{name, "file"}.fullName());
+            problems_.addFound(*node, key, expected);
           },
           field.member);
     }
