@@ -28,6 +28,7 @@
 #include "program/run_report.h"
 #include "program/run_writers.h"
 #include "program/simulate_run.h"
+#include "program/standard_output.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_fields.h"
@@ -309,7 +310,7 @@ int run(const Typed& typed) {
   if (typed.json) {
     printJson(runJson(names, loaded->settings, *outcome));
   } else if (!typed.quiet) {
-    fmt::print("{}", runText(names, loaded->settings, *outcome));
+    print("{}", runText(names, loaded->settings, *outcome));
   }
   return exitCode;
 }

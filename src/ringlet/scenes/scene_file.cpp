@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "ringlet/base/is_below.h"
 #include "ringlet/base/nearest_name.h"
 #include "ringlet/base/quoted.h"
 #include "ringlet/motion/motion_file.h"
@@ -105,15 +106,6 @@ std::optional<std::array<double, count>> numbersOf(const toml::node& node, const
     if (!allowed.contains(numbers[i])) return std::nullopt;
   }
   return numbers;
-}
-
-// Whether what a path leads to, links followed, is in or below a folder.
-bool isBelow(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  std::error_code code;
-  const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
-  if (code) return false;
-  const auto whole = std::filesystem::weakly_canonical(path, code);
-  return !code && std::ranges::mismatch(base, whole).in1 == base.end();
 }
 
 // Walks a parsed file.
@@ -302,7 +294,7 @@ class SceneReader {
   // Nothing where it is none, or out of reach; that is a problem then.
   std::optional<std::filesystem::path> pathOf(const toml::node& node, const std::string& key) {
     const auto text = node.value_exact<std::string>();
-    if (!text || text->empty()) {
+    if (!text || text->empty() || text->find('\0') != text->npos) {
       problems_.addFound(node, key, "a path");
       return std::nullopt;
     }
