@@ -13,15 +13,14 @@
 namespace ringlet {
 namespace {
 
-constexpr double kLeastUnit = 1e-6, kMostUnit = 1000;  // that scenes and options take [m]
-constexpr double kMostPerson = 3, kLeastPerson = 0.3;  // tall [m]
-constexpr double kMostLone = 10;  // of a node without parents, above the file's origin [m]
+constexpr double kLeastUnit = 1e-6, kMostUnit = 1000;     // that scenes and options take [m]
+constexpr double kMostPerson = 3, kLeastPerson = 0.3;     // tall [m]
+constexpr double kMostHead = 10;                          // of a head above what carries it, a stage too [m]
 constexpr double kLeastFigure = 0.15, kLeastTrunk = 0.3;  // of a head above what carries it [m]
 constexpr int kFullFigure = 3;                            // bones from which on a figure may be called small
-constexpr double kPlacement = 8,
-                 kFirstPlacement = 30;          // steps so many times longer than all below are no bones
-constexpr std::size_t kLooks = 100;             // at an animation
-constexpr double kSeldom = 0.2, kMostly = 0.8;  // shares of them
+constexpr double kPlacement = 4, kFirstPlacement = 30;  // steps so many times longer than all below are none
+constexpr std::size_t kLooks = 100;                     // at an animation
+constexpr double kSeldom = 0.2, kMostly = 0.8;          // shares of them
 
 std::string upOption(FileAxis up) {
   return fmt::format("--motion-up {0} (up = \"{0}\" of [motion])", nameOf(up));
@@ -229,8 +228,7 @@ std::vector<std::string> doubtsOf(const GltfFile& file, std::size_t node, const 
   const Vec3d up = directionOf(other.value_or(FileAxis::plusY));
   const double height = heightAlong(isLone ? figure.heads : figure.rise, up);
   const std::string& head = file.nodes[node].name;
-  if (height > (isLone ? kMostLone : kMostPerson) ||
-      (figure.bones >= kFullFigure && height > 0 && height < kLeastFigure)) {
+  if (height > kMostHead || (figure.bones >= kFullFigure && height > 0 && height < kLeastFigure)) {
     const bool isRoot = isLone || !file.nodes[figure.foot].parent;
     doubts.push_back(fmt::format("{}: the node {} stands {:.3g} m above {}, which no head does; {}", name,
                                  head, height,
