@@ -169,7 +169,7 @@ MotionObject loadMotion(const std::filesystem::path& path, const std::string& jo
     throw py::value_error(unknownName("up axis of a file", fileUp, namesIn(kFileAxisNames)));
   MotionObject loaded;
   withoutGil([&] {
-    loaded.motion = valueOf(readMotionFile({path, joint, metresPerUnit, skipFrames, animation, axis, true},
+    loaded.motion = valueOf(readMotionFile({path, joint, metresPerUnit, skipFrames, animation, axis, {}},
                                            up == "Z", loaded.warnings));
   });
   return loaded;

@@ -200,6 +200,35 @@ TEST(BvhStance, SkeletonsWithoutAPersonHaveAUnit) {
   }
 }
 
+// Without a name that says so, the head is what the hair follows; other joints of the file go with it.
+TEST(BvhStance, AHeadOfAnyNameIsAHead) {
+  for (const char* name : {"Kopf", "j4", "testa"}) {
+    for (const std::size_t which : {1u, 10u}) {  // Y up, Z up
+      SCOPED_TRACE(fmt::format("{} {}", name, conventions()[which].name));
+      Convention convention = conventions()[which];
+      convention.names = "plain";
+      std::string text = bvhOf(convention, Posture::turnsHead);
+      const std::pair<std::string, std::string> words[] = {{"HeadTop", "x1"}, {"Head", name}, {"Neck", "x2"}};
+      for (const auto& [word, other] : words) {
+        for (std::size_t at = text.find(word); at != text.npos; at = text.find(word))
+          text.replace(at, word.size(), other);
+      }
+      const auto path = scratchFolder("bvh_stance_names") / "person.bvh";
+      std::ofstream(path) << text;
+      std::vector<std::string> warnings;
+      const auto head = readMotionFile({.path = path, .joint = name}, false, warnings);
+      ASSERT_TRUE(head) << head.error().message;
+      const Vec3d at = head->keyframes->poses[0].position;
+      EXPECT_NEAR(at.y, 1.7 / 1.8 * 1.6, 0.01);
+      const std::size_t said = warnings.size();
+      const auto hips = readMotionFile({.path = path, .joint = "Hips", .headJoint = name}, false, warnings);
+      ASSERT_TRUE(hips) << hips.error().message;
+      EXPECT_NEAR(length(at - hips->keyframes->poses[0].position), 1.7 / 1.8 * 0.65, 0.01);
+      EXPECT_EQ(warnings.size(), said) << "nothing is said twice";
+    }
+  }
+}
+
 // A stated unit in which the person is a giant, or a doll.
 TEST(BvhStance, AStatedUnitIsDoubted) {
   const auto warningsOf = [](double unit) {

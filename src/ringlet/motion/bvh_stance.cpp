@@ -44,7 +44,6 @@ double median(std::vector<double> values) {
 struct Person {
   std::size_t head = 0, hips = 0;
   bool hasTrunk = false;  // a head, and hips further to the root
-  bool hasHead = false;
   std::vector<std::size_t> parts;              // trunk, head and legs
   std::vector<std::size_t> headTops;           // the head and all that it carries
   std::vector<std::vector<std::size_t>> legs;  // from the hips, without them, to each end
@@ -94,12 +93,12 @@ std::vector<Part> partsOf(const BvhFile& file, const std::vector<std::size_t>& c
   return parts;
 }
 
-Person personOf(const BvhFile& file) {
+Person personOf(const BvhFile& file, std::optional<std::size_t> otherHead) {
   Person person;
   auto head = jointCalled(file, "head");
   if (!head) head = jointCalled(file, "neck");
+  if (!head) head = otherHead;
   if (!head) return person;
-  person.hasHead = true;
   person.head = *head;
   std::vector<std::size_t> chain{*head};  // from the root
   while (file.joints[chain.back()].parent != chain.back()) chain.push_back(file.joints[chain.back()].parent);
@@ -293,13 +292,14 @@ void seeUp(const Looks& looks, std::optional<FileAxis> atRest, BvhStance& stance
 
 }  // namespace
 
-BvhStance stanceOf(const BvhFile& file, std::size_t firstFrame, std::optional<FileAxis> stated) {
+BvhStance stanceOf(const BvhFile& file, std::size_t firstFrame, std::optional<FileAxis> stated,
+                   std::optional<std::size_t> head) {
   BvhStance stance;
-  const Person person = personOf(file);
+  const Person person = personOf(file, head);
   const Looks looks(file, person, firstFrame);
-  stance.hasHead = person.hasHead;
   stance.hasLegs = !person.legs.empty();
   const double straightened = looks.straightened();
+  stance.hasTrunk = straightened > 0;
   if (stated) {
     stance.sight = BvhStance::Sight::stated;
     stance.up = *stated;

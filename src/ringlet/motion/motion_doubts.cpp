@@ -45,7 +45,7 @@ void doubtUnit(const BvhStance& stance, const std::string& name, std::vector<std
                           : "one point, which has no height"));
     return;
   }
-  const char* how = stance.hasHead && !stance.everStands
+  const char* how = stance.hasTrunk && !stance.everStands
                         ? "straightened, since it stands in none of its frames,"
                         : "as it stands in its frames,";
   doubts.push_back(fmt::format(

@@ -36,7 +36,8 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, bool upIsZ,
     return Error{fmt::format("{} has {} frames; without the first {} too few are left to move along", name,
                              file->frameCount(), skipped)};
   }
-  const BvhStance stance = stanceOf(*file, skipped, choice.up);
+  const auto head = choice.headJoint.empty() ? joint : file->find(choice.headJoint);
+  const BvhStance stance = stanceOf(*file, skipped, choice.up, head);
   for (std::string& doubt : doubtsOf(*file, stance, name, choice.metresPerUnit, upIsZ))
     addOnce(std::move(doubt), warnings);
 
@@ -80,7 +81,7 @@ Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, bool upIsZ,
   if (!keys) return Error{fmt::format("{}: {}", name, keys.error().message)};
   if (keys->poses.size() < 2)
     return Error{fmt::format("{}: its animation {} takes no time", name, (*animation)->name)};
-  if (choice.isHead) {
+  if (choice.headJoint.empty() || choice.headJoint == choice.joint) {
     for (std::string& doubt : doubtsOf(*file, *node, *animation, placement, choice.up.has_value(), name))
       addOnce(std::move(doubt), warnings);
   }

@@ -14,12 +14,12 @@ namespace ringlet {
 
 struct MotionFileChoice {
   std::filesystem::path path;
-  std::string joint = "Head";           // glTF calls it a node
-  std::optional<double> metresPerUnit;  // unset: so that a BVH person is 1.7 m tall; glTF is in metres
-  int skippedFrames = 0;                // BVH: at the start, a T-pose
-  std::string animation{};              // glTF: a name or a number from 0; empty: the first
-  std::optional<FileAxis> up{};         // of the file; unset: as a BVH person stands (bvh_stance.h); glTF: Y
-  bool isHead = true;                   // false: another joint of a file of which all doubts are said
+  std::string joint = "Head";             // glTF calls it a node
+  std::optional<double> metresPerUnit{};  // unset: so that a BVH person is 1.7 m tall; glTF is in metres
+  int skippedFrames = 0;                  // BVH: at the start, a T-pose
+  std::string animation{};                // glTF: a name or a number from 0; empty: the first
+  std::optional<FileAxis> up{};  // of the file; unset: as a BVH person stands (bvh_stance.h); glTF: Y
+  std::string headJoint{};       // of the person whose unit and up axis the file has; empty: `joint`
 };
 
 enum class MotionFileKind { none, bvh, gltf };

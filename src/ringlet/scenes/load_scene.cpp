@@ -78,13 +78,9 @@ Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, double metr
 }  // namespace
 
 MotionFileChoice motionFileOf(const SceneMotion& motion) {
-  return {motion.file,
-          motion.joint,
-          motion.metresPerUnit,
-          motion.skipFrames,
-          motion.animation,
-          fileAxisNamed(motion.up),
-          true};
+  return {motion.file,       motion.joint,     motion.metresPerUnit,
+          motion.skipFrames, motion.animation, fileAxisNamed(motion.up),
+          motion.joint};
 }
 
 Result<Motion> jointMotion(const SceneFile& scene, const std::string& joint,
@@ -94,7 +90,6 @@ Result<Motion> jointMotion(const SceneFile& scene, const std::string& joint,
         fmt::format("its joint {} is one of the head's motion file, but the head follows none", joint)};
   MotionFileChoice choice = motionFileOf(scene.motion);
   choice.joint = joint;
-  choice.isHead = false;
   auto motion = readMotionFile(choice, scene.groom.up == "Z", warnings);
   if (motion) motion->start = scene.motion.start;
   return motion;
