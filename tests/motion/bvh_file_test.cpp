@@ -92,7 +92,7 @@ TEST(BvhFile, SaysWhatIsWrongAndWhere) {
       {skeleton(turns, "Frames: 1\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0 9\n"),
        "frame 2 has 1 of its 9 numbers; the file states 1 frames and holds 1 and a part of one"},
       {skeleton(turns, "Frames: 3\nFrame Time: 0.04\n"), "states 3 frames and holds none"},
-      {skeleton(turns, "Frames: 1\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0\nend\n"), "number 1 of 9: line 26"},
+      {skeleton(turns, "Frames: 1\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0\nend\n"), "number 1 of 9: line 25"},
       {"HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n}\nMOTION\nFrames: 3\nFrame Time: 1\n", "no channels"},
   };
   for (const auto& [text, expected] : cases) {

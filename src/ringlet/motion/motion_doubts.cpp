@@ -226,7 +226,12 @@ std::vector<std::string> doubtsOf(const GltfFile& file, std::size_t node, const 
   const bool isLone = figure.bones == 0;
   const auto other = isLone || statesUp ? std::nullopt : otherAxis(figure, Affine{});
   const Vec3d up = directionOf(other.value_or(FileAxis::plusY));
-  const double height = heightAlong(isLone ? figure.heads : figure.rise, up);
+  double height = heightAlong(isLone ? figure.heads : figure.rise, up);
+  if (!file.nodes[figure.foot].parent) {
+    // Hips that are the root stand above the floor, or farther up, as a character on a tower.
+    const double whole = heightAlong(figure.heads, up);
+    if (whole > height && whole - height <= kPlacement * height) height = whole;
+  }
   const std::string& head = file.nodes[node].name;
   if (height > kMostHead || (figure.bones >= kFullFigure && height > 0 && height < kLeastFigure)) {
     const bool isRoot = isLone || !file.nodes[figure.foot].parent;
