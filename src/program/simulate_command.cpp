@@ -135,7 +135,7 @@ std::string wrongMotion(std::string word) {
   const std::filesystem::path path = word;
   if (path.has_extension() || path.has_parent_path() || std::filesystem::exists(path, ignored))
     return fmt::format("{}; built-in motions are {}", noMotionFile(path).message, motionNames());
-  return fmt::format("{}; or name a {} file", unknown, kMotionEndings);
+  return fmt::format("{}{} name a {} file", unknown, unknown.ends_with('?') ? " Or" : "; or", kMotionEndings);
 }
 
 // The motion as typed in place of the file's. Throws CLI11's error for what makes no sense together.

@@ -79,10 +79,13 @@ void doubtUp(const BvhStance& stance, const std::string& name, bool upIsZ, std::
   }
   if (stance.sight == Sight::taken || (stance.sight == Sight::upright && !isUsual)) {
     const FileAxis other = isUsual ? FileAxis::plusZ : FileAxis::plusY;
+    const bool isGrooms = nameOf(stance.up) == groomUp;
     doubts.push_back(fmt::format(
-        "{}: the person stands along {}, which is taken for the file's up axis and turned to the groom's {}; "
-        "where the person lies, {} says so",
-        name, nameOf(stance.up), groomUp, upOption(other)));
+        "{}: the person stands along {}, which is taken for the file's up axis{}; where the person lies, {} "
+        "says so",
+        name, nameOf(stance.up),
+        isGrooms ? ", the groom's too" : fmt::format(" and turned to the groom's {}", groomUp),
+        upOption(other)));
   }
 }
 
@@ -178,11 +181,11 @@ std::string unitsFor(double height, double unit) {
   return fmt::format("it would be {}", fmt::join(texts, " or "));
 }
 
-// The axis along which the trunk lies nearly always, where that is not up.
-std::optional<FileAxis> otherAxis(const Figure& figure, const Affine& fromWorld) {
+// The axis along which the trunk lies nearly always; Y, where it ever stands or lies along none.
+FileAxis trunkAxis(const Figure& figure) {
   std::array<std::size_t, 6> votes{};
   for (const Vec3d& way : figure.trunk) {
-    const auto axis = nearestFileAxis(fromWorld.turned(way));
+    const auto axis = nearestFileAxis(way);
     if (axis && length(way) >= kLeastTrunk) ++votes[static_cast<std::size_t>(*axis)];
   }
   const auto count = static_cast<double>(figure.trunk.size());
@@ -190,9 +193,7 @@ std::optional<FileAxis> otherAxis(const Figure& figure, const Affine& fromWorld)
     return static_cast<double>(votes[static_cast<std::size_t>(axis)]) / count;
   };
   const auto most = static_cast<FileAxis>(std::ranges::max_element(votes) - votes.begin());
-  if (most == FileAxis::plusY || share(most) < kMostly || share(FileAxis::plusY) > kSeldom)
-    return std::nullopt;
-  return most;
+  return share(most) < kMostly || share(FileAxis::plusY) > kSeldom ? FileAxis::plusY : most;
 }
 
 }  // namespace
@@ -224,8 +225,8 @@ std::vector<std::string> doubtsOf(const GltfFile& file, std::size_t node, const 
   const Affine map{turn.x * unit, turn.y * unit, turn.z * unit, {}};
   const Figure figure = figureOf(file, node, animation, map);
   const bool isLone = figure.bones == 0;
-  const auto other = isLone || statesUp ? std::nullopt : otherAxis(figure, Affine{});
-  const Vec3d up = directionOf(other.value_or(FileAxis::plusY));
+  const FileAxis along = isLone || statesUp ? FileAxis::plusY : trunkAxis(figure);
+  const Vec3d up = directionOf(along);
   double height = heightAlong(isLone ? figure.heads : figure.rise, up);
   if (!file.nodes[figure.foot].parent) {
     // Hips that are the root stand above the floor, or farther up, as a character on a tower.
@@ -240,12 +241,12 @@ std::vector<std::string> doubtsOf(const GltfFile& file, std::size_t node, const 
                                  isRoot ? "the root of the file" : "the node " + file.nodes[figure.foot].name,
                                  unitsFor(height, unit)));
   }
-  if (other) {
+  if (along != FileAxis::plusY) {
     doubts.push_back(
         fmt::format("{}: the node {} is along {} from {}, where glTF has Y up: the person lies, or the file "
                     "has another axis "
                     "up, which {} says",
-                    name, head, nameOf(*other), file.nodes[figure.hips].name, upOption(*other)));
+                    name, head, nameOf(along), file.nodes[figure.hips].name, upOption(along)));
   }
   return doubts;
 }
