@@ -69,10 +69,10 @@ CLI::Validator between(double low, double high) {
       "");
 }
 
-CLI::Validator wholeBetween(int low, int high) {
+CLI::Validator wholeBetween(std::int64_t low, std::int64_t high) {
   return CLI::Validator(
       [=](std::string& text) {
-        int value = 0;
+        std::int64_t value = 0;
         const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool isWhole = code == std::errc() && end == text.data() + text.size();
         if (isWhole && value >= low && value <= high) return std::string();

@@ -1,6 +1,7 @@
 // Shared by the subcommands: checks of options, whose messages say what is allowed.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,7 @@ CLI::Validator oneOf(std::vector<std::string> names);
 /// Accepts finite numbers from low to high.
 CLI::Validator between(double low, double high);
 /// The same for whole numbers.
-CLI::Validator wholeBetween(int low, int high);
+CLI::Validator wholeBetween(std::int64_t low, std::int64_t high);
 
 /// Accepts a path that ends in one of these extensions, in either case.
 CLI::Validator endsIn(std::vector<std::string> extensions);

@@ -20,7 +20,8 @@ constexpr const char *kMaxNeighbours = "max_neighbours", *kDropShare = "drop_sha
 // A level of pruning: none, or overlaps from 1 on.
 CLI::Validator pruneLevel() {
   const NumberRange allowed = fieldNamed(contactFields(), "min_overlaps")->allowed;
-  const CLI::Validator number = wholeBetween(static_cast<int>(allowed.low), static_cast<int>(allowed.high));
+  const CLI::Validator number =
+      wholeBetween(static_cast<std::int64_t>(allowed.low), static_cast<std::int64_t>(allowed.high));
   return CLI::Validator(
       [number](std::string& text) {
         if (text == "none") return std::string();

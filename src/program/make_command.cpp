@@ -5,8 +5,11 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -68,12 +71,18 @@ int write(const char* command, const Typed& typed, const Result<Groom>& groom) {
   return kExitFine;
 }
 
-// Adds a numeric option that shows its default; what is in range, the generator knows and says.
+// Adds a numeric option that shows its default; what is in range, the generator knows and says, of numbers
+// that the option can hold. Seeds have 32 bits, as in scene files.
 template <class Number>
-void addNumber(CLI::App* command, const char* name, Number& value, const char* what, const char* unit) {
+CLI::Option* addNumber(CLI::App* command, const char* name, Number& value, const char* what,
+                       const char* unit) {
   CLI::Option* option =
       command->add_option(name, value, fmt::format("{} (default {})", what, value))->type_name(unit);
-  if constexpr (std::is_integral_v<Number>) option->check(wholeBetween(0, 100'000'000));
+  if constexpr (std::is_integral_v<Number>)
+    option->check(
+        wholeBetween(0, static_cast<std::int64_t>(std::min<std::uint64_t>(
+                            std::numeric_limits<Number>::max(), std::numeric_limits<std::uint32_t>::max()))));
+  return option;
 }
 
 void addCurlOptions(CLI::App* command, Typed& typed) {
@@ -97,9 +106,7 @@ void addCurlOptions(CLI::App* command, Typed& typed) {
 void addVariationOptions(CLI::App* command, Variation& variation) {
   const char* group = "Differences between strands";
   auto add = [&](const char* name, auto& value, const char* what, const char* unit) {
-    command->add_option(name, value, fmt::format("{} (default {})", what, value))
-        ->type_name(unit)
-        ->group(group);
+    addNumber(command, name, value, what, unit)->group(group);
   };
   add("--vary-radius", variation.radius, "Largest relative difference of the radius", "SHARE");
   add("--vary-length", variation.length, "Largest relative difference of the length", "SHARE");

@@ -30,7 +30,8 @@ CLI::Validator validatorOf(const SettingField<Owner>& field) {
         if constexpr (std::is_same_v<Value, bool>) return oneOf({"on", "off"});
         if constexpr (std::is_enum_v<Value> || std::is_same_v<Value, std::string>)
           return oneOf(namesIn(field.choices));
-        return wholeBetween(static_cast<int>(field.allowed.low), static_cast<int>(field.allowed.high));
+        return wholeBetween(static_cast<std::int64_t>(field.allowed.low),
+                            static_cast<std::int64_t>(field.allowed.high));
       },
       field.member);
 }

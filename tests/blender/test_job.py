@@ -91,6 +91,8 @@ def test_what_fails_leaves_the_folder_as_it_was(folder):
     failed = run(folder, options="--no-such-option")
     assert "no-such-option" in failed.error
     cancelled = job(folder, options=OPTIONS + " --frames 100000")
+    while cancelled.run.frame == 0:
+        assert not cancelled.is_over()
     cancelled.run.cancel()
     cancelled.wait()
     assert cancelled.error == "cancelled"

@@ -69,8 +69,8 @@ json fallOn(const std::filesystem::path& folder, const std::string& body) {
   std::ofstream(folder / "scene.toml") << "[groom]\nfile = 'groom.obj'\n[material]\nbend_stiffness = "
                                           "0.5\n[simulation]\nframes = 12\npreload = 0\n"
                                        << body;
-  const auto result =
-      runProgram(folder, {"simulate", "scene.toml", "-o", "out", "--backend", "reference", "--json"});
+  const auto result = runProgram(
+      folder, {"simulate", "scene.toml", "--overwrite", "-o", "out", "--backend", "reference", "--json"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
   return json::parse(result.out, nullptr, false);
 }
@@ -124,7 +124,8 @@ TEST(BodyProgram, MistakesNameTheBody) {
   writeFiles(folder);
   std::ofstream(folder / "scene.toml")
       << "[groom]\nfile = 'groom.obj'\n[[body]]\nname = 'anvil'\nshape = 'mesh'\nfile = 'none.gltf'\n";
-  const auto result = runProgram(folder, {"simulate", "scene.toml", "-o", "out", "--backend", "reference"});
+  const auto result =
+      runProgram(folder, {"simulate", "scene.toml", "--overwrite", "-o", "out", "--backend", "reference"});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(result.err.find("anvil"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("none.gltf"), std::string::npos) << result.err;

@@ -117,9 +117,11 @@ TEST_F(Convert, EveryFormatBecomesEveryOther) {
 }
 
 TEST_F(Convert, ACrateIsThatOfSimulate) {
-  const auto result = run({"simulate", "groom.obj", "--up", "Z", "--fps", "30", "--width", "0.0007",
-                           "--backend", "reference", "--frames", std::to_string(kFrames), "--usdc",
-                           "--usd-values", "id,velocities", "--tip-width", "0.0001", "-o", "out"});
+  const auto result =
+      run({"simulate", "groom.obj",    "--up",          "Z",           "--fps",    "30",
+           "--width",  "0.0007",       "--backend",     "reference",   "--frames", std::to_string(kFrames),
+           "--usdc",   "--usd-values", "id,velocities", "--tip-width", "0.0001",   "--overwrite",
+           "-o",       "out"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   convert({"out/hair.usda", "again.usdc", "--usd-values", "id,velocities", "--tip-width", "0.0001"});
   EXPECT_TRUE(readText(folder_ / "again.usdc") == readText(folder_ / "out/hair.usdc"));

@@ -25,8 +25,8 @@ TEST(Examples, EachSceneRuns) {
   for (const auto& entry : fs::directory_iterator(folder / "examples")) {
     if (entry.path().extension() != ".toml") continue;
     ++count;
-    const auto result =
-        test::runProgram(folder, {"simulate", entry.path().string(), "--frames", "3", "--json", "-o", "out"});
+    const auto result = test::runProgram(
+        folder, {"simulate", entry.path().string(), "--frames", "3", "--json", "--overwrite", "-o", "out"});
     EXPECT_EQ(result.exitCode, 0) << entry.path() << result.err;
     const auto report = nlohmann::json::parse(result.out, nullptr, false);
     ASSERT_TRUE(report.is_object()) << entry.path();

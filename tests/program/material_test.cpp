@@ -29,8 +29,8 @@ void writeCurl(const std::filesystem::path& folder) {
 }
 
 json simulate(const std::filesystem::path& folder, std::vector<std::string> options) {
-  std::vector<std::string> arguments{"simulate", "curl.obj",  "--frames",  "4",  "--preload", "0",
-                                     "--json",   "--backend", "reference", "-o", "out"};
+  std::vector<std::string> arguments{"simulate", "curl.obj",  "--frames",  "4",           "--preload", "0",
+                                     "--json",   "--backend", "reference", "--overwrite", "-o",        "out"};
   arguments.insert(arguments.end(), options.begin(), options.end());
   const auto result = runProgram(folder, arguments);
   EXPECT_EQ(result.exitCode, 0) << result.err;

@@ -58,8 +58,8 @@ TEST(MotionFile, TheGroomFollowsTheNodeOfAGltf) {
   for (const Case& c : {Case{{"--motion", "walk.GLB"}, 2, 0, 1},
                         Case{{"--motion", "walk.gltf", "--motion-unit", "0.5"}, 1, 0, 0.5},
                         Case{{"--motion", "walk.gltf", "--up", "Z", "--joint", "rig:head"}, 0, 2, 1}}) {
-    std::vector<std::string> arguments{"simulate",  "groom.obj", "--gravity", "0",     "--backend",
-                                       "reference", "-o",        "out",       "--json"};
+    std::vector<std::string> arguments{"simulate",  "groom.obj",   "--gravity", "0",   "--backend",
+                                       "reference", "--overwrite", "-o",        "out", "--json"};
     arguments.insert(arguments.end(), c.options.begin(), c.options.end());
     const auto result = runProgram(folder, arguments);
     ASSERT_EQ(result.exitCode, 0) << result.err;
@@ -82,8 +82,9 @@ TEST(MotionFile, SaysWhichAnimationOfAGltfItTook) {
   file.node({{"name", "Stone"}});
   std::ofstream(folder / "two.glb", std::ios::binary) << file.glb();
   const auto warningsOf = [&](const std::vector<std::string>& options) {
-    std::vector<std::string> arguments{"simulate",  "groom.obj", "--motion", "two.glb", "--frames", "1",
-                                       "--backend", "reference", "-o",       "out",     "--json"};
+    std::vector<std::string> arguments{"simulate",    "groom.obj", "--motion",  "two.glb",
+                                       "--frames",    "1",         "--backend", "reference",
+                                       "--overwrite", "-o",        "out",       "--json"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
@@ -167,7 +168,8 @@ TEST(MotionFile, MistakesAreOneSentence) {
            Case{{"--motion", "nod", "--motion-up", "Z"}, 2, "--motion-up"},
            Case{{"--motion", "walk.BVH", "--motion-up", "W"}, 2, "Y, Z, X, -Y, -Z, -X"},
        }) {
-    std::vector<std::string> arguments{"simulate", "groom.obj", "--backend", "reference", "-o", "out"};
+    std::vector<std::string> arguments{"simulate",    "groom.obj", "--backend", "reference",
+                                       "--overwrite", "-o",        "out"};
     arguments.insert(arguments.end(), c.options.begin(), c.options.end());
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(result.exitCode, c.exitCode) << result.err;
@@ -184,7 +186,7 @@ TEST(MotionFile, JointsWithOtherAxesAreSaidAndBindUpright) {
   const auto simulated = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "simulate");
     for (const char* more :
-         {"--gravity", "0", "--backend", "reference", "-o", "out", "--json", "--frames", "1"})
+         {"--gravity", "0", "--backend", "reference", "-o", "out", "--json", "--overwrite", "--frames", "1"})
       arguments.emplace_back(more);
     const auto result = runProgram(folder, arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;

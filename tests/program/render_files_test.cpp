@@ -185,6 +185,7 @@ TEST_F(RenderFiles, WhatMakesNoSenseIsRefused) {
   expectRefused({"out", "-o", "x.exr"}, 2, {"one picture"});
   expectRefused({"out", "-o", "x.mp4", "--format", "exr"}, 2, {"--format"});
   expectRefused({"out", "-o", "x", "--ground=low"}, 2, {"--ground=0.1", "low"});
+  std::ofstream(folder_ / "scene.toml") << "[groom]\n";
   expectRefused({"scene.toml", "-o", "x.webp"}, 2, {"folder"});
 }
 

@@ -44,7 +44,7 @@ void writeScene(const std::filesystem::path& path, const std::string& text) {
 
 json run(const std::filesystem::path& folder, std::vector<std::string> arguments,
          const char* backend = "reference") {
-  arguments.insert(arguments.end(), {"--backend", backend, "--json"});
+  arguments.insert(arguments.end(), {"--backend", backend, "--json", "--overwrite"});
   const auto result = runProgram(folder, arguments);
   EXPECT_EQ(result.exitCode, 0) << result.err;
   return json::parse(result.out, nullptr, false);

@@ -189,7 +189,7 @@ TEST(Scene, MeasuringChangesNothing) {
   std::vector<std::string> arguments{"simulate",          "swatch.obj", "--contacts", "on", "--frames", "6",
                                      "--steps-per-frame", "4",          "--json",     "-o", "out"};
   const json plain = json::parse(runProgram(folder, arguments).out, nullptr, false);
-  arguments.push_back("--measure-contacts");
+  arguments.insert(arguments.end(), {"--measure-contacts", "--overwrite"});
   const json measured = json::parse(runProgram(folder, arguments).out, nullptr, false);
   ASSERT_TRUE(plain.is_object() && measured.is_object());
   for (const char* key : {"positions_hash", "warnings", "steps_per_frame", "fps", "pairs", "pair_tests",
@@ -408,7 +408,7 @@ TEST(Scene, TheTableSaysTheNumbers) {
         std::string("  tip           turned by "), std::string("  bounce        none measured, not settled")})
     expectContains(text.out, part);
 
-  arguments.push_back("--quiet");
+  arguments.insert(arguments.end(), {"--quiet", "--overwrite"});
   const auto quiet = runProgram(folder, arguments);
   EXPECT_EQ(quiet.exitCode, 0);
   EXPECT_EQ(quiet.out + quiet.err, "");

@@ -34,7 +34,7 @@ void writeSmallGroom(const std::filesystem::path& path) {
 // Runs with --json; standard output is one JSON object and nothing else.
 json simulate(const std::filesystem::path& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "simulate");
-  arguments.insert(arguments.end(), {"-o", "out", "--json"});
+  arguments.insert(arguments.end(), {"-o", "out", "--overwrite", "--json"});
   const auto result = runProgram(folder, arguments);
   EXPECT_EQ(result.exitCode, 0) << result.err;
   return json::parse(result.out, nullptr, false);
@@ -250,7 +250,7 @@ TEST(Simulate, SummaryNamesTheFilesAndQuietSaysNothing) {
     EXPECT_NE(result.out.find(part), std::string::npos) << part << " is missing in:\n" << result.out;
   }
   auto quiet = arguments;
-  quiet.push_back("--quiet");
+  quiet.insert(quiet.end(), {"--quiet", "--overwrite"});
   result = runProgram(folder, quiet);
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_EQ(result.out + result.err, "");
@@ -463,8 +463,8 @@ class Interruption : public testing::Test {
   // Two frames, with a variable in the environment.
   auto simulateWith(const char* variable, const char* value) {
     setenv(variable, value, 1);
-    const auto result =
-        runProgram(folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "-o", "out"});
+    const auto result = runProgram(
+        folder_, {"simulate", "groom.hair", "--frames", "2", "--json", "--overwrite", "-o", "out"});
     unsetenv(variable);
     return result;
   }

@@ -73,7 +73,8 @@ TEST(ScenePaths, AllThatAreReadAreVisited) {
 
 TEST(ScenePaths, FilesOfMapsAreVisited) {
   SceneFile scene;
-  scene.maps.push_back({.file = "factors.txt", .texture = "picture.png"});
+  SceneMap& map = scene.maps.emplace_back();
+  map.file = "factors.txt", map.texture = "picture.png";
   std::vector<fs::path> found;
   forEachFileOf(scene, [&](fs::path& path) { found.push_back(path), path = "new"; });
   EXPECT_EQ(found, (std::vector<fs::path>{"factors.txt", "picture.png"}));
