@@ -21,6 +21,7 @@
 #include "program/conform_probes.h"
 #include "program/exit_codes.h"
 #include "program/growing_report.h"
+#include "program/standard_output.h"
 #include "ringlet/gpu/device.h"
 
 namespace ringlet::program {
@@ -116,15 +117,14 @@ int run(const Typed& typed) {
   if (!withoutTexels) return fail(withoutTexels.error());
 
   const nlohmann::ordered_json facts = factsOf(*device);
-  fmt::print("ringlet conform{}\n{}\n", typed.quick ? " --quick" : "", factsText(facts));
-  if (!typed.breaks.empty())
-    fmt::print("  The kernel {} has an error on purpose (--break).\n\n", typed.breaks);
+  print("ringlet conform{}\n{}\n", typed.quick ? " --quick" : "", factsText(facts));
+  if (!typed.breaks.empty()) print("  The kernel {} has an error on purpose (--break).\n\n", typed.breaks);
   std::vector<Check> checks;
   const GrowingReport report(typed.json);
   Status written = report.grow(asJson(facts, typed, checks, {}));
   if (!written) return fail(written.error());
   const auto tell = [&](const Check& check) {
-    fmt::print("{}\n", lineOf(check));
+    print("{}\n", lineOf(check));
     std::fflush(stdout);
     checks.push_back(check);
     if (written) written = report.grow(asJson(facts, typed, checks, {}));
@@ -138,11 +138,11 @@ int run(const Typed& typed) {
 
   const bool conforms =
       std::ranges::none_of(checks, [](const Check& check) { return check.outcome == Check::Outcome::wrong; });
-  if (!conforms) fmt::print("\nwrong:\n");
+  if (!conforms) print("\nwrong:\n");
   for (const Check& check : checks) {
-    if (check.outcome == Check::Outcome::wrong) fmt::print("  {}\n", check.name);
+    if (check.outcome == Check::Outcome::wrong) print("  {}\n", check.name);
   }
-  fmt::print("\n{}\n", conforms ? "conforms" : "does not conform");
+  print("\n{}\n", conforms ? "conforms" : "does not conform");
   written = report.finish(asJson(facts, typed, checks, conforms));
   if (!written) return fail(written.error());
   return conforms ? kExitFine : kExitFailed;

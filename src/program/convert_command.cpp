@@ -22,6 +22,7 @@
 #include "program/hair_look.h"
 #include "program/precision_names.h"
 #include "program/run_report.h"
+#include "program/standard_output.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
@@ -247,16 +248,15 @@ void printInfo(const Typed& typed, const AnimationReader& source) {
                {"warnings", source.warnings()}});
     return;
   }
-  fmt::print("{}: {}, {}\n", typed.input.string(),
-             source.isCache() ? "cache, " + nameOf(header.precision) : source.formatName(),
-             source.isFinished() ? "finished" : "not finished");
-  fmt::print("  frames        {} at {} a second, {:.3g} s\n", source.frameCount(), header.framesPerSecond,
-             source.frameCount() / header.framesPerSecond);
-  fmt::print("  strands       {}, {} particles, {:.3g} mm wide\n", strands, particles, 1000 * width);
-  fmt::print("  unit          {} m, {} up\n", header.metresPerUnit, up);
-  fmt::print("  size          {}, {:.2f} bytes a point\n", sizeText(source.byteCount()),
-             bytesPerPoint(source));
-  fmt::print("  points        {}\n", boundText(source.errorBound()));
+  print("{}: {}, {}\n", typed.input.string(),
+        source.isCache() ? "cache, " + nameOf(header.precision) : source.formatName(),
+        source.isFinished() ? "finished" : "not finished");
+  print("  frames        {} at {} a second, {:.3g} s\n", source.frameCount(), header.framesPerSecond,
+        source.frameCount() / header.framesPerSecond);
+  print("  strands       {}, {} particles, {:.3g} mm wide\n", strands, particles, 1000 * width);
+  print("  unit          {} m, {} up\n", header.metresPerUnit, up);
+  print("  size          {}, {:.2f} bytes a point\n", sizeText(source.byteCount()), bytesPerPoint(source));
+  print("  points        {}\n", boundText(source.errorBound()));
 }
 
 void printOutcome(const Typed& typed, const Groom& groom, const std::vector<std::string>& warnings,
@@ -273,11 +273,10 @@ void printOutcome(const Typed& typed, const Groom& groom, const std::vector<std:
     for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
     printJson(json);
   } else if (!typed.quiet) {
-    fmt::print("{} frame{} of {} strand{}, {} particles: {}{}, {}, {}\n", frameCount,
-               frameCount == 1 ? "" : "s", strands, strands == 1 ? "" : "s", particles,
-               outcome.outputs.front().string(),
-               outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "",
-               sizeText(outcome.byteCount), boundText(outcome.errorBound));
+    print("{} frame{} of {} strand{}, {} particles: {}{}, {}, {}\n", frameCount, frameCount == 1 ? "" : "s",
+          strands, strands == 1 ? "" : "s", particles, outcome.outputs.front().string(),
+          outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "",
+          sizeText(outcome.byteCount), boundText(outcome.errorBound));
   }
 }
 
@@ -303,9 +302,9 @@ Status runGroomConvert(const Typed& typed) {
                {"warnings", loaded->warnings},
                {"outputs", {typed.output.string()}}});
   } else if (!typed.quiet) {
-    fmt::print("a groom of {} strand{}, {} particles, in units of {} m: {}, {}\n", groom.strandCount(),
-               groom.strandCount() == 1 ? "" : "s", groom.points.size(), groom.metresPerUnit,
-               typed.output.string(), sizeText(bytes));
+    print("a groom of {} strand{}, {} particles, in units of {} m: {}, {}\n", groom.strandCount(),
+          groom.strandCount() == 1 ? "" : "s", groom.points.size(), groom.metresPerUnit,
+          typed.output.string(), sizeText(bytes));
   }
   return {};
 }

@@ -11,6 +11,7 @@
 
 #include "program/exit_codes.h"
 #include "program/standard_error.h"
+#include "program/standard_output.h"
 #include "ringlet/solver/compute_device.h"
 
 namespace ringlet::program {
@@ -60,9 +61,9 @@ std::string asText(const std::vector<DeviceSummary>& devices) {
 int run(bool json) {
   const auto devices = ComputeDevice::list();
   if (json) {
-    fmt::print("{}\n", asJson(devices).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    printJson(asJson(devices));
   } else {
-    fmt::print("{}", asText(devices));
+    print("{}", asText(devices));
   }
   if (std::any_of(devices.begin(), devices.end(), [](const DeviceSummary& d) { return d.usable; }))
     return kExitFine;

@@ -17,6 +17,7 @@
 #include "program/exit_codes.h"
 #include "program/run_report.h"
 #include "program/standard_error.h"
+#include "program/standard_output.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/mend_groom.h"
 #include "ringlet/measure/groom_inspection.h"
@@ -170,36 +171,36 @@ std::string unitText(const Typed& typed, const LoadedGroom& loaded, const GroomI
 
 void printInfo(const Typed& typed, const LoadedGroom& loaded, const GroomInspection& found) {
   const double unit = loaded.groom.metresPerUnit;
-  fmt::print("{}: {} strand{}, {} particles\n", typed.input.string(), found.strandCount,
-             found.strandCount == 1 ? "" : "s", found.particleCount);
-  fmt::print("  particles     {} to {} a strand, median {}\n", found.particles.min, found.particles.max,
-             found.particles.median);
-  fmt::print("  length        {:.4g} to {:.4g} units, median {:.4g}: {} to {}, median {}\n", found.length.min,
-             found.length.max, found.length.median, millimetres(found.length.min * unit),
-             millimetres(found.length.max * unit), millimetres(found.length.median * unit));
-  fmt::print("  unit          {}\n", unitText(typed, loaded, found));
-  fmt::print("  up            {}; {}\n", loaded.statesUp ? "stated by the file" : "not stated by the file",
-             found.likelyUp ? fmt::format("the strands hang along -{}", found.likelyUp)
-                            : std::string("the strands hang along no axis"));
-  fmt::print("  curl          {} of {} strands", found.curledCount, found.strandCount);
+  print("{}: {} strand{}, {} particles\n", typed.input.string(), found.strandCount,
+        found.strandCount == 1 ? "" : "s", found.particleCount);
+  print("  particles     {} to {} a strand, median {}\n", found.particles.min, found.particles.max,
+        found.particles.median);
+  print("  length        {:.4g} to {:.4g} units, median {:.4g}: {} to {}, median {}\n", found.length.min,
+        found.length.max, found.length.median, millimetres(found.length.min * unit),
+        millimetres(found.length.max * unit), millimetres(found.length.median * unit));
+  print("  unit          {}\n", unitText(typed, loaded, found));
+  print("  up            {}; {}\n", loaded.statesUp ? "stated by the file" : "not stated by the file",
+        found.likelyUp ? fmt::format("the strands hang along -{}", found.likelyUp)
+                       : std::string("the strands hang along no axis"));
+  print("  curl          {} of {} strands", found.curledCount, found.strandCount);
   if (found.curledCount > 0) {
-    fmt::print(": {:.3g} to {:.3g} turns, median {:.3g}; radius {}", found.turns.min, found.turns.max,
-               found.turns.median, millimetres(found.radius.median * unit));
+    print(": {:.3g} to {:.3g} turns, median {:.3g}; radius {}", found.turns.min, found.turns.max,
+          found.turns.median, millimetres(found.radius.median * unit));
   }
-  fmt::print("\n  arc           {:.4g} to {:.4g} times the chord, median {:.4g}\n", found.arcOverChord.min,
-             found.arcOverChord.max, found.arcOverChord.median);
+  print("\n  arc           {:.4g} to {:.4g} times the chord, median {:.4g}\n", found.arcOverChord.min,
+        found.arcOverChord.max, found.arcOverChord.median);
   const Vec3d size = found.high - found.low;
-  fmt::print(
+  print(
       "  box           ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) units, {:.4g} x {:.4g} x "
       "{:.4g}\n",
       found.low.x, found.low.y, found.low.z, found.high.x, found.high.y, found.high.z, size.x, size.y,
       size.z);
-  if (found.isFaultless()) fmt::print("  faults        none\n");
+  if (found.isFaultless()) print("  faults        none\n");
   for (const Row& row : kFaults) {
     const GroomFault& fault = found.*row.fault;
     if (fault.count > 0) {
-      fmt::print("  fault         {} (the first in strand {})\n",
-                 fmt::format(fmt::runtime(row.sentence), fault.count), fault.firstStrand);
+      print("  fault         {} (the first in strand {})\n",
+            fmt::format(fmt::runtime(row.sentence), fault.count), fault.firstStrand);
     }
   }
 }
@@ -222,7 +223,7 @@ Result<Fixed> fix(const Typed& typed, const LoadedGroom& loaded, const GroomInsp
 
 void printFixed(const Typed& typed, const Fixed& fixed) {
   const MendedGroom& mended = fixed.mended;
-  fmt::print(
+  print(
       "\n{}: {} strands, {} particles, in units of {} m; {} particles merged, {} strands in one place and {} "
       "duplicates dropped\n",
       typed.output.string(), mended.groom.strandCount(), mended.groom.points.size(),

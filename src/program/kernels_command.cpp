@@ -19,6 +19,7 @@
 #include "program/kernels_child.h"
 #include "program/kernels_list.h"
 #include "program/kernels_statistics.h"
+#include "program/standard_output.h"
 #include "ringlet/gpu/device.h"
 #include "ringlet/solver/shape_plan.h"
 
@@ -155,10 +156,10 @@ int run(const Typed& typed) {
   }
 
   const gpu::DeviceProperties& p = device->gpu().properties();
-  fmt::print("{} ({}), {} kernels\n", p.name, p.driver, kernels.size());
+  print("{} ({}), {} kernels\n", p.name, p.driver, kernels.size());
   if (typed.statistics && p.inspection == gpu::Inspection::none)
-    fmt::print("  this driver has no statistics (VK_KHR_pipeline_executable_properties)\n");
-  fmt::print("  {:<56} {:>8} {:>8}\n", "kernel", "subgroup", "compiled");
+    print("  this driver has no statistics (VK_KHR_pipeline_executable_properties)\n");
+  print("  {:<56} {:>8} {:>8}\n", "kernel", "subgroup", "compiled");
   Json json{{"device", p.name}, {"driver", p.driver}, {"kernels", Json::array()}};
   const GrowingReport report(typed.json);
   if (Status written = report.grow(json); !written) return fail(written.error());
@@ -166,7 +167,7 @@ int run(const Typed& typed) {
   for (std::size_t k = 0; k < kernels.size(); ++k) {
     if (!hasPart(kernels[k].name, typed.only.c_str())) continue;
     const CompiledKernel compiled = compileSafely(typed, p.index, k);
-    fmt::print("{}\n", lineOf(kernels[k], compiled));
+    print("{}\n", lineOf(kernels[k], compiled));
     std::fflush(stdout);
     json["kernels"].push_back(asJson(kernels[k], compiled));
     if (Status written = report.grow(json); !written) return fail(written.error());

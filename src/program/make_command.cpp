@@ -18,6 +18,7 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/setting_options.h"
+#include "program/standard_output.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
@@ -64,8 +65,8 @@ int write(const char* command, const Typed& typed, const Result<Groom>& groom) {
   }
   if (const auto warning = coarseCurlWarning(typed.curl)) say("{}: warning: {}\n", command, *warning);
   if (!typed.quiet) {
-    fmt::print("{} strand{}, {} particles: {}\n", groom->strandCount(), groom->strandCount() == 1 ? "" : "s",
-               groom->points.size(), typed.file.string());
+    print("{} strand{}, {} particles: {}\n", groom->strandCount(), groom->strandCount() == 1 ? "" : "s",
+          groom->points.size(), typed.file.string());
   }
   return kExitFine;
 }

@@ -15,6 +15,7 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/standard_output.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_inspection.h"
 #include "ringlet/measure/material_suggestion.h"
@@ -148,8 +149,6 @@ Json jsonOfTables(const LoadedMaterial* loaded) {
   return json;
 }
 
-void print(const Json& json) { fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace)); }
-
 int list(const Typed& typed) {
   if (typed.json) {
     Json json;
@@ -157,12 +156,12 @@ int list(const Typed& typed) {
     for (const std::string& name : presetNames())
       json["presets"].push_back({{"name", name}, {"summary", presetSummary(name)}});
     json.update(jsonOfTables(nullptr));
-    print(json);
+    printJson(json);
     return kExitFine;
   }
-  fmt::print("Presets:\n");
-  for (const std::string& name : presetNames()) fmt::print("  {:<12} {}\n", name, presetSummary(name));
-  fmt::print("\nParameters and their defaults:\n{}", asText({}, {}));
+  print("Presets:\n");
+  for (const std::string& name : presetNames()) print("  {:<12} {}\n", name, presetSummary(name));
+  print("\nParameters and their defaults:\n{}", asText({}, {}));
   return kExitFine;
 }
 
@@ -206,12 +205,12 @@ int show(Typed& typed) {
     json["warnings"] = loaded->warnings;
     json["outputs"] = Json::array();
     if (!typed.file.empty()) json["outputs"].push_back(typed.file.string());
-    print(json);
+    printJson(json);
   } else if (!typed.file.empty()) {
-    fmt::print("{}: {}\n", typed.name, typed.file.string());
+    print("{}: {}\n", typed.name, typed.file.string());
   } else {
-    fmt::print("{}{}{}\n\n{}", typed.name, summary.empty() ? "" : ": ", summary,
-               asText(loaded->material, loaded->dials));
+    print("{}{}{}\n\n{}", typed.name, summary.empty() ? "" : ": ", summary,
+          asText(loaded->material, loaded->dials));
   }
   return kExitFine;
 }

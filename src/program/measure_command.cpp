@@ -14,6 +14,7 @@
 #include "program/measure_report.h"
 #include "program/measure_run.h"
 #include "program/standard_error.h"
+#include "program/standard_output.h"
 
 namespace ringlet::program {
 namespace {
@@ -83,9 +84,9 @@ int run(const Typed& typed) {
     return exitCodeOf(measured.error());
   }
   if (typed.json) {
-    fmt::print("{}\n", measuredJson(*measured, typed.strands).dump(2));
+    printJson(measuredJson(*measured, typed.strands));
   } else {
-    fmt::print("{}{}", measuredText(*measured), typed.strands ? strandsText(*measured) : "");
+    print("{}{}", measuredText(*measured), typed.strands ? strandsText(*measured) : "");
   }
   return kExitFine;
 }

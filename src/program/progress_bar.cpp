@@ -41,8 +41,8 @@ void ProgressBar::show(int finished) {
   }
   visible_ = true;
   const int filled = static_cast<int>(static_cast<double>(finished) / count_ * kWidth);
-  say("\r  {} {}/{} [{:#<{}}{:.<{}}] {}\x1b[K", what_, finished, count_, "", filled, "", kWidth - filled,
-      left);
+  sayAsItIs(fmt::format("\r  {} {}/{} [{:#<{}}{:.<{}}] {}\x1b[K", what_, finished, count_, "", filled, "",
+                        kWidth - filled, left));
   std::fflush(stderr);
 }
 
@@ -54,7 +54,7 @@ std::string ProgressBar::leftAfter(int finished) const {
 
 void ProgressBar::clear() {
   if (!visible_) return;
-  say("\r\x1b[K");
+  sayAsItIs("\r\x1b[K");
   std::fflush(stderr);
   visible_ = false;
 }

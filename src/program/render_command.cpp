@@ -20,6 +20,7 @@
 #include "program/run_report.h"
 #include "program/simulate_run.h"
 #include "program/standard_error.h"
+#include "program/standard_output.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/scenes/load_scene.h"
@@ -204,11 +205,11 @@ void printOutcome(const RenderOptions& typed, const RenderPlan& plan, const Rend
     return;
   }
   if (typed.quiet || outcome.outputs.empty()) return;
-  fmt::print("{} picture{} of {} hairs, {:.2f} s each: {}{}\n", outcome.frameCount,
-             outcome.frameCount == 1 ? "" : "s", outcome.hairCount, outcome.secondsPerFrame,
-             outcome.outputs.front().string(),
-             outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "");
-  if (plan.colours) fmt::print("colours: {}\n", plan.colours->scale->sentence(plan.colours->most));
+  print("{} picture{} of {} hairs, {:.2f} s each: {}{}\n", outcome.frameCount,
+        outcome.frameCount == 1 ? "" : "s", outcome.hairCount, outcome.secondsPerFrame,
+        outcome.outputs.front().string(),
+        outcome.outputs.size() > 1 ? " to " + outcome.outputs.back().filename().string() : "");
+  if (plan.colours) print("colours: {}\n", plan.colours->scale->sentence(plan.colours->most));
 }
 
 int run(const RenderOptions& typed) {

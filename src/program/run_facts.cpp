@@ -11,11 +11,15 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "program/simulate_run.h"
 #include "ringlet/base/whole_file.h"
+#include "ringlet/motion/gltf_buffers.h"
+#include "ringlet/motion/motion_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
+#include "ringlet/scenes/scene_paths.h"
 
 namespace ringlet::program {
 namespace {
@@ -53,16 +57,17 @@ void addLines(std::string_view text, std::string table, std::vector<RunFact>& fa
 }  // namespace
 
 std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene) {
-  std::set<fs::path> files{
-      input,          scene.groom.file,          scene.groom.scalp, scene.motion.file, scene.scalp.file,
-      scene.goalFile, scene.output.hairScalpFile};
-  for (const SceneBody& body : scene.bodies) {
-    files.insert(body.file);
-    if (body.motion) files.insert(body.motion->file);
+  SceneFile asked = scene;
+  asked.cameras.clear();  // which move nothing
+  std::set<fs::path> files;
+  const auto add = [&](const fs::path& file) { files.insert(file); };
+  if (!input.empty()) add(input);
+  forEachFileOf(std::as_const(asked), add);
+  // Nothing else that a scene names reads files of its own. A scalp is glTF, whatever its ending.
+  for (const fs::path& file : std::vector(files.begin(), files.end())) {
+    if (file == scene.scalp.file || motionFileKind(file.string()) == MotionFileKind::gltf)
+      std::ranges::for_each(gltfBufferFiles(file), add);
   }
-  for (const SceneMap& map : scene.maps) files.insert({map.file, map.texture});
-  for (const SceneForceField& field : scene.fields) files.insert(field.file);
-  files.erase(fs::path());
   return {files.begin(), files.end()};
 }
 

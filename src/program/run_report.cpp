@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "program/exit_codes.h"
+#include "program/standard_output.h"
 
 namespace ringlet::program {
 namespace {
@@ -193,10 +194,6 @@ int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameC
     return kExitInterrupted;
   }
   return report.nonfinite > 0 ? kExitNonfinite : kExitFine;
-}
-
-void printJson(const nlohmann::ordered_json& json) {
-  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace ringlet::program

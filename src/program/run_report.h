@@ -55,8 +55,4 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
 /// what the program is to return. frameCount: planned.
 int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameCount);
 
-/// Prints an object as the last thing on standard output. Not UTF-8, say in a path, is replaced rather than
-/// fatal.
-void printJson(const nlohmann::ordered_json& json);
-
 }  // namespace ringlet::program

@@ -22,6 +22,7 @@
 #include "program/measure_report.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
+#include "program/standard_output.h"
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/obj_file.h"
 #include "ringlet/measure/frame_turn.h"
@@ -102,7 +103,7 @@ void printList(bool asJson) {
   for (const std::string& name : sceneNames()) {
     const BuiltinScene scene = *makeScene(name);
     const double preload = scene.settings.gravityPreload;
-    if (!asJson) fmt::print("{:<14}{} ({} s, preload {})\n", name, scene.summary, scene.seconds, preload);
+    if (!asJson) print("{:<14}{} ({} s, preload {})\n", name, scene.summary, scene.seconds, preload);
     scenes.push_back(
         {{"name", name}, {"summary", scene.summary}, {"seconds", scene.seconds}, {"preload", preload}});
   }
@@ -143,7 +144,7 @@ void printKeys(bool asJson) {
   nlohmann::ordered_json keys = nlohmann::json::array();
   std::string table;
   if (!asJson)
-    fmt::print(
+    print(
         "A scene file is TOML; [[...]] may stand several times. Paths are relative to the file. Beside what\n"
         "stands here [material] takes all keys of a material file: `ringlet material --list`.\n");
   for (const SceneKey& key : sceneKeys()) {
@@ -159,15 +160,15 @@ void printKeys(bool asJson) {
     if (key.table != table) {
       const bool isList = key.table == "body" || key.table == "camera" || key.table == "map" ||
                           key.table == "key" || key.table == "motion.key";
-      fmt::print("\n{}\n", isList ? "[[" + key.table + "]]" : "[" + key.table + "]");
+      print("\n{}\n", isList ? "[[" + key.table + "]]" : "[" + key.table + "]");
     }
     table = key.table;
     // The unit stands in the range, where there is one.
     const std::string unit = key.range.empty() && !key.unit.empty() ? " " + key.unit : "";
-    fmt::print("  {:<26} {}\n  {:<26} {}{}{}{}; default {}.{}\n", key.key, key.effect, "",
-               static_cast<char>(std::toupper(static_cast<unsigned char>(key.type[0]))), key.type.substr(1),
-               unit, key.range.empty() ? "" : " " + key.range, key.standard,
-               key.onlyWith.empty() ? "" : " Only with " + key.onlyWith + ".");
+    print("  {:<26} {}\n  {:<26} {}{}{}{}; default {}.{}\n", key.key, key.effect, "",
+          static_cast<char>(std::toupper(static_cast<unsigned char>(key.type[0]))), key.type.substr(1), unit,
+          key.range.empty() ? "" : " " + key.range, key.standard,
+          key.onlyWith.empty() ? "" : " Only with " + key.onlyWith + ".");
   }
   if (asJson) printJson({{"keys", keys}});
 }
@@ -243,7 +244,7 @@ Result<int> writeScene(const Typed& typed, const BuiltinScene& scene) {
   if (typed.json) {
     printJson({{"scene", scene.name}, {"outputs", {typed.file.string(), groom.string()}}});
   } else if (!typed.quiet) {
-    fmt::print("{}: {} and {}\n", scene.name, typed.file.string(), groom.string());
+    print("{}: {} and {}\n", scene.name, typed.file.string(), groom.string());
   }
   return kExitFine;
 }
@@ -288,8 +289,8 @@ Result<int> runScene(Typed& typed) {
   if (typed.json) {
     printJson(asJson(typed, *scene, *outcome, numbers));
   } else if (!typed.quiet) {
-    fmt::print("{}: {}\n{}{}", scene->name, scene->summary, runText(typed.names, settings, *outcome),
-               measureText(numbers, settings));
+    print("{}: {}\n{}{}", scene->name, scene->summary, runText(typed.names, settings, *outcome),
+          measureText(numbers, settings));
   }
   return exitCode;
 }

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@
 #include "program/run_report.h"
 #include "program/run_writers.h"
 #include "program/simulate_run.h"
+#include "program/standard_output.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_fields.h"
@@ -98,7 +100,7 @@ struct Typed {
   std::filesystem::path input, folder;
   std::optional<int> frames, bindFrame, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
   std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload;
-  std::optional<std::string> motion, joint, animation, up, integrator, bind;
+  std::optional<std::string> motion, joint, animation, motionUp, up, integrator, bind;
   SceneReach reach = SceneReach::anywhere;
   MaterialChoice material;
   ContactChoice contacts;
@@ -124,6 +126,18 @@ Result<SceneFile> readInput(const Typed& typed) {
   return scene;
 }
 
+// Why a word is neither a built-in motion nor a file of one; empty where it is.
+std::string wrongMotion(std::string word) {
+  if (motionFileKind(word) != MotionFileKind::none) return "";
+  const std::string unknown = oneOf(namesIn(motionNames()))(word);
+  if (unknown.empty()) return "";
+  std::error_code ignored;
+  const std::filesystem::path path = word;
+  if (path.has_extension() || path.has_parent_path() || std::filesystem::exists(path, ignored))
+    return fmt::format("{}; built-in motions are {}", noMotionFile(path).message, motionNames());
+  return fmt::format("{}{} name a {} file", unknown, unknown.ends_with('?') ? " Or" : "; or", kMotionEndings);
+}
+
 // The motion as typed in place of the file's. Throws CLI11's error for what makes no sense together.
 void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
   if (typed.motion) {
@@ -142,10 +156,11 @@ void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
   }
   const MotionFileKind kind = motionFileKind(motion.file.string());
   if (kind == MotionFileKind::none &&
-      (typed.joint || typed.motionUnit || typed.skipFrames || typed.animation)) {
+      (typed.joint || typed.motionUnit || typed.motionUp || typed.skipFrames || typed.animation)) {
     throw CLI::ValidationError(
         "--motion",
-        "only a .bvh, .gltf or .glb file has a --joint, --motion-unit, --skip-frames and --animation");
+        fmt::format("only a {} file has a --joint, --motion-unit, --motion-up, --skip-frames and --animation",
+                    kMotionEndings));
   }
   if (kind == MotionFileKind::gltf && typed.skipFrames.value_or(0) > 0)
     throw CLI::ValidationError("--skip-frames",
@@ -157,6 +172,7 @@ void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
   replace(motion.joint, typed.joint);
   replace(motion.animation, typed.animation);
   replace(motion.metresPerUnit, typed.motionUnit);
+  replace(motion.up, typed.motionUp);
   replace(motion.skipFrames, typed.skipFrames);
   replace(motion.preRollSeconds, typed.preRoll);
 }
@@ -294,7 +310,7 @@ int run(const Typed& typed) {
   if (typed.json) {
     printJson(runJson(names, loaded->settings, *outcome));
   } else if (!typed.quiet) {
-    fmt::print("{}", runText(names, loaded->settings, *outcome));
+    print("{}", runText(names, loaded->settings, *outcome));
   }
   return exitCode;
 }
@@ -339,40 +355,45 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(between(0.001, 1e6))
       ->type_name("F")
       ->group(scene);
-  const CLI::Validator motionName = oneOf(namesIn(motionNames()));
   command
-      ->add_option("--motion", typed->motion,
-                   "How the head moves: " + motionNames() + "; or a .bvh, .gltf or .glb file (default shake)")
-      ->check(CLI::Validator(
-          [motionName](std::string& word) {
-            return motionFileKind(word) != MotionFileKind::none ? "" : motionName(word);
-          },
-          "NAME"))
+      ->add_option(
+          "--motion", typed->motion,
+          fmt::format("How the head moves: {}; or a {} file (default shake)", motionNames(), kMotionEndings))
+      ->check(CLI::Validator([](std::string& word) { return wrongMotion(word); }, "NAME"))
       ->type_name("NAME|FILE")
       ->group(scene);
   const auto ofMotionFile = [&](CLI::Option* option, const char* type) {
     option->type_name(type)->group(scene);
   };
-  ofMotionFile(command->add_option(
-                   "--joint", typed->joint,
-                   "Joint of the .bvh file, node of the .gltf or .glb, that is the head (default Head)"),
-               "NAME");
+  ofMotionFile(
+      command->add_option(
+          "--joint", typed->joint,
+          "Joint of the .bvh file, node of the .gltf, .glb or .vrm, that is the head (default Head)"),
+      "NAME");
   ofMotionFile(command
                    ->add_option("--motion-unit", typed->motionUnit,
-                                "Metres per unit of the motion's file (default: a .bvh skeleton is 1.7 m "
+                                "Metres per unit of the motion's file (default: a .bvh person is 1.7 m "
                                 "tall, glTF is in metres)")
                    ->check(between(1e-6, 1000)),
                "METRES");
+  ofMotionFile(
+      command
+          ->add_option("--motion-up", typed->motionUp,
+                       "Up axis of the motion's file, which is turned to --up: Y, Z, X, or "
+                       "--motion-up=-Y, -Z, -X (default: along which a .bvh person stands; of glTF Y)")
+          ->check(oneOf(namesIn(kFileAxisNames))),
+      "AXIS");
   ofMotionFile(
       command
           ->add_option("--skip-frames", typed->skipFrames,
                        "Frames at the start of the .bvh file to leave out, as a T-pose is (default 0)")
           ->check(wholeBetween(0, kMostFrames)),
       "N");
-  ofMotionFile(command->add_option(
-                   "--animation", typed->animation,
-                   "Animation of the .gltf or .glb file, by name or number from 0 (default: the first)"),
-               "NAME");
+  ofMotionFile(
+      command->add_option(
+          "--animation", typed->animation,
+          "Animation of the .gltf, .glb or .vrm file, by name or number from 0 (default: the first)"),
+      "NAME");
   command
       ->add_option("--amplitude", typed->amplitude,
                    "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "

@@ -22,6 +22,7 @@
 #include "program/output_options.h"
 #include "program/run_report.h"
 #include "program/standard_error.h"
+#include "program/standard_output.h"
 #include "program/sweep_plan.h"
 #include "program/sweep_run.h"
 #include "program/sweep_sheet.h"
@@ -168,9 +169,9 @@ int run(Typed& typed) {
   if (typed.json) {
     printJson(sweepJson(*entries, axes, options));
   } else if (!typed.quiet) {
-    fmt::print("{}", sweepText(*entries, axes, options));
-    if (!typed.list) fmt::print("{}\n", (options.folder / "sweep.csv").string());
-    if (!typed.list && options.drawsSheet) fmt::print("{}\n", (options.folder / "sheet.png").string());
+    print("{}", sweepText(*entries, axes, options));
+    if (!typed.list) print("{}\n", (options.folder / "sweep.csv").string());
+    if (!typed.list && options.drawsSheet) print("{}\n", (options.folder / "sheet.png").string());
   }
   return typed.list ? kExitFine : exitCodeOf(*entries);
 }

@@ -20,6 +20,7 @@
 #include "program/growing_report.h"
 #include "program/open_device.h"
 #include "program/run_report.h"
+#include "program/standard_output.h"
 #include "program/tune_run.h"
 #include "program/tuned_shapes.h"
 #include "ringlet/groom/groom_file.h"
@@ -194,7 +195,7 @@ int run(Typed& typed) {
   if (typed.json) {
     printJson(asJson(*device, *outcome, written));
   } else if (!typed.quiet && !outcome->interrupted) {
-    fmt::print("{}", asText(*device, *outcome, written));
+    print("{}", asText(*device, *outcome, written));
   }
   if (outcome->interrupted) {
     say("ringlet tune: interrupted; nothing was remembered\n");

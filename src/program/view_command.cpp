@@ -20,6 +20,7 @@
 #include "program/picture_solids.h"
 #include "program/run_report.h"
 #include "program/standard_error.h"
+#include "program/standard_output.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/render/look.h"
 #include "ringlet/scenes/load_scene.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
+#include "ringlet/base/shown_text.h"
 
 namespace ringlet::python {
 
@@ -19,7 +20,7 @@ namespace py = pybind11;
 /// An Error of the library on its way to Python, where it is a ringlet.Error.
 class Failure : public std::exception {
  public:
-  explicit Failure(Error why) : error(std::move(why)) {}
+  explicit Failure(Error why) : error{shownText(why.message), why.fault} {}
   const char* what() const noexcept override { return error.message.c_str(); }
 
   Error error;

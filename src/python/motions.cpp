@@ -97,7 +97,11 @@ MotionObject makeMotion(const std::string& kind, const py::object& up, const py:
                         const py::object& easeSeconds, const py::object& untilSeconds,
                         const py::object& start) {
   auto named = motionByName(kind, vectorOf(up, "up"));
-  if (!named) throw py::value_error(unknownName("motion", kind, namesIn(motionNames())));
+  if (!named) {
+    const bool isFile = std::filesystem::path(kind).has_extension();
+    throw py::value_error(unknownName("motion", kind, namesIn(motionNames())) +
+                          (isFile ? "; Motion.load reads files" : ""));
+  }
   Motion motion = *named;
   if (!axis.is_none()) {
     const Vec3d given = vectorOf(axis, "axis");
@@ -153,17 +157,20 @@ MotionObject keyframeMotion(const py::object& poses, const py::object& times, do
 
 MotionObject loadMotion(const std::filesystem::path& path, const std::string& joint,
                         std::optional<double> metresPerUnit, int skipFrames, const std::string& animation,
-                        const std::string& up) {
+                        const std::string& up, const std::string& fileUp) {
   if (motionFileKind(path.string()) == MotionFileKind::none)
-    throw py::value_error(fmt::format("a motion is a .bvh, .gltf or .glb file, got {}", path.string()));
+    throw py::value_error(noMotionFile(path).message);
   if (metresPerUnit && !(*metresPerUnit > 0 && std::isfinite(*metresPerUnit)))
     throw py::value_error(fmt::format("metres_per_unit must be above 0, got {}", *metresPerUnit));
   if (skipFrames < 0) throw py::value_error(fmt::format("skip_frames must be 0 or more, got {}", skipFrames));
   if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
+  const auto axis = fileAxisNamed(fileUp);
+  if (!fileUp.empty() && !axis)
+    throw py::value_error(unknownName("up axis of a file", fileUp, namesIn(kFileAxisNames)));
   MotionObject loaded;
   withoutGil([&] {
-    loaded.motion = valueOf(
-        readMotionFile({path, joint, metresPerUnit, skipFrames, animation}, up == "Z", loaded.warnings));
+    loaded.motion = valueOf(readMotionFile({path, joint, metresPerUnit, skipFrames, animation, axis, {}},
+                                           up == "Z", loaded.warnings));
   });
   return loaded;
 }
@@ -202,13 +209,17 @@ void addMotion(py::module_& module) {
           "Through poses: a list of Poses or an array (keys, 7) of positions and rotations. times: of "
           "each [s], rising; None: seconds_per_key apart, from 0 on. interpolation: \"cubic\" or "
           "\"linear\". rests_at_ends: the head stands still before the first key.")
-      .def_static("load", &loadMotion, py::arg("path"), py::kw_only(), py::arg("joint") = "Head",
-                  py::arg("metres_per_unit") = py::none(), py::arg("skip_frames") = 0,
-                  py::arg("animation") = "", py::arg("up") = "Y",
-                  "The way of a joint of a .bvh file or of a node of a .gltf or .glb file. metres_per_unit: "
-                  "None: of a .bvh so that its skeleton is 1.7 m tall, of glTF 1. skip_frames: of a .bvh, at "
-                  "the start; animation: of glTF, a name or number, else the first; up: \"Y\" or \"Z\". "
-                  "ringlet.Error names the joints where there is none of that name.")
+      .def_static(
+          "load", &loadMotion, py::arg("path"), py::kw_only(), py::arg("joint") = "Head",
+          py::arg("metres_per_unit") = py::none(), py::arg("skip_frames") = 0, py::arg("animation") = "",
+          py::arg("up") = "Y", py::arg("file_up") = "",
+          "The way of a joint of a .bvh file or of a node of a .gltf, .glb or .vrm file. metres_per_unit: "
+          "None: of a .bvh so that its person is 1.7 m tall, of glTF 1. file_up: the file's up axis, one "
+          "of Y, Z, X, -Y, -Z, -X; \"\": of a .bvh the axis along which its person stands, of glTF Y. "
+          "skip_frames: of a .bvh, at "
+          "the start; animation: of glTF, a name or number, else the first; up: of the head's world, \"Y\" "
+          "or \"Z\". "
+          "ringlet.Error names the joints where there is none of that name.")
       .def("pose_at", &poseAt, py::arg("seconds"), "The Pose at a time [s], before 0 too.")
       .def(
           "frame_poses", &framePoses, py::arg("frame"), py::arg("settings"),

@@ -1,6 +1,7 @@
 // glTF files: ways of nodes, skinned meshes, scalps.
 #include "ringlet/motion/gltf_file.h"
 
+#include "ringlet/motion/motion_doubts.h"
 #include "ringlet/motion/scalp.h"
 #include "ringlet/motion/skinned_mesh.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -21,6 +22,8 @@ void tryMotion(const GltfFile& file) {
   // A thousand samples are enough to try it.
   const double seconds = animation ? animation->lastSeconds - animation->firstSeconds : 0;
   if (!(seconds < 40)) return;
+  doubtsOf(file, node, animation, {}, false, "");
+  doubtsOf(file, node, animation, {.up = FileAxis::minusZ}, true, "");
   const auto keys = file.motionOf(node, animation, {}, 24.0);
   if (!keys) return;
   for (const HeadPose& pose : keys->poses) {

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "ringlet/motion/bvh_stance.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::test {
@@ -36,7 +38,7 @@ TEST(BvhFile, ReadsASkeleton) {
   EXPECT_EQ(file->channelCount, 9u);
   EXPECT_EQ(file->frameCount(), 1u);
   EXPECT_EQ(file->frameSeconds, 0.04);
-  EXPECT_EQ(file->height(), 17);
+  expectNear(file->placesAt(0)[3], {1, 19, 3});
   expectNear(headAt(*file), {1, 17, 3});
 }
 
@@ -85,15 +87,36 @@ TEST(BvhFile, SaysWhatIsWrongAndWhere) {
       {skeleton(turns, "Frames: 0\nFrame Time: 0.04\n"), "1 to 1e8 frames, not 0"},
       {skeleton(turns, "Frames: 1\nFrame Time: 0\n"), "must be above 0"},
       {skeleton(turns, "Frames: 2\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0\n1 2 3\n"),
-       "frame 2 of 2, number 4 of 9: line 26: the file ends"},
+       "line 26: frame 2 has 3 of its 9 numbers; the file states 2 frames and holds 1 and a part of one"},
       {skeleton(turns, "Frames: 1\nFrame Time: 0.04\n1 2 nan 0 0 0 0 0 0\n"), "number 3 of 9"},
-      {skeleton(turns, "Frames: 1\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0 9\n"), "the end of the file"},
+      {skeleton(turns, "Frames: 1\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0 9\n"),
+       "frame 2 has 1 of its 9 numbers; the file states 1 frames and holds 1 and a part of one"},
+      {skeleton(turns, "Frames: 3\nFrame Time: 0.04\n"), "states 3 frames and holds none"},
+      {skeleton(turns, "Frames: 1\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0\nend\n"), "number 1 of 9: line 25"},
       {"HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\n}\nMOTION\nFrames: 3\nFrame Time: 1\n", "no channels"},
   };
   for (const auto& [text, expected] : cases) {
     const auto file = parseBvh(text);
     ASSERT_FALSE(file) << expected;
     EXPECT_NE(file.error().message.find(expected), std::string::npos) << file.error().message;
+  }
+}
+
+// Exporters miscount. What is there is read, up to what is stated.
+TEST(BvhFile, ReadsWholeFramesWhateverTheCountSays) {
+  for (const int stated : {1, 2, 3, 4, 5, 100}) {
+    for (const int held : {1, 2, 3, 4}) {
+      std::string motion = fmt::format("Frames: {}\nFrame Time: 0.04\n", stated);
+      for (int k = 0; k < held; ++k) motion += fmt::format("{} 2 3 0 0 0 0 0 0\n", k);
+      const auto file = parseBvh(skeleton("3 Zrotation Xrotation Yrotation", motion));
+      ASSERT_TRUE(file) << file.error().message;
+      EXPECT_EQ(file->statedFrameCount, static_cast<std::size_t>(stated));
+      EXPECT_EQ(file->foundFrameCount, static_cast<std::size_t>(held));
+      ASSERT_EQ(file->frameCount(), static_cast<std::size_t>(std::min(stated, held)));
+      const Keyframes keys = file->motionOf(*file->find("Head"), 1, 0);
+      for (std::size_t k = 0; k < keys.poses.size(); ++k)
+        expectNear(keys.poses[k].position, {static_cast<double>(k), 17, 3});
+    }
   }
 }
 
@@ -120,7 +143,7 @@ TEST(BvhFile, ReadsRealCaptures) {
   for (const auto* file : {&*walk, &*bank}) {
     const auto head = file->find("head");
     ASSERT_TRUE(head);
-    const double unit = 1.7 / file->height();
+    const double height = stanceOf(*file, 1, {}).height, unit = 1.7 / height;
     const Keyframes all = file->motionOf(*head, unit, 0), rest = file->motionOf(*head, unit, 1);
     double low = INFINITY, high = -INFINITY, fastest = 0;
     for (std::size_t k = 0; k < rest.poses.size(); ++k) {
@@ -130,10 +153,10 @@ TEST(BvhFile, ReadsRealCaptures) {
                            length(rest.poses[k].position - rest.poses[k - 1].position) / rest.secondsPerKey);
     }
     fmt::print(
-        "{} frames of {} s, skeleton {:.4g} units high; head from {:.2f} to {:.2f} m, up to {:.2f} m/s; "
+        "{} frames of {} s, person {:.4g} units tall; head from {:.2f} to {:.2f} m, up to {:.2f} m/s; "
         "turns at "
         "{:.1f} rad/s with the first frame, {:.1f} without\n",
-        file->frameCount(), file->frameSeconds, file->height(), low, high, fastest, all.fastestTurn().speed,
+        file->frameCount(), file->frameSeconds, height, low, high, fastest, all.fastestTurn().speed,
         rest.fastestTurn().speed);
     EXPECT_GT(low, 0.2);
     EXPECT_LT(high, 2.5);

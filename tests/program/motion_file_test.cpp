@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -149,7 +150,9 @@ TEST(MotionFile, MistakesAreOneSentence) {
            Case{{"--motion", "walk.BVH", "--skip-frames", "13"}, 1, "too few are left"},
            Case{{"--motion", "walk.BVH", "--amplitude", "1"}, 2, "a motion from a file has its own"},
            Case{{"--motion", "walk.BVH", "--motion-unit", "0"}, 2, "must be a number from"},
-           Case{{"--motion", "nod", "--joint", "Head"}, 2, "only a .bvh, .gltf or .glb file has a --joint"},
+           Case{{"--motion", "nod", "--joint", "Head"},
+                2,
+                "only a .bvh, .gltf, .glb or .vrm file has a --joint"},
            Case{{"--motion", "missing.bvh"}, 4, "missing.bvh"},
            Case{{"--motion", "broken.bvh"}, 1, "broken.bvh is no BVH motion: line 2: \"ROOT\" should stand"},
            Case{{"--motion", "walk.BVH", "--animation", "run"}, 2, "a .bvh file has only one"},
@@ -162,6 +165,8 @@ TEST(MotionFile, MistakesAreOneSentence) {
            Case{{"--motion", "missing.gltf"}, 4, "missing.gltf"},
            Case{{"--motion", "cut.glb"}, 1, "cut.glb is no glTF: it says it has"},
            Case{{"--motion", "nodd"}, 2, "did you mean nod?"},
+           Case{{"--motion", "nod", "--motion-up", "Z"}, 2, "--motion-up"},
+           Case{{"--motion", "walk.BVH", "--motion-up", "W"}, 2, "Y, Z, X, -Y, -Z, -X"},
        }) {
     std::vector<std::string> arguments{"simulate",    "groom.obj", "--backend", "reference",
                                        "--overwrite", "-o",        "out"};
@@ -228,6 +233,111 @@ TEST(MotionFile, JointsWithOtherAxesAreSaidAndBindUpright) {
   const auto still = readGroom(folder / "out" / "last.obj");
   ASSERT_TRUE(still);
   EXPECT_NEAR(still->groom.points[0].x, 5, 1e-3) << "the first frame of the run is the motion's second";
+}
+
+// What is there and is no motion is named with what is read; "there is no" is said of what is not there.
+TEST(MotionFile, FilesOfOtherKindsAreNamed) {
+  const auto folder = scratchFolder("motion_file_kinds");
+  writeFiles(folder);
+  std::filesystem::create_directories(folder / "shots.fbx");
+  const std::string expected = ".bvh, .gltf, .glb or .vrm";
+  const std::string scene = "[groom]\nfile = 'groom.obj'\n[simulation]\nframes = 2\n";
+  for (const char* file : {"walk.fbx", "walk.FBX", "walk.abc", "walk.usd", "walk.usda", "walk.bhv",
+                           "walk.gtlf", "walk.glb.txt", "walk", "sub/walk.fbx", "shots.fbx", "groom.obj"}) {
+    for (const bool isThere : {false, true}) {
+      const bool isFolder = file == std::string("shots.fbx"), isGroom = file == std::string("groom.obj");
+      if (!isThere && (isFolder || isGroom)) continue;
+      if (isThere && !isFolder && !isGroom) {
+        std::filesystem::create_directories((folder / file).parent_path());
+        std::ofstream(folder / file) << "walk";
+      }
+      std::ofstream(folder / "head.toml") << scene << "[motion]\nfile = '" << file << "'\n";
+      std::ofstream(folder / "body.toml")
+          << scene << "[[body]]\nname = 'b'\nshape = 'sphere'\nradius = 0.01\n"
+          << "[body.moves]\nfile = '" << file << "'\n";
+      std::vector<std::vector<std::string>> commands{
+          {"simulate", "groom.obj", "--motion", file},
+          {"simulate", "head.toml"},
+          {"simulate", "body.toml"},
+          {"sweep", "head.toml", "--vary", "material.dials.hold=1,2"}};
+      for (std::vector<std::string>& command : commands) {
+        SCOPED_TRACE(fmt::format("{} {} {}", command[1], file, isThere ? "there" : "not there"));
+        command.insert(command.end(), {"--backend", "reference", "-o", "out"});
+        const auto result = runProgram(folder, command);
+        EXPECT_NE(result.exitCode, 0);
+        EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
+        EXPECT_EQ(result.err.find("there is no") != std::string::npos, !isThere) << result.err;
+        const bool isWord = file == std::string("walk") && !isThere && command[0] == "simulate";
+        if (!isWord || command[1] != "groom.obj") {
+          EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
+        }
+      }
+    }
+    if (file != std::string("shots.fbx") && file != std::string("groom.obj"))
+      std::filesystem::remove(folder / file);
+  }
+}
+
+// Avatars are binary glTF by another ending, which may be in capitals.
+TEST(MotionFile, VrmIsReadAsTheGltfItIs) {
+  const auto folder = scratchFolder("motion_file_vrm");
+  writeFiles(folder);
+  for (const char* file : {"head.vrm", "HEAD.VRM"}) {
+    std::ofstream(folder / file, std::ios::binary) << gltfHead().glb();
+    const auto result = runProgram(folder, {"simulate", "groom.obj", "--motion", file, "--gravity", "0",
+                                            "--backend", "reference", "-o", "out", "--overwrite", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(json::parse(result.out)["warnings"], json::array());
+    const auto last = readGroom(folder / "out/last.obj");
+    ASSERT_TRUE(last) << last.error().message;
+    EXPECT_NEAR(last->groom.points[0].x, 12, 1e-4);
+  }
+}
+
+// Half of a run is no beginning of another: the buffers of a glTF file are its content too, and the mesh of
+// hairs that an option names.
+TEST(MotionFile, ARunDoesNotGoOnWithAnotherBuffer) {
+  const auto folder = scratchFolder("motion_file_resume");
+  writeFiles(folder);
+  std::ofstream(folder / "walk.gltf") << gltfHead().textBeside("walk.bin");
+  const auto writeBuffer = [&](const char* file, const std::string& bytes) {
+    std::ofstream(folder / file, std::ios::binary) << bytes;
+  };
+  const std::string bytes = gltfHead().bytes();
+  writeBuffer("walk.bin", bytes);
+  const std::string scalp = "v -2 0 -2\nv 2 0 -2\nv 0 0 2\nf 1 2 3\n";
+  writeBuffer("scalp.obj", scalp);
+  const std::vector<std::string> arguments{"simulate", "groom.obj",    "--motion",  "walk.gltf", "--frames",
+                                           "100000",   "--checkpoint", "2",         "--resume",  "--hairs",
+                                           "9",        "--hair-scalp", "scalp.obj", "--backend", "reference",
+                                           "-o",       "out"};
+  test::RunningProgram program(folder, arguments);
+  EXPECT_TRUE(program.waitUntil([&] { return test::hasDoneFrames(folder / "out"); }));
+  program.send(SIGKILL);
+  (void)program.wait();
+  const auto refused = [&](const char* file) {
+    const auto result = runProgram(folder, arguments);
+    EXPECT_EQ(result.exitCode, 4) << result.err;
+    EXPECT_NE(result.err.find(std::string("the content of ") + file), std::string::npos) << result.err;
+  };
+  std::string other = bytes;
+  other.back() = static_cast<char>(other.back() + 1);
+  writeBuffer("walk.bin", other);
+  refused("walk.bin");
+  writeBuffer("walk.bin", bytes);
+  writeBuffer("scalp.obj", scalp + "# more\n");
+  refused("scalp.obj");
+  writeBuffer("scalp.obj", scalp);
+  // As it was, it goes on.
+  const auto kept = readCheckpoint(folder / "out/checkpoint.rgk");
+  ASSERT_TRUE(kept) << kept.error().message;
+  test::RunningProgram again(folder, arguments);
+  EXPECT_TRUE(again.waitUntil([&] {
+    const auto checkpoint = readCheckpoint(folder / "out/checkpoint.rgk");
+    return checkpoint && checkpoint->frame > kept->frame;
+  }));
+  again.send(SIGKILL);
+  (void)again.wait();
 }
 
 }  // namespace

@@ -249,7 +249,7 @@ TEST(SceneFileProgram, MistakesAreOneSentence) {
            Case{"[[motion.key]]\ntime = 0\n", with({"--amplitude", "1"}), 2, "a motion by keys has its own"},
            Case{"[motion]\nfile = 'walk.bvh'\n", with({"--frequency", "1"}), 2,
                 "a motion from a file has its own"},
-           Case{"", with({"--joint", "Head"}), 2, "only a .bvh, .gltf or .glb file has a --joint"},
+           Case{"", with({"--joint", "Head"}), 2, "only a .bvh, .gltf, .glb or .vrm file has a --joint"},
            Case{"", with({"--iterations", "5"}), 2, "only --integrator point_jacobi has iterations"},
            Case{"[contacts]\non = false\n", with({"--prune", "5"}), 2, "only with --contacts on"},
            Case{"[contacts]\n[simulation]\nintegrator = 'paper'\n", out, 1, "contacts need jacobi"},

@@ -4,12 +4,14 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "tests/motion/gltf_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -171,6 +173,31 @@ TEST_F(Sweep, FinishedRunsAreKeptAndOthersAreRun) {
   EXPECT_EQ(hashIn("run-0002"), hash);
   ASSERT_EQ(onCpu(vary, {"--overwrite"}).exitCode, 0);
   EXPECT_EQ(states(), (States{"finished", "finished", "finished"}));
+}
+
+// A glTF file's motion is in a file that it names.
+TEST_F(Sweep, ARunIsNotKeptWhereABufferChanged) {
+  test::GltfBuilder gltf;
+  const int head = gltf.node({{"name", "Head"}});
+  gltf.channel(0, head, "translation", "LINEAR", {0, 0.125}, {0, 0, 0, 0.05, 0, 0});
+  std::ofstream(folder_ / "m.gltf") << gltf.textBeside("m.bin");
+  std::string bytes = gltf.bytes();
+  std::ofstream(folder_ / "m.bin", std::ios::binary) << bytes;
+  std::string scene = readText(folder_ / "scene.toml");
+  scene.replace(scene.find("kind = 'shake'"), 14, "file = 'm.gltf'");
+  std::ofstream(folder_ / "scene.toml") << scene;
+  const std::vector<std::string> vary{"material.dials.hold=1,2"};
+  const auto first = onCpu(vary);
+  ASSERT_EQ(first.exitCode, 0) << first.err;
+  const std::string hash = hashIn("run-0001");
+  ASSERT_EQ(onCpu(vary).exitCode, 0);
+  EXPECT_EQ(states(), (States{"kept", "kept"}));
+  const float place = 0.03f;  // in place of 0.05, 12 bytes before the end
+  std::memcpy(&bytes[bytes.size() - 12], &place, sizeof place);
+  std::ofstream(folder_ / "m.bin", std::ios::binary) << bytes;
+  ASSERT_EQ(onCpu(vary).exitCode, 0);
+  EXPECT_EQ(states(), (States{"finished", "finished"}));
+  EXPECT_NE(hashIn("run-0001"), hash);
 }
 
 // Every path of a scene, from another folder than that in which the sweep was started.

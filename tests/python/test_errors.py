@@ -215,8 +215,24 @@ def test_motions(tmp_path):
     for values in ({"metres_per_unit": 0}, {"metres_per_unit": math.nan}, {"skip_frames": -1}, {"up": "X"}):
         with pytest.raises(ValueError):
             ringlet.Motion.load(tmp_path / "broken.bvh", **values)
-    with pytest.raises(ValueError, match="bvh"):
-        ringlet.Motion.load(tmp_path / "walk.fbx")
+    for name in ("walk.fbx", "walk.abc", "walk.bhv", "walk"):
+        with pytest.raises(ValueError, match="there is no file .*.bvh, .gltf, .glb or .vrm"):
+            ringlet.Motion.load(tmp_path / name)
+        (tmp_path / name).write_text("walk")
+        with pytest.raises(ValueError, match="no motion is read from .*.bvh, .gltf, .glb or .vrm"):
+            ringlet.Motion.load(tmp_path / name)
+    with pytest.raises(ValueError, match="Motion.load reads files"):
+        ringlet.Motion("walk.bvh")
+    with pytest.raises(ValueError, match="up axis of a file"):
+        ringlet.Motion.load(tmp_path / "broken.bvh", file_up="W")
+
+
+def test_messages_command_no_terminal(tmp_path):
+    (tmp_path / "joint.bvh").write_text(
+        "HIERARCHY\nROOT \x1b[2J\n{\nOFFSET 0 0 0\nCHANNELS 1 Zrotation\n}\nMOTION\nFrames: 2\nFrame Time: 1\n0\n0\n")
+    with pytest.raises(ringlet.Error) as refused:
+        ringlet.Motion.load(tmp_path / "joint.bvh")
+    assert "\\x1b[2J" in str(refused.value) and "\x1b" not in str(refused.value)
 
 
 def test_bodies(tmp_path):

@@ -100,6 +100,9 @@ def test_motions_from_files(tmp_path):
     assert "1.7 m tall" in ringlet.Motion.load(tmp_path / "walk.bvh").warnings[0]
     upright = ringlet.Motion.load(tmp_path / "walk.bvh", metres_per_unit=0.01, up="Z")
     assert upright.pose_at(0.5).position == pytest.approx((0.01, 0, 0.1))
+    # An axis that is stated is turned to the world's.
+    turned = ringlet.Motion.load(tmp_path / "walk.bvh", metres_per_unit=0.01, file_up="Z")
+    assert turned.pose_at(0.5).position == pytest.approx((0.01, 0, -0.1)) and turned.warnings == []
     assert ringlet.Motion.load(gltf(tmp_path / "walk.gltf")).pose_at(0.5).position == pytest.approx((0.5, 0, 0))
     with pytest.raises(ringlet.Error, match="did you mean Head"):
         ringlet.Motion.load(tmp_path / "walk.bvh", joint="Haed")

@@ -114,5 +114,21 @@ TEST(ScenePaths, AConfinedSceneNamesNothingOutsideItsFolder) {
   }
 }
 
+// It would end the path for the system, and not for us.
+TEST(ScenePaths, APathHoldsNoNul) {
+  for (const PathCase& c : pathCases()) {
+    PathCase escaped = c;  // only texts in "" know \u0000
+    for (char& letter : escaped.scene)
+      if (letter == '\'') letter = '"';
+    for (const char* path : {"nul\\u0000name", "c.obj\\u0000.hair", "\\u0000", "\\U00000000.toml"}) {
+      const auto refused = parseScene(withPath(escaped, path), "scene.toml", "folder");
+      ASSERT_FALSE(refused) << c.key << " " << path;
+      EXPECT_NE(refused.error().message.find("\\x00"), std::string::npos) << refused.error().message;
+      EXPECT_NE(refused.error().message.find("expected a path"), std::string::npos)
+          << refused.error().message;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ringlet

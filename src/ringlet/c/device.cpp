@@ -2,6 +2,7 @@
 #include <mutex>
 #include <set>
 
+#include "ringlet/base/shown_text.h"
 #include "ringlet/c/handles.h"
 #include "ringlet/version.h"
 
@@ -73,7 +74,7 @@ Outcome::Outcome(const Error& error) : result(resultOf(error.fault)), message(er
 
 ringlet_result tell(Outcome outcome) noexcept {
   if (outcome.result == RINGLET_OK) return RINGLET_OK;
-  message = std::move(outcome.message);
+  message = shownText(outcome.message);  // hosts print it
   fixedMessage = nullptr;
   return outcome.result;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "ringlet/base/shown_text.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/c/handles.h"
 #include "ringlet/c/poses.h"
@@ -163,7 +164,7 @@ ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* 
                                   chosen.has_bodies ? BodyUse::some : BodyUse::none);
     if (!built) return built.error();
     for (const std::string& warning : built->warnings())
-      if (chosen.warn) chosen.warn(warning.c_str(), chosen.user);
+      if (chosen.warn) chosen.warn(shownText(warning).c_str(), chosen.user);
     *asset = new ringlet_asset{std::move(*built), &device->device.gpu(), chosen.has_bodies != 0,
                                kernel.movingRoots};
     return {};

@@ -147,6 +147,30 @@ Status readHierarchy(Words& words, BvhFile& file) {
   return {};
 }
 
+// Exporters miscount: what is there is read, up to what is stated, as long as the last frame is whole.
+Status readFrames(Words& words, BvhFile& file) {
+  const std::size_t stated = file.statedFrameCount, width = file.channelCount;
+  std::size_t count = 0;
+  for (; !words.word().empty(); ++count) {
+    auto value = words.number("a number");
+    if (!value) {
+      return Error{fmt::format("frame {} of {}, number {} of {}: {}", count / width + 1, stated,
+                               count % width + 1, width, value.error().message)};
+    }
+    if (count / width < stated) file.values.push_back(*value);
+  }
+  file.foundFrameCount = count / width;
+  if (count % width != 0) {
+    return Error{fmt::format(
+        "line {}: frame {} has {} of its {} numbers; the file states {} frames and holds {} and a part of "
+        "one",
+        words.line(), file.foundFrameCount + 1, count % width, width, stated, file.foundFrameCount)};
+  }
+  if (file.foundFrameCount == 0)
+    return Error{fmt::format("line {}: the file states {} frames and holds none", words.line(), stated)};
+  return {};
+}
+
 Status readMotion(Words& words, BvhFile& file) {
   for (const char* word : {"MOTION", "Frames", ":"}) {
     if (Status status = words.expect(word); !status) return status;
@@ -164,27 +188,46 @@ Status readMotion(Words& words, BvhFile& file) {
     return Error{fmt::format("line {}: a frame takes {} s; it must be above 0", words.line(), *seconds)};
   if (file.channelCount == 0) return Error{"the skeleton has no channels, so nothing moves"};
   file.frameSeconds = *seconds;
-  const auto frameCount = static_cast<std::size_t>(*frames);
-  for (std::size_t k = 0; k < frameCount * file.channelCount; ++k) {
-    auto value = words.number("a number");
-    if (!value) {
-      return Error{fmt::format("frame {} of {}, number {} of {}: {}", k / file.channelCount + 1, frameCount,
-                               k % file.channelCount + 1, file.channelCount, value.error().message)};
-    }
-    file.values.push_back(*value);
-  }
-  if (!words.word().empty()) return words.error("the end of the file");
-  return {};
+  file.statedFrameCount = static_cast<std::size_t>(*frames);
+  return readFrames(words, file);
 }
 
 }  // namespace
 
-double BvhFile::height() const {
-  std::vector<double> heights;
-  for (const BvhJoint& joint : joints)
-    heights.push_back(heights.empty() ? 0 : heights[joint.parent] + joint.offset.y);
-  const auto [low, high] = std::ranges::minmax(heights);
-  return high - low;
+Vec3d BvhFile::placeIn(std::size_t frame, std::size_t j) const {
+  const BvhJoint& joint = joints[j];
+  Vec3d place = joint.offset;
+  for (std::size_t k = 0; k < joint.channels.size(); ++k) {
+    const double value = values[frame * channelCount + joint.firstChannel + k];
+    if (joint.channels[k] == Channel::xPosition) place.x = value;
+    if (joint.channels[k] == Channel::yPosition) place.y = value;
+    if (joint.channels[k] == Channel::zPosition) place.z = value;
+  }
+  return place;
+}
+
+Quatd BvhFile::turnIn(std::size_t frame, std::size_t j) const {
+  const BvhJoint& joint = joints[j];
+  Quatd turn;
+  for (std::size_t k = 0; k < joint.channels.size(); ++k) {
+    const double angle = values[frame * channelCount + joint.firstChannel + k] * std::numbers::pi / 180;
+    if (joint.channels[k] == Channel::xRotation) turn = turn * fromRotationVector(Vec3d{angle, 0, 0});
+    if (joint.channels[k] == Channel::yRotation) turn = turn * fromRotationVector(Vec3d{0, angle, 0});
+    if (joint.channels[k] == Channel::zRotation) turn = turn * fromRotationVector(Vec3d{0, 0, angle});
+  }
+  return turn;
+}
+
+std::vector<Vec3d> BvhFile::placesAt(std::size_t frame) const {
+  std::vector<Vec3d> places;
+  std::vector<Quatd> turns;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const std::size_t parent = joints[j].parent;
+    const Quatd before = parent == j ? Quatd{} : turns[parent];
+    places.push_back((parent == j ? Vec3d{} : places[parent]) + rotate(before, placeIn(frame, j)));
+    turns.push_back(normalized(before * turnIn(frame, j)));
+  }
+  return places;
 }
 
 std::vector<std::string> BvhFile::names() const {
@@ -204,34 +247,8 @@ Keyframes BvhFile::motionOf(std::size_t joint, double metresPerUnit, std::size_t
   for (std::size_t frame = firstFrame; frame < frameCount(); ++frame) {
     HeadPose pose;
     for (std::size_t j : chain) {
-      Vec3d place = joints[j].offset;
-      Quatd turn;
-      for (std::size_t k = 0; k < joints[j].channels.size(); ++k) {
-        const double value = values[frame * channelCount + joints[j].firstChannel + k];
-        const double angle = value * std::numbers::pi / 180;
-        switch (joints[j].channels[k]) {
-          case Channel::xPosition:
-            place.x = value;
-            break;
-          case Channel::yPosition:
-            place.y = value;
-            break;
-          case Channel::zPosition:
-            place.z = value;
-            break;
-          case Channel::xRotation:
-            turn = turn * fromRotationVector(Vec3d{angle, 0, 0});
-            break;
-          case Channel::yRotation:
-            turn = turn * fromRotationVector(Vec3d{0, angle, 0});
-            break;
-          case Channel::zRotation:
-            turn = turn * fromRotationVector(Vec3d{0, 0, angle});
-            break;
-        }
-      }
-      pose.position += rotate(pose.rotation, place * metresPerUnit);
-      pose.rotation = normalized(pose.rotation * turn);
+      pose.position += rotate(pose.rotation, placeIn(frame, j) * metresPerUnit);
+      pose.rotation = normalized(pose.rotation * turnIn(frame, j));
     }
     motion.poses.push_back(pose);
   }

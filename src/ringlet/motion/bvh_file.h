@@ -17,7 +17,7 @@
 
 namespace ringlet {
 
-/// In the file's unit, which it does not name; angles in degrees; Y up.
+/// In the file's unit and axes, neither of which it names (bvh_stance.h); angles in degrees.
 struct BvhJoint {
   enum class Channel { xPosition, yPosition, zPosition, xRotation, yRotation, zRotation };
 
@@ -33,11 +33,16 @@ struct BvhFile {
       joints;  // a parent before its children; the ends of limbs are joints without channels
   double frameSeconds = 0;
   std::size_t channelCount = 0;
-  std::vector<double> values;  // frame after frame
+  std::vector<double> values;        // frame after frame, as many as both counts below allow
+  std::size_t statedFrameCount = 0;  // by its line "Frames:"
+  std::size_t foundFrameCount = 0;   // by its numbers
 
   std::size_t frameCount() const { return channelCount > 0 ? values.size() / channelCount : 0; }
-  /// From the lowest joint to the highest, in the skeleton's rest pose; 0 for a skeleton of one point.
-  double height() const;
+  /// Where a joint is among its parent's in a frame: in place of its offset, where it has positions.
+  Vec3d placeIn(std::size_t frame, std::size_t joint) const;
+  Quatd turnIn(std::size_t frame, std::size_t joint) const;
+  /// Where all joints are in a frame. Cost: linear in joints.
+  std::vector<Vec3d> placesAt(std::size_t frame) const;
   /// Of all joints; the ends of limbs have empty ones.
   std::vector<std::string> names() const;
   /// A joint by its name; else, whatever the case, by what stands after a colon ("mixamorig:Head").
@@ -47,8 +52,9 @@ struct BvhFile {
 };
 
 /// Any order of channels, positions in any joint (they stand in place of its offset), "Frames:455" without a
-/// space, tabs, CR LF. Errors name the line: what is not BVH, numbers that are none or not finite, fewer
-/// numbers than the frames need, a frame time that is not above 0, no frames.
+/// space, tabs, CR LF; more or fewer whole frames than stated, of which those beyond the count are left out.
+/// Errors name the line: what is not BVH, numbers that are none or not finite, a part of a frame at the end,
+/// a frame time that is not above 0, no frames.
 Result<BvhFile> readBvh(const std::filesystem::path& path);
 Result<BvhFile> parseBvh(std::string_view text);
 

@@ -78,4 +78,10 @@ Result<GltfForm> guardGltf(std::span<std::byte> bytes, bool hidesMeshes) {
   return GltfForm::binary;
 }
 
+std::string_view gltfText(std::span<const std::byte> bytes, GltfForm form) {
+  const std::span<const std::byte> text =
+      form == GltfForm::text ? bytes : bytes.subspan(kHeader + kChunk, numberAt(bytes, kHeader));
+  return {reinterpret_cast<const char*>(text.data()), text.size()};
+}
+
 }  // namespace ringlet

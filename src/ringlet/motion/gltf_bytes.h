@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string_view>
 
 #include "ringlet/base/result.h"
 
@@ -15,5 +16,8 @@ enum class GltfForm { text, binary };
 /// that it does not look at them (it takes their addresses unseen, and refuses files over them).
 /// `hidesMeshes`: those too.
 Result<GltfForm> guardGltf(std::span<std::byte> bytes, bool hidesMeshes);
+
+/// The JSON of a file that has passed.
+std::string_view gltfText(std::span<const std::byte> bytes, GltfForm form);
 
 }  // namespace ringlet

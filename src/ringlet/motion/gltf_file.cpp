@@ -58,8 +58,8 @@ double samplesFor(const GltfFile& file, std::size_t node, const GltfAnimation& a
 }  // namespace
 
 Affine GltfPlacement::map() const {
-  const double s = metresPerUnit;
-  return upIsZ ? Affine{{s, 0, 0}, {0, 0, s}, {0, -s, 0}, {}} : Affine{{s, 0, 0}, {0, s, 0}, {0, 0, s}, {}};
+  const Affine turn = turnUp(up, upIsZ);
+  return {turn.x * metresPerUnit, turn.y * metresPerUnit, turn.z * metresPerUnit, {}};
 }
 
 std::array<double, 4> GltfChannel::valueAt(double t) const {
@@ -205,11 +205,12 @@ Result<Keyframes> GltfFile::motionOf(std::size_t node, const GltfAnimation* anim
   }
   Keyframes motion;
   if (gaps > 0) motion.secondsPerKey = step;
-  const Quatd lift = placement.upIsZ ? Quatd{std::sqrt(0.5), 0, 0, std::sqrt(0.5)} : Quatd{};
+  const Affine turn = turnUp(placement.up, placement.upIsZ);
+  const Quatd lift = rotationOf(turn.x, turn.y, turn.z);
   for (std::size_t k = 0; k <= static_cast<std::size_t>(gaps); ++k) {
     const double t = start + step * static_cast<double>(k);
     const Affine world = placement.map() * worldAt(node, animation, t);
-    // Along Z the groom stands upright too: its axes are turned by the same.
+    // Turned, the groom stands upright too: its axes are turned by the same.
     const auto rotation = nearestRotation(world);
     if (!rotation) {
       return Error{

@@ -16,6 +16,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/motion/affine.h"
+#include "ringlet/motion/file_axis.h"
 #include "ringlet/scene/keyframes.h"
 
 namespace ringlet {
@@ -83,8 +84,9 @@ struct GltfCamera {
 
 /// How a file's world lies in ours.
 struct GltfPlacement {
-  double metresPerUnit = 1;  // glTF is in metres
-  bool upIsZ = false;        // of ours; glTF's is Y. X stays
+  double metresPerUnit = 1;       // glTF is in metres
+  bool upIsZ = false;             // of ours
+  FileAxis up = FileAxis::plusY;  // of the file, which glTF says
   /// Applied to the file's world.
   Affine map() const;
 };
@@ -120,9 +122,10 @@ struct GltfFile {
                              std::optional<double> samplesPerSecond) const;
 };
 
-/// .gltf with its buffers inside or beside it, or .glb. Errors: what TinyGLTF refuses; an index, accessor or
-/// buffer view beyond what there is; numbers that are not finite; nodes that are their own parents; times
-/// that fall. A mesh that cannot be read (Draco) is no error until it is asked for.
+/// .gltf with its buffers inside or beside it, or .glb. Errors: what TinyGLTF refuses; a buffer that is not
+/// in the file's folder or below it (gltf_buffers.h); an index, accessor or buffer view beyond what there is;
+/// numbers that are not finite; nodes that are their own parents; times that fall. A mesh that cannot be read
+/// (Draco) is no error until it is asked for.
 Result<GltfFile> readGltf(const std::filesystem::path& path);
 /// `folder` is where buffers beside the file are.
 Result<GltfFile> parseGltf(std::span<const std::byte> bytes, const std::filesystem::path& folder);

@@ -14,6 +14,7 @@
 
 #include "ringlet/base/quoted.h"
 #include "ringlet/base/whole_file.h"
+#include "ringlet/motion/gltf_buffers.h"
 #include "ringlet/motion/gltf_bytes.h"
 #include "ringlet/motion/gltf_file.h"
 
@@ -455,10 +456,15 @@ GltfCamera readCamera(const gltf::Camera& from) {
   return {isFine ? std::optional(angle) : std::nullopt};
 }
 
-// TinyGLTF's way to the files beside: regular files, in the folder of the file only.
+// TinyGLTF's way to the files beside: those that were looked at, and no others.
 bool isAnywhere(const std::string&, void*) { return true; }
 std::string asItIs(const std::string& path, void*) { return path; }
-bool readBeside(std::vector<unsigned char>* out, std::string* error, const std::string& path, void*) {
+bool readBeside(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* user) {
+  const auto& known = *static_cast<const std::vector<GltfBuffer>*>(user);
+  if (std::ranges::find(known, path, [](const GltfBuffer& b) { return b.file.string(); }) == known.end()) {
+    *error += "it is no buffer of this file";
+    return false;
+  }
   auto bytes = readWholeFile(path);
   if (!bytes) {
     *error += bytes.error().message;
@@ -491,8 +497,13 @@ Parsed parse(std::span<const std::byte> bytes, const std::filesystem::path& fold
     parsed.problem = form.error();
     return parsed;
   }
+  auto buffers = gltfBuffersOf(gltfText(guarded, *form), folder);
+  if (const Status checked = buffers ? checkGltfBuffers(*buffers) : Status(buffers.error()); !checked) {
+    parsed.problem = checked.error();
+    return parsed;
+  }
   gltf::TinyGLTF reader;
-  reader.SetFsCallbacks({isAnywhere, asItIs, readBeside, writeNothing, nullptr});
+  reader.SetFsCallbacks({isAnywhere, asItIs, readBeside, writeNothing, &*buffers});
   reader.SetImageLoader(passPicture, nullptr);
   std::string error, warning;
   const auto size = static_cast<unsigned>(guarded.size());
@@ -566,7 +577,11 @@ Result<GltfFile> readGltf(const std::filesystem::path& path) try {
   const auto bytes = readWholeFile(path);
   if (!bytes) return bytes.error();
   auto file = parseGltf(*bytes, path.parent_path());
-  if (!file) return Error{fmt::format("{} is no glTF: {}", path.string(), file.error().message)};
+  if (!file) {
+    const Error& error = file.error();
+    const char* what = error.fault == Fault::input ? "cannot be read" : "is no glTF";
+    return Error{fmt::format("{} {}: {}", path.string(), what, error.message), error.fault};
+  }
   return file;
 } catch (const std::bad_alloc&) {
   return Error{fmt::format("{}: there is not enough memory for it", path.string())};

@@ -6,57 +6,52 @@
 #include <algorithm>
 #include <cctype>
 #include <memory>
-#include <numbers>
+#include <system_error>
 #include <utility>
 
 #include "ringlet/motion/bvh_file.h"
+#include "ringlet/motion/bvh_stance.h"
 #include "ringlet/motion/gltf_file.h"
 #include "ringlet/motion/joint_name.h"
+#include "ringlet/motion/motion_doubts.h"
 
 namespace ringlet {
 namespace {
 
-constexpr double kTall = 1.7;        // of a skeleton in no known unit [m]
 constexpr double kFastestHead = 30;  // beyond it a turn is a jump [rad/s]
 
-// From Y up to Z up: X stays.
-HeadPose uprightAlongZ(const HeadPose& pose) {
-  const Quatd lift = fromRotationVector(Vec3d{std::numbers::pi / 2, 0, 0});
-  return {rotate(lift, pose.position), lift * pose.rotation * lift.conjugate()};
+void addOnce(std::string sentence, std::vector<std::string>& warnings) {
+  if (std::ranges::find(warnings, sentence) == warnings.end()) warnings.push_back(std::move(sentence));
 }
 
 Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, bool upIsZ,
                                 std::vector<std::string>& warnings) {
   auto file = readBvh(choice.path);
   if (!file) return file.error();
+  const std::string name = choice.path.string();
   const auto joint = file->find(choice.joint);
-  if (!joint) return noSuchJoint(choice.path.string(), "joint", choice.joint, file->names());
+  if (!joint) return noSuchJoint(name, "joint", choice.joint, file->names());
   const auto skipped = static_cast<std::size_t>(choice.skippedFrames);
   if (skipped + 2 > file->frameCount()) {
-    return Error{fmt::format("{} has {} frames; without the first {} too few are left to move along",
-                             choice.path.string(), file->frameCount(), skipped)};
+    return Error{fmt::format("{} has {} frames; without the first {} too few are left to move along", name,
+                             file->frameCount(), skipped)};
   }
-  const auto warn = [&](std::string sentence) {
-    if (std::ranges::find(warnings, sentence) == warnings.end()) warnings.push_back(std::move(sentence));
-  };
-  const double height = file->height();
-  const double unit = choice.metresPerUnit.value_or(height > 0 ? kTall / height : 0.01);
-  if (!choice.metresPerUnit) {
-    warn(fmt::format(
-        "{} names no unit; its skeleton of {:.4g} units is taken to be {} m tall, a unit {:.4g} m",
-        choice.path.string(), height, kTall, unit));
-  }
+  const auto head = choice.headJoint.empty() ? joint : file->find(choice.headJoint);
+  const BvhStance stance = stanceOf(*file, skipped, choice.up, head);
+  for (std::string& doubt : doubtsOf(*file, stance, name, choice.metresPerUnit, upIsZ))
+    addOnce(std::move(doubt), warnings);
 
-  Keyframes keys = file->motionOf(*joint, unit, skipped);
+  Keyframes keys = file->motionOf(*joint, choice.metresPerUnit.value_or(unitOf(stance)), skipped);
   if (const auto fastest = keys.fastestTurn(); fastest.speed > kFastestHead) {
-    warn(
-        fmt::format("{}: from frame {} to the next {} turns at {:.0f} rad/s; where the first frame is a pose "
-                    "apart from the "
-                    "motion, skip it",
-                    choice.path.string(), fastest.key + skipped + 1, choice.joint, fastest.speed));
+    addOnce(fmt::format("{}: from frame {} to the next {} turns at {:.0f} rad/s; where the first frame is a "
+                        "pose apart from the motion, skip it",
+                        name, fastest.key + skipped + 1, choice.joint, fastest.speed),
+            warnings);
   }
-  if (upIsZ) {
-    for (HeadPose& pose : keys.poses) pose = uprightAlongZ(pose);
+  const FileAxis groomUp = upIsZ ? FileAxis::plusZ : FileAxis::plusY;
+  if (stance.up != groomUp) {
+    const Affine turn = turnUp(stance.up, upIsZ);
+    for (HeadPose& pose : keys.poses) pose = turned(turn, pose);
   }
   return keys;
 }
@@ -79,11 +74,17 @@ Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, bool upIsZ,
     warnings.push_back(fmt::format("{}: nothing in its animation {} moves {}; it stands still", name,
                                    (*animation)->name, choice.joint));
   }
-  auto keys = file->motionOf(*node, *animation,
-                             {.metresPerUnit = choice.metresPerUnit.value_or(1), .upIsZ = upIsZ}, {});
+  const GltfPlacement placement{.metresPerUnit = choice.metresPerUnit.value_or(1),
+                                .upIsZ = upIsZ,
+                                .up = choice.up.value_or(FileAxis::plusY)};
+  auto keys = file->motionOf(*node, *animation, placement, {});
   if (!keys) return Error{fmt::format("{}: {}", name, keys.error().message)};
   if (keys->poses.size() < 2)
     return Error{fmt::format("{}: its animation {} takes no time", name, (*animation)->name)};
+  if (choice.headJoint.empty() || choice.headJoint == choice.joint) {
+    for (std::string& doubt : doubtsOf(*file, *node, *animation, placement, choice.up.has_value(), name))
+      addOnce(std::move(doubt), warnings);
+  }
   if (const auto fastest = keys->fastestTurn(); fastest.speed > kFastestHead) {
     warnings.push_back(fmt::format("{}: {:.3g} s after the first key {} turns at {:.0f} rad/s", name,
                                    static_cast<double>(fastest.key) * keys->secondsPerKey, choice.joint,
@@ -98,13 +99,33 @@ MotionFileKind motionFileKind(const std::string& word) {
   std::string extension = std::filesystem::path(word).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension == ".bvh") return MotionFileKind::bvh;
-  return extension == ".gltf" || extension == ".glb" ? MotionFileKind::gltf : MotionFileKind::none;
+  const bool isGltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
+  return isGltf ? MotionFileKind::gltf : MotionFileKind::none;
+}
+
+Error noMotionFile(const std::filesystem::path& path) {
+  std::error_code code;  // a file that cannot be looked at is as good as none
+  const auto status = std::filesystem::status(path, code);
+  if (std::filesystem::is_directory(status)) {
+    return Error{fmt::format("{} is a folder; expected a motion file, {}", path.string(), kMotionEndings),
+                 Fault::input};
+  }
+  const std::string ending = path.extension().string();
+  if (std::filesystem::exists(status)) {
+    return Error{fmt::format("{}: no motion is read from a file {}; expected {}", path.string(),
+                             ending.empty() ? "without an ending" : "that ends in " + ending, kMotionEndings),
+                 Fault::input};
+  }
+  return Error{fmt::format("there is no file {}, and motion files end in {}", path.string(), kMotionEndings),
+               Fault::input};
 }
 
 Result<Motion> readMotionFile(const MotionFileChoice& choice, bool upIsZ,
                               std::vector<std::string>& warnings) {
-  const bool isGltf = motionFileKind(choice.path.string()) == MotionFileKind::gltf;
-  auto keys = isGltf ? readGltfKeys(choice, upIsZ, warnings) : readBvhMotion(choice, upIsZ, warnings);
+  const MotionFileKind kind = motionFileKind(choice.path.string());
+  if (kind == MotionFileKind::none) return noMotionFile(choice.path);
+  auto keys = kind == MotionFileKind::gltf ? readGltfKeys(choice, upIsZ, warnings)
+                                           : readBvhMotion(choice, upIsZ, warnings);
   if (!keys) return keys.error();
   return Motion{.kind = MotionKind::keyframes,
                 .keyframes = std::make_shared<const Keyframes>(std::move(*keys))};

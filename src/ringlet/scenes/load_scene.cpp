@@ -23,6 +23,7 @@
 #include "ringlet/rest/material_presets.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/idle_dials.h"
+#include "ringlet/scenes/motion_reach.h"
 #include "ringlet/scenes/scene_maps.h"
 #include "ringlet/scenes/scene_parts.h"
 #include "ringlet/scenes/world_bind.h"
@@ -74,11 +75,13 @@ Status loadMeshBody(const SceneBody& scene, const SceneGroom& groom, double metr
   return {};
 }
 
-MotionFileChoice motionFileOf(const SceneMotion& motion) {
-  return {motion.file, motion.joint, motion.metresPerUnit, motion.skipFrames, motion.animation};
-}
-
 }  // namespace
+
+MotionFileChoice motionFileOf(const SceneMotion& motion) {
+  return {motion.file,       motion.joint,     motion.metresPerUnit,
+          motion.skipFrames, motion.animation, fileAxisNamed(motion.up),
+          motion.joint};
+}
 
 Result<Motion> jointMotion(const SceneFile& scene, const std::string& joint,
                            std::vector<std::string>& warnings) {
@@ -142,6 +145,7 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
   if (isHeads && choice.animation.empty()) choice.animation = head.animation;
   choice.placement.metresPerUnit = scene.metresPerUnit.value_or(isHeads ? head.metresPerUnit.value_or(1) : 1);
   choice.placement.upIsZ = file.groom.up == "Z";
+  if (isHeads) choice.placement.up = fileAxisNamed(head.up).value_or(FileAxis::plusY);
   auto read = readSkinnedMesh(scene.file, choice);
   if (!read) return Error{fmt::format("the scalp: {}", read.error().message)};
   const auto mesh = std::make_shared<const SkinnedMesh>(std::move(*read));
@@ -413,6 +417,9 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   const double seconds = loaded.frameCount / loaded.settings.framesPerSecond;
   for (std::string& sentence : idleDials(scene.material.dials, loaded.material, loaded.groom, loaded.settings,
                                          loaded.motion, seconds))
+    loaded.warnings.push_back(std::move(sentence));
+  for (std::string& sentence :
+       motionReach(scene, loaded.motion, loaded.bodies, loaded.settings, loaded.frameCount))
     loaded.warnings.push_back(std::move(sentence));
   return loaded;
 }

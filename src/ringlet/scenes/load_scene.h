@@ -12,6 +12,7 @@
 #include "ringlet/groom/groom.h"
 #include "ringlet/groom/loaded_groom.h"
 #include "ringlet/motion/head_scalp.h"
+#include "ringlet/motion/motion_file.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/motion.h"
@@ -33,6 +34,9 @@ Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims = false);
 /// the body's name.
 Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUnit,
                                      std::vector<std::string>& warnings);
+
+/// What a scene says of a motion file, of the head or of a body.
+MotionFileChoice motionFileOf(const SceneMotion& motion);
 
 /// The way of a joint of the head's motion file.
 Result<Motion> jointMotion(const SceneFile& scene, const std::string& joint,

@@ -13,6 +13,7 @@
 #include "ringlet/motion/gltf_file.h"
 #include "ringlet/motion/joint_name.h"
 #include "ringlet/motion/motion_file.h"
+#include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_parts.h"
 
 namespace ringlet {
@@ -54,7 +55,10 @@ Result<LoadedCamera> cameraOfGltf(const SceneFile& scene, const std::filesystem:
   const bool upIsZ = scene.groom.up == "Z";
   auto keys = file->motionOf(
       nodes[*which], *animation,
-      {.metresPerUnit = isHeads ? scene.motion.metresPerUnit.value_or(1) : 1, .upIsZ = upIsZ}, {});
+      {.metresPerUnit = isHeads ? scene.motion.metresPerUnit.value_or(1) : 1,
+       .upIsZ = upIsZ,
+       .up = isHeads ? fileAxisNamed(scene.motion.up).value_or(FileAxis::plusY) : FileAxis::plusY},
+      {});
   if (!keys) return Error{fmt::format("{}: {}", path.string(), keys.error().message)};
   LoadedCamera camera{.name = name,
                       .seen = {.eye = {},
@@ -77,8 +81,9 @@ Result<LoadedCamera> cameraAtPlace(const SceneFile& scene, const SceneCamera& st
   if (stated.joint.empty()) return camera;
   const SceneMotion& head = scene.motion;
   std::vector<std::string> warnings;  // said of the head already
-  auto motion = readMotionFile({head.file, stated.joint, head.metresPerUnit, head.skipFrames, head.animation},
-                               scene.groom.up == "Z", warnings);
+  MotionFileChoice choice = motionFileOf(head);
+  choice.joint = stated.joint;
+  auto motion = readMotionFile(choice, scene.groom.up == "Z", warnings);
   if (!motion) return Error{fmt::format("the camera {}: {}", stated.name, motion.error().message)};
   motion->start = head.start;
   camera.motion = std::move(*motion);

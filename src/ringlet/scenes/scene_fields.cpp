@@ -6,6 +6,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/groom/hair_styles.h"
+#include "ringlet/motion/file_axis.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/scene/body_forms.h"
 #include "ringlet/scene/motion.h"
@@ -225,7 +226,7 @@ std::span<const SceneField<SceneMotion>> motionFields() {
        "",
        kToAndFro},
       {"file", "", "none",
-       "A .bvh, .gltf or .glb file in place of a kind. The head follows a joint of it in world space.",
+       "A .bvh, .gltf, .glb or .vrm file in place of a kind. The head follows a joint of it in world space.",
        &M::file},
       {"joint", "", "", "Joint of the file (a node in glTF).", &M::joint, {}, "", "file"},
       {"animation",
@@ -236,8 +237,16 @@ std::span<const SceneField<SceneMotion>> motionFields() {
        {},
        "",
        "file"},
-      {"unit", "m", "a BVH skeleton is 1.7 m tall, glTF is in metres", "Metres per unit of the file.",
+      {"unit", "m", "a BVH person is 1.7 m tall, glTF is in metres", "Metres per unit of the file.",
        &M::metresPerUnit, kUnit, "", "file"},
+      {"up",
+       "",
+       "the axis along which a BVH person stands; glTF's is Y",
+       "Up axis of the file, which is turned to the groom's.",
+       &M::up,
+       {},
+       kFileAxisNames,
+       "file"},
       {"skip_frames",
        "",
        "",
@@ -313,7 +322,7 @@ std::span<const SceneField<SceneScalp>> scalpFields() {
   using S = SceneScalp;
   static const SceneField<S> all[] = {
       {"file", "", "required",
-       "A .gltf or .glb file with the mesh whose nearest triangles the roots follow; the same file as "
+       "A .gltf, .glb or .vrm file with the mesh whose nearest triangles the roots follow; the same file as "
        "motion.file where the head follows a joint of it.",
        &S::file},
       {"mesh", "", "the only one", "Name of the mesh, or of the node that has it.", &S::mesh},
@@ -404,7 +413,8 @@ std::span<const SceneField<SceneBody>> bodyFields() {
       {"file",
        "",
        "none",
-       "File of the mesh: an .obj file of closed surfaces, or a .gltf or .glb file with one mesh, which is "
+       "File of the mesh: an .obj file of closed surfaces, or a .gltf, .glb or .vrm file with one mesh, "
+       "which is "
        "taken at its first key.",
        &B::file,
        {},
@@ -616,7 +626,8 @@ std::span<const SceneField<SceneCamera>> cameraFields() {
        "",
        "eye"},
       {"file", "", "none",
-       "File in place of eye: a .gltf or .glb file whose camera it is, as its animation moves it.", &C::file},
+       "File in place of eye: a .gltf, .glb or .vrm file whose camera it is, as its animation moves it.",
+       &C::file},
   };
   return all;
 }

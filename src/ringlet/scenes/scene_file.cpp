@@ -13,8 +13,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "ringlet/base/is_below.h"
 #include "ringlet/base/nearest_name.h"
 #include "ringlet/base/quoted.h"
+#include "ringlet/motion/motion_file.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/rest/material_table.h"
 #include "ringlet/rest/toml_file.h"
@@ -106,15 +108,6 @@ std::optional<std::array<double, count>> numbersOf(const toml::node& node, const
   return numbers;
 }
 
-// Whether what a path leads to, links followed, is in or below a folder.
-bool isBelow(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  std::error_code code;
-  const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
-  if (code) return false;
-  const auto whole = std::filesystem::weakly_canonical(path, code);
-  return !code && std::ranges::mismatch(base, whole).in1 == base.end();
-}
-
 // Walks a parsed file.
 class SceneReader {
  public:
@@ -130,7 +123,7 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "scalp")) {
       readFields(*table, "scalp", scalpFields(), scene.scalp);
       if (!table->get("file"))
-        missing_.add(lineOf(*table), "found no scalp.file; expected a .gltf or .glb file");
+        missing_.add(lineOf(*table), "found no scalp.file; expected a .gltf, .glb or .vrm file");
     }
     readSimulation(file, scene.simulation);
     if (const toml::table* table = tableOf(file, "", "contacts")) {
@@ -239,7 +232,12 @@ class SceneReader {
             const auto* text = node->as_string();
             const bool mayBeNear =
                 text && !field.choices.empty() && !std::is_same_v<Value, std::vector<std::string>>;
-            problems_.addFound(*node, key, mayBeNear ? oneOf(field.choices, text->get()) : expectedOf(field));
+            std::string expected = mayBeNear ? oneOf(field.choices, text->get()) : expectedOf(field);
+            const bool isFile = mayBeNear && std::filesystem::path(text->get()).has_extension();
+            if (isFile && field.choices == motionNames())
+              expected +=
+                  fmt::format("; a {} file goes into {}", kMotionEndings, KnownKey{name, "file"}.fullName());
+            problems_.addFound(*node, key, expected);
           },
           field.member);
     }
@@ -296,7 +294,7 @@ class SceneReader {
   // Nothing where it is none, or out of reach; that is a problem then.
   std::optional<std::filesystem::path> pathOf(const toml::node& node, const std::string& key) {
     const auto text = node.value_exact<std::string>();
-    if (!text || text->empty()) {
+    if (!text || text->empty() || text->find('\0') != text->npos) {
       problems_.addFound(node, key, "a path");
       return std::nullopt;
     }

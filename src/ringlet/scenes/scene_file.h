@@ -90,6 +90,7 @@ struct SceneMotion {
   std::string joint = "Head";
   std::string animation{};  // of a glTF file: a name or a number; empty: the first
   std::optional<double> metresPerUnit{};
+  std::string up{};  // axis of the file, a name of motion/file_axis.h; empty: as the file's person stands
   int skipFrames = 0;
 
   std::vector<SceneKeyframe> keys{};  // by rising time
