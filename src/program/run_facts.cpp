@@ -16,6 +16,7 @@
 #include "ringlet/base/whole_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
+#include "ringlet/scenes/scene_paths.h"
 
 namespace ringlet::program {
 namespace {
@@ -53,15 +54,11 @@ void addLines(std::string_view text, std::string table, std::vector<RunFact>& fa
 }  // namespace
 
 std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene) {
-  std::set<fs::path> files{
-      input,          scene.groom.file,          scene.groom.scalp, scene.motion.file, scene.scalp.file,
-      scene.goalFile, scene.output.hairScalpFile};
-  for (const SceneBody& body : scene.bodies) {
-    files.insert(body.file);
-    if (body.motion) files.insert(body.motion->file);
-  }
-  for (const SceneMap& map : scene.maps) files.insert({map.file, map.texture});
-  for (const SceneForceField& field : scene.fields) files.insert(field.file);
+  SceneFile read = scene;
+  read.output.folder.clear();
+  read.cameras.clear();  // which move nothing
+  std::set<fs::path> files{input};
+  for (const fs::path* path : pathsOf(read)) files.insert(*path);
   files.erase(fs::path());
   return {files.begin(), files.end()};
 }

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "ringlet/scenes/scene_paths.h"
+
 namespace ringlet::program {
 namespace {
 
@@ -65,15 +67,10 @@ std::optional<std::vector<std::string>> rangeOf(std::string_view text) {
 
 // So that a scene can be read from anywhere.
 void makeAbsolute(SceneFile& scene) {
-  const auto absolute = [](fs::path& path) {
+  for (fs::path* path : pathsOf(scene)) {
     std::error_code code;
-    const fs::path whole = path.empty() ? path : fs::absolute(path, code);
-    if (!code) path = whole.lexically_normal();
-  };
-  for (fs::path* path : {&scene.groom.file, &scene.motion.file, &scene.scalp.file}) absolute(*path);
-  for (SceneBody& body : scene.bodies) {
-    absolute(body.file);
-    if (body.motion) absolute(body.motion->file);
+    const fs::path whole = path->empty() ? *path : fs::absolute(*path, code);
+    if (!code) *path = whole.lexically_normal();
   }
 }
 

@@ -346,6 +346,27 @@ TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
   }
 }
 
+// What is sieved by the sphere about a body goes with the body's turn, where its middle is not its origin.
+TEST_F(FollowStageTest, BodiesFarFromTheirOriginTurn) {
+  const Guides guides = allGuides().front();
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  const Plan plan = planOf(guides, 300);
+  const auto alone = followOn(gpu(), plan, pose, kTurned);
+  for (const Vec3d way : {Vec3d{0.1, 0, 0}, {0, 0.2, -0.1}}) {
+    for (const Vec3d turn : {Vec3d{}, {0, std::numbers::pi, 0}, {0.5, 1, 2}}) {
+      const Quatd rotation = fromRotationVector(turn);
+      Met met = metBy({parity::gridBall(0.1, 0.005)}, pose);
+      const BodyPose ball = met.poses[0];
+      met.bodies = {parity::gridBall(0.1, 0.005, way)};  // the same ball
+      met.poses = {{ball.position - rotate(rotation, way), rotation}};
+      const auto found = followOn(gpu(), plan, pose, kTurned, met);
+      EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
+      EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
+    }
+  }
+}
+
 // Bodies may be anywhere in a world: what counts is where they are from where particles are seen.
 TEST_F(FollowStageTest, BodiesAreSeenFromTheOrigin) {
   const Guides guides = allGuides().front();

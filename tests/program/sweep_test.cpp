@@ -7,9 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "program/sweep_plan.h"
+#include "ringlet/scenes/scene_file.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -171,6 +175,81 @@ TEST_F(Sweep, FinishedRunsAreKeptAndOthersAreRun) {
   EXPECT_EQ(hashIn("run-0002"), hash);
   ASSERT_EQ(onCpu(vary, {"--overwrite"}).exitCode, 0);
   EXPECT_EQ(states(), (States{"finished", "finished", "finished"}));
+}
+
+// A run that is kept counts as it did when it was made.
+TEST_F(Sweep, WhatHasNoPositionIsToldAgain) {
+  const std::vector<std::string> vary{"simulation.integrator=jacobi,paper", "simulation.steps_per_frame=1",
+                                      "simulation.frames=30"};
+  const auto first = onCpu(vary);
+  EXPECT_EQ(first.exitCode, 3) << first.err;  // the paper's is explicit, and a step too long for it
+  const json run = json::parse(readText(folder_ / "out/run-0002/run.json"));
+  EXPECT_GT(run["nonfinite"], 0);
+  EXPECT_EQ(states(), (States{"finished", "finished"}));
+  const auto again = onCpu(vary);
+  EXPECT_EQ(again.exitCode, 3) << again.err;
+  EXPECT_EQ(states(), (States{"kept", "kept"}));
+  EXPECT_NE(readText(folder_ / "out/sweep.csv").find("\n2,kept,3,"), std::string::npos)
+      << readText(folder_ / "out/sweep.csv");
+}
+
+// Every key that is a path, in two scenes, since some are in each other's place.
+TEST_F(Sweep, ARunsScenePathsLeadFromAnywhere) {
+  const std::string scenes[] = {
+      "[groom]\nfile = 'groom.usda'\n[motion]\nfile = 'walk.bvh'\n[scalp]\nfile = 'skin.glb'\n"
+      "[goal]\nfile = 'pose.obj'\n[[body]]\nshape = 'mesh'\nfile = 'bodies/a.obj'\n"
+      "[body.moves]\nfile = '../run.bvh'\n[[camera]]\nname = 'shot'\nfile = 'shot.glb'\n"
+      "[[field]]\nkind = 'grid'\nfile = 'wind.npy'\n[[map]]\nnumber = 'bend_stiffness'\nfile = 'stiff.txt'\n"
+      "[[map]]\nnumber = 'core_stiffness'\ntexture = 'grey.png'\n"
+      "[output]\nhairs = 100\nhair_scalp_file = 'scalp.obj'\n",
+      "[groom]\ngenerate = 'head'\nscalp = 'scalp.obj'\n"};
+  std::set<std::string> found;  // tables with their keys
+  fs::current_path(folder_);
+  for (const std::string& scene : scenes) {
+    std::ofstream("scene.toml") << scene;
+    const std::vector<program::SweepAxis> axes{{"simulation.frames", {"2"}}};
+    auto runs = program::planRuns("scene.toml", axes);
+    ASSERT_TRUE(runs) << runs.error().message;
+    std::istringstream text(sceneText(runs->front().scene));
+    std::string table;
+    for (std::string line; std::getline(text, line);) {
+      if (line.starts_with("["))
+        table = line.substr(line.find_last_of('[') + 1, line.find(']') - line.find_last_of('[') - 1);
+      for (const SceneKey& key : sceneKeys()) {
+        const std::string begin = key.key + " = \"";
+        const bool isOfTable = key.table == table || (key.table == "motion" && table == "body.moves");
+        if (key.type != "path" || !isOfTable || !line.starts_with(begin)) continue;
+        EXPECT_EQ(line[begin.size()], '/') << "[" << table << "] " << line;
+        found.insert(table + "." + key.key);
+      }
+    }
+  }
+  std::set<std::string> expected{"body.moves.file"};
+  for (const SceneKey& key : sceneKeys())
+    if (key.type == "path" && key.key != "folder") expected.insert(key.table + "." + key.key);
+  EXPECT_EQ(found, expected);
+}
+
+// `ringlet simulate` runs it again from another folder.
+TEST_F(Sweep, ARunIsRunAgainFromElsewhere) {
+  fs::create_directories(folder_ / "in");
+  fs::create_directories(folder_ / "elsewhere");
+  std::ofstream(folder_ / "in/groom.obj") << "v 0 0 0\nv 0 -5 0\nv 5 -10 0\nl 1 2 3\n";
+  std::ofstream(folder_ / "in/pose.obj") << "v 0 0 0\nv 5 -3 0\nv 9 -7 0\nl 1 2 3\n";
+  std::ofstream(folder_ / "in/walk.bvh")
+      << "HIERARCHY\nROOT Head\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\nEnd Site\n{\n"
+         "OFFSET 0 1 0\n}\n}\nMOTION\nFrames: 3\nFrame Time: 0.05\n0 0 0\n1 0 0\n3 0 0\n";
+  std::ofstream(folder_ / "scene.toml")
+      << "[groom]\nfile = 'in/groom.obj'\n[goal]\nfile = 'in/pose.obj'\n[simulation]\nframes = 4\n"
+         "[[body]]\nshape = 'sphere'\nradius = 0.05\n[body.moves]\nfile = 'in/walk.bvh'\n"
+         "metres_per_unit = 0.01\n[output]\nfiles = ['last.obj']\n";
+  const auto swept = onCpu({"material.dials.hold=0.5"});
+  ASSERT_EQ(swept.exitCode, 0) << swept.err;
+  const auto result =
+      runProgram(folder_ / "elsewhere", {"simulate", "../out/run-0001/scene.toml", "-o", "again", "--json",
+                                         "--backend", "reference", "--quiet"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["positions_hash"], hashIn("run-0001"));
 }
 
 TEST_F(Sweep, AFolderOfSomethingElseIsRefused) {
