@@ -54,11 +54,10 @@ void addLines(std::string_view text, std::string table, std::vector<RunFact>& fa
 }  // namespace
 
 std::vector<fs::path> inputFilesOf(const fs::path& input, const SceneFile& scene) {
-  SceneFile read = scene;
-  read.output.folder.clear();
-  read.cameras.clear();  // which move nothing
+  SceneFile moving = scene;
+  moving.cameras.clear();  // which move nothing
   std::set<fs::path> files{input};
-  for (const fs::path* path : pathsOf(read)) files.insert(*path);
+  forEachFileOf(moving, [&](const fs::path& path) { files.insert(path); });
   files.erase(fs::path());
   return {files.begin(), files.end()};
 }
