@@ -1,5 +1,5 @@
 // Reads the structs with an explicit layout out of a SPIR-V module: offsets and sizes of their members, and
-// the strides of arrays of them.
+// the strides of arrays of them; and what its kernel sees, the push constants and the buffers.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,17 @@ struct SpirvStruct {
   std::string name;
   std::vector<SpirvMember> members;
   std::set<std::uint32_t> strides;  // of the arrays that hold it [bytes]
+};
+
+/// A storage or uniform buffer, or the push constants.
+struct SpirvBlock {
+  std::string name;                  // of the block, as the shader has it
+  std::uint32_t binding = 0;         // of a buffer
+  bool isWritten = false;            // not declared readonly
+  bool isPushed = false;             // push constants
+  std::uint32_t stride = 0;          // from one record to the next [bytes]; 0: there is one
+  std::string record;                // the struct that it holds; of numbers and vectors: empty
+  std::vector<SpirvMember> members;  // of a record
 };
 
 class SpirvModule {
@@ -43,14 +54,47 @@ class SpirvModule {
     return found;
   }
 
+  std::vector<SpirvBlock> blocks() const {
+    std::vector<SpirvBlock> found;
+    for (const auto& [variable, pointer] : variables_) {
+      if (!pointees_.count(pointer)) continue;
+      const Id block = pointees_.at(pointer);
+      if (!blocks_.count(block)) continue;
+      SpirvBlock& one = found.emplace_back();
+      one.name = names_.at(block);
+      one.isPushed = pushed_.count(variable) != 0;
+      if (bindings_.count(variable)) one.binding = bindings_.at(variable);
+      one.isWritten = !one.isPushed && !readonly_.count(variable) && !readonly_.count(block);
+      Id inner = structTypes_.at(block).front();
+      if (arrayElements_.count(inner) && structTypes_.at(block).size() == 1) {
+        one.stride = strides_.at(inner);
+        inner = arrayElements_.at(inner);
+      }
+      const bool isPlain = !structTypes_.count(inner);
+      if (!isPlain) one.record = names_.at(inner);
+      const Id fields = isPlain && one.stride == 0 ? block : inner;  // of plain members the block itself
+      if (!structTypes_.count(fields)) {
+        one.members.push_back({"", 0, sizeOf(fields)});
+        continue;
+      }
+      const std::vector<Id>& types = structTypes_.at(fields);
+      for (std::uint32_t k = 0; k < types.size(); ++k) {
+        if (lengths_.count(types[k]) || !arrayElements_.count(types[k]))
+          one.members.push_back({memberNames_.at(fields).at(k), offsets_.at(fields).at(k), sizeOf(types[k])});
+      }
+    }
+    return found;
+  }
+
  private:
   using Id = std::uint32_t;
 
   void readInstruction(std::span<const std::uint32_t> word) {
     enum : std::uint32_t { kName = 5, kMemberName = 6, kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23 };
     enum : std::uint32_t { kTypeArray = 28, kTypeRuntimeArray = 29, kTypeStruct = 30, kConstant = 43 };
-    enum : std::uint32_t { kDecorate = 71, kMemberDecorate = 72 };
-    enum : std::uint32_t { kBlock = 2, kBufferBlock = 3, kArrayStride = 6, kOffset = 35 };
+    enum : std::uint32_t { kTypePointer = 32, kVariable = 59, kDecorate = 71, kMemberDecorate = 72 };
+    enum : std::uint32_t { kBlock = 2, kBufferBlock = 3, kArrayStride = 6, kNonWritable = 24, kBinding = 33 };
+    enum : std::uint32_t { kOffset = 35, kPushConstant = 9 };
     switch (word[0] & 0xffff) {
       case kName:
         names_[word[1]] = reinterpret_cast<const char*>(&word[2]);
@@ -74,14 +118,24 @@ class SpirvModule {
       case kTypeStruct:
         structTypes_[word[1]].assign(word.begin() + 2, word.end());
         break;
+      case kTypePointer:
+        pointees_[word[1]] = word[3];
+        break;
+      case kVariable:
+        variables_[word[2]] = word[1];
+        if (word[3] == kPushConstant) pushed_.insert(word[2]);
+        break;
       case kConstant:
         constants_[word[2]] = word[3];
         break;
       case kDecorate:
         if (word[2] == kArrayStride) strides_[word[1]] = word[3];
+        if (word[2] == kBinding) bindings_[word[1]] = word[3];
+        if (word[2] == kNonWritable) readonly_.insert(word[1]);
         if (word[2] == kBlock || word[2] == kBufferBlock) blocks_.insert(word[1]);
         break;
       case kMemberDecorate:
+        if (word[3] == kNonWritable) readonly_.insert(word[1]);  // all of a block, or none
         if (word[3] == kOffset) offsets_[word[1]][word[2]] = word[4];
         break;
       default:
@@ -107,7 +161,9 @@ class SpirvModule {
   std::map<Id, Vector> vectors_;
   std::map<Id, Id> lengths_;  // of arrays: the constant
   std::map<Id, std::uint32_t> sizes_, strides_, constants_;
-  std::set<Id> blocks_;
+  std::set<Id> blocks_, pushed_, readonly_;
+  std::map<Id, Id> pointees_, variables_;  // of variables: the pointer's type
+  std::map<Id, std::uint32_t> bindings_;
 };
 
 }  // namespace ringlet::test
