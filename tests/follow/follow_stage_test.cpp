@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "embedded_modules.h"
 #include "layout/hair_points.h"
 #include "parity/sample_bodies.h"
 #include "parity/tolerances.h"
@@ -20,6 +21,7 @@
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/kernel_inputs.h"
 
 namespace ringlet::test {
 namespace {
@@ -365,6 +367,51 @@ TEST_F(FollowStageTest, BodiesFarFromTheirOriginTurn) {
       EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
     }
   }
+}
+
+const InputException kUnset[] = {
+    {"TODO", "TODO"},
+};
+
+// Every input of the kernels: of guides of all kinds, of several guides, among bodies, on a scalp, cut.
+TEST_F(FollowStageTest, EachInputIsSetBySomeCase) {
+  const auto opened = gpu::Device::open();
+  ASSERT_TRUE(opened) << opened.error().message;
+  if (!(*opened)->properties().isCpu) GTEST_SKIP() << "the host does not see this device's buffers";
+  KernelInputs inputs(kEmbeddedModules, kFollowInputs);
+  {
+    const Guides guides = allGuides().back();
+    std::vector<Strand> pose;
+    std::vector<Vec3d> roots;
+    for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+    const Plan alone = planOf(guides, 300), blended = planOf(guides, 300, 1);
+    for (const FollowHair& hair : blended.hairs)
+      roots.push_back(pose[hair.guide].front() + Vec3d{0.001, 0.002, -0.003});
+    std::vector<Body> bodies = parity::sampleBodies();
+    bodies.push_back(parity::gridBall(0.1, 0.005, {0.1, 0.2, -0.1}));
+    for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].thickness = 0.001 * static_cast<double>(b);
+    const Met met = metBy(bodies, pose);
+    Plan cut = alone;
+    cut.guides[0].pieces = {static_cast<std::uint32_t>(pose[0].size()) / 2};
+    KernelSpy spy(**opened);
+    struct Case {
+      const char* name;
+      const Plan& plan;
+      Quatd head;
+      Met met{};
+      std::vector<Vec3d> roots{};
+    };
+    for (const Case& c : {Case{"hair of every kind", alone, {}}, Case{"on a turned head", alone, kTurned},
+                          Case{"three guides", blended, kTurned}, Case{"among bodies", blended, kTurned, met},
+                          Case{"on a scalp", blended, kTurned, met, roots}, Case{"cut", cut, kTurned}}) {
+      SCOPED_TRACE(c.name);
+      spy.onDone = [&](const SpiedCommands& commands) { inputs.look(spy, commands, c.name); };
+      const auto found = followOn(**opened, c.plan, pose, c.head, c.met, c.roots);
+      EXPECT_LT(largestDifference(c.plan, pose, c.head, found, c.met, c.roots), parity::kFollowMetres);
+    }
+  }
+  expectNoMessages(*(*opened)->validationLog());
+  inputs.expectAllSet(kUnset);
 }
 
 // Bodies may be anywhere in a world: what counts is where they are from where particles are seen.
