@@ -93,12 +93,8 @@ std::vector<Body> bodiesAmongStrands() {
 // All that acts on hair by itself, in one case.
 ParityCase surroundedCase() {
   ParityCase c{someStrands(), {}, {}, {.movingRoots = true, .forces = true, .goals = true, .fields = true}};
-  c.settings.air = {.on = true,
-                    .fallSpeed = 3,
-                    .alongShare = 0.2,
-                    .wind = {2, -0.5, 1},
-                    .gust = 0.5,
-                    .turbulence = 1};
+  c.settings.air = {
+      .on = true, .fallSpeed = 3, .alongShare = 0.2, .wind = {2, -0.5, 1}, .gust = 0.5, .turbulence = 1};
   c.bodies = bodiesAmongStrands();
   return c;
 }
@@ -151,7 +147,9 @@ void addHairAlone(std::vector<InputCase>& cases) {
   cases.push_back(step("point Jacobi", point));
   ParityCase paper{someStrands(), {}, {}, {}};
   paper.settings.integrator = Integrator::paper;
-  paper.settings.forceLoops = 7, paper.settings.dampingLoops = 4;
+  paper.settings.stepsPerFrame = 30;
+  paper.settings.gravityPreload = 0;
+  paper.settings.forceLoops = 18, paper.settings.dampingLoops = 12;
   cases.push_back(step("the paper's", paper));
   ParityCase heads = turnedCase();
   heads.kernel.heads = 4;
@@ -179,11 +177,19 @@ void addContacts(std::vector<InputCase>& cases) {
   const Groom swatch = denseSwatch(32);
   cases.push_back(meeting("contacts", swatch, meetingSettings()));
   cases.push_back(meeting("contacts, other settings", swatch, otherContacts()));
-  cases.push_back(meeting("contacts that fade", swatch, fadingContacts()));
-  Settings pruned = meetingSettings();
-  pruned.contacts.prunePairs = true;
-  pruned.contacts.minOverlaps = 20;
-  cases.push_back(meeting("pruned contacts", swatch, pruned));
+  Settings fading = meetingSettings();
+  fading.contacts.taper = ContactTaper::time;
+  cases.push_back(meeting("contacts that fade", swatch, fading));
+  cases.push_back(meeting("contacts that fade, other settings", swatch, fadingContacts()));
+  for (const Settings& all : {meetingSettings(), fading}) {
+    Settings pruned = all;
+    pruned.contacts.prunePairs = true;
+    pruned.contacts.minOverlaps = 20;
+    cases.push_back(meeting("pruned contacts", swatch, pruned));
+  }
+  Settings dense = meetingSettings();
+  dense.contacts.radius = 0.008;
+  cases.push_back(meeting("contacts of dense hair", bunchAndStrands(), dense));
   Settings thinned = meetingSettings();
   thinned.contacts.radius = 0.0015;
   thinned.contacts.detail = 0.5;
@@ -203,6 +209,11 @@ std::vector<InputCase> inputCases() {
   addSurroundings(cases);
   addContacts(cases);
   return cases;
+}
+
+std::vector<InputCase> readbackCases() {
+  ParityCase cut{someStrands(), {}, {}, {.mostBufferBytes = 2048}};
+  return {frames("plain hair", {someStrands(), {}, {}, {}}), frames("in buffers of 2 KiB", cut)};
 }
 
 }  // namespace ringlet::parity

@@ -18,5 +18,7 @@ struct InputCase {
 
 /// The first is plain hair: what all others have in common with it, none of them sets.
 std::vector<InputCase> inputCases();
+/// Of what brings positions back, in the form that GPUs have.
+std::vector<InputCase> readbackCases();
 
 }  // namespace ringlet::parity

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -297,12 +298,14 @@ Status makeCuts(const ParityCase& c, Simulation& simulation, reference::Simulati
 }  // namespace
 
 std::vector<ForceField> sampleFields(const Vec3d& about, double seconds) {
-  static const auto grid = [] {
-    Random random(77);
-    auto made = std::make_shared<VelocityGrid>(VelocityGrid{{5, 4, 6}, 0.07, {}});
-    for (int i = 0; i < 5 * 4 * 6; ++i) made->velocities.push_back(static_cast<Vec3f>(random.vector() * 8.0));
+  const auto gridOf = [](std::uint32_t seed, std::array<std::uint32_t, 3> nodes, double cell) {
+    Random random(seed);
+    auto made = std::make_shared<VelocityGrid>(VelocityGrid{nodes, cell, {}});
+    for (std::uint32_t i = 0; i < nodes[0] * nodes[1] * nodes[2]; ++i)
+      made->velocities.push_back(static_cast<Vec3f>(random.vector() * 8.0));
     return std::shared_ptr<const VelocityGrid>(std::move(made));
-  }();
+  };
+  static const auto grid = gridOf(77, {5, 4, 6}, 0.07), other = gridOf(78, {3, 4, 2}, 0.1);
   const Vec3d moved = about + Vec3d{0.3, -0.1, 0.2} * seconds;
   const auto at = [&](double x, double y, double z) {
     return BodyPose{moved + Vec3d{x, y, z}, fromRotationVector(Vec3d{0.3, 0.2 + seconds, -0.1})};
@@ -323,6 +326,12 @@ std::vector<ForceField> sampleFields(const Vec3d& about, double seconds) {
        .front = 0.1 + 3 * seconds,
        .thickness = 0.08},
       {.name = "brake", .place = at(-0.1, -0.1, 0), .reach = 0.25, .drag = 50},
+      {.name = "another grid",
+       .place = at(-0.05, -0.3, -0.1),
+       .reach = 0.4,
+       .drag = 10,
+       .grid = other,
+       .gridShare = 0.5},
       {.name = "grid",
        .place = at(-0.15, -0.15, -0.2),
        .reach = 0.5,

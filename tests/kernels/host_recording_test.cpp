@@ -38,7 +38,8 @@ void expectBarrierToHost(const SpiedCommand& command) {
   EXPECT_TRUE(has(command.read, VK_ACCESS_HOST_READ_BIT));
 }
 
-// It begins with a barrier against what was submitted before, and ends with one to the host, if that waits for it.
+// It begins with a barrier against what was submitted before, and ends with one to the host, if that waits
+// for it.
 void expectBarriers(const SpiedCommands& commands, bool isWaitedFor) {
   ASSERT_GE(commands.size(), 2u);
   expectBarrierBetweenWork(commands.front());

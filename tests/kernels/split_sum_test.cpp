@@ -38,8 +38,10 @@ class SplitSum : public GpuTest {
   std::vector<Carried> carried(const std::vector<Split>& sums) {
     auto in = createFilled(gpu(), sums, "pairs");
     auto out = createZero(gpu(), sums.size() * sizeof(Carried), "carried");
-    auto kernel = gpu::Kernel::create(
-        gpu(), {.name = "split_sum_probe", .spirv = k_split_sum_probe_test, .pushConstantBytes = 4, .constants = {}});
+    auto kernel = gpu::Kernel::create(gpu(), {.name = "split_sum_probe",
+                                              .spirv = k_split_sum_probe_test,
+                                              .pushConstantBytes = 4,
+                                              .constants = {{0, 64}}});
     EXPECT_TRUE(in && out && kernel);
     auto bindings = gpu::Bindings::create(**kernel, {{0, *in}, {1, *out}});
     auto recorder = gpu::Recorder::create(gpu(), "sums");

@@ -103,7 +103,8 @@ void KernelInputs::look(const std::string& kernel, const SpirvBlock& block, std:
         std::uint32_t value = 0;
         std::memcpy(&value, bytes.data() + at, 4);
         if (!seen.first) seen.first = value;
-        if (value != *seen.first && !isNeutral(member, w, value)) seen.setBy = caseName;
+        const bool isNew = value != *seen.first;  // of push constants, each dispatch's are all in use
+        if (isNew && (block.isPushed || !isNeutral(member, w, value))) seen.setBy = caseName;
       }
     }
   }
@@ -125,7 +126,8 @@ void KernelInputs::expectAllSet(std::span<const InputException> exceptions) cons
         << input.kernel << ": no case sets " << one
         << (seen.first ? fmt::format(" to something else than {:#x}", *seen.first) : ", nor runs the kernel");
     rows[fmt::format("{:<18} {}", input.kernel, name)].insert(
-        !seen.setBy.empty() ? seen.setBy : fmt::format("(no: {})", isExcused ? exception->reason : "MISSING"));
+        !seen.setBy.empty() ? seen.setBy
+                            : fmt::format("(no: {})", isExcused ? exception->reason : "MISSING"));
   }
   for (const InputException& exception : exceptions)
     EXPECT_TRUE(used.contains(&exception)) << exception.input << " is set, or gone: it is no exception";

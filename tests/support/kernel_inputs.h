@@ -1,8 +1,8 @@
 // KernelInputs: what parity's cases never set, the tests never see. So: every input of some kernels, found in
 // their code, and the case that sets it, read from what reached the device. An input is a number of push
-// constants, or of a record of a buffer that no kernel writes. A case sets it to something that is neither
-// neutral nor the first that was ever seen of it. One that no case sets fails a test, and so does an exception
-// that is none.
+// constants, or of a record of a buffer that no kernel writes, that the code asks for. A case sets it to
+// something that is neither neutral nor the first that was ever seen of it. One that no case sets fails a
+// test, and so does an exception that is none.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,9 @@ struct KernelFamily {
 inline constexpr const char *kStepInputs = "kernels/KernelInputs", *kFollowInputs = "follow/FollowStageTest";
 inline constexpr KernelFamily kKernelFamilies[] = {
     {"strand_", kStepInputs},
+    {"contact_judge", "divided hair has the bits of the whole: kernels/DividedHair"},
     {"contact_", kStepInputs},
+    {"volume_mean", "divided hair has the bits of the whole: kernels/DividedHair"},
     {"volume_", kStepInputs},
     {"frame_", kStepInputs},
     {"follow_", kFollowInputs},
@@ -37,8 +39,8 @@ inline constexpr KernelFamily kKernelFamilies[] = {
     {"probe_", "no hair: program/conform_probes.cpp has each bit of what they must say"},
 };
 
-/// What no case sets: "record.member" or "block", with a number in brackets one number of it; before it, with a
-/// slash, the kernel, if it is of one.
+/// What no case sets: "record.member" or "block", with a number in brackets one number of it; before it, with
+/// a slash, the kernel, if it is of one.
 struct InputException {
   const char* input;
   const char* reason;

@@ -51,8 +51,7 @@ struct SpyCalls {
   static VkResult createComputePipelines(VkDevice device, VkPipelineCache cache, std::uint32_t count,
                                          const VkComputePipelineCreateInfo* infos,
                                          const VkAllocationCallbacks* with, VkPipeline* pipelines) {
-    const VkResult result =
-        spy().real.vkCreateComputePipelines(device, cache, count, infos, with, pipelines);
+    const VkResult result = spy().real.vkCreateComputePipelines(device, cache, count, infos, with, pipelines);
     for (std::uint32_t k = 0; result == VK_SUCCESS && k < count; ++k)
       spy().pipelines[pipelines[k]] = spy().modules.at(infos[k].stage.module);
     return result;

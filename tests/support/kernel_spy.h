@@ -1,6 +1,6 @@
 // KernelSpy: what reaches a device through Vulkan: the commands of each submission, and what is in the
-// buffers that its kernels see. For a device that the test opened itself; it takes the place of some functions
-// of the device's table, on which nothing was made yet. One at a time.
+// buffers that its kernels see. For a device that the test opened itself; it takes the place of some
+// functions of the device's table, on which nothing was made yet. One at a time.
 #pragma once
 
 #include <cstddef>

@@ -29,7 +29,7 @@ struct SpirvBlock {
   bool isPushed = false;             // push constants
   std::uint32_t stride = 0;          // from one record to the next [bytes]; 0: there is one
   std::string record;                // the struct that it holds; of numbers and vectors: empty
-  std::vector<SpirvMember> members;  // of a record
+  std::vector<SpirvMember> members;  // of a record, those that the code reads or writes
 };
 
 class SpirvModule {
@@ -54,24 +54,27 @@ class SpirvModule {
     return found;
   }
 
+  /// Those that its code refers to.
   std::vector<SpirvBlock> blocks() const {
     std::vector<SpirvBlock> found;
     for (const auto& [variable, pointer] : variables_) {
-      if (!pointees_.count(pointer)) continue;
       const Id block = pointees_.at(pointer);
-      if (!blocks_.count(block)) continue;
+      if (!blocks_.count(block) || !chains_.count(variable)) continue;
       SpirvBlock& one = found.emplace_back();
       one.name = names_.at(block);
       one.isPushed = pushed_.count(variable) != 0;
       if (bindings_.count(variable)) one.binding = bindings_.at(variable);
       one.isWritten = !one.isPushed && !readonly_.count(variable) && !readonly_.count(block);
       Id inner = structTypes_.at(block).front();
+      std::size_t depth = 0;  // of the index that says which member
       if (arrayElements_.count(inner) && structTypes_.at(block).size() == 1) {
         one.stride = strides_.at(inner);
         inner = arrayElements_.at(inner);
+        depth = 2;
       }
       const bool isPlain = !structTypes_.count(inner);
       if (!isPlain) one.record = names_.at(inner);
+      if (!isPlain && depth == 0) depth = 1;
       const Id fields = isPlain && one.stride == 0 ? block : inner;  // of plain members the block itself
       if (!structTypes_.count(fields)) {
         one.members.push_back({"", 0, sizeOf(fields)});
@@ -79,7 +82,8 @@ class SpirvModule {
       }
       const std::vector<Id>& types = structTypes_.at(fields);
       for (std::uint32_t k = 0; k < types.size(); ++k) {
-        if (lengths_.count(types[k]) || !arrayElements_.count(types[k]))
+        const bool isSized = lengths_.count(types[k]) || !arrayElements_.count(types[k]);
+        if (isSized && isAsked(variable, depth, k))
           one.members.push_back({memberNames_.at(fields).at(k), offsets_.at(fields).at(k), sizeOf(types[k])});
       }
     }
@@ -92,6 +96,7 @@ class SpirvModule {
   void readInstruction(std::span<const std::uint32_t> word) {
     enum : std::uint32_t { kName = 5, kMemberName = 6, kTypeInt = 21, kTypeFloat = 22, kTypeVector = 23 };
     enum : std::uint32_t { kTypeArray = 28, kTypeRuntimeArray = 29, kTypeStruct = 30, kConstant = 43 };
+    enum : std::uint32_t { kLoad = 61, kAccessChain = 65, kInBoundsAccessChain = 66 };
     enum : std::uint32_t { kTypePointer = 32, kVariable = 59, kDecorate = 71, kMemberDecorate = 72 };
     enum : std::uint32_t { kBlock = 2, kBufferBlock = 3, kArrayStride = 6, kNonWritable = 24, kBinding = 33 };
     enum : std::uint32_t { kOffset = 35, kPushConstant = 9 };
@@ -125,6 +130,13 @@ class SpirvModule {
         variables_[word[2]] = word[1];
         if (word[3] == kPushConstant) pushed_.insert(word[2]);
         break;
+      case kAccessChain:
+      case kInBoundsAccessChain:
+        if (variables_.count(word[3])) chains_[word[3]].emplace_back(word.begin() + 4, word.end());
+        break;
+      case kLoad:
+        if (variables_.count(word[3])) chains_[word[3]].emplace_back();  // all of it
+        break;
       case kConstant:
         constants_[word[2]] = word[3];
         break;
@@ -141,6 +153,13 @@ class SpirvModule {
       default:
         break;
     }
+  }
+
+  // Whether code asks for member k, or for all, of what a variable leads to by so many indices.
+  bool isAsked(Id variable, std::size_t depth, std::uint32_t k) const {
+    for (const std::vector<Id>& chain : chains_.at(variable))
+      if (chain.size() <= depth || constants_.at(chain[depth]) == k) return true;
+    return false;
   }
 
   std::uint32_t sizeOf(Id type) const {
@@ -164,6 +183,7 @@ class SpirvModule {
   std::set<Id> blocks_, pushed_, readonly_;
   std::map<Id, Id> pointees_, variables_;  // of variables: the pointer's type
   std::map<Id, std::uint32_t> bindings_;
+  std::map<Id, std::vector<std::vector<Id>>> chains_;  // of variables: the indices that code asks by
 };
 
 }  // namespace ringlet::test
