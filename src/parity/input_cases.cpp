@@ -129,8 +129,8 @@ Settings otherVolume() {
   Settings settings = volumeSettings();
   settings.framesPerSecond = 30;
   settings.contacts.volumeCell = 0.02;
-  settings.contacts.volumeDrag = 400;
-  settings.contacts.volumeStiffness = 2e4;
+  settings.contacts.volumeDrag = 100;
+  settings.contacts.volumeStiffness = 5e3;
   settings.contacts.volumeMemorySeconds = 0.2;
   settings.contacts.iterations = 2;
   return settings;
@@ -160,6 +160,7 @@ void addSurroundings(std::vector<InputCase>& cases) {
   cases.push_back(step("among all that acts", surroundedCase(), kOneStepAmongBodies));
   cases.push_back(frames("among all that acts", surroundedCase(), 2, kOneFrameAmongBodies));
   ParityCase heads = surroundedCase();
+  heads.groom = randomGroom({20, 64, 33}, 17);
   heads.kernel = {.heads = 4, .goals = true, .fields = true};
   cases.push_back(frames("one of many heads among all that acts", heads, 1, kOneFrameAmongBodies));
   ParityCase lying{someStrands(), {}, {}, {.goals = true}};
@@ -185,11 +186,13 @@ void addContacts(std::vector<InputCase>& cases) {
     Settings pruned = all;
     pruned.contacts.prunePairs = true;
     pruned.contacts.minOverlaps = 20;
-    cases.push_back(meeting("pruned contacts", swatch, pruned));
+    const bool fades = all.contacts.taper == ContactTaper::time;
+    cases.push_back(meeting(fades ? "pruned contacts that fade" : "pruned contacts", swatch, pruned));
+    Settings dense = all;
+    dense.contacts.radius = fades ? 0.005 : 0.008;
+    cases.push_back(meeting(fades ? "contacts of dense hair that fade" : "contacts of dense hair",
+                            bunchAndStrands(), dense, 1));
   }
-  Settings dense = meetingSettings();
-  dense.contacts.radius = 0.008;
-  cases.push_back(meeting("contacts of dense hair", bunchAndStrands(), dense));
   Settings thinned = meetingSettings();
   thinned.contacts.radius = 0.0015;
   thinned.contacts.detail = 0.5;

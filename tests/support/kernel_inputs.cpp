@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <set>
 
+#include "ringlet/gpu/spirv_bindings.h"
+
 namespace ringlet::test {
 namespace {
 
@@ -50,7 +52,12 @@ void KernelInputs::add(std::string_view module, std::span<const std::uint32_t> w
   const std::string kernel = stemOf(module);
   EXPECT_NE(familyOf(kernel), "") << kernel << " is in no row of kKernelFamilies";
   if (familyOf(kernel) != test_) return;
-  codes_.push_back({kernel, {words.begin(), words.end()}, SpirvModule(words).blocks()});
+  Code& code = codes_.emplace_back(Code{kernel, {words.begin(), words.end()}, SpirvModule(words).blocks()});
+  const std::vector<gpu::KernelBinding> bound = gpu::bindingsOf(words);
+  std::erase_if(code.blocks, [&](const SpirvBlock& block) {
+    return !block.isPushed &&
+           std::ranges::find(bound, block.binding, &gpu::KernelBinding::number) == bound.end();
+  });
 }
 
 // A block that some kernel writes is no input of the host's.
