@@ -154,13 +154,15 @@ void addHairAlone(std::vector<InputCase>& cases) {
   ParityCase heads = turnedCase();
   heads.kernel.heads = 4;
   cases.push_back(frames("one of many heads", heads));
+  heads.groom = randomGroom({20, 64, 33}, 17);
+  cases.push_back(frames("one of many heads, another groom", heads));
+  cases.push_back(frames("long and short strands", {randomGroom({300, 12, 64, 200, 5}, 19), {}, {}, {}}));
 }
 
 void addSurroundings(std::vector<InputCase>& cases) {
   cases.push_back(step("among all that acts", surroundedCase(), kOneStepAmongBodies));
   cases.push_back(frames("among all that acts", surroundedCase(), 2, kOneFrameAmongBodies));
   ParityCase heads = surroundedCase();
-  heads.groom = randomGroom({20, 64, 33}, 17);
   heads.kernel = {.heads = 4, .goals = true, .fields = true};
   cases.push_back(frames("one of many heads among all that acts", heads, 1, kOneFrameAmongBodies));
   ParityCase lying{someStrands(), {}, {}, {.goals = true}};
@@ -190,6 +192,7 @@ void addContacts(std::vector<InputCase>& cases) {
     cases.push_back(meeting(fades ? "pruned contacts that fade" : "pruned contacts", swatch, pruned));
     Settings dense = all;
     dense.contacts.radius = fades ? 0.005 : 0.008;
+    dense.framesPerSecond = 96, dense.stepsPerFrame = 2;  // lists of dense hair miss a pair in time
     cases.push_back(meeting(fades ? "contacts of dense hair that fade" : "contacts of dense hair",
                             bunchAndStrands(), dense, 1));
   }
