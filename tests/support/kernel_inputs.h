@@ -24,7 +24,8 @@ struct KernelFamily {
   const char* begin;
   const char* where;
 };
-inline constexpr const char *kStepInputs = "kernels/KernelInputs", *kFollowInputs = "follow/FollowStageTest";
+inline constexpr const char *kStepInputs = "kernels/KernelInputsTest",
+                            *kFollowInputs = "follow/FollowStageTest";
 inline constexpr KernelFamily kKernelFamilies[] = {
     {"strand_", kStepInputs},
     {"contact_judge", "divided hair has the bits of the whole: kernels/DividedHair"},
