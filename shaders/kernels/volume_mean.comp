@@ -2,6 +2,7 @@
 // and in a step that sorts particles into cells the density. The reference has no counterpart: it has all strands.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "maths/split_sum.glsl"
 #include "shared/volume_buffers.glsl"
 
 void main() {

@@ -117,12 +117,9 @@ uvec3 cornerOf(uvec3 cell, uint corner) { return cell + uvec3(corner & 1, corner
 uint cellIndex(uvec3 cell) { return (cell.z * control.size[1] + cell.y) * control.size[0] + cell.x; }
 
 // If strands are divided among devices, the parts of the buffer of sums: of each node eight numbers of gather, then of
-// each two of density. The sum of some terms is 65536 times its high number and its low one.
+// each two of density, high and low (maths/split_sum.glsl).
 uint nodeSum(uint node) { return 8 * node; }
 uint densitySum(uint node) { return 8 * parameters.cellCapacity + 2 * node; }
-vec4 fromSums(ivec4 high, ivec4 low) {
-  return vec4(high + ivec4(uvec4(low) >> 16)) * 65536.0 + vec4(low & 0xffff);
-}
 /// The mean of a at a node [m/s], from the sums of its terms' units.
 vec3 meanRate(vec4 sum) { return sum.w > 0.0 ? parameters.mostRate * sum.xyz / sum.w : vec3(0); }
 /// The density at a node [kg/m^3], likewise.

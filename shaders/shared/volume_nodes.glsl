@@ -1,26 +1,21 @@
 // Sums over the parcels in the eight cells around a node of the volume's grid. Neighbouring cells along x are
 // consecutive, so the eight are four ranges; kNodeLanes invocations share a node, each with as many of these, and the
 // first adds theirs up: on a GPU the longest range of a crowded cell is what a dispatch takes. Terms are integers, so
-// that no sum depends on their order; a number is split because 31 bits have no room for the sum of many. The kernel
-// that includes this defines what is summed (take).
+// that no sum depends on their order, and split (maths/split_sum.glsl). The kernel that includes this defines what is
+// summed (take).
 #ifndef RINGLET_VOLUME_NODES
 #define RINGLET_VOLUME_NODES
 
+#include "maths/split_sum.glsl"
 #include "shared/at_once.glsl"
 #include "shared/volume_buffers.glsl"
 #include "shared/workgroup.glsl"
 
-// 65536 times `high` and `low`, so far.
+// The sum so far.
 ivec4 high = ivec4(0);
 ivec4 low = ivec4(0);
 
 void take(VolumeParcel parcel, float weight);
-
-// What the low numbers hold beyond 16 bits goes into the high ones.
-void carry() {
-  high += ivec4(uvec4(low) >> 16);
-  low &= 0xffff;
-}
 
 // a / b; exact for a < 2^21, and faster than an integer division.
 uint quotient(uint a, uint b) { return uint((float(a) + 0.5) / float(b)); }
@@ -49,7 +44,7 @@ void sumRanges(uint node, uint first, uint end) {
       ++made;
       place += kAtOnce;
     } while (place < end);
-    carry();
+    carry(high, low);
     ++made;
   } while (++turn < end);
   if (made != wanted) halt.isHalted = kHaltedByTurns;
@@ -69,7 +64,7 @@ void addLanes(uint lane, uint nodes) {
     high += sharedHigh[at + other * nodes];
     low += sharedLow[at + other * nodes];
   }
-  carry();
+  carry(high, low);
 }
 
 /// Sets `high` and `low` to the sums of this invocation's node; false if it has none to write. Called once, by all

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -165,16 +166,34 @@ Material varyingMaterial() {
   return material;
 }
 
-HeadStep movingHead() {
-  const auto pose = [](double t) {
-    return HeadPose{Vec3d{3 + 0.8 * t, 1 - 0.3 * t * t, 2 * t},
-                    fromRotationVector(Vec3d{0.1, 1, 0.3} * (3 * t * t + t))};
+namespace {
+
+// Of a case, at a time [s]: the head turns from where it was turned to and travels, and roots leave their
+// places beside it.
+HeadPose headOf(const ParityCase& c, Vec3d position, Vec3d turn, double t) {
+  return {position, fromRotationVector(turn) * c.turned, c.shiftsRoots ? 0.3 + 8 * t + 300 * t * t : 0};
+}
+
+// Two poses before the step and one after.
+struct HeadStep {
+  HeadPose before, now, next;
+};
+HeadStep movingHead(const ParityCase& c) {
+  const auto pose = [&](double t) {
+    return headOf(c, {3 + 0.8 * t, 1 - 0.3 * t * t, 2 * t}, Vec3d{0.1, 1, 0.3} * (3 * t * t + t), t);
   };
   const double T = 1.0 / 192;
   return {pose(-T), pose(0), pose(T)};
 }
 
-namespace {
+// Some millimetres; none where they are not asked for.
+std::vector<Vec3d> rootShifts(const ParityCase& c) {
+  std::vector<Vec3d> shifts;
+  Random random(c.seed + 5000);
+  for (std::size_t s = 0; c.shiftsRoots && s < c.groom.strandCount(); ++s)
+    shifts.push_back(random.vector() * 0.004);
+  return shifts;
+}
 
 // Where strands' own poses go, each its own way: some degrees and millimetres, turning at some rad/s. None
 // where they are not asked for.
@@ -197,18 +216,6 @@ class RootWays {
                        fromRotationVector(way.turn * 0.1 + way.turning * (2 * t + 20 * t * t))});
     return poses;
   }
-  // Pinned particles where the poses at t = 0 have them, the others about them as before.
-  HairState carried(const Groom& groom, HairState state) const {
-    const std::vector<BodyPose> poses = at(0);
-    for (std::size_t s = 0; s < poses.size(); ++s) {
-      for (std::size_t g = groom.firstPoint[s]; g < groom.firstPoint[s + 1]; ++g) {
-        Vec3f &p = state.positions[g], &v = state.velocities[g];
-        p = static_cast<Vec3f>(poses[s].position + rotate(poses[s].rotation, static_cast<Vec3d>(p)));
-        v = static_cast<Vec3f>(rotate(poses[s].rotation, static_cast<Vec3d>(v)));
-      }
-    }
-    return state;
-  }
 
  private:
   struct Way {
@@ -217,9 +224,25 @@ class RootWays {
   std::vector<Way> ways_;
 };
 
-}  // namespace
-
-namespace {
+// A random state as head, roots and shifts carry it: pinned particles where they have them, the others about
+// them as before.
+HairState startOf(const ParityCase& c, const HeadPose& head, const RootWays& roots) {
+  HairState state = randomState(c.groom, c.settings, c.seed);
+  std::vector<BodyPose> poses = roots.at(0);
+  poses.resize(c.groom.strandCount());
+  const std::vector<Vec3d> shifts = rootShifts(c);
+  for (std::size_t s = 0; s < poses.size(); ++s) {
+    const BodyPose& own = poses[s];
+    const Vec3d origin = own.position + (shifts.empty() ? Vec3d{} : shifts[s] * head.shift);
+    const Quatd turn = head.rotation * own.rotation;
+    for (std::size_t g = c.groom.firstPoint[s]; g < c.groom.firstPoint[s + 1]; ++g) {
+      Vec3f &p = state.positions[g], &v = state.velocities[g];
+      p = static_cast<Vec3f>(rotate(head.rotation, origin) + rotate(turn, static_cast<Vec3d>(p)));
+      v = static_cast<Vec3f>(rotate(turn, static_cast<Vec3d>(v)));
+    }
+  }
+  return state;
+}
 
 // None where they are not asked for.
 std::vector<Vec3f> randomForces(const ParityCase& c) {
@@ -275,12 +298,14 @@ Status makeCuts(const ParityCase& c, Simulation& simulation, reference::Simulati
 }  // namespace
 
 std::vector<ForceField> sampleFields(const Vec3d& about, double seconds) {
-  static const auto grid = [] {
-    Random random(77);
-    auto made = std::make_shared<VelocityGrid>(VelocityGrid{{5, 4, 6}, 0.07, {}});
-    for (int i = 0; i < 5 * 4 * 6; ++i) made->velocities.push_back(static_cast<Vec3f>(random.vector() * 8.0));
+  const auto gridOf = [](std::uint32_t seed, std::array<std::uint32_t, 3> nodes, double cell) {
+    Random random(seed);
+    auto made = std::make_shared<VelocityGrid>(VelocityGrid{nodes, cell, {}});
+    for (std::uint32_t i = 0; i < nodes[0] * nodes[1] * nodes[2]; ++i)
+      made->velocities.push_back(static_cast<Vec3f>(random.vector() * 8.0));
     return std::shared_ptr<const VelocityGrid>(std::move(made));
-  }();
+  };
+  static const auto grid = gridOf(77, {5, 4, 6}, 0.07), other = gridOf(78, {3, 4, 2}, 0.1);
   const Vec3d moved = about + Vec3d{0.3, -0.1, 0.2} * seconds;
   const auto at = [&](double x, double y, double z) {
     return BodyPose{moved + Vec3d{x, y, z}, fromRotationVector(Vec3d{0.3, 0.2 + seconds, -0.1})};
@@ -301,6 +326,12 @@ std::vector<ForceField> sampleFields(const Vec3d& about, double seconds) {
        .front = 0.1 + 3 * seconds,
        .thickness = 0.08},
       {.name = "brake", .place = at(-0.1, -0.1, 0), .reach = 0.25, .drag = 50},
+      {.name = "another grid",
+       .place = at(-0.05, -0.3, -0.1),
+       .reach = 0.4,
+       .drag = 10,
+       .grid = other,
+       .gridShare = 0.5},
       {.name = "grid",
        .place = at(-0.15, -0.15, -0.2),
        .reach = 0.5,
@@ -314,23 +345,26 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
   c.settings.framesPerSecond *= c.settings.stepsPerFrame;
   c.settings.stepsPerFrame = 1;
   c.kernel.taps = true;
-  const HeadStep head = movingHead();
+  const HeadStep head = movingHead(c);
   const RootWays roots(c);
-  const HairState start = roots.carried(c.groom, randomState(c.groom, c.settings, c.seed));
+  const HairState start = startOf(c, head.now, roots);
 
   const double T = c.settings.stepSeconds();
   const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-T), rootsNext = roots.at(T);
+  const std::vector<Vec3d> shifts = rootShifts(c);
   auto simulation = Simulation::create(device, c.groom, c.material, c.settings,
                                        {.head = head.now,
                                         .oneStepEarlier = head.before,
                                         .bodies = c.bodies,
                                         .roots = rootsNow,
-                                        .rootsEarlier = rootsBefore},
+                                        .rootsEarlier = rootsBefore,
+                                        .rootShifts = shifts},
                                        c.kernel);
   if (!simulation) return {failed("create", simulation.error())};
   if (Status set = simulation->setState(start); !set) return {failed("setState", set.error())};
   ReferenceF expected(c.groom, c.material, c.settings, head.now, head.before, {}, c.bodies);
   if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
+  if (!shifts.empty()) expected.setRootShifts(shifts);
   expected.setState(toField<float>(start.positions), toField<float>(start.velocities));
   if (Status cut = makeCuts(c, *simulation, expected); !cut) return {failed("cut", cut.error())};
   const std::vector<Vec3f> forces = randomForces(c);
@@ -397,24 +431,26 @@ std::vector<FieldError> oneStepErrors(const ComputeDevice& device, ParityCase c,
 }
 
 FieldError oneFrameError(const ComputeDevice& device, const ParityCase& c, int frameCount) {
-  const RootWays roots(c);
-  const HairState start = roots.carried(c.groom, randomState(c.groom, c.settings, c.seed));
-  const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-c.settings.stepSeconds());
   const auto pose = [&](int k) {
     const double t = k * c.settings.stepSeconds();
-    return HeadPose{Vec3d{0.5 * t * t, 0, 0.2 * t}, fromRotationVector(Vec3d{0, 2, 0.5} * (t * t))};
+    return headOf(c, {0.5 * t * t, 0, 0.2 * t}, Vec3d{0, 2, 0.5} * (t * t), t);
   };
-
+  const RootWays roots(c);
+  const HairState start = startOf(c, pose(0), roots);
+  const std::vector<BodyPose> rootsNow = roots.at(0), rootsBefore = roots.at(-c.settings.stepSeconds());
+  const std::vector<Vec3d> shifts = rootShifts(c);
   auto simulation = Simulation::create(device, c.groom, c.material, c.settings,
                                        {.head = pose(0),
                                         .oneStepEarlier = pose(-1),
                                         .bodies = c.bodies,
                                         .roots = rootsNow,
-                                        .rootsEarlier = rootsBefore},
+                                        .rootsEarlier = rootsBefore,
+                                        .rootShifts = shifts},
                                        c.kernel);
   if (!simulation) return failed("create", simulation.error());
   ReferenceD expected(c.groom, c.material, c.settings, pose(0), pose(-1), {}, c.bodies);
   if (!roots.empty()) expected.placeRoots(rootsNow, rootsBefore);
+  if (!shifts.empty()) expected.setRootShifts(shifts);
   if (Status set = simulation->setState(start); !set) return failed("setState", set.error());
   expected.setState(toField<double>(start.positions), toField<double>(start.velocities));
   if (Status cut = makeCuts(c, *simulation, expected); !cut) return failed("cut", cut.error());

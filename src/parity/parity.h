@@ -32,11 +32,6 @@ HairState randomState(const Groom& groom, const Settings& settings, std::uint32_
 /// A material that differs from strand to strand and from root to tip.
 Material varyingMaterial();
 
-/// Two poses before the step and one after: the head travels and turns.
-struct HeadStep {
-  HeadPose before, now, next;
-};
-HeadStep movingHead();
 /// A field of every kind about a place, with a grid, some that move, at a time [s].
 std::vector<ForceField> sampleFields(const Vec3d& about, double seconds);
 
@@ -58,6 +53,8 @@ struct ParityCase {
   std::vector<Body> bodies{};
   // Made one after the other before the first step. Of what falls positions and velocities are compared.
   std::vector<std::vector<StrandCut>> cuts{};
+  Quatd turned{};            // of the head before it moves
+  bool shiftsRoots = false;  // each root its own way beside the head, while that moves; not with movingRoots
 };
 
 /// All fields of one step, device against reference::Simulation<float>, from the same random state. `report`:

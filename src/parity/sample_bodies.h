@@ -9,16 +9,16 @@
 
 namespace ringlet::parity {
 
-/// A sphere as a distance grid, 1.5 radii to either side.
-inline Body gridBall(double radius, double cell) {
+/// A sphere about a place of its own axes as a distance grid, 1.5 radii to either side.
+inline Body gridBall(double radius, double cell, Vec3d about = {}) {
   const auto count = static_cast<std::uint32_t>(std::lround(3 * radius / cell));
   DistanceGrid grid{
-      .origin = Vec3d{-1.5, -1.5, -1.5} * radius, .cell = cell, .counts = {count, count, count}};
+      .origin = about + Vec3d{-1.5, -1.5, -1.5} * radius, .cell = cell, .counts = {count, count, count}};
   for (std::uint32_t z = 0; z <= count; ++z) {
     for (std::uint32_t y = 0; y <= count; ++y) {
       for (std::uint32_t x = 0; x <= count; ++x) {
         const Vec3d place = grid.origin + Vec3d{double(x), double(y), double(z)} * cell;
-        grid.distances.push_back(static_cast<float>(length(place) - radius));
+        grid.distances.push_back(static_cast<float>(length(place - about) - radius));
       }
     }
   }

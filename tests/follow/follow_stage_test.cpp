@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "embedded_modules.h"
 #include "layout/hair_points.h"
 #include "parity/sample_bodies.h"
 #include "parity/tolerances.h"
@@ -20,6 +21,7 @@
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
 #include "tests/support/gpu_test.h"
+#include "tests/support/kernel_inputs.h"
 
 namespace ringlet::test {
 namespace {
@@ -344,6 +346,97 @@ TEST_F(FollowStageTest, RootsOnAScalpAreWhereItHasThem) {
       EXPECT_LT(farthest, 1e-6);
     }
   }
+}
+
+// What is sieved by the sphere about a body goes with the body's turn, where its middle is not its origin.
+TEST_F(FollowStageTest, BodiesFarFromTheirOriginTurn) {
+  const Guides guides = allGuides().front();
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  const Plan plan = planOf(guides, 300);
+  const auto alone = followOn(gpu(), plan, pose, kTurned);
+  for (const Vec3d way : {Vec3d{0.1, 0, 0}, {0, 0.2, -0.1}}) {
+    for (const Vec3d turn : {Vec3d{}, {0, std::numbers::pi, 0}, {0.5, 1, 2}}) {
+      const Quatd rotation = fromRotationVector(turn);
+      Met met = metBy({parity::gridBall(0.1, 0.005)}, pose);
+      const BodyPose ball = met.poses[0];
+      met.bodies = {parity::gridBall(0.1, 0.005, way)};  // the same ball
+      met.poses = {{ball.position - rotate(rotation, way), rotation}};
+      const auto found = followOn(gpu(), plan, pose, kTurned, met);
+      EXPECT_GT(countOther(found, alone), found.size() / 100) << "the body must press on hair";
+      EXPECT_LT(largestDifference(plan, pose, kTurned, found, met), parity::kFollowMetres);
+    }
+  }
+}
+
+const InputException kUnset[] = {
+    {"BodyPose.moves", "hairs that follow see a body where it is, not how it moves"},
+    {"BodyPose.turn", "likewise"},
+    {"BodyPose.velocity", "likewise"},
+    {"BodyRest.friction", "nothing holds hairs that follow back"},
+    {"BodyRest.unused", "unused"},
+    {"FollowBlend.unused", "unused"},
+    {"FollowGuide.unused", "unused"},
+};
+
+// A groom and its hairs in a pose, as a case of KernelInputs.
+struct InputsCase {
+  const char* name;
+  Guides guides;
+  int hairCount;
+  double blend;
+  Quatd head;
+  std::size_t bodyCount = 0;
+  bool onScalp = false, isCut = false;
+};
+
+void runCase(gpu::Device& device, const InputsCase& c) {
+  SCOPED_TRACE(c.name);
+  Guides guides = c.guides;
+  for (std::size_t s = 0; s < guides.strands.size(); ++s)  // no two roots in one place
+    for (Vec3d& p : guides.strands[s]) p += Vec3d{0.003, 0, 0.001} * static_cast<double>(s);
+  std::vector<Strand> pose;
+  for (const Strand& strand : guides.strands) pose.push_back(posed(strand));
+  Plan plan = planOf(guides, c.hairCount, c.blend);
+  std::vector<Body> bodies = parity::sampleBodies();
+  bodies.push_back(parity::gridBall(0.1, 0.005, {0.1, 0.2, -0.1}));
+  bodies.resize(c.bodyCount);
+  for (std::size_t b = 0; b < bodies.size(); ++b) bodies[b].thickness = 0.001 * static_cast<double>(b);
+  const Met met = metBy(bodies, pose);
+  std::vector<Vec3d> roots;
+  for (std::size_t h = 0; c.onScalp && h < plan.hairs.size(); ++h)
+    roots.push_back(pose[plan.hairs[h].guide].front() + Vec3d{0.001, 0.002, -0.003});
+  std::vector<std::uint32_t> cutBeyond;
+  if (c.isCut) {
+    const auto half = static_cast<std::uint32_t>(pose[0].size()) / 2;
+    plan.guides[0].pieces = {half};
+    cutBeyond = {half - 1};
+  }
+  const auto found = followOn(device, plan, pose, c.head, met, roots, cutBeyond);
+  EXPECT_LT(largestDifference(plan, pose, c.head, found, met, roots), parity::kFollowMetres);
+}
+
+// Every input of the kernels is set by a case, each of which is the reference's.
+TEST_F(FollowStageTest, EachInputIsSetBySomeCase) {
+  if (gpu().properties().type != "cpu") GTEST_SKIP() << "the host does not see this device's buffers";
+  const auto opened = gpu::Device::open();
+  ASSERT_TRUE(opened) << opened.error().message;
+  KernelInputs inputs(kEmbeddedModules, kFollowInputs);
+  const Guides all = allGuides().back(), curls = allGuides().front();
+  {
+    KernelSpy spy(**opened);
+    for (const InputsCase& c : {InputsCase{"hair of every kind", all, 300, 0, {}},
+                                InputsCase{"curls, turned", curls, 200, 0, kTurned},
+                                InputsCase{"three guides", all, 300, 1, kTurned},
+                                InputsCase{"three guides among bodies", all, 300, 1, kTurned, 6},
+                                InputsCase{"on a scalp among bodies", curls, 200, 1, {}, 2, true},
+                                InputsCase{"cut among bodies", all, 300, 0, kTurned, 6, false, true}}) {
+      spy.onDone = [&](const SpiedCommands& commands) { inputs.look(spy, commands, c.name); };
+      runCase(**opened, c);
+    }
+  }
+  expectNoMessages(*(*opened)->validationLog());
+  inputs.expectAllSet(kUnset);
 }
 
 // Bodies may be anywhere in a world: what counts is where they are from where particles are seen.

@@ -142,6 +142,31 @@ TEST(LevelOfDetail, FindsHowAStrandDiffersFromItsGuide) {
   }
 }
 
+// Of the guides about a strand the one that it is most like, wherever that is among the nearest: here
+// straight ones lead where the strand is a curl, but for one of the four.
+TEST(LevelOfDetail, AStrandFollowsTheGuideThatFitsIt) {
+  const Groom curl = *makeCurl({.radius = 0.008, .turns = 6, .length = 0.25, .particleCount = 97});
+  const auto at = [&](Vec3f root, bool isCurl) {
+    std::vector<Vec3f> strand(curl.strand(0).begin(), curl.strand(0).end());
+    for (std::size_t i = 0; i < strand.size(); ++i)
+      strand[i] = root + (isCurl ? strand[i] - curl.points[0] : Vec3f{0, (strand[i] - curl.points[0]).y, 0});
+    return strand;
+  };
+  // Further apart than the strand from any of them, so that it is the one left out.
+  const Vec3f roots[] = {{0.02f, 0, 0}, {-0.021f, 0, 0}, {0, 0, 0.022f}, {0, 0, -0.023f}};
+  for (std::size_t like = 0; like < 4; ++like) {
+    Groom groom;
+    groom.metresPerUnit = 1;
+    groom.addStrand(at({0.001f, 0, 0.001f}, true));
+    for (std::size_t g = 0; g < 4; ++g) groom.addStrand(at(roots[g], g == like));
+    const auto level = levelOfDetail(groom, 0.8);
+    ASSERT_TRUE(level) << level.error().message;
+    ASSERT_EQ(level->guides, (std::vector<std::uint32_t>{1, 2, 3, 4}));
+    EXPECT_EQ(level->hairs[0].guide, like);
+    EXPECT_NEAR(level->hairs[0].radius, 1, 0.05);
+  }
+}
+
 TEST(LevelOfDetail, RefusesWhatItCannotDo) {
   Groom groom = *makeHead({.curl = {.particleCount = 8}, .strandCount = 5});
   for (const double share : {0.0, -1.0, 1.5, std::nan("")}) {

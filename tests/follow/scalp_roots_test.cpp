@@ -183,6 +183,71 @@ TEST(PlanHairs, MapsAreOfGuides) {
   EXPECT_NEAR(spread[1] / counts[1], 0.3, 0.05) << "the mean of what varies about 0";
 }
 
+// Guides with their roots at these distances [m] from the origin, each to another side; the last is nearest.
+std::vector<GuideRest> guidesAt(std::vector<double> distances) {
+  const Vec3d ways[] = {{0.6, 0.8, 0}, {0, -1, 0}, {0, 0.28, 0.96}, {-1, 0, 0}, {0, 0.6, -0.8}};
+  std::vector<GuideRest> guides;
+  for (std::size_t g = 0; g < distances.size(); ++g) {
+    guides.emplace_back();
+    guides.back().root = ways[g] * distances[g];
+  }
+  return guides;
+}
+
+// Franke and Nielson 1980: of guides at d, the fourth at R, shares are as ((R - d) / (R d))^2.
+TEST(NearGuides, SharesAreThoseOfTheFormula) {
+  const double R = 0.04;
+  const auto weight = [&](double d) { return std::pow((R - d) / (R * d), 2); };
+  const double sum = weight(0.01) + weight(0.02) + weight(0.03);
+  const auto shares = NearGuides(guidesAt({0.05, R, 0.03, 0.02, 0.01})).sharesAt({});
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(shares[k].guide, 4 - k);
+    EXPECT_NEAR(shares[k].share, weight(0.01 * double(k + 1)) / sum, 1e-12) << k;
+  }
+}
+
+// No fourth is where shares end: they are as 1 / d^2.
+TEST(NearGuides, SharesOfFewGuidesEndNowhere) {
+  const auto three = NearGuides(guidesAt({0.03, 0.02, 0.01})).sharesAt({});
+  const double sum = 1 + 1 / 4.0 + 1 / 9.0;
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(three[k].share, 1 / (double(k + 1) * double(k + 1) * sum), 1e-12) << k;
+  const auto two = NearGuides(guidesAt({0.02, 0.01})).sharesAt({});
+  EXPECT_NEAR(two[0].share, 0.8, 1e-12);
+  EXPECT_NEAR(two[1].share, 0.2, 1e-12);
+  EXPECT_EQ(two[2].share, 0);
+  EXPECT_EQ(NearGuides(guidesAt({0.01})).sharesAt({})[0].share, 1);
+}
+
+// On a guide's root that guide leads alone; where all four are equally far, the first does.
+TEST(NearGuides, SharesWhereGuidesStand) {
+  const auto guides = guidesAt({0.04, 0.03, 0.02, 0.01});
+  for (std::uint32_t g = 0; g < 4; ++g) {
+    const auto shares = NearGuides(guides).sharesAt(guides[g].root);
+    EXPECT_EQ(shares[0].guide, g);
+    EXPECT_NEAR(shares[0].share, 1, 1e-9);
+  }
+  const auto equal = NearGuides(guidesAt({0.02, 0.02, 0.02, 0.02})).sharesAt({});
+  EXPECT_EQ(equal[0].share + equal[1].share + equal[2].share, 1);
+}
+
+TEST(NearGuides, AreTheNearestOfAll) {
+  const auto guides = headOf(100);
+  const NearGuides near(guides);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3d place = guides[static_cast<std::size_t>(2 * i)].root + Vec3d{0.003, -0.001 * i, 0.002};
+    std::vector<double> distances;
+    for (const GuideRest& guide : guides) distances.push_back(length(guide.root - place));
+    std::ranges::sort(distances);
+    const auto found = near.at(place, 6);
+    ASSERT_EQ(found.size(), 6u);
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_EQ(found[k].distance, distances[k]) << k;
+      EXPECT_EQ(length(guides[found[k].guide].root - place), distances[k]) << k;
+    }
+  }
+}
+
 TEST(NearGuides, SharesAreContinuous) {
   const auto guides = headOf(100);
   const NearGuides near(guides);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,54 @@ TEST_F(BodyStep, ManyBodiesAgree) {
       }
     }
     expectOneStep(c, fmt::format("{} bodies, {}", c.bodies.size(), variant.name), kOneStepAmongBodies);
+  }
+}
+
+// A grid whose origin is beside it, as a mesh's of a world often is, turned about that.
+TEST_F(BodyStep, BodiesFarFromTheirOriginAgree) {
+  const Vec3d beside{0.1, -0.3, 0.2};
+  for (const Variant& variant : {kAutomatic, kVariants.back()}) {
+    ParityCase c{randomGroom(variant.lengths, 21),          {}, {}, variant.kernel, 7,
+                 amongStrands(gridBall(0.1, 0.005, beside))};
+    for (Body& body : c.bodies) {
+      body.place.rotation = fromRotationVector(Vec3d{0, std::numbers::pi, 0.4});
+      body.place.position -= rotate(body.place.rotation, beside);
+    }
+    expectOneStep(c, fmt::format("a grid beside its origin, {}", variant.name), kOneStepAmongBodies);
+  }
+}
+
+// Strands straight down, and about the middle of one edge of each a ball that is too small to touch anything
+// else: each edge in turn, those from a lane's last particle to the next lane's first too.
+TEST_F(BodyStep, AnEdgeAloneAgrees) {
+  constexpr std::uint32_t kParticles = 13;
+  constexpr double kEdge = 0.06;
+  ParityCase c;
+  c.groom.metresPerUnit = 1;
+  for (std::uint32_t s = 1; s + 1 < kParticles; ++s) {
+    std::vector<Vec3f> strand;
+    for (std::uint32_t i = 0; i < kParticles; ++i) strand.push_back(Vec3f(Vec3d{0.2 * s, -kEdge * i, 0}));
+    c.groom.addStrand(strand);
+    c.bodies.push_back({.shape = BodyShape::sphere, .radius = 0.35 * kEdge});
+    c.bodies.back().place.position = Vec3d{0.2 * s, 0, 0} + Vec3d{0.15, -(s + 0.5), 0.2} * kEdge;
+  }
+  for (const KernelChoice& kernel : {KernelChoice{KernelChoice::Form::lanes, 4, 4},
+                                     {KernelChoice::Form::lanes, 7, 2},
+                                     {KernelChoice::Form::memory, 4, 4},
+                                     {KernelChoice::Form::serial}}) {
+    if (!makes(kernel, c.groom)) continue;
+    c.kernel = kernel;
+    expectOneStep(c, fmt::format("an edge alone, {} lanes", kernel.lanes), kOneStepAmongBodies);
+    auto held = Simulation::create(device(), c.groom, {}, {}, {.bodies = c.bodies}, kernel),
+         free = Simulation::create(device(), c.groom, {}, {}, {}, kernel);
+    ASSERT_TRUE(held && free);
+    for (auto* each : {&*held, &*free}) ASSERT_TRUE(each->stepFrame(HeadPose{}));
+    const auto pushed = *held->positions(), still = *free->positions();
+    for (std::uint32_t s = 0; s < c.groom.strandCount(); ++s) {
+      const std::uint32_t k = c.groom.firstPoint[s] + s + 1;
+      EXPECT_GT(length(pushed[k] - still[k]), 1e-4f) << "strand " << s;
+      EXPECT_GT(length(pushed[k + 1] - still[k + 1]), 1e-4f) << "strand " << s;
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include "reference/step.h"
@@ -285,6 +286,55 @@ TEST_F(CutParity, WhatActsOnHairActsOnWhatFalls) {
   expectOneFrame(c, "air, forces, goals, fields, roots");
   c.settings.goal.shape = true;
   expectOneStep(c, "goals of edges");
+}
+
+// What falls has the rest pose as the head had it, however that was turned.
+TEST_F(CutParity, WhatFallsIsTurnedAsTheHeadWas) {
+  for (const KernelChoice& kernel : {KernelChoice{}, {KernelChoice::Form::memory, 33, 4}}) {
+    ParityCase c = cutCase(randomGroom(awkwardLengths(13), 47), kernel);
+    c.material = varyingMaterial();
+    c.turned = fromRotationVector(Vec3d{std::numbers::pi / 2, 0, 0});
+    expectOneStep(c, "turned");
+    expectOneFrame(c, "turned");
+    c.turned = fromRotationVector(Vec3d{0.5, 2, -1});
+    c.shiftsRoots = true;
+    expectOneStep(c, "turned and shifted");
+  }
+}
+
+// A strand that is cut, and again when its head has turned further: each piece keeps the turn of its own cut,
+// also when its constants are made anew for another material.
+TEST_F(CutParity, EachPieceKeepsTheTurnOfItsCut) {
+  const Groom groom = threeStrands();
+  const Settings settings;
+  auto hair = Simulation::create(device(), groom, {}, settings);
+  ASSERT_TRUE(hair) << hair.error().message;
+  reference::Simulation<double> exact(groom, {}, settings);
+  Material material;
+  HeadPose before;
+  for (int frame = 1; frame <= 5; ++frame) {
+    if (frame == 2 || frame == 4) {
+      const std::vector<StrandCut> cuts{{0, frame == 2 ? 20u : 10u}, {2, frame == 2 ? 12u : 5u}};
+      ASSERT_TRUE(hair->cut(cuts));
+      exact.cut(groom, material, cuts);
+    }
+    if (frame == 5) {
+      material.bendStiffness *= 2;
+      ASSERT_TRUE(hair->setMaterial(material));
+      exact.change(groom, material, settings);
+    }
+    const HeadPose next{{}, fromRotationVector(Vec3d{0.3, 0.1, 0.2} * frame)};
+    std::vector<HeadPose> poses;
+    for (int k = 1; k <= settings.stepsPerFrame; ++k)
+      poses.push_back(interpolate(before, next, double(k) / settings.stepsPerFrame));
+    before = next;
+    ASSERT_TRUE(hair->stepFrame(poses));
+    exact.stepFrame(poses);
+    const auto points = *hair->positions();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      EXPECT_LT((reference::toEigen<double>(points[i]) - exact.positions()[i]).norm(), 5e-6)
+          << frame << ' ' << i;
+  }
 }
 
 TEST_F(CutParity, BodiesHoldWhatFalls) {

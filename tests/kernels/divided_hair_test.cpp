@@ -84,8 +84,9 @@ Result<Outcome> run(const ComputeDevice& device, const Hair& hair) {
   return outcome;
 }
 
-// The same in parts, each on a thread and a device of its own.
-std::vector<Result<Outcome>> runParts(const Hair& hair, const Parts& parts) {
+// The same in parts, each on a thread and a device of its own. `rooms`: KernelChoice::contactRoom of each.
+std::vector<Result<Outcome>> runParts(const Hair& hair, const Parts& parts,
+                                      const std::vector<int>& rooms = {}) {
   const auto links = SharedLink::connect(parts);
   std::vector<Result<Outcome>> outcomes(parts.size(), Error{"did not run"});
   std::vector<std::jthread> threads;
@@ -95,6 +96,7 @@ std::vector<Result<Outcome>> runParts(const Hair& hair, const Parts& parts) {
       if (!device) return;
       Hair own = hair;
       own.kernel.link = links[k].get();
+      if (!rooms.empty()) own.kernel.contactRoom = rooms[k];
       outcomes[k] = run(*device, own);
       if (!outcomes[k]) links[k]->fail(outcomes[k].error());
       expectNoMessages(*device->gpu().validationLog());
@@ -204,6 +206,44 @@ TEST_F(DividedHair, HasTheBitsOfTheWhole) {
       EXPECT_NEAR(contacts->momentumError, whole->contacts.momentumError, 1e-9);
       EXPECT_NEAR(contacts->momentum.sizes, whole->contacts.momentum.sizes,
                   1e-9 * whole->contacts.momentum.sizes);
+    }
+  }
+}
+
+// A part whose lists find no room repeats its step, with what the others told it before: here of long strands
+// that swing further than those it knows.
+TEST_F(DividedHair, APartMayRunOutOfRoomAlone) {
+  for (const ContactTaper taper : {ContactTaper::distance, ContactTaper::time}) {
+    Hair hair = dense(taper);
+    for (Vec3f& p : hair.groom.points)
+      p = Vec3f{0.3f * p.x, p.y, 0.3f * p.z};  // more near each than room is for
+    for (int s = 0; s < 12; ++s) {
+      std::vector<Vec3f> strand;
+      for (int i = 0; i < 30; ++i)
+        strand.push_back(Vec3f(Vec3d{1 + 0.004 * (s % 4), -0.01 * i, 0.004 * (s / 4)}));
+      hair.groom.addStrand(strand);
+    }
+    const auto whole = run(device(), hair);
+    ASSERT_TRUE(whole) << whole.error().message;
+    const Parts parts = partsBy(hair.groom, 3, [](std::uint32_t s) { return s < 48 ? s % 2 : 2; });
+    for (std::size_t without = 0; without < 3; ++without) {
+      SCOPED_TRACE(without);
+      std::vector<int> rooms(3, 64);
+      rooms[without] = 1;
+      const auto outcomes = runParts(hair, parts, rooms);
+      ContactReport contacts;
+      for (std::size_t k = 0; k < 3; ++k) {
+        ASSERT_TRUE(outcomes[k]) << outcomes[k].error().message;
+        EXPECT_EQ(outcomes[k]->contacts.rebuilds, whole->contacts.rebuilds) << k;
+        contacts.add(outcomes[k]->contacts);
+        for (int frame = 0; frame < kFrames; ++frame)
+          EXPECT_EQ(differentPoints(hair.groom, parts[k], outcomes[k]->frames[frame], whole->frames[frame]),
+                    0)
+              << "part " << k << ", frame " << frame;
+      }
+      EXPECT_EQ(contacts.listed, whole->contacts.listed);
+      EXPECT_EQ(contacts.contacts, whole->contacts.contacts);
+      EXPECT_EQ(contacts.pairTests, whole->contacts.pairTests);
     }
   }
 }

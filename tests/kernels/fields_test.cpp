@@ -123,6 +123,26 @@ TEST_F(Fields, AreReplacedWhileHairMoves) {
   }
 }
 
+// Where a field goes in a frame is where it stays: as if it were set anew before each later frame.
+TEST_F(Fields, AreHeldUntilOthersAreSet) {
+  const Hair hair = hairs()[0];
+  const std::vector<ForceField> before = sampleFields({}, 0), after = sampleFields({}, 0.1);
+  Simulation once = simulationOf(device(), hair, true), anew = simulationOf(device(), hair, true);
+  for (int frame = 1; frame <= 7; ++frame) {
+    if (frame == 1) {
+      for (Simulation* each : {&once, &anew}) ASSERT_TRUE(each->setFields(before));
+    }
+    if (frame == 4) {
+      for (Simulation* each : {&once, &anew}) ASSERT_TRUE(each->setFields(after, before));
+    }
+    if (frame > 4) {
+      ASSERT_TRUE(anew.setFields(after));
+    }
+    for (Simulation* each : {&once, &anew}) ASSERT_TRUE(each->stepFrame(headAt(frame)));
+    EXPECT_TRUE(once.state()->positions == anew.state()->positions) << "frame " << frame;
+  }
+}
+
 // As many as before, but a grid is another one.
 TEST_F(Fields, TakeOtherGrids) {
   const Hair hair = hairs()[0];

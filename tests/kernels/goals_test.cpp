@@ -140,6 +140,32 @@ TEST_F(Goals, AgreeWithContacts) {
   }
 }
 
+// Places are reached at the end of a frame and held, in every slot of a frame in flight: as if they were set
+// anew before each later frame.
+TEST_F(Goals, AreHeldUntilOthersAreSet) {
+  for (const Hair& hair : aimedHairs()) {
+    for (const bool shape : {false, true}) {
+      SCOPED_TRACE(fmt::format("{}, {}", hair.name, shape ? "shapes" : "places"));
+      Hair with = hair;
+      with.settings.goal.shape = shape;
+      Simulation once = simulationOf(device(), with, true), anew = simulationOf(device(), with, true);
+      std::vector<Vec3f> turned;
+      for (const Vec3f& p : restOf(hair))
+        turned.push_back(static_cast<Vec3f>(rotate(fromRotationVector(Vec3d{0.1, 0, 0.2}), Vec3d(p))));
+      for (int frame = 1; frame <= 7; ++frame) {
+        if (frame == 1 || frame == 4) {
+          ASSERT_TRUE(once.setGoals(frame == 1 ? restOf(hair) : turned, allOf(hair, 20)));
+        }
+        if (frame == 1 || frame >= 4) {
+          ASSERT_TRUE(anew.setGoals(frame == 1 ? restOf(hair) : turned, allOf(hair, 20)));
+        }
+        for (Simulation* each : {&once, &anew}) ASSERT_TRUE(each->stepFrame(headAt(frame)));
+        EXPECT_TRUE(once.state()->positions == anew.state()->positions) << "frame " << frame;
+      }
+    }
+  }
+}
+
 // None, none set, or of no strength: the bits of hair without.
 TEST_F(Goals, OfNoStrengthChangeNothing) {
   for (const Hair& hair : aimedHairs()) {

@@ -20,7 +20,7 @@
 #include <regex>
 
 #include "embedded_modules.h"
-#include "tests/kernels/spirv_structs.h"
+#include "tests/support/spirv_structs.h"
 
 namespace ringlet::test {
 namespace {

@@ -136,6 +136,23 @@ TEST_F(StrandStep, MoreRootsAgree) {
   }
 }
 
+// A head that is turned before it moves, with roots that leave their places while it spins.
+TEST_F(StrandStep, ShiftedRootsOfATurnedHeadAgree) {
+  for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
+    for (const Variant& variant : kVariants) {
+      // Few lanes solve in a way of their own, in jacobi only.
+      const bool isFew = variant.kernel.lanes == 1 || variant.kernel.lanes == 2;
+      if (integrator != Integrator::jacobi && isFew) continue;
+      ParityCase c{randomGroom(awkwardLengths(13), 43), {}, settingsFor(integrator), variant.kernel};
+      c.settings.chebyshev = false;
+      c.settings.rootCount = integrator == Integrator::jacobi ? 3 : 1;
+      c.turned = fromRotationVector(Vec3d{1.2, -0.4, 0.8});
+      c.shiftsRoots = true;
+      expectOneStep(c, fmt::format("turned and shifted, {}, {}", int(integrator), variant.name));
+    }
+  }
+}
+
 TEST_F(StrandStep, LongStrandsAgreeInEveryIntegrator) {
   for (Integrator integrator : {Integrator::jacobi, Integrator::pointJacobi, Integrator::paper}) {
     Settings settings = settingsFor(integrator);

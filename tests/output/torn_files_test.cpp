@@ -3,14 +3,21 @@
 // one go.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 
+#include "ringlet/groom/usd_layer.h"
+#include "ringlet/groom/usdc_file.h"
+#include "ringlet/groom/usdc_format.h"
 #include "ringlet/output/cache_reader.h"
 #include "ringlet/output/cache_writer.h"
 #include "ringlet/output/usd_reader.h"
@@ -19,6 +26,17 @@
 #include "ringlet/output/usdc_writer.h"
 #include "tests/support/strict_usd.h"
 #include "tests/support/test_support.h"
+
+namespace {
+int writesLeft = -1;  // after so many the process ends; -1: it does not
+}
+
+// In place of the C library's.
+extern "C" ssize_t pwrite(int file, const void* bytes, size_t count, off_t offset) {
+  if (writesLeft == 0) _exit(0);
+  writesLeft -= writesLeft > 0;
+  return syscall(SYS_pwrite64, file, bytes, count, offset);
+}
 
 namespace ringlet {
 namespace {
@@ -293,6 +311,58 @@ TEST(TornFiles, EveryWholeFrameIsReadAndGoneOnWith) {
     putText(partial, other);
     EXPECT_FALSE(format.resume(path, 2, kFrames));
     EXPECT_TRUE(readText(partial) == other);
+  }
+}
+
+// Of a frame that has points a crate has all else that is of the frame; velocities come with the next.
+void expectWholeFrames(const fs::path& path, const std::string& where) {
+  const std::string text = readText(path);
+  const auto bytes = std::as_bytes(std::span(text));
+  const auto layer =
+      readUsdc(std::vector<std::byte>(bytes.begin(), bytes.end()), path.string(), {.keepsPlaces = true});
+  ASSERT_TRUE(layer) << where << ": " << layer.error().message;
+  const auto hasValue = [&](const std::string& name, std::size_t frame) {
+    for (const UsdAttribute& attribute : layer->prims.front().attributes)
+      if (attribute.name == name && !attribute.places.empty())
+        return usdc::Rep{attribute.places.at(frame).rep}.type() != usdc::kBlockType;
+    return true;  // it does not move
+  };
+  for (std::size_t frame = 0; frame < kFrames; ++frame) {
+    if (!hasValue("points", frame)) continue;
+    for (const char* name : {"extent", "xformOp:transform"})
+      EXPECT_TRUE(hasValue(name, frame)) << where << ": frame " << frame + 1 << " has points and no " << name;
+  }
+}
+
+// By the order of what is patched: a frame is there once all of it is.
+TEST(TornFiles, AWriterMayBeKilledBetweenAnyTwoWrites) {
+  for (const Format& format : formats()) {
+    SCOPED_TRACE(format.name);
+    const fs::path path = scratchFolder(std::string("torn_writes_") + format.name) / format.name,
+                   partial = path.string() + ".partial";
+    int most = -1, killed = 0;  // -1: it is no file of the format yet
+    for (;; ++killed) {
+      const pid_t child = fork();
+      if (child == 0) {
+        writesLeft = killed;
+        format.write(path, kFrames, true);
+        _exit(1);
+      }
+      int status = 0;
+      waitpid(child, &status, 0);
+      ASSERT_TRUE(WIFEXITED(status));
+      if (WEXITSTATUS(status) == 1) break;
+      if (!fs::exists(partial)) continue;
+      std::string warning;
+      const int frames = format.wholeFrames(partial, warning);
+      const std::string where = "after " + std::to_string(killed) + " writes";
+      EXPECT_GE(frames, most) << where;
+      EXPECT_TRUE(warning.empty() || frames == kFrames) << where << ": " << warning;
+      most = std::max(most, frames);
+      if (std::string_view(format.name).ends_with(".usdc") && frames >= 0) expectWholeFrames(partial, where);
+    }
+    EXPECT_EQ(most, kFrames);
+    EXPECT_GE(killed, kFrames);
   }
 }
 

@@ -4,18 +4,21 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "ringlet/groom/usd_file.h"
 #include "ringlet/groom/usd_layer.h"
 #include "ringlet/groom/usdc_file.h"
+#include "ringlet/groom/usdc_format.h"
 #include "ringlet/output/usdc_reader.h"
 #include "tests/support/test_support.h"
 
@@ -245,6 +248,42 @@ TEST(UsdcWriter, AnyFrameIsReadAtOnce) {
   for (const int frame : {20, 1, 13, 13, 2}) {
     ASSERT_TRUE(reader->readFrame(frame, points));
     EXPECT_EQ(points, movedBy(smallGroom(), frame));
+  }
+}
+
+// A frame is one that has all of its values: of a file in which the last has points and no transform, or a
+// transform and no points, the frames before it.
+TEST(UsdcReader, AFrameNeedsAllItsValues) {
+  const fs::path path = scratchFolder("usdc_half") / "hair.usdc";
+  auto writer =
+      UsdcWriter::create(path, smallGroom(), {.frameCount = 3, .usd = {.head = UsdHead::transform}});
+  ASSERT_TRUE(writer);
+  for (int frame = 1; frame <= 2; ++frame) ASSERT_TRUE(writer->addFrame(movedBy(smallGroom(), frame)));
+  const fs::path partial = path.string() + ".partial";
+  const Crate crate = crateOf(partial);
+  for (const char* name : {"points", "xformOp:transform"}) {
+    for (const int kept : {0, 1}) {
+      SCOPED_TRACE(testing::Message() << kept << " of " << name);
+      std::vector<std::byte> bytes = crate.bytes;
+      for (std::size_t frame = static_cast<std::size_t>(kept); frame < 2; ++frame) {
+        const std::uint64_t rep = crate.attribute(name).places[frame].rep;
+        const auto at = std::ranges::search(bytes, std::as_bytes(std::span(&rep, 1)));
+        ASSERT_FALSE(at.empty());
+        std::memcpy(&*at.begin(), &usdc::kBlock.bits, 8);
+      }
+      const fs::path torn = path.parent_path() / "torn.usdc";
+      std::ofstream(torn, std::ios::binary)
+          .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+      auto reader = UsdcReader::open(torn);
+      ASSERT_TRUE(reader) << reader.error().message;
+      EXPECT_EQ(reader->frameCount(), kept);
+      EXPECT_TRUE(reader->warnings().empty());
+      std::vector<Vec3f> points;
+      for (int frame = 1; frame <= kept; ++frame) {
+        ASSERT_TRUE(reader->readFrame(frame, points));
+        EXPECT_EQ(points, movedBy(smallGroom(), frame));
+      }
+    }
   }
 }
 

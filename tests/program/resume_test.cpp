@@ -178,6 +178,26 @@ TEST_P(Resume, AKilledResumeGoesOn) {
   resumeToTheSameBits("killed twice");
 }
 
+// --resume alone writes checkpoints as often as the run that it goes on with did.
+TEST_P(Resume, AResumeWritesCheckpointsUnasked) {
+  const auto frameOf = [&] {
+    const auto checkpoint = readCheckpoint(folder_ / "out/checkpoint.rgk");
+    return checkpoint ? checkpoint->frame : 0;
+  };
+  int first = 0;
+  for (const bool resumes : {false, true}) {
+    RunningProgram program(
+        folder_, argumentsOf("out", resumes ? std::vector<std::string>{"--resume", "--quiet"}
+                                            : std::vector<std::string>{"--checkpoint", "2", "--quiet"}));
+    EXPECT_TRUE(program.waitUntil([&] { return frameOf() > first; })) << resumes;
+    program.send(SIGKILL);
+    EXPECT_EQ(program.wait().exitCode, -1) << "it ended before it was killed";
+    EXPECT_GT(frameOf(), first) << resumes;
+    first = frameOf();
+  }
+  resumeToTheSameBits("killed above its first checkpoint");
+}
+
 TEST_P(Resume, AnInterruptedRunGoesOn) {
   RunningProgram program(folder_, argumentsOf("out", {"--checkpoint", "100", "--json-progress", "--quiet"}));
   EXPECT_TRUE(program.waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));

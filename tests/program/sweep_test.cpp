@@ -200,6 +200,22 @@ TEST_F(Sweep, ARunIsNotKeptWhereABufferChanged) {
   EXPECT_NE(hashIn("run-0001"), hash);
 }
 
+// A run that is kept counts as it did when it was made.
+TEST_F(Sweep, WhatHasNoPositionIsToldAgain) {
+  const std::vector<std::string> vary{"simulation.integrator=jacobi,paper", "simulation.steps_per_frame=1",
+                                      "simulation.frames=30"};
+  const auto first = onCpu(vary);
+  EXPECT_EQ(first.exitCode, 3) << first.err;  // the paper's is explicit, and a step too long for it
+  const json run = json::parse(readText(folder_ / "out/run-0002/run.json"));
+  EXPECT_GT(run["nonfinite"], 0);
+  EXPECT_EQ(states(), (States{"finished", "finished"}));
+  const auto again = onCpu(vary);
+  EXPECT_EQ(again.exitCode, 3) << again.err;
+  EXPECT_EQ(states(), (States{"kept", "kept"}));
+  EXPECT_NE(readText(folder_ / "out/sweep.csv").find("\n2,kept,3,"), std::string::npos)
+      << readText(folder_ / "out/sweep.csv");
+}
+
 // Every path of a scene, from another folder than that in which the sweep was started.
 TEST_F(Sweep, ARunsSceneIsRunAgainFromAnywhere) {
   const fs::path made = scratchFolder("sweep_paths");
