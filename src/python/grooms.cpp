@@ -26,7 +26,8 @@ namespace {
 GroomHandle handleOf(Groom groom) { return std::make_shared<GroomObject>(LoadedGroom{std::move(groom), {}}); }
 
 // Strands by where each begins, or by how many particles each has.
-std::vector<std::uint32_t> firstPointsOf(const py::object& firstPoint, const py::object& counts) {
+std::vector<std::uint32_t> firstPointsOf(const py::object& firstPoint, const py::object& counts,
+                                         std::size_t particleCount) {
   if (firstPoint.is_none() == counts.is_none())
     throw py::type_error(
         "a groom takes first_point (strands + 1 indices) or counts (particles of each strand)");
@@ -34,11 +35,17 @@ std::vector<std::uint32_t> firstPointsOf(const py::object& firstPoint, const py:
   std::vector<std::uint32_t> first{0};
   std::uint64_t sum = 0;
   for (const std::uint32_t count : wholeNumbersOf(counts, "counts")) {
+    if (count < 2)
+      throw py::value_error(fmt::format("a strand has at least 2 particles; strand {} of counts has {}",
+                                        first.size() - 1, count));
     sum += count;
     if (sum > std::numeric_limits<std::uint32_t>::max())
       throw py::value_error("counts: there are more particles than 32 bits count");
     first.push_back(static_cast<std::uint32_t>(sum));
   }
+  if (sum != particleCount)
+    throw py::value_error(
+        fmt::format("counts must add up to {}, the number of points; they add up to {}", particleCount, sum));
   return first;
 }
 
@@ -47,7 +54,7 @@ GroomHandle makeGroom(const py::object& points, const py::object& firstPoint, co
   const PointsIn in(points, "points");
   Groom groom;
   groom.points.assign(in.points().begin(), in.points().end());
-  groom.firstPoint = firstPointsOf(firstPoint, counts);
+  groom.firstPoint = firstPointsOf(firstPoint, counts, groom.points.size());
   groom.metresPerUnit = metresPerUnit;
   return handleOf(std::move(groom));
 }

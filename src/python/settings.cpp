@@ -398,13 +398,6 @@ void setAll(Settings& settings, const py::kwargs& named) {
   settings = changed;
 }
 
-std::string textOf(const Settings& settings) {
-  std::string text;
-  for (const std::string& key : allKeys())
-    text += fmt::format("{}={}\n", key, std::string(py::repr(*getKey(settings, key))));
-  return text;
-}
-
 void addSettings(py::module_& module) {
   addTable<ContactSettings>(module, "ContactSettings",
                             "Whether and how hairs meet, as settings.contacts. Integrator jacobi only.");

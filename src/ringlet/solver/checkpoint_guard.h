@@ -1,0 +1,34 @@
+// What stands before the state in a simulation's checkpoint, so that damaged bytes and those of other hair
+// are refused before anything is changed:
+//
+//   magic 8 | checksum of all that follows 8 | of the hair 8 | of its cuts 8 | bodies 8 | state
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/solver/hair_asset_implementation.h"
+
+namespace ringlet {
+
+/// What a checkpoint is of.
+struct CheckpointOwner {
+  std::uint64_t hair = 0;  // fingerprint of what an asset is made of
+  std::uint64_t cuts = 0;  // likewise
+  std::uint64_t bodies = 0;
+};
+
+/// A fingerprint of rest state, settings, material, choice, device, driver and version.
+std::uint64_t fingerprintOf(const HairAsset::Implementation& asset);
+
+inline constexpr std::size_t kCheckpointGuardBytes = 40;
+/// Fills in the first kCheckpointGuardBytes of what will be a checkpoint.
+void guardCheckpoint(std::span<std::byte> checkpoint, const CheckpointOwner& owner);
+/// The state in it. Errors: damaged, or of other hair.
+Result<std::span<const std::byte>> stateOfCheckpoint(std::span<const std::byte> checkpoint,
+                                                     const CheckpointOwner& owner);
+
+}  // namespace ringlet
