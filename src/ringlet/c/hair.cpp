@@ -126,6 +126,8 @@ Outcome fill(const std::vector<Vec3f>& values, float* xyz, std::uint64_t particl
   return {};
 }
 
+}  // namespace
+
 Outcome takeGroom(const ringlet_groom& from, Groom& made) {
   if (!from.points || !from.strand_sizes)
     return Outcome::invalid("the groom has no points, or no sizes of strands");
@@ -142,7 +144,52 @@ Outcome takeGroom(const ringlet_groom& from, Groom& made) {
   return {};
 }
 
-}  // namespace
+Outcome checkStrands(const Groom& groom) {
+  if (groom.strandCount() == 0) return Outcome::invalid("the groom has no strands");
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    if (groom.strand(s).size() < 2)
+      return Outcome::invalid(
+          fmt::format("strand {} has {} particles; a strand has 2 at least", s, groom.strand(s).size()));
+  }
+  return {};
+}
+
+Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settings& settings,
+                   const Material& material, const ringlet_asset_options& options, ringlet_asset** asset) {
+  if (Outcome outcome = device.checkProcess(); !outcome.isFine()) return outcome;
+  KernelChoice kernel;
+  kernel.movingRoots = options.moving_roots != 0;
+  kernel.forces = options.has_forces != 0;
+  kernel.goals = options.has_goals != 0;
+  kernel.fields = options.has_fields != 0;
+  kernel.heads = std::max(1, options.heads);
+  auto built = HairAsset::build(device, groom, material, settings, kernel,
+                                options.has_bodies ? BodyUse::some : BodyUse::none);
+  if (!built) return built.error();
+  for (const std::string& warning : built->warnings())
+    if (options.warn) options.warn(warning.c_str(), options.user);
+  const BuiltFor builtFor{options.has_bodies != 0, kernel.movingRoots, kernel.forces,
+                          kernel.goals || settings.goal.on, kernel.fields};
+  *asset = new ringlet_asset{std::move(*built), device, builtFor};
+  return {};
+}
+
+Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ringlet_hair** hair) {
+  if (Outcome outcome = asset.device.checkProcess(); !outcome.isFine()) return outcome;
+  auto made = Simulation::create(asset.asset, initial);
+  if (!made) return made.error();
+  std::vector<DevicePositions> positions = made->devicePositions();
+  *hair = new ringlet_hair{.simulation = std::move(*made),
+                           .device = asset.device,
+                           .builtFor = asset.builtFor,
+                           .particleCount = asset.asset.particleCount(),
+                           .strandCount = asset.asset.strandCount(),
+                           .bodyCount = static_cast<std::uint32_t>(initial.bodies.size()),
+                           .devicePositions = std::move(positions),
+                           .scene = asset.scene};
+  return {};
+}
+
 }  // namespace ringlet::c
 
 using namespace ringlet;
@@ -162,27 +209,10 @@ ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* 
                                         sizedOrNull("options", options), given("asset", asset)});
         !wrong.isFine())
       return wrong;
-    if (Outcome outcome = device->device.checkProcess(); !outcome.isFine()) return outcome;
     Groom made;
     if (Outcome outcome = takeGroom(taken(groom), made); !outcome.isFine()) return outcome;
-    const ringlet_asset_options chosen = taken(options);
-    KernelChoice kernel;
-    kernel.movingRoots = chosen.moving_roots != 0;
-    kernel.forces = chosen.has_forces != 0;
-    kernel.goals = chosen.has_goals != 0;
-    kernel.fields = chosen.has_fields != 0;
-    kernel.heads = std::max(1, chosen.heads);
-    auto built = HairAsset::build(device->device, made, material ? material->material : Material{},
-                                  settings ? settings->settings : Settings{}, kernel,
-                                  chosen.has_bodies ? BodyUse::some : BodyUse::none);
-    if (!built) return built.error();
-    for (const std::string& warning : built->warnings())
-      if (chosen.warn) chosen.warn(warning.c_str(), chosen.user);
-    const bool hasGoals = kernel.goals || (settings && settings->settings.goal.on);
-    const BuiltFor builtFor{chosen.has_bodies != 0, kernel.movingRoots, kernel.forces, hasGoals,
-                            kernel.fields};
-    *asset = new ringlet_asset{std::move(*built), device->device, builtFor};
-    return {};
+    return buildAsset(device->device, made, settings ? settings->settings : Settings{},
+                      material ? material->material : Material{}, taken(options), asset);
   });
 }
 
@@ -202,25 +232,14 @@ ringlet_result ringlet_hair_create(ringlet_asset* asset, const ringlet_initial_s
             {given("asset", asset), sizedOrNull("initial", initial), given("hair", hair)});
         !wrong.isFine())
       return wrong;
-    if (Outcome outcome = asset->device.checkProcess(); !outcome.isFine()) return outcome;
     const ringlet_initial_state from = taken(initial);
     const auto head = poseOf<HeadPose>(from.head);
     if (!head) return notFinite("the head");
     std::vector<Body> bodies;
     if (Outcome outcome = checkBodies(asset->builtFor, from.body_count); !outcome.isFine()) return outcome;
     if (Outcome outcome = takeBodies(from.bodies, from.body_count, bodies); !outcome.isFine()) return outcome;
-    auto made = Simulation::create(asset->asset,
-                                   {.head = *head, .bodies = bodies, .readsBack = from.keeps_on_device == 0});
-    if (!made) return made.error();
-    std::vector<DevicePositions> positions = made->devicePositions();
-    *hair = new ringlet_hair{.simulation = std::move(*made),
-                             .device = asset->device,
-                             .builtFor = asset->builtFor,
-                             .particleCount = asset->asset.particleCount(),
-                             .strandCount = asset->asset.strandCount(),
-                             .bodyCount = from.body_count,
-                             .devicePositions = std::move(positions)};
-    return {};
+    return createHair(*asset, {.head = *head, .bodies = bodies, .readsBack = from.keeps_on_device == 0},
+                      hair);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <exception>
 #include <initializer_list>
+#include <memory>
 #include <new>
 #include <string>
 #include <utility>
@@ -38,6 +39,7 @@ struct ringlet_asset {
   ringlet::HairAsset asset;
   ringlet::ComputeDevice device;
   ringlet::c::BuiltFor builtFor{};
+  std::shared_ptr<const void> scene{};  // that it was built of; none: a groom of the caller's
 };
 struct ringlet_hair {
   ringlet::Simulation simulation;
@@ -46,7 +48,8 @@ struct ringlet_hair {
   std::uint64_t particleCount, strandCount;
   std::uint32_t bodyCount;
   std::vector<ringlet::DevicePositions> devicePositions{};
-  int recordedFrames = 0;  // in commands of the host's, and not over
+  std::shared_ptr<const void> scene{};  // the asset's
+  int recordedFrames = 0;               // in commands of the host's, and not over
 };
 
 namespace ringlet::c {
@@ -130,6 +133,15 @@ Argument sizedOrNull(const char* name, const T* argument) {
 }
 /// "ringlet_step_to takes hair and a pose: head is NULL" for the first that is wrong.
 Outcome checkArguments(const char* sentence, std::initializer_list<Argument> arguments);
+
+/// A groom of the caller's.
+Outcome takeGroom(const ringlet_groom& from, Groom& made);
+/// Whether it has strands of two particles at least.
+Outcome checkStrands(const Groom& groom);
+/// ringlet_asset_build and ringlet_hair_create, of what was taken.
+Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settings& settings,
+                   const Material& material, const ringlet_asset_options& options, ringlet_asset** asset);
+Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ringlet_hair** hair);
 
 /// Whether hair can be used in this process.
 Outcome checkProcess(const ringlet_hair& hair);
