@@ -8,6 +8,7 @@
 #include "program/cli_fwd.h"
 #include "program/hair_look.h"
 #include "program/render_run.h"
+#include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::program {
 
@@ -17,6 +18,7 @@ struct RenderOptions {
   std::string frames, size = "960x540", colour = "auburn", up = "Y", camera, ground, format = "png", device;
   std::optional<int> hairs;
   HairLook look;
+  SceneReach reach = SceneReach::anywhere;
   std::optional<double> width, melanin, most;
   double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
   int samples = 4, blur = 1;

@@ -11,6 +11,7 @@
 
 #include "program/cache_folder.h"
 #include "program/command_line.h"
+#include "program/confined_option.h"
 #include "program/exit_codes.h"
 #include "program/follow_plan.h"
 #include "program/hair_look.h"
@@ -60,6 +61,7 @@ constexpr const char* kExample =
 struct Typed {
   std::filesystem::path input, save, pictures, widgets;
   std::vector<std::string> changes;
+  SceneReach reach = SceneReach::anywhere;
   std::string size = "640x480", colour = "auburn", device;
   int frames = 0, samples = 2, hairs = 0;
   HairLook look;
@@ -76,7 +78,7 @@ Result<SceneFile> sceneOf(const Typed& typed) {
   std::error_code code;  // a path that cannot be made absolute stays as it is
   std::filesystem::path input = std::filesystem::absolute(typed.input, code);
   if (code) input = typed.input;
-  if (isSceneFile(input)) return readScene(input, changes);
+  if (isSceneFile(input)) return readScene(input, changes, typed.reach);
   if (!isGroomFile(input))
     return Error{
         fmt::format("{} is neither a scene (.toml) nor a groom ({})", typed.input.string(), kGroomEndings),
@@ -239,6 +241,7 @@ void addViewCommand(CLI::App& app, int& exitCode) {
                    "A key of the scene, as its file would have it: motion.kind=shake; again for others")
       ->check(isChange())
       ->type_name("KEY=VALUE");
+  addConfinedOption(*command, typed->reach);
   addHairLookOptions(*command, typed->look);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")
       ->check(wholeBetween(0, 10'000'000))

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,5 +24,9 @@ Status checkReplaceable(const std::filesystem::path& path);
 /// disk leaves half a file. Errors: the folder is missing or read-only, the disk is full, the path is
 /// that of no regular file.
 Status writeWholeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// The file whose replacement `path` was to become, where its name is that of a temporary of writeWholeFile:
+/// a process that is killed leaves it.
+std::optional<std::filesystem::path> fileOfTemporary(const std::filesystem::path& path);
 
 }  // namespace ringlet
