@@ -36,13 +36,18 @@ SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded) {
   return {std::move(name), std::move(summary), std::move(groom), std::move(loaded)};
 }
 
-SceneObject loadFile(const std::filesystem::path& path) {
-  return withoutGil(
-      [&] { return sceneOf(path.stem().string(), "", valueOf(loadScene(valueOf(readScene(path))))); });
-}
-SceneObject parseText(const std::string& text, const std::filesystem::path& folder) {
+SceneReach reachOf(bool isConfined) { return isConfined ? SceneReach::ownFolder : SceneReach::anywhere; }
+
+SceneObject loadFile(const std::filesystem::path& path, bool isConfined) {
   return withoutGil([&] {
-    return sceneOf("text", "", valueOf(loadScene(valueOf(parseScene(text, "the scene", folder)))));
+    const SceneFile file = valueOf(readScene(path, {}, reachOf(isConfined)));
+    return sceneOf(path.stem().string(), "", valueOf(loadScene(file)));
+  });
+}
+SceneObject parseText(const std::string& text, const std::filesystem::path& folder, bool isConfined) {
+  return withoutGil([&] {
+    const SceneFile file = valueOf(parseScene(text, "the scene", folder, {}, reachOf(isConfined)));
+    return sceneOf("text", "", valueOf(loadScene(file)));
   });
 }
 
@@ -205,11 +210,12 @@ void addScenes(py::module_& module) {
   py::class_<SceneObject>(module, "Scene",
                           "All that a run starts from: groom, material, settings, motion, bodies. Constant.")
       .def_static(
-          "load", &loadFile, py::arg("path"),
+          "load", &loadFile, py::arg("path"), py::kw_only(), py::arg("confined") = false,
           "Reads a scene file (TOML) and all that it names: the groom, a motion by .bvh or glTF, meshes. "
+          "confined: for a file of a stranger's, which may then name files in or below its own folder only. "
           "ringlet.Error with file and line for what is wrong.")
-      .def_static("parse", &parseText, py::arg("text"), py::arg("folder") = "",
-                  "The same from text; its paths are relative to folder.")
+      .def_static("parse", &parseText, py::arg("text"), py::arg("folder") = "", py::kw_only(),
+                  py::arg("confined") = false, "The same from text; its paths are relative to folder.")
       .def_static(
           "builtin",
           [](const std::string& name, std::optional<int> particles, std::optional<int> strands,

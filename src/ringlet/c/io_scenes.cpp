@@ -23,6 +23,10 @@ Result<std::vector<SceneChange>> changesOf(const ringlet_scene_reading& reading)
   return changes;
 }
 
+SceneReach reachOf(const ringlet_scene_reading& reading) {
+  return reading.is_confined ? SceneReach::ownFolder : SceneReach::anywhere;
+}
+
 Outcome make(const Result<SceneFile>& file, const ringlet_scene_reading& reading, ringlet_scene** scene) {
   if (!file) return file.error();
   auto loaded = loadScene(*file);
@@ -80,7 +84,7 @@ ringlet_result ringlet_scene_read(const char* path, const ringlet_scene_reading*
     const ringlet_scene_reading how = taken(reading);
     const auto changes = changesOf(how);
     if (!changes) return Outcome::invalid(changes.error().message);
-    return make(readScene(path, *changes), how, scene);
+    return make(readScene(path, *changes, reachOf(how)), how, scene);
   });
 }
 
@@ -95,7 +99,7 @@ ringlet_result ringlet_scene_parse(const char* text, const char* folder, const r
     const ringlet_scene_reading how = taken(reading);
     const auto changes = changesOf(how);
     if (!changes) return Outcome::invalid(changes.error().message);
-    return make(parseScene(text, "the scene", folder ? folder : "", *changes), how, scene);
+    return make(parseScene(text, "the scene", folder ? folder : "", *changes, reachOf(how)), how, scene);
   });
 }
 

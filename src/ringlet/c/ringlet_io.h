@@ -66,6 +66,7 @@ typedef struct ringlet_scene_reading {
   uint32_t change_count;
   ringlet_warn warn; /* may be NULL */
   void* user;
+  int is_confined; /* 1 for a file of a stranger's: it may name files in or below its own folder only */
 } ringlet_scene_reading;
 
 /* Reads a scene file and all that it names. `reading` may be NULL. */

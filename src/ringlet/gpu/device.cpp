@@ -505,7 +505,7 @@ void Device::take(std::unique_ptr<Instance> instance, VkPhysicalDevice physical,
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
 }
 
-Device::Device() : process_(getpid()), kernels_(std::make_unique<KernelCache>()) {}
+Device::Device() : kernels_(std::make_unique<KernelCache>()), process_(getpid()) {}
 
 Device::~Device() {
   if (!isOfThisProcess()) static_cast<void>(instance_.release());

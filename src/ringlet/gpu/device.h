@@ -208,7 +208,6 @@ class Device : public std::enable_shared_from_this<Device> {
   Status openPipelineCache(VkPhysicalDevice physical, const std::filesystem::path& folder);
   void keepPipelineCache() const;
 
-  const int process_;  // that opened it
   std::unique_ptr<Instance> instance_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   bool hasMemoryBudget_ = false;
@@ -232,6 +231,7 @@ class Device : public std::enable_shared_from_this<Device> {
   PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
   DeviceProperties properties_;
   DeviceOptions options_;
+  const int process_;  // that opened it
 };
 
 }  // namespace ringlet::gpu

@@ -8,11 +8,13 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "ringlet/base/archive.h"
 #include "ringlet/base/checksum.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
+#include "ringlet/solver/hair_asset_implementation.h"
 #include "ringlet/version.h"
 
 namespace ringlet {
@@ -62,9 +64,8 @@ void addMaterial(Archive& facts, const Material& material) {
   }
 }
 
-void addChoice(Archive& facts, const HairAsset::Implementation& asset) {
-  const KernelChoice& choice = asset.choice;
-  for (const bool has : {asset.bodies == BodyUse::some, choice.movingRoots, choice.forces, choice.goals,
+void addChoice(Archive& facts, const KernelChoice& choice, BodyUse bodies) {
+  for (const bool has : {bodies == BodyUse::some, choice.movingRoots, choice.forces, choice.goals,
                          choice.fields, choice.link != nullptr})
     add(facts, has);
 }
@@ -84,15 +85,14 @@ Error refused(const char* why) { return {why, Fault::input}; }
 
 }  // namespace
 
-std::uint64_t fingerprintOf(const HairAsset::Implementation& asset) {
+std::uint64_t HairAsset::Implementation::fingerprint() const {
   Archive facts = Archive::writing();
   add(facts, std::string(RINGLET_VERSION));
-  add(facts, asset.device.name());
-  add(facts, asset.device.driver());
-  addSettings(facts, asset.settings);
-  addMaterial(facts, asset.material);
-  addChoice(facts, asset);
-  const RestState& rest = asset.rest;
+  add(facts, device.name());
+  add(facts, device.driver());
+  addSettings(facts, settings);
+  addMaterial(facts, material);
+  addChoice(facts, choice, bodies);
   for (const std::uint64_t fact : {checksumOf(rest.strands), checksumOf(rest.points),
                                    checksumOf(rest.strandInGroom), std::uint64_t{rest.groomParticleCount}})
     add(facts, fact);

@@ -7,22 +7,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/solver/hair_asset_implementation.h"
 
 namespace ringlet {
 
 /// What a checkpoint is of.
 struct CheckpointOwner {
-  std::uint64_t hair = 0;  // fingerprint of what an asset is made of
+  std::uint64_t hair = 0;  // HairAsset::Implementation::fingerprint
   std::uint64_t cuts = 0;  // likewise
   std::uint64_t bodies = 0;
 };
-
-/// A fingerprint of rest state, settings, material, choice, device, driver and version.
-std::uint64_t fingerprintOf(const HairAsset::Implementation& asset);
 
 inline constexpr std::size_t kCheckpointGuardBytes = 40;
 /// Fills in the first kCheckpointGuardBytes of what will be a checkpoint.

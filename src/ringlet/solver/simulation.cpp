@@ -328,7 +328,7 @@ Status Simulation::Implementation::archive(Archive& archive) {
 CheckpointOwner Simulation::Implementation::checkpointOwner() const {
   std::vector<std::uint32_t> cuts;
   for (const FallenPiece& piece : pieces) cuts.insert(cuts.end(), {piece.strand, piece.begin, piece.end});
-  return {fingerprintOf(*asset), checksum64(std::as_bytes(std::span(cuts))), world.bodyCount()};
+  return {asset->fingerprint(), checksum64(std::as_bytes(std::span(cuts))), world.bodyCount()};
 }
 
 Result<std::vector<std::byte>> Simulation::checkpoint() {
