@@ -27,14 +27,9 @@ class WriterObject {
  public:
   WriterObject(std::filesystem::path path, GroomHandle groom, const AnimationOptions& options)
       : path_(std::move(path)), groom_(std::move(groom)), options_(options) {
-    const AnimationFormat* format = animationFormatOf(path_);
-    if (!format) {
-      std::string known;
-      for (const AnimationFormat& each : animationFormats())
-        known += (known.empty() ? "" : ", ") + std::string(each.extension);
-      throw py::value_error(fmt::format("an animation ends in one of {}; got {}", known, path_.string()));
-    }
-    writer_ = withoutGil([&] { return valueOf(format->resume(path_, groom_->groom(), options_, 0)); });
+    auto made = withoutGil([&] { return createAnimation(path_, groom_->groom(), options_); });
+    if (!made && !animationFormatOf(path_)) throw py::value_error(made.error().message);
+    writer_ = valueOf(std::move(made));
   }
 
   void add(std::span<const Vec3f> points, const UsdTransform& head = {}) {

@@ -31,6 +31,13 @@ for compiler in g++ clang++; do
   for program in simulates reads_and_writes includes_all plain_c; do
     (cd "$work" && "$work/$compiler/$program") || fail "$program, compiled with $compiler"
   done
+  # The programs of docs/library.md, of curl.hair, which reads_and_writes left: C and C++ write the same bytes.
+  for ending in usda usdc rgc pc2; do
+    for language in c cpp; do
+      (cd "$work" && "$work/$compiler/film_in_$language" curl.hair $language.$ending) || fail "film.$language, compiled with $compiler"
+    done
+    cmp "$work/c.$ending" "$work/cpp.$ending" || fail "film.c and film.cpp write other animations"
+  done
   compilers=$((compilers + 1))
 done
 [ $compilers -gt 0 ] || fail "no compiler"
@@ -52,6 +59,8 @@ g++ -std=c++20 "$here/installed/reads_and_writes.cpp" $(pkg-config --cflags --li
 # A program in C is linked by the C compiler.
 gcc -std=c99 "$here/installed/plain_c.c" $(pkg-config --cflags --libs $flags ringlet-core) -lm -o "$work/c_by_pkg_config"
 (cd "$work" && LD_LIBRARY_PATH=$prefix/lib ./c_by_pkg_config) || fail "what pkg-config says to a C compiler"
+gcc -std=c99 "$here/installed/film.c" $(pkg-config --cflags --libs $flags ringlet-io) -lm -o "$work/film_by_pkg_config"
+(cd "$work" && LD_LIBRARY_PATH=$prefix/lib ./film_by_pkg_config curl.hair by_pkg_config.usda) || fail "what pkg-config says to a C compiler of ringlet-io"
 
 # Of a tree of which a part was built that part is installed, and a line names what is not. The rules are the build's own,
 # with what each case lacks at a place where it is not.

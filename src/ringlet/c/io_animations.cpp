@@ -22,7 +22,7 @@ Outcome take(const char* name, double number, double standard, const NumberRange
   return Outcome::invalid(fmt::format("{} is {}; it takes {} to {}", name, number, range.low, range.high));
 }
 
-Outcome optionsOf(const ringlet_animation_options& from, const AnimationFormat& format, double groomUnit,
+Outcome optionsOf(const ringlet_animation_options& from, const AnimationFormat* format, double groomUnit,
                   AnimationOptions& options) {
   double width = 0, tipWidth = 0;
   if (Outcome o =
@@ -37,7 +37,7 @@ Outcome optionsOf(const ringlet_animation_options& from, const AnimationFormat& 
   if (from.frame_count > kMostFrames)
     return Outcome::invalid(
         fmt::format("frame_count is {}; it takes at most {}", from.frame_count, kMostFrames));
-  if (from.tip_width != 0 && !format.isUsd)
+  if (from.tip_width != 0 && format && !format->isUsd)
     return Outcome::invalid(
         fmt::format("tip_width is of {}", animationEndings(&AnimationFormat::isUsd, "and")));
   options.up = from.up_is_z ? UpAxis::z : UpAxis::y;
@@ -81,20 +81,14 @@ ringlet_result ringlet_animation_create(const char* path, const ringlet_groom* g
                             given("animation", animation)});
         !wrong.isFine())
       return wrong;
-    const AnimationFormat* format = animationFormatOf(path);
-    if (!format) {
-      std::string known;
-      for (const AnimationFormat& each : animationFormats())
-        known += (known.empty() ? "" : ", ") + std::string(each.extension);
-      return Outcome::invalid(fmt::format("{}: an animation ends in one of {}", path, known));
-    }
     Groom topology;
     if (Outcome wrong = takeGroom(taken(groom), topology); !wrong.isFine()) return wrong;
     if (Outcome wrong = checkStrands(topology); !wrong.isFine()) return wrong;
     AnimationOptions chosen;
-    if (Outcome wrong = optionsOf(taken(options), *format, topology.metresPerUnit, chosen); !wrong.isFine())
+    if (Outcome wrong = optionsOf(taken(options), animationFormatOf(path), topology.metresPerUnit, chosen);
+        !wrong.isFine())
       return wrong;
-    auto writer = format->resume(path, topology, chosen, 0);
+    auto writer = createAnimation(path, topology, chosen);
     if (!writer) return writer.error();
     *animation = new ringlet_animation{path, std::move(*writer), topology.points.size(),
                                        static_cast<std::uint32_t>(chosen.frameCount), chosen.metresPerUnit};
