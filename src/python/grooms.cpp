@@ -59,9 +59,11 @@ GroomHandle makeGroom(const py::object& points, const py::object& firstPoint, co
   return handleOf(std::move(groom));
 }
 
-GroomHandle readGroomFile(const std::filesystem::path& path, double metresPerUnit) {
-  LoadedGroom loaded = withoutGil([&] { return valueOf(readGroom(path)); });
-  loaded.groom.metresPerUnit = metresPerUnit;
+GroomHandle readGroomFile(const std::filesystem::path& path, const std::optional<double>& metresPerUnit,
+                          const std::string& up) {
+  if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
+  LoadedGroom loaded = withoutGil([&] { return valueOf(readGroom(path, {.upIsZ = up == "Z"})); });
+  if (metresPerUnit) loaded.groom.metresPerUnit = *metresPerUnit;
   return std::make_shared<GroomObject>(std::move(loaded));
 }
 
@@ -280,11 +282,16 @@ GroomObject::GroomObject(LoadedGroom loaded) : loaded_(std::move(loaded)) {
 
 void addGrooms(py::module_& module) {
   addGroomClass(module);
-  module.def(
-      "read_groom", &readGroomFile, py::arg("path"), py::arg("metres_per_unit") = 0.01,
-      "Reads a groom from a .hair, .obj or .tfx file. No format states its unit: metres_per_unit does. "
-      "What was odd about the file is in the groom's warnings. ringlet.Error for a file that is missing "
-      "or broken.");
+  module.def("read_groom", &readGroomFile, py::arg("path"), py::arg("metres_per_unit") = py::none(),
+             py::kw_only(), py::arg("up") = "Y",
+             "Reads a groom from a .hair, .obj, .tfx, .ply, .data, .bin, .usda, .usdc, .usd or .usdz file. "
+             "metres_per_unit: of its points; None: the file's, where it states one, as USD does, else 0.01. "
+             "up: \"Y\" "
+             "or \"Z\", the axis that shall point up: a USD file that states the other is turned, and points "
+             "of other "
+             "files are as they are. What was odd about the file is in the groom's warnings. ringlet.Error "
+             "for a file "
+             "that is missing or broken.");
 
   const CurlParameters c;
   const Variation v;

@@ -426,6 +426,19 @@ void addDevice(py::module_& module) {
           "What it is, in a line.");
 }
 
+std::string assetRepr(const AssetObject& a) {
+  const std::pair<bool, const char*> options[] = {{a.choice.hasBodies, "bodies"},
+                                                  {a.choice.movesRoots, "moving_roots"},
+                                                  {a.choice.hasForces, "forces"},
+                                                  {a.choice.hasGoals, "goals"},
+                                                  {a.choice.hasFields, "fields"}};
+  std::string built;
+  for (const auto& [is, name] : options)
+    if (is) built += (built.empty() ? ", built for " : ", ") + std::string(name);
+  return fmt::format("<ringlet.Asset: {} strands, {} particles on {}{}>", a.asset.strandCount(),
+                     a.asset.particleCount(), a.device->device.name(), built);
+}
+
 void addAsset(py::module_& module) {
   py::class_<AssetObject, AssetHandle>(
       module, "Asset",
@@ -471,7 +484,8 @@ void addAsset(py::module_& module) {
       .def_property_readonly(
           "rigid_strand_count", [](const AssetObject& a) { return a.asset.rigidStrandCount(); },
           "Strands that are carried rigidly, since they cannot be simulated.")
-      .def_readonly("warnings", &AssetObject::warnings, "What one should know of it: a list of sentences.");
+      .def_readonly("warnings", &AssetObject::warnings, "What one should know of it: a list of sentences.")
+      .def("__repr__", &assetRepr, "What it is, in a line.");
 }
 
 void addHairClass(py::module_& module) {
@@ -693,7 +707,15 @@ void addHairClass(py::module_& module) {
           [](HairObject& self) { return self.ask([](Simulation& s) { return s.compileMilliseconds(); }); },
           "What it took to make the kernels [ms].")
       .def_property_readonly(
-          "asset", [](const HairObject& self) { return self.asset(); }, "The Asset.");
+          "asset", [](const HairObject& self) { return self.asset(); }, "The Asset.")
+      .def(
+          "__repr__",
+          [](const HairObject& self) {
+            const AssetObject& asset = *self.asset();
+            return fmt::format("<ringlet.Hair: {} strands, {} particles on {}>", asset.asset.strandCount(),
+                               asset.asset.particleCount(), asset.device->device.name());
+          },
+          "What it is, in a line.");
 }
 
 // Each is (hair, head), (hair, head, body_poses) or (hair, head, body_poses, root_poses).

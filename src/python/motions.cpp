@@ -242,7 +242,15 @@ void addMotion(py::module_& module) {
           },
           "When its last key is reached [s]; None for a built-in motion.")
       .def_readonly("warnings", &MotionObject::warnings,
-                    "What was taken for granted of its file: a list of sentences.");
+                    "What was taken for granted of its file: a list of sentences.")
+      .def(
+          "__repr__",
+          [](const MotionObject& self) {
+            const auto& keys = self.motion.keyframes;
+            return fmt::format("<ringlet.Motion: {}{}>", motionName(self.motion.kind),
+                               keys ? fmt::format(", {} s", keys->seconds()) : "");
+          },
+          "What it is, in a line.");
 }
 
 }  // namespace
