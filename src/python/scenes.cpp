@@ -68,7 +68,7 @@ SceneObject builtin(const std::string& name, const SceneOptions& options) {
 }
 
 // As hair takes it.
-HairObject::Frame frameOf(const LoadedScene& scene, int frame) {
+HairObject::Frame hairFrameOf(const LoadedScene& scene, int frame) {
   SceneFrame poses = ringlet::frameOf(scene, frame);
   return {std::move(poses.heads), std::move(poses.bodies), std::move(poses.roots)};
 }
@@ -90,7 +90,7 @@ void prepare(const LoadedScene& scene, HairObject& hair, int frame) {
 
 void stepFrame(const SceneObject& self, HairObject& hair, int frame) {
   demandFrame(frame);
-  const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+  const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
   hair.demandNoneInFlight("Scene.step");
   if (hair.asset()->groom != self.groom)
     throw py::value_error("hair is of another scene; expected what start() of this one gave");
@@ -117,7 +117,7 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
   HairHandle hair = makeHair(asset, start.state(scene));
   for (int frame = -preRollFrames(scene); frame < 0; ++frame) {
     prepare(scene, *hair, frame);
-    hair->step(frameOf(scene, frame));
+    hair->step(hairFrameOf(scene, frame));
   }
   return hair;
 }
@@ -160,7 +160,7 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
   std::optional<HeadPose> underWay;
   bool goesOn = true;
   for (int frame = 0; frame < count && goesOn; ++frame) {
-    const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+    const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
     if ((self.loaded.keys || !self.loaded.cuts.empty()) && underWay) {
       goesOn = show(self, *hair, frame, *std::exchange(underWay, std::nullopt), callback);
       if (!goesOn) return hair;
@@ -180,7 +180,7 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
 
 py::tuple posesOf(const SceneObject& self, int frame) {
   demandFrame(frame);
-  const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+  const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
   const auto& heads = std::get<std::vector<HeadPose>>(poses.head);
   const auto given = [&](const std::vector<BodyPose>& each) {
     return each.empty() ? py::object(py::none()) : arrayOf(each, heads.size());
