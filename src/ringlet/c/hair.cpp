@@ -156,7 +156,6 @@ Outcome checkStrands(const Groom& groom) {
 
 Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settings& settings,
                    const Material& material, const ringlet_asset_options& options, ringlet_asset** asset) {
-  if (Outcome outcome = device.checkProcess(); !outcome.isFine()) return outcome;
   KernelChoice kernel;
   kernel.movingRoots = options.moving_roots != 0;
   kernel.forces = options.has_forces != 0;
@@ -175,7 +174,6 @@ Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settin
 }
 
 Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ringlet_hair** hair) {
-  if (Outcome outcome = asset.device.checkProcess(); !outcome.isFine()) return outcome;
   auto made = Simulation::create(asset.asset, initial);
   if (!made) return made.error();
   std::vector<DevicePositions> positions = made->devicePositions();

@@ -55,6 +55,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   const HairAsset::Implementation& constant = *asset.self_;
   const Settings& settings = constant.settings;
   const RestState& rest = constant.rest;
+  if (Status status = constant.device.checkProcess(); !status) return status.error();
   gpu::Device& device = constant.device.gpu();
   if (!initial.bodies.empty() && constant.bodies == BodyUse::none) return Error{kBuiltWithoutBodies};
   const DeviceLimits& limits = constant.limits;
