@@ -25,6 +25,7 @@ extras=(
   gnuplot-nox                                                        # plots
   libopenmpi-dev openmpi-bin libmetis-dev                            # runs on several ranks, and their parts of the hair
   ffmpeg                                                             # films of `ringlet render`
+  doxygen                                                            # the API reference
 )
 
 if [ "${1:-}" = demo ]; then
@@ -56,4 +57,4 @@ echo "ringlet: installing ${needed[*]} ${wanted[*]}"
 "${sudo[@]}" apt-get update -qq || [ ${#needed[@]} -eq 0 ]
 [ ${#needed[@]} -eq 0 ] || install "${needed[@]}"
 [ ${#wanted[@]} -eq 0 ] || install "${wanted[@]}" ||
-  echo "ringlet: could not install ${wanted[*]}; \`ringlet view\`, plots and films do without" >&2
+  echo "ringlet: could not install ${wanted[*]}; \`ringlet view\`, plots, films and the API reference do without" >&2

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "ringlet/base/whole_file.h"
+
 namespace ringlet::program {
 namespace {
 
@@ -50,6 +52,7 @@ Status checkFilms() {
 
 Result<Film> Film::start(const std::filesystem::path& path, int width, int height, double framesPerSecond) {
   if (Status can = checkFilms(); !can) return can.error();
+  if (Status can = checkReplaceable(path); !can) return can.error();
   const std::filesystem::path partial = path.string() + ".partial";
   std::error_code ignored;
   std::filesystem::remove(partial, ignored);  // ffmpeg would write through a symbolic link of that name

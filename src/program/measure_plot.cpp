@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "program/program_input.h"
+#include "ringlet/base/whole_file.h"
 
 namespace ringlet::program {
 namespace {
@@ -91,6 +92,7 @@ bool canPlotInto(const std::filesystem::path& path) {
 }
 
 Status drawPlot(const std::filesystem::path& path, std::span<const MotionSeries> runs) {
+  if (Status can = checkReplaceable(path); !can) return can;
   const std::filesystem::path unfinished = path.string() + ".partial";
   const std::string script = scriptOf(unfinished, path.extension().string(), runs);
   auto gnuplot = ProgramInput::start({"gnuplot", "plots are drawn", "gnuplot-nox"}, {"-"});

@@ -25,16 +25,14 @@ namespace {
 // A writer takes as many frames as it was told, all finite, until it is finished; this sees to it.
 class WriterObject {
  public:
+  ~WriterObject() {
+    if (writer_) warnDropped();
+  }
   WriterObject(std::filesystem::path path, GroomHandle groom, const AnimationOptions& options)
       : path_(std::move(path)), groom_(std::move(groom)), options_(options) {
-    const AnimationFormat* format = animationFormatOf(path_);
-    if (!format) {
-      std::string known;
-      for (const AnimationFormat& each : animationFormats())
-        known += (known.empty() ? "" : ", ") + std::string(each.extension);
-      throw py::value_error(fmt::format("an animation ends in one of {}; got {}", known, path_.string()));
-    }
-    writer_ = withoutGil([&] { return valueOf(format->resume(path_, groom_->groom(), options_, 0)); });
+    auto made = withoutGil([&] { return createAnimation(path_, groom_->groom(), options_); });
+    if (!made && !animationFormatOf(path_)) throw py::value_error(made.error().message);
+    writer_ = valueOf(std::move(made));
   }
 
   void add(std::span<const Vec3f> points, const UsdTransform& head = {}) {
@@ -68,8 +66,8 @@ class WriterObject {
       writer_.reset();
     });
   }
-  // What there is stays as PATH.partial.
-  void drop() {
+  // What there is stays as PATH.partial; nothing where it is closed.
+  void close() {
     const std::scoped_lock lock(mutex_);
     writer_.reset();
   }
@@ -88,6 +86,14 @@ class WriterObject {
   }
 
  private:
+  // As Python's files do.
+  void warnDropped() const {
+    const py::error_scope kept;  // an exception that is under way
+    const std::string message =
+        fmt::format("{} was dropped without finish() or close(); what was written is {}.partial",
+                    path_.string(), path_.string());
+    if (PyErr_WarnEx(PyExc_ResourceWarning, message.c_str(), 1) != 0) PyErr_WriteUnraisable(Py_None);
+  }
   void demandOpen() const {
     if (!writer_) throw Failure({fmt::format("{} is closed", path_.string()), Fault::output});
   }
@@ -236,6 +242,17 @@ void addWriter(py::module_& module) {
           "The endings of names that files may have: a list.")
       .def("sync", &WriterObject::sync, "Returns when all frames so far are on the disk.")
       .def("finish", &WriterObject::finish, "Closes the file, of one frame at least, and gives it its name.")
+      .def("close", &WriterObject::close,
+           "Closes the file without its name: the frames so far stay as PATH.partial. Nothing where it is "
+           "closed "
+           "or finished. A writer that is dropped open does so with a ResourceWarning.")
+      .def(
+          "__repr__",
+          [](const WriterObject& self) {
+            return fmt::format("<ringlet.AnimationWriter {}: {} frames, {}>", self.path().string(),
+                               self.frameCount(), self.isOpen() ? "open" : "closed");
+          },
+          "What it is, in a line.")
       .def_property_readonly("frame_count", &WriterObject::frameCount, "How many frames were added.")
       .def_property_readonly(
           "error_bound", &WriterObject::errorBound,
@@ -247,7 +264,7 @@ void addWriter(py::module_& module) {
           [](WriterObject& self, const py::object& type, const py::object&, const py::object&) {
             if (!self.isOpen()) return;
             if (type.is_none() && self.frameCount() > 0) return self.finish();
-            self.drop();
+            self.close();
             if (type.is_none())
               throw Failure({fmt::format("no frame was written to {}", self.path().string()), Fault::output});
           },

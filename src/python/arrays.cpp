@@ -19,9 +19,63 @@ std::string shapeText(const py::array& array) {
   return fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
 }
 
-std::string expectedPoints(const char* name, std::optional<std::size_t> count) {
-  return fmt::format("{} must be an array of float32 with shape ({}, 3)", name,
+std::string expectedPoints(const char* name, const char* type, std::optional<std::size_t> count) {
+  return fmt::format("{} must be an array of {} with shape ({}, 3)", name, type,
                      count ? std::to_string(*count) : "particles");
+}
+constexpr const char* kTaken = "real numbers, best float32";
+constexpr const char* kFilled = "float32";
+
+// What NumPy casts to a float without losing what is meant: neither complex nor text nor truth.
+bool hasRealType(const py::array& array) {
+  const char kind = array.dtype().kind();
+  return kind == 'f' || kind == 'i' || kind == 'u';
+}
+
+bool isMasked(const py::handle& value) {
+  if (PyFloat_CheckExact(value.ptr()) || PyLong_CheckExact(value.ptr())) return false;
+  const py::module_ ma = py::module_::import("numpy").attr("ma");
+  return py::isinstance(value, ma.attr("MaskedArray")) && ma.attr("is_masked")(value).cast<bool>();
+}
+
+// The data under a mask is what one has said not to use.
+void demandUnmasked(const py::handle& value, const std::string& name) {
+  if (isMasked(value))
+    throw py::value_error(fmt::format("{} has masked elements; fill them first, as filled() does", name));
+}
+
+// As an array, whatever is in it; throws TypeError with this sentence where it is none.
+template <class Refused>
+py::array arrayIn(const py::object& value, const char* name, const Refused& refused) {
+  demandUnmasked(value, name);
+  const auto array = py::array::ensure(value);
+  if (array) return array;
+  PyErr_Clear();
+  throw py::type_error(refused());
+}
+
+// Of a wider type only: a finite number that float32 does not hold would become infinite.
+void demandFits(const py::array& array, const char* name) {
+  if (array.dtype().kind() != 'f' || array.dtype().itemsize() <= 4) return;
+  const auto wide = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+  for (py::ssize_t i = 0; i < wide.size(); ++i) {
+    const double number = wide.data()[i];
+    if (std::isfinite(number) && !std::isfinite(static_cast<float>(number)))
+      throw py::value_error(fmt::format(
+          "{}: particle {} has {}, which is finite and which float32 does not hold", name, i / 3, number));
+  }
+}
+
+// A number that is no more than that.
+bool isReal(const py::handle& value) {
+  if (PyFloat_Check(value.ptr()) || PyLong_CheckExact(value.ptr())) return true;
+  if (PyBool_Check(value.ptr()) || PyComplex_Check(value.ptr()) || py::isinstance<py::str>(value))
+    return false;
+  if (py::hasattr(value, "dtype")) {
+    const auto array = py::array::ensure(value);
+    return array && hasRealType(array) && !isMasked(value);
+  }
+  return PyNumber_Check(value.ptr()) == 1;
 }
 
 bool hasPointsShape(const py::array& array, std::optional<std::size_t> count) {
@@ -56,12 +110,14 @@ std::string describe(const py::handle& value) {
 }
 
 PointsIn::PointsIn(const py::object& value, const char* name, std::optional<std::size_t> count) {
-  const auto refused = [&] { return expectedPoints(name, count) + ", got " + describe(value); };
+  const auto refused = [&] { return expectedPoints(name, kTaken, count) + ", got " + describe(value); };
   if (!py::isinstance<py::array>(value)) throw py::type_error(refused());
   const auto array = py::reinterpret_borrow<py::array>(value);
-  if (!array.dtype().equal(py::dtype::of<float>())) throw py::type_error(refused());
+  if (!hasRealType(array)) throw py::type_error(refused());
   if (!hasPointsShape(array, count)) throw py::value_error(refused());
-  array_ = py::array_t<float, py::array::c_style>(array);
+  demandUnmasked(value, name);
+  demandFits(array, name);
+  array_ = py::array_t<float, py::array::c_style | py::array::forcecast>(array);
   // Three floats in a row are a Vec3f, byte by byte.
   points_ = {reinterpret_cast<const Vec3f*>(array_.data()), static_cast<std::size_t>(array.shape(0))};
 }
@@ -88,11 +144,12 @@ py::array_t<double> arrayOf(const std::vector<double>& values) {
 
 void demandOut(const py::object& out, std::size_t count) {
   if (out.is_none()) return;
-  const std::string expected = expectedPoints("out", count);
+  const std::string expected = expectedPoints("out", kFilled, count);
   if (!py::isinstance<py::array>(out)) throw py::type_error(expected + ", got " + describe(out));
   const auto array = py::reinterpret_borrow<py::array>(out);
   if (!array.dtype().equal(py::dtype::of<float>())) throw py::type_error(expected + ", got " + describe(out));
   if (!hasPointsShape(array, count)) throw py::value_error(expected + ", got " + describe(out));
+  demandUnmasked(out, "out");
   if (!array.writeable() || !(array.flags() & py::array::c_style))
     throw py::value_error("out must be writable, its rows one after the other in memory (C order)");
 }
@@ -123,11 +180,7 @@ std::vector<std::uint32_t> wholeNumbersOf(const py::object& value, const char* n
     return fmt::format("{} must be whole numbers from 0 to 4294967295 in one dimension, got {}", name,
                        describe(value));
   };
-  const auto array = py::array::ensure(value);
-  if (!array) {
-    PyErr_Clear();
-    throw py::type_error(refused());
-  }
+  const py::array array = arrayIn(value, name, refused);
   const char kind = array.dtype().kind();
   if (kind != 'i' && kind != 'u' && array.size() > 0) throw py::type_error(refused());
   if (array.ndim() != 1) throw py::value_error(refused());
@@ -147,13 +200,8 @@ Rows rowsOf(const py::object& value, const char* name, std::size_t width, std::s
     return fmt::format("{} must be numbers, {}{} a row, got {}", name, width,
                        otherWidth > 0 ? fmt::format(" or {}", otherWidth) : "", describe(value));
   };
-  const auto array = py::array::ensure(value);
-  if (!array) {
-    PyErr_Clear();
-    throw py::type_error(refused());
-  }
-  const char kind = array.dtype().kind();
-  if (kind != 'i' && kind != 'u' && kind != 'f') throw py::type_error(refused());
+  const py::array array = arrayIn(value, name, refused);
+  if (!hasRealType(array)) throw py::type_error(refused());
   const auto last = array.ndim() > 0 ? static_cast<std::size_t>(array.shape(array.ndim() - 1)) : 0;
   if (last == 0 || (last != width && last != otherWidth)) throw py::value_error(refused());
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
@@ -166,8 +214,22 @@ Rows rowsOf(const py::object& value, const char* name, std::size_t width, std::s
   return rows;
 }
 
+std::vector<double> numbersOf(const py::object& value, const char* name, std::size_t count) {
+  const auto refused = [&] {
+    return fmt::format("{} must be a number, or one for each of {} particles, got {}", name, count,
+                       describe(value));
+  };
+  const py::array array = arrayIn(value, name, refused);
+  if (!hasRealType(array)) throw py::type_error(refused());
+  const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>(array);
+  if (array.ndim() == 0) return std::vector<double>(count, *numbers.data());
+  if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != count)
+    throw py::value_error(refused());
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
 double numberOf(const py::handle& value, const std::string& name) {
-  if (!PyBool_Check(value.ptr()) && PyNumber_Check(value.ptr()) && !py::isinstance<py::str>(value)) {
+  if (isReal(value)) {
     const double number = PyFloat_AsDouble(value.ptr());
     if (!(number == -1 && PyErr_Occurred())) return number;
     PyErr_Clear();
@@ -199,7 +261,8 @@ Vec3d vectorOf(const py::handle& value, const std::string& name) {
   double numbers[3];
   for (std::size_t i = 0; i < 3; ++i) {
     numbers[i] = numberOf(py::object(sequence[i]), name);
-    if (!std::isfinite(numbers[i])) throw py::value_error(fmt::format("{} must be finite", refused()));
+    if (!std::isfinite(numbers[i]))
+      throw py::value_error(fmt::format("{} takes three finite numbers, got {}", name, describe(value)));
   }
   return {numbers[0], numbers[1], numbers[2]};
 }

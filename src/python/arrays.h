@@ -17,12 +17,12 @@
 
 namespace ringlet::python {
 
-/// (particles, 3) float32 as the library reads it: without a copy where rows follow each other in memory.
-/// Keeps the array alive.
+/// (particles, 3) float32 as the library reads it: without a copy where that is the type and rows follow each
+/// other in memory. Other real numbers are converted. Keeps the array alive.
 class PointsIn {
  public:
-  /// `count`: how many it must have; none: any. Throws TypeError for another type, ValueError for another
-  /// shape; `name` is for messages.
+  /// `count`: how many it must have; none: any. Throws TypeError for what is no array of real numbers,
+  /// ValueError for another shape, masked elements and what float32 does not hold; `name` is for messages.
   PointsIn(const py::object& value, const char* name, std::optional<std::size_t> count = {});
 
   std::span<const Vec3f> points() const { return points_; }
@@ -60,6 +60,9 @@ struct Rows {
   std::size_t count(std::size_t width) const { return values.size() / width; }
 };
 Rows rowsOf(const py::object& value, const char* name, std::size_t width, std::size_t otherWidth = 0);
+
+/// One for each of `count` particles, of a number for all or an array.
+std::vector<double> numbersOf(const py::object& value, const char* name, std::size_t count);
 
 /// Of a number or a sequence of three, finite.
 double numberOf(const py::handle& value, const std::string& name);

@@ -36,10 +36,23 @@ inline void demand(const Status& status) {
   if (!status) throw Failure(status.error());
 }
 
+/// Lets other threads of Python run until it ends. A daemon thread that is here when the interpreter ends
+/// stays here: CPython would unwind it through destructors, which ends the process.
+class GilReleased {
+ public:
+  GilReleased() : state_(PyEval_SaveThread()) {}
+  ~GilReleased();
+  GilReleased(const GilReleased&) = delete;
+  GilReleased& operator=(const GilReleased&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
 /// Work of the library's during which other threads of Python run. It touches nothing of Python's.
 template <class Work>
 auto withoutGil(Work&& work) {
-  const py::gil_scoped_release released;
+  const GilReleased released;
   return work();
 }
 

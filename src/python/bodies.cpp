@@ -108,6 +108,21 @@ py::array_t<double> distances(const BodyObject& self, const py::object& points, 
   py::arg("position") = py::make_tuple(0, 0, 0), py::arg("rotation") = py::make_tuple(0, 0, 0, 1), \
   py::arg("motion") = py::none()
 
+std::string reprOf(const BodyObject& self) {
+  const Body& body = self.body;
+  std::string size;
+  if (body.shape == BodyShape::sphere) size = fmt::format(" of radius {} m", body.radius);
+  if (body.shape == BodyShape::capsule)
+    size = fmt::format(" of radius {} m and length {} m", body.radius, body.length);
+  if (body.shape == BodyShape::box)
+    size = fmt::format(" of half extents ({}, {}, {}) m", body.halfExtents.x, body.halfExtents.y,
+                       body.halfExtents.z);
+  const Vec3d& at = body.place.position;
+  return fmt::format("<ringlet.Body{}: a {}{} at ({}, {}, {}){}>", body.name.empty() ? "" : " " + body.name,
+                     formOf(body.shape).name, size, at.x, at.y, at.z,
+                     body.motion ? ", with a motion of its own" : "");
+}
+
 void addBody(py::module_& module) {
   py::class_<BodyObject>(
       module, "Body",
@@ -169,7 +184,8 @@ void addBody(py::module_& module) {
           "shape", [](const BodyObject& self) { return formOf(self.body.shape).name; },
           "\"sphere\", \"capsule\", \"plane\", \"box\" or \"mesh\".")
       .def_readonly("warnings", &BodyObject::warnings,
-                    "What was odd about its mesh, as holes that were closed: a list of sentences.");
+                    "What was odd about its mesh, as holes that were closed: a list of sentences.")
+      .def("__repr__", &reprOf, "What it is, in a line.");
 }
 
 }  // namespace

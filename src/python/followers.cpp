@@ -84,7 +84,14 @@ void addLevel(py::module_& module) {
       .def_property_readonly(
           "guides",
           [](const py::object& self) { return viewOf(self.cast<const LevelObject&>().level.guides, self); },
-          "(strands of groom,) uint32: which strands of `whole` they are, ascending.");
+          "(strands of groom,) uint32: which strands of `whole` they are, ascending.")
+      .def(
+          "__repr__",
+          [](const LevelObject& self) {
+            return fmt::format("<ringlet.LevelOfDetail: {} strands of {}>", self.groom->groom().strandCount(),
+                               self.whole->groom().strandCount());
+          },
+          "What it is, in a line.");
 }
 
 void addFollowersClass(py::module_& module) {
@@ -106,7 +113,13 @@ void addFollowersClass(py::module_& module) {
           [](const py::object& self) {
             return viewOf(self.cast<const FollowersObject&>().firstPoint(), self);
           },
-          "(strands + 1,) uint32: where each strand's points begin.");
+          "(strands + 1,) uint32: where each strand's points begin.")
+      .def(
+          "__repr__",
+          [](const FollowersObject& self) {
+            return fmt::format("<ringlet.Followers: {} strands>", self.firstPoint().size() - 1);
+          },
+          "What it is, in a line.");
 }
 
 }  // namespace

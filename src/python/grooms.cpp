@@ -26,7 +26,8 @@ namespace {
 GroomHandle handleOf(Groom groom) { return std::make_shared<GroomObject>(LoadedGroom{std::move(groom), {}}); }
 
 // Strands by where each begins, or by how many particles each has.
-std::vector<std::uint32_t> firstPointsOf(const py::object& firstPoint, const py::object& counts) {
+std::vector<std::uint32_t> firstPointsOf(const py::object& firstPoint, const py::object& counts,
+                                         std::size_t particleCount) {
   if (firstPoint.is_none() == counts.is_none())
     throw py::type_error(
         "a groom takes first_point (strands + 1 indices) or counts (particles of each strand)");
@@ -34,11 +35,17 @@ std::vector<std::uint32_t> firstPointsOf(const py::object& firstPoint, const py:
   std::vector<std::uint32_t> first{0};
   std::uint64_t sum = 0;
   for (const std::uint32_t count : wholeNumbersOf(counts, "counts")) {
+    if (count < 2)
+      throw py::value_error(fmt::format("a strand has at least 2 particles; strand {} of counts has {}",
+                                        first.size() - 1, count));
     sum += count;
     if (sum > std::numeric_limits<std::uint32_t>::max())
       throw py::value_error("counts: there are more particles than 32 bits count");
     first.push_back(static_cast<std::uint32_t>(sum));
   }
+  if (sum != particleCount)
+    throw py::value_error(
+        fmt::format("counts must add up to {}, the number of points; they add up to {}", particleCount, sum));
   return first;
 }
 
@@ -47,14 +54,16 @@ GroomHandle makeGroom(const py::object& points, const py::object& firstPoint, co
   const PointsIn in(points, "points");
   Groom groom;
   groom.points.assign(in.points().begin(), in.points().end());
-  groom.firstPoint = firstPointsOf(firstPoint, counts);
+  groom.firstPoint = firstPointsOf(firstPoint, counts, groom.points.size());
   groom.metresPerUnit = metresPerUnit;
   return handleOf(std::move(groom));
 }
 
-GroomHandle readGroomFile(const std::filesystem::path& path, double metresPerUnit) {
-  LoadedGroom loaded = withoutGil([&] { return valueOf(readGroom(path)); });
-  loaded.groom.metresPerUnit = metresPerUnit;
+GroomHandle readGroomFile(const std::filesystem::path& path, const std::optional<double>& metresPerUnit,
+                          const std::string& up) {
+  if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
+  LoadedGroom loaded = withoutGil([&] { return valueOf(readGroom(path, {.upIsZ = up == "Z"})); });
+  if (metresPerUnit) loaded.groom.metresPerUnit = *metresPerUnit;
   return std::make_shared<GroomObject>(std::move(loaded));
 }
 
@@ -273,11 +282,16 @@ GroomObject::GroomObject(LoadedGroom loaded) : loaded_(std::move(loaded)) {
 
 void addGrooms(py::module_& module) {
   addGroomClass(module);
-  module.def(
-      "read_groom", &readGroomFile, py::arg("path"), py::arg("metres_per_unit") = 0.01,
-      "Reads a groom from a .hair, .obj or .tfx file. No format states its unit: metres_per_unit does. "
-      "What was odd about the file is in the groom's warnings. ringlet.Error for a file that is missing "
-      "or broken.");
+  module.def("read_groom", &readGroomFile, py::arg("path"), py::arg("metres_per_unit") = py::none(),
+             py::kw_only(), py::arg("up") = "Y",
+             "Reads a groom from a .hair, .obj, .tfx, .ply, .data, .bin, .usda, .usdc, .usd or .usdz file. "
+             "metres_per_unit: of its points; None: the file's, where it states one, as USD does, else 0.01. "
+             "up: \"Y\" "
+             "or \"Z\", the axis that shall point up: a USD file that states the other is turned, and points "
+             "of other "
+             "files are as they are. What was odd about the file is in the groom's warnings. ringlet.Error "
+             "for a file "
+             "that is missing or broken.");
 
   const CurlParameters c;
   const Variation v;

@@ -15,37 +15,11 @@
 #include "python/arrays.h"
 #include "python/settings.h"
 #include "ringlet/output/positions_hash.h"
+#include "ringlet/scene/outside_numbers.h"
 #include "ringlet/solver/hair_frames.h"
-#include "ringlet/version.h"
 
 namespace ringlet::python {
 namespace {
-
-// Checkpoints: magic 8 | hash of all after it 8 | hash of the asset's facts 8 | bodies 8 | the library's
-// bytes
-constexpr std::string_view kMagic = "RGLPYCP1";
-
-std::string_view textOf(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-template <class T>
-std::string_view bytesOf(const std::vector<T>& list) {
-  return textOf(std::as_bytes(std::span(list)));
-}
-std::string number(std::uint64_t value) {
-  std::string bytes(sizeof value, '\0');
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
-}
-
-std::string fingerprintOf(const AssetObject& asset) {
-  const Groom& groom = asset.groom->groom();
-  return number(
-      fnv1a(fmt::format("{} {} {} {} {} {} {} {} {}\n{}\n{}", RINGLET_VERSION, asset.device->device.name(),
-                        asset.device->device.driver(), asset.hasBodies, asset.movesRoots, groom.metresPerUnit,
-                        fnv1a(bytesOf(groom.points)), fnv1a(bytesOf(groom.firstPoint)), groom.strandCount(),
-                        python::textOf(asset.material), python::textOf(asset.settings))));
-}
 
 KernelChoice kernelOf(const AssetChoice& choice) {
   KernelChoice kernel;
@@ -67,24 +41,31 @@ KernelChoice kernelOf(const AssetChoice& choice) {
   return kernel;
 }
 
-constexpr double kMostGoalDamping = 1000, kMostGoalStrength = 1e7;
-
 // A number for all particles, or one for each.
 std::vector<float> strengthsIn(const py::object& value, std::size_t count) {
   std::vector<float> strengths;
-  if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) {
-    strengths.assign(count, value.cast<float>());
-  } else {
-    const auto array = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(value);
-    if (!array) throw py::type_error("strengths is a number or an array of numbers");
-    if (array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != count)
-      throw py::value_error(fmt::format("strengths has one number for each of {} particles", count));
-    strengths.assign(array.data(), array.data() + count);
+  for (const double strength : numbersOf(value, "strengths", count)) {
+    if (!kGoalStrength.contains(strength))
+      throw py::value_error(fmt::format("strengths are from {} to {}, got {}", kGoalStrength.low,
+                                        kGoalStrength.high, strength));
+    strengths.push_back(static_cast<float>(strength));
   }
-  for (const float strength : strengths)
-    if (!(strength >= 0 && strength <= kMostGoalStrength))
-      throw py::value_error(fmt::format("strengths are from 0 to {}, got {}", kMostGoalStrength, strength));
   return strengths;
+}
+
+// ValueError for the first that is out of its range, or no number.
+void demandEach(std::span<const Vec3f> vectors, const char* name, const NumberRange& range,
+                const char* unit) {
+  demandFinite(vectors, name);
+  if (const Status status = checkEach(vectors, name, range, unit); !status)
+    throw py::value_error(status.error().message);
+}
+
+// `option` is the argument of Asset.
+void demandBuiltFor(bool isBuiltForIt, const char* what, const char* option) {
+  if (!isBuiltForIt)
+    throw Failure({fmt::format("the hair's asset was built without {}: make it with Asset(..., {}=True)",
+                               what, option)});
 }
 
 Error refused(std::string message) { return Error{std::move(message)}; }
@@ -106,9 +87,18 @@ AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObj
                                                    .material = made,
                                                    .settings = settings,
                                                    .asset = std::move(built),
-                                                   .hasBodies = choice.hasBodies,
-                                                   .movesRoots = choice.movesRoots,
+                                                   .choice = choice,
                                                    .warnings = std::move(warnings)});
+}
+
+// Asked before the lock: another thread of the parent's may have had it when the process forked.
+void HairObject::demandProcess() const { demand(asset_->device->device.checkProcess()); }
+
+std::unique_lock<std::mutex> HairObject::lockThere() {
+  demandProcess();
+  std::unique_lock lock(mutex_);
+  demandThere();
+  return lock;
 }
 
 void HairObject::demandThere() const {
@@ -138,7 +128,7 @@ HairObject::Poses HairObject::posesOf(const Frame& frame) const {
         fmt::format("body_poses must have a pose for each of {} steps and {} bodies, got {}", steps,
                     bodyCount_, frame.bodies.size()));
   if (frame.roots.empty()) return poses;
-  if (!asset_->movesRoots)
+  if (!asset_->choice.movesRoots)
     throw py::value_error("root_poses are for hair whose asset was built with moving_roots=True");
   if (frame.roots.size() != steps * asset_->asset.strandCount())
     throw py::value_error(
@@ -149,8 +139,7 @@ HairObject::Poses HairObject::posesOf(const Frame& frame) const {
 
 void HairObject::step(const Frame& frame) {
   withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     demandNoneInFlight("step");
     const Poses poses = posesOf(frame);
     losing(simulation_.stepFrame(poses.heads, poses.bodies, poses.roots));
@@ -160,8 +149,7 @@ void HairObject::step(const Frame& frame) {
 
 void HairObject::submit(const Frame& frame) {
   withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     if (inFlight_ == Simulation::kFramesInFlight)
       throw Failure(
           refused(fmt::format("at most {} frames are under way: call wait() before the next submit()",
@@ -174,8 +162,7 @@ void HairObject::submit(const Frame& frame) {
 
 void HairObject::wait() {
   withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     if (inFlight_ == 0) throw Failure(refused("there is no frame to wait for: submit() one first"));
     losing(simulation_.waitFrame());
     --inFlight_;
@@ -185,8 +172,7 @@ void HairObject::wait() {
 
 std::vector<Vec3f> HairObject::positions() {
   return withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     if (inFlight_ == 0) return valueOf(simulation_.positions());
     if (!isWaitedFor_ || inFlight_ == Simulation::kFramesInFlight)
       throw Failure(refused("no frame was waited for whose positions are still there: call wait() first"));
@@ -196,8 +182,7 @@ std::vector<Vec3f> HairObject::positions() {
 
 std::vector<Vec3f> HairObject::points() {
   return withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     demandNoneInFlight("points");
     std::vector<Vec3f> points = valueOf(simulation_.positions());
     placeInWorld(points, simulation_.head(), asset_->groom->groom().metresPerUnit);
@@ -211,50 +196,23 @@ std::vector<Vec3f> HairObject::velocities() {
 
 void HairObject::setState(HairState state) {
   withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     demandNoneInFlight("set_state");
     losing(simulation_.setState(state));
   });
 }
 
 std::vector<std::byte> HairObject::checkpoint() {
-  if (asset_->fingerprint.empty()) asset_->fingerprint = fingerprintOf(*asset_);
-  return withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
-    const std::vector<std::byte> state = valueOf(simulation_.checkpoint());
-    std::string after = asset_->fingerprint + number(bodyCount_);
-    after += textOf(state);
-    const std::string whole = std::string(kMagic) + number(fnv1a(after)) + after;
-    const auto bytes = std::as_bytes(std::span(whole));
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
-  });
+  return ask([](Simulation& simulation) { return valueOf(simulation.checkpoint()); });
 }
 
 void HairObject::restore(std::span<const std::byte> bytes) {
-  if (asset_->fingerprint.empty()) asset_->fingerprint = fingerprintOf(*asset_);
   withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     demandNoneInFlight("restore");
-    const std::string_view text = textOf(bytes);
-    constexpr std::size_t kHeader = 4 * 8;
-    if (text.size() < kHeader || !text.starts_with(kMagic) ||
-        text.substr(8, 8) != number(fnv1a(text.substr(16))))
-      throw Failure({fmt::format("these {} bytes are no checkpoint, or a damaged one: hand over what "
-                                 "checkpoint() returned, whole",
-                                 text.size()),
-                     Fault::input});
-    if (text.substr(16, 8) != asset_->fingerprint)
-      throw Failure(
-          {"the checkpoint is of other hair: it takes the groom, material, settings, device and "
-           "version of ringlet that it was made with",
-           Fault::input});
-    if (text.substr(24, 8) != number(bodyCount_))
-      throw Failure(
-          {"the checkpoint is of hair with another number of bodies: set_bodies() first", Fault::input});
-    losing(simulation_.restore(bytes.subspan(kHeader)));
+    const Status restored = simulation_.restore(bytes);
+    if (!restored && restored.error().fault == Fault::input) throw Failure(restored.error());
+    losing(restored);
   });
 }
 
@@ -269,8 +227,7 @@ void HairObject::setBodies(std::span<const Body> bodies, std::span<const BodyPos
     throw py::value_error(
         fmt::format("places has {} poses and there are {} bodies", places.size(), bodies.size()));
   withoutGil([&] {
-    const std::scoped_lock lock(mutex_);
-    demandThere();
+    const auto lock = lockThere();
     demand(simulation_.setBodies(bodies, places));
     bodyCount_ = bodies.size();
   });
@@ -285,6 +242,7 @@ void HairObject::stepTogether(std::span<const std::pair<HairObject*, Frame>> fra
   }
   withoutGil([&] {
     std::vector<std::unique_lock<std::mutex>> locks;
+    for (HairObject* hair : hairs) hair->demandProcess();
     for (HairObject* hair : hairs) locks.emplace_back(hair->mutex_);
     std::vector<Poses> poses;
     std::vector<HairFrame> handed;
@@ -328,6 +286,7 @@ HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::o
   if (!head.is_none()) initial.head = poseOf(head, "head");
   if (!oneStepEarlier.is_none()) initial.oneStepEarlier = poseOf(oneStepEarlier, "one_step_earlier");
   initial.bodies = bodies;
+  demandBuiltFor(asset->choice.hasBodies || bodies.empty(), "bodies", "bodies");
   const auto fits = [](const char* name, std::size_t count, std::size_t wanted, const char* what) {
     if (count != 0 && count != wanted)
       throw py::value_error(
@@ -340,7 +299,7 @@ HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::o
   std::vector<BodyPose> earlier = bodyPosesOf(rootsEarlier, "roots_earlier");
   fits("roots", now.size(), strands, "strands");
   fits("roots_earlier", earlier.size(), strands, "strands");
-  if ((!now.empty() || !earlier.empty()) && !asset->movesRoots)
+  if ((!now.empty() || !earlier.empty()) && !asset->choice.movesRoots)
     throw py::value_error("roots are for hair whose asset was built with moving_roots=True");
   if (now.empty() && !earlier.empty()) throw py::value_error("roots_earlier takes roots, where they are now");
   if (earlier.empty()) earlier = now;
@@ -351,6 +310,10 @@ HairHandle newHair(const AssetHandle& asset, const py::object& head, const py::o
     for (std::size_t s = 0; s < rows.count(3); ++s)
       shifts.push_back({rows.values[3 * s], rows.values[3 * s + 1], rows.values[3 * s + 2]});
     fits("root_shifts", shifts.size(), strands, "strands");
+    for (const Vec3d& shift : shifts)
+      if (!contains(kOutsidePlace, shift))
+        throw py::value_error(fmt::format("root_shifts must be from {} to {} m, got ({}, {}, {})",
+                                          kOutsidePlace.low, kOutsidePlace.high, shift.x, shift.y, shift.z));
   }
   initial.rootShifts = shifts;
   return makeHair(asset, initial);
@@ -463,6 +426,19 @@ void addDevice(py::module_& module) {
           "What it is, in a line.");
 }
 
+std::string assetRepr(const AssetObject& a) {
+  const std::pair<bool, const char*> options[] = {{a.choice.hasBodies, "bodies"},
+                                                  {a.choice.movesRoots, "moving_roots"},
+                                                  {a.choice.hasForces, "forces"},
+                                                  {a.choice.hasGoals, "goals"},
+                                                  {a.choice.hasFields, "fields"}};
+  std::string built;
+  for (const auto& [is, name] : options)
+    if (is) built += (built.empty() ? ", built for " : ", ") + std::string(name);
+  return fmt::format("<ringlet.Asset: {} strands, {} particles on {}{}>", a.asset.strandCount(),
+                     a.asset.particleCount(), a.device->device.name(), built);
+}
+
 void addAsset(py::module_& module) {
   py::class_<AssetObject, AssetHandle>(
       module, "Asset",
@@ -508,7 +484,8 @@ void addAsset(py::module_& module) {
       .def_property_readonly(
           "rigid_strand_count", [](const AssetObject& a) { return a.asset.rigidStrandCount(); },
           "Strands that are carried rigidly, since they cannot be simulated.")
-      .def_readonly("warnings", &AssetObject::warnings, "What one should know of it: a list of sentences.");
+      .def_readonly("warnings", &AssetObject::warnings, "What one should know of it: a list of sentences.")
+      .def("__repr__", &assetRepr, "What it is, in a line.");
 }
 
 void addHairClass(py::module_& module) {
@@ -574,8 +551,8 @@ void addHairClass(py::module_& module) {
           [](HairObject& self, const py::object& positions, const py::object& velocities) {
             const std::size_t count = self.asset()->groom->particleCount();
             const PointsIn p(positions, "positions", count), v(velocities, "velocities", count);
-            demandFinite(p.points(), "positions");
-            demandFinite(v.points(), "velocities");
+            demandEach(p.points(), "positions", kOutsidePlace, "m");
+            demandEach(v.points(), "velocities", kOutsideSpeed, "m/s");
             self.setState({{p.points().begin(), p.points().end()}, {v.points().begin(), v.points().end()}});
           },
           py::arg("positions"), py::arg("velocities"),
@@ -611,6 +588,7 @@ void addHairClass(py::module_& module) {
       .def(
           "set_bodies",
           [](HairObject& self, const std::vector<BodyObject>& bodies, const py::object& places) {
+            demandBuiltFor(self.asset()->choice.hasBodies || bodies.empty(), "bodies", "bodies");
             self.setBodies(bodiesOf(bodies), bodyPosesOf(places, "places"));
           },
           py::arg("bodies"), py::arg("places") = py::none(),
@@ -620,7 +598,8 @@ void addHairClass(py::module_& module) {
           "set_forces",
           [](HairObject& self, const py::object& forces) {
             const PointsIn taken(forces, "forces", self.asset()->groom->particleCount());
-            demandFinite(taken.points(), "forces");
+            demandEach(taken.points(), "forces", kOutsideForce, "m/s^2");
+            demandBuiltFor(self.asset()->choice.hasForces, "forces", "forces");
             self.ask([&](Simulation& simulation) { demand(simulation.setForces(taken.points())); });
           },
           py::arg("forces"),
@@ -633,11 +612,12 @@ void addHairClass(py::module_& module) {
           [](HairObject& self, const py::object& places, const py::object& strengths, double damping) {
             const std::size_t count = self.asset()->groom->particleCount();
             const PointsIn taken(places, "places", count);
-            demandFinite(taken.points(), "places");
+            demandEach(taken.points(), "places", kOutsidePlace, "m");
             const std::vector<float> pulls = strengthsIn(strengths, count);
-            if (!(damping >= 0 && damping <= kMostGoalDamping))
-              throw py::value_error(
-                  fmt::format("damping is from 0 to {}, got {}", kMostGoalDamping, damping));
+            if (!kGoalDamping.contains(damping))
+              throw py::value_error(fmt::format("damping is from {} to {}, got {}", kGoalDamping.low,
+                                                kGoalDamping.high, damping));
+            demandBuiltFor(self.asset()->choice.hasGoals || self.asset()->settings.goal.on, "goals", "goals");
             self.ask(
                 [&](Simulation& simulation) { demand(simulation.setGoals(taken.points(), pulls, damping)); });
           },
@@ -654,8 +634,10 @@ void addHairClass(py::module_& module) {
           [](HairObject& self, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts) {
             std::vector<StrandCut> all;
             for (const auto& [strand, keep] : cuts) all.push_back({strand, keep});
-            self.demandNoneInFlight("cut");
-            self.ask([&](Simulation& simulation) { demand(simulation.cut(all)); });
+            self.ask([&](Simulation& simulation) {
+              self.demandNoneInFlight("cut");
+              demand(simulation.cut(all));
+            });
           },
           py::arg("cuts"),
           "Cuts strands from the next frame on: pairs (strand, keep); the particles from keep on fall, with "
@@ -669,6 +651,7 @@ void addHairClass(py::module_& module) {
             if (!from.empty() && from.size() != fields.size())
               throw py::value_error(
                   fmt::format("there are {} fields, and {} that they come from", fields.size(), from.size()));
+            demandBuiltFor(self.asset()->choice.hasFields, "fields", "fields");
             self.ask([&](Simulation& simulation) { demand(simulation.setFields(fields, from)); });
           },
           py::arg("fields"), py::arg("come_from") = py::list(),
@@ -724,7 +707,15 @@ void addHairClass(py::module_& module) {
           [](HairObject& self) { return self.ask([](Simulation& s) { return s.compileMilliseconds(); }); },
           "What it took to make the kernels [ms].")
       .def_property_readonly(
-          "asset", [](const HairObject& self) { return self.asset(); }, "The Asset.");
+          "asset", [](const HairObject& self) { return self.asset(); }, "The Asset.")
+      .def(
+          "__repr__",
+          [](const HairObject& self) {
+            const AssetObject& asset = *self.asset();
+            return fmt::format("<ringlet.Hair: {} strands, {} particles on {}>", asset.asset.strandCount(),
+                               asset.asset.particleCount(), asset.device->device.name());
+          },
+          "What it is, in a line.");
 }
 
 // Each is (hair, head), (hair, head, body_poses) or (hair, head, body_poses, root_poses).

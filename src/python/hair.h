@@ -23,23 +23,23 @@ struct DeviceObject {
 };
 using DeviceHandle = std::shared_ptr<DeviceObject>;
 
+struct AssetChoice {
+  bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false, hasFields = false;
+  int heads = 1;
+  std::string kernel = "auto";  // or lanes, memory, serial
+};
+
 struct AssetObject {
   DeviceHandle device;
   GroomHandle groom;
   Material material;  // its dials worked in
   Settings settings;
   HairAsset asset;
-  bool hasBodies = false, movesRoots = false;
+  AssetChoice choice{};
   std::vector<std::string> warnings{};
-  std::string fingerprint{};  // of all that a checkpoint of its hair depends on
 };
 using AssetHandle = std::shared_ptr<AssetObject>;
 
-struct AssetChoice {
-  bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false, hasFields = false;
-  int heads = 1;
-  std::string kernel = "auto";  // or lanes, memory, serial
-};
 AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
                        Settings settings, const AssetChoice& choice);
 
@@ -73,8 +73,7 @@ class HairObject {
   template <class Look>
   auto ask(Look&& look) {
     return withoutGil([&] {
-      const std::scoped_lock lock(mutex_);
-      demandThere();
+      const auto lock = lockThere();
       return look(simulation_);
     });
   }
@@ -90,7 +89,9 @@ class HairObject {
     std::vector<HeadPose> heads;
     std::span<const BodyPose> bodies, roots;
   };
+  void demandProcess() const;
   void demandThere() const;
+  std::unique_lock<std::mutex> lockThere();
   Poses posesOf(const Frame& frame) const;
   void losing(const Status& status);
 

@@ -216,8 +216,6 @@ Material dialled(const MaterialObject& object, std::vector<std::string>& warning
   return material;
 }
 
-std::string textOf(const Material& material) { return materialText(material); }
-
 void addMaterials(py::module_& module) {
   py::class_<MaterialObject> material(
       module, "Material",

@@ -21,7 +21,4 @@ struct MaterialObject {
 /// What the dials could not do is a sentence for `warnings`. Throws Failure for a material that dials spoil.
 Material dialled(const MaterialObject& object, std::vector<std::string>& warnings);
 
-/// For a fingerprint: all numbers.
-std::string textOf(const Material& material);
-
 }  // namespace ringlet::python

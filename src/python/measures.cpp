@@ -190,7 +190,14 @@ void addMotionMeasure(py::module_& module) {
           "frames.")
       .def_property_readonly(
           "frame_count", [](const MotionMeasureObject& self) { return self.measure.frameCount(); },
-          "How many frames were added.");
+          "How many frames were added.")
+      .def(
+          "__repr__",
+          [](const MotionMeasureObject& self) {
+            return fmt::format("<ringlet.MotionMeasure: {} strands, {} frames>",
+                               self.groom->groom().strandCount(), self.measure.frameCount());
+          },
+          "What it is, in a line.");
 }
 
 struct ContactWatchObject {
@@ -245,7 +252,13 @@ void addContactWatch(py::module_& module) {
           },
           "Over all steps and frames: a dict of crossings, deepest_overlap (beyond rest, a share of two "
           "radii); of the worst frame worst_overlapping (pairs of spheres), worst_raw_recall (share of them "
-          "whose strands may touch), worst_overlap_sum, worst_deepest_overlap.");
+          "whose strands may touch), worst_overlap_sum, worst_deepest_overlap.")
+      .def(
+          "__repr__",
+          [](const ContactWatchObject& self) {
+            return fmt::format("<ringlet.ContactWatch: {} particles>", self.particleCount);
+          },
+          "What it is, in a line.");
 }
 
 struct BodyWatchObject {
@@ -290,7 +303,14 @@ void addBodyWatch(py::module_& module) {
             return numbers;
           },
           "Over all frames: a dict of deepest [m], of which strand, particle and frame (-1: none), and "
-          "inside: particles that began in a body and have not been outside.");
+          "inside: particles that began in a body and have not been outside.")
+      .def(
+          "__repr__",
+          [](const BodyWatchObject& self) {
+            return fmt::format("<ringlet.BodyWatch: {} particles, {} bodies>", self.particleCount,
+                               self.bodies.size());
+          },
+          "What it is, in a line.");
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // The Python module `ringlet`: the library for scripts and notebooks. Its parts are in the other files.
+#include <cxxabi.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "python/binding.h"
 #include "ringlet/base/nearest_name.h"
@@ -75,6 +77,14 @@ void addError(py::module_& module) {
 }
 
 }  // namespace
+
+GilReleased::~GilReleased() {
+  try {
+    PyEval_RestoreThread(state_);
+  } catch (abi::__forced_unwind&) {
+    while (true) pause();
+  }
+}
 
 std::string unknownName(std::string_view what, std::string_view name, const std::vector<std::string>& names) {
   const std::size_t nearest = nearestName(name, names);

@@ -13,6 +13,7 @@
 #include "python/poses.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/scene/motion.h"
+#include "ringlet/scene/outside_numbers.h"
 #include "ringlet/scene/settings_fields.h"
 
 namespace ringlet::python {
@@ -25,6 +26,21 @@ std::optional<Quatd> unit(Quatd q) {
   return Quatd{q.x / length, q.y / length, q.z / length, q.w / length};
 }
 
+// Where float32 still tells places apart for hair that is seen from there.
+void demandNear(Vec3d position, const std::string& name) {
+  if (!contains(kPosePlace, position))
+    throw py::value_error(
+        fmt::format("{} must be finite and at most 1e9 m away along each axis, got ({}, {}, {})", name,
+                    position.x, position.y, position.z));
+}
+
+double shiftIn(double shift) {
+  if (!kOutsidePlace.contains(shift))
+    throw py::value_error(fmt::format("shift must be finite, from {} to {}, got {}", kOutsidePlace.low,
+                                      kOutsidePlace.high, shift));
+  return shift;
+}
+
 // A row of 7 numbers or more.
 template <class Pose>
 Pose poseOfRow(const double* row, const char* name) {
@@ -33,6 +49,7 @@ Pose poseOfRow(const double* row, const char* name) {
     throw py::value_error(fmt::format("{} must have rotations (x, y, z, w) of a length above 0", name));
   Pose pose;
   pose.position = {row[0], row[1], row[2]};
+  demandNear(pose.position, name);
   pose.rotation = *rotation;
   return pose;
 }
@@ -54,14 +71,14 @@ void addPose(py::module_& module) {
       module, "Pose",
       "Where something is and how it is turned: world from groom, x_world = position + rotate("
       "rotation, x_groom). Constant.")
-      .def(py::init([](const py::object& position, const py::object& rotation, double shift) {
-             if (!std::isfinite(shift)) throw py::value_error("shift must be finite");
-             return HeadPose{vectorOf(position, "position"), rotationOf(rotation, "rotation"), shift};
-           }),
-           py::arg("position") = py::make_tuple(0, 0, 0), py::arg("rotation") = py::make_tuple(0, 0, 0, 1),
-           py::arg("shift") = 0.0,
-           "position [m]; rotation: a quaternion x, y, z, w of any length above 0; shift: of a head's roots "
-           "that move beside it, the share of each one's root_shifts (Hair).")
+      .def(
+          py::init([](const py::object& position, const py::object& rotation, double shift) {
+            return HeadPose{vectorOf(position, "position"), rotationOf(rotation, "rotation"), shiftIn(shift)};
+          }),
+          py::arg("position") = py::make_tuple(0, 0, 0), py::arg("rotation") = py::make_tuple(0, 0, 0, 1),
+          py::arg("shift") = 0.0,
+          "position [m]; rotation: a quaternion x, y, z, w of any length above 0; shift: of a head's roots "
+          "that move beside it, the share of each one's root_shifts (Hair).")
       .def_static(
           "turned",
           [](const py::object& rotation, const py::object& position) {
@@ -236,7 +253,15 @@ void addMotion(py::module_& module) {
           },
           "When its last key is reached [s]; None for a built-in motion.")
       .def_readonly("warnings", &MotionObject::warnings,
-                    "What was taken for granted of its file: a list of sentences.");
+                    "What was taken for granted of its file: a list of sentences.")
+      .def(
+          "__repr__",
+          [](const MotionObject& self) {
+            const auto& keys = self.motion.keyframes;
+            return fmt::format("<ringlet.Motion: {}{}>", motionName(self.motion.kind),
+                               keys ? fmt::format(", {} s", keys->seconds()) : "");
+          },
+          "What it is, in a line.");
 }
 
 }  // namespace
@@ -261,12 +286,14 @@ Quatd rotationOf(const py::object& value, const std::string& name) {
 HeadPose poseOf(const py::object& value, const char* name) {
   if (!py::isinstance<HeadPose>(value))
     throw py::type_error(fmt::format("{} must be a ringlet.Pose, got {}", name, describe(value)));
-  return value.cast<const HeadPose&>();
+  const auto& pose = value.cast<const HeadPose&>();
+  demandNear(pose.position, name);
+  return pose;
 }
 
 HeadWay headWayOf(const py::object& value) {
   if (value.is_none()) return {};
-  if (py::isinstance<HeadPose>(value)) return value.cast<const HeadPose&>();
+  if (py::isinstance<HeadPose>(value)) return poseOf(value, "head");
   std::vector<HeadPose> poses;
   if (isListOfPoses(value)) {
     for (const auto& pose : value) poses.push_back(poseOf(py::reinterpret_borrow<py::object>(pose), "head"));
@@ -279,7 +306,7 @@ HeadWay headWayOf(const py::object& value) {
   const std::size_t width = rows.shape[0] > 0 ? rows.values.size() / rows.shape[0] : 7;
   for (std::size_t k = 0; k < rows.shape[0]; ++k) {
     poses.push_back(poseOfRow<HeadPose>(&rows.values[k * width], name));
-    if (width == 8) poses.back().shift = rows.values[k * width + 7];
+    if (width == 8) poses.back().shift = shiftIn(rows.values[k * width + 7]);
   }
   return poses;
 }

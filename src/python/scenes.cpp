@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -17,6 +16,7 @@
 #include "python/hair.h"
 #include "python/materials.h"
 #include "python/poses.h"
+#include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/builtin_scene.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
@@ -36,13 +36,18 @@ SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded) {
   return {std::move(name), std::move(summary), std::move(groom), std::move(loaded)};
 }
 
-SceneObject loadFile(const std::filesystem::path& path) {
-  return withoutGil(
-      [&] { return sceneOf(path.stem().string(), "", valueOf(loadScene(valueOf(readScene(path))))); });
-}
-SceneObject parseText(const std::string& text, const std::filesystem::path& folder) {
+SceneReach reachOf(bool isConfined) { return isConfined ? SceneReach::ownFolder : SceneReach::anywhere; }
+
+SceneObject loadFile(const std::filesystem::path& path, bool isConfined) {
   return withoutGil([&] {
-    return sceneOf("text", "", valueOf(loadScene(valueOf(parseScene(text, "the scene", folder)))));
+    const SceneFile file = valueOf(readScene(path, {}, reachOf(isConfined)));
+    return sceneOf(path.stem().string(), "", valueOf(loadScene(file)));
+  });
+}
+SceneObject parseText(const std::string& text, const std::filesystem::path& folder, bool isConfined) {
+  return withoutGil([&] {
+    const SceneFile file = valueOf(parseScene(text, "the scene", folder, {}, reachOf(isConfined)));
+    return sceneOf("text", "", valueOf(loadScene(file)));
   });
 }
 
@@ -62,70 +67,30 @@ SceneObject builtin(const std::string& name, const SceneOptions& options) {
   });
 }
 
-// Where everything is at the end of every step of a frame, 0 the first. Times are exact quotients, so they do
-// not drift.
-HairObject::Frame frameOf(const LoadedScene& scene, int frame) {
-  const Settings& settings = scene.settings;
-  HairObject::Frame poses;
-  std::vector<HeadPose> heads;
-  std::vector<double> times;
-  for (int step = 1; step <= settings.stepsPerFrame; ++step) {
-    const double steps = static_cast<double>(frame) * settings.stepsPerFrame + step;
-    times.push_back(steps / (settings.framesPerSecond * settings.stepsPerFrame));
-    heads.push_back(scene.motion.poseAt(times.back()));
-    if (!scene.scalp) continue;
-    const std::vector<BodyPose> roots = scene.scalp->rootPosesAt(times.back());
-    poses.roots.insert(poses.roots.end(), roots.begin(), roots.end());
-  }
-  poses.bodies = ringlet::bodyPosesOf(scene.bodies, heads, times);
-  poses.head = std::move(heads);
-  return poses;
+// As hair takes it.
+HairObject::Frame hairFrameOf(const LoadedScene& scene, int frame) {
+  SceneFrame poses = ringlet::frameOf(scene, frame);
+  return {std::move(poses.heads), std::move(poses.bodies), std::move(poses.roots)};
 }
 
 HeadPose headAtEnd(const HairObject::Frame& frame) {
   return std::get<std::vector<HeadPose>>(frame.head).back();
 }
 
-int preRollFrames(const LoadedScene& scene) {
-  return static_cast<int>(std::ceil(scene.preRollSeconds * scene.settings.framesPerSecond - 1e-6));
-}
-
-// The numbers that keys give the frame, none being in flight.
-void takeNumbers(const LoadedScene& scene, HairObject& hair, int frame) {
-  if (!scene.keys) return;
-  const SceneNumbers numbers =
-      valueOf(scene.keys->at((frame + 1) / scene.settings.framesPerSecond, scene.settings.stepsPerFrame));
-  hair.setSettings(numbers.settings);
-  hair.setMaterial(numbers.material);
-}
-
-// What fields and holds do in the frame.
-void takeForces(const LoadedScene& scene, HairObject& hair, int frame) {
-  const FrameForces forces = withoutGil([&] {
-    const double framesPerSecond = scene.settings.framesPerSecond;
-    return valueOf(scene.forces.inFrame(frame / framesPerSecond, (frame + 1) / framesPerSecond, scene.motion,
-                                        scene.settings, scene.keys ? &*scene.keys : nullptr));
-  });
-  hair.ask([&](Simulation& simulation) { demand(forces.set(simulation)); });
-}
-
-// What is cut as the frame begins.
-void makeCuts(const LoadedScene& scene, HairObject& hair, int frame) {
-  const auto cuts =
-      cutsOfFrame(scene.cuts, frame, scene.settings.framesPerSecond, frame == -preRollFrames(scene));
-  for (const TimedCuts& now : cuts)
-    hair.ask([&](Simulation& simulation) { demand(simulation.cut(now.cuts)); });
+constexpr int kMostFrame = 1'000'000;
+void demandFrame(int frame) {
+  if (frame < -kMostFrame || frame > kMostFrame)
+    throw py::value_error(fmt::format("frame is from {} to {}, got {}", -kMostFrame, kMostFrame, frame));
 }
 
 // All that the scene says of a frame but where things are; none is in flight.
 void prepare(const LoadedScene& scene, HairObject& hair, int frame) {
-  makeCuts(scene, hair, frame);
-  takeNumbers(scene, hair, frame);
-  takeForces(scene, hair, frame);
+  hair.ask([&](Simulation& simulation) { demand(prepareFrame(scene, simulation, frame)); });
 }
 
 void stepFrame(const SceneObject& self, HairObject& hair, int frame) {
-  const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+  demandFrame(frame);
+  const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
   hair.demandNoneInFlight("Scene.step");
   if (hair.asset()->groom != self.groom)
     throw py::value_error("hair is of another scene; expected what start() of this one gave");
@@ -139,31 +104,20 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
     device = std::make_shared<DeviceObject>(
         DeviceObject{withoutGil([] { return valueOf(ComputeDevice::open()); })});
   const LoadedScene& scene = self.loaded;
+  const KernelChoice needs = kernelOf(scene);
   const AssetHandle asset =
       buildAsset(std::move(device), self.groom, MaterialObject{scene.material, {}}, scene.settings,
                  {.hasBodies = !scene.bodies.empty(),
-                  .movesRoots = scene.scalp.has_value(),
-                  .hasGoals = scene.forces.haveGoals(),
-                  .hasFields = scene.forces.haveFields(),
+                  .movesRoots = needs.movingRoots,
+                  .hasGoals = needs.goals,
+                  .hasFields = needs.fields,
                   .heads = 1,
                   .kernel = kernel});
-  const double start = -preRollFrames(scene) / scene.settings.framesPerSecond;
-  const double earlier = start - scene.settings.stepSeconds();
-  const HeadPose head = scene.motion.poseAt(start);
-  const std::vector<BodyPose> bodies =
-      ringlet::bodyPosesOf(scene.bodies, std::span(&head, 1), std::span(&start, 1));
-  std::vector<BodyPose> roots, rootsEarlier;
-  if (scene.scalp) roots = scene.scalp->rootPosesAt(start), rootsEarlier = scene.scalp->rootPosesAt(earlier);
-  HairHandle hair = makeHair(asset, {.head = head,
-                                     .oneStepEarlier = scene.motion.poseAt(earlier),
-                                     .bodies = scene.bodies,
-                                     .bodyPlaces = bodies,
-                                     .roots = roots,
-                                     .rootsEarlier = rootsEarlier,
-                                     .rootShifts = scene.rootShifts});
+  const SceneStart start(scene);
+  HairHandle hair = makeHair(asset, start.state(scene));
   for (int frame = -preRollFrames(scene); frame < 0; ++frame) {
     prepare(scene, *hair, frame);
-    hair->step(frameOf(scene, frame));
+    hair->step(hairFrameOf(scene, frame));
   }
   return hair;
 }
@@ -206,7 +160,7 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
   std::optional<HeadPose> underWay;
   bool goesOn = true;
   for (int frame = 0; frame < count && goesOn; ++frame) {
-    const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+    const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
     if ((self.loaded.keys || !self.loaded.cuts.empty()) && underWay) {
       goesOn = show(self, *hair, frame, *std::exchange(underWay, std::nullopt), callback);
       if (!goesOn) return hair;
@@ -225,7 +179,8 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
 }
 
 py::tuple posesOf(const SceneObject& self, int frame) {
-  const HairObject::Frame poses = withoutGil([&] { return frameOf(self.loaded, frame); });
+  demandFrame(frame);
+  const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
   const auto& heads = std::get<std::vector<HeadPose>>(poses.head);
   const auto given = [&](const std::vector<BodyPose>& each) {
     return each.empty() ? py::object(py::none()) : arrayOf(each, heads.size());
@@ -255,11 +210,12 @@ void addScenes(py::module_& module) {
   py::class_<SceneObject>(module, "Scene",
                           "All that a run starts from: groom, material, settings, motion, bodies. Constant.")
       .def_static(
-          "load", &loadFile, py::arg("path"),
+          "load", &loadFile, py::arg("path"), py::kw_only(), py::arg("confined") = false,
           "Reads a scene file (TOML) and all that it names: the groom, a motion by .bvh or glTF, meshes. "
+          "confined: for a file of a stranger's, which may then name files in or below its own folder only. "
           "ringlet.Error with file and line for what is wrong.")
-      .def_static("parse", &parseText, py::arg("text"), py::arg("folder") = "",
-                  "The same from text; its paths are relative to folder.")
+      .def_static("parse", &parseText, py::arg("text"), py::arg("folder") = "", py::kw_only(),
+                  py::arg("confined") = false, "The same from text; its paths are relative to folder.")
       .def_static(
           "builtin",
           [](const std::string& name, std::optional<int> particles, std::optional<int> strands,

@@ -308,7 +308,21 @@ void addTable(py::module_& module, const char* name, const char* doc) {
               return made;
             }),
             "The default, but for these by name. TypeError for a name that there is not, ValueError for a "
-            "number out of its range.");
+            "number out of its range.")
+      .def(
+          "__repr__",
+          [name = std::string(name)](const Owner& self) {
+            const Owner standard{};
+            std::string changed;
+            for (const SettingField<Owner>& field : fieldsOf<Owner>()) {
+              const py::object value = *getField(self, field.key);
+              if (!value.equal(*getField(standard, field.key)))
+                changed += fmt::format("{}{}={}", changed.empty() ? "" : ", ", field.key,
+                                       std::string(py::repr(value)));
+            }
+            return fmt::format("<ringlet.{}: {}>", name, changed.empty() ? "the default" : changed);
+          },
+          "The settings that are not the default.");
   addAttributes(table);
 }
 
@@ -396,13 +410,6 @@ void setAll(Settings& settings, const py::kwargs& named) {
     }
   }
   settings = changed;
-}
-
-std::string textOf(const Settings& settings) {
-  std::string text;
-  for (const std::string& key : allKeys())
-    text += fmt::format("{}={}\n", key, std::string(py::repr(*getKey(settings, key))));
-  return text;
 }
 
 void addSettings(py::module_& module) {

@@ -12,7 +12,4 @@ namespace ringlet::python {
 /// for a name that there is not, ValueError for a number out of its range.
 void setAll(Settings& settings, const py::kwargs& named);
 
-/// For a fingerprint: all settings.
-std::string textOf(const Settings& settings);
-
 }  // namespace ringlet::python

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "ringlet/base/whole_file.h"
+
 namespace ringlet::view {
 
 Status writeWidgets(const std::filesystem::path& path, const WindowState& state,
@@ -20,6 +22,7 @@ Status writeWidgets(const std::filesystem::path& path, const WindowState& state,
       {"widgets", nlohmann::json::object()}};
   for (const Vec3d& solid : state.solids) json["solids"].push_back(listOf(solid));
   for (const auto& [name, place] : widgets) json["widgets"][name] = place;
+  if (Status can = checkReplaceable(path); !can) return can;
   // Readers see a whole file or the one before. It is not for keeps, so the disk is not waited for.
   const std::filesystem::path written = path.string() + ".partial";
   std::error_code code;

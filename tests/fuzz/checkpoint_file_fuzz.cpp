@@ -2,11 +2,11 @@
 // changes.
 #include "ringlet/output/checkpoint_file.h"
 
-#include <zlib.h>
-
 #include <cstdint>
 #include <cstring>
+#include <span>
 
+#include "ringlet/base/checksum.h"
 #include "tests/fuzz/memory_file.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t mostBytes);
@@ -30,12 +30,12 @@ void tryBytes(std::span<const std::byte> bytes) {
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t mostBytes,
                                                unsigned seed) {
-  constexpr std::size_t kHeader = 24;
+  constexpr std::size_t kHeader = 32;
   size = LLVMFuzzerMutate(data, size, mostBytes);
   if (size < kHeader || seed % 8 == 0) return size;
-  const auto sum = static_cast<std::uint32_t>(crc32_z(0, data + kHeader, size - kHeader));
+  const std::uint64_t sum = ringlet::checksum64(std::as_bytes(std::span(data + kHeader, size - kHeader)));
   const std::uint64_t bytes = size - kHeader;
-  std::memcpy(data + 12, &sum, 4);
-  std::memcpy(data + 16, &bytes, 8);
+  std::memcpy(data + 16, &sum, 8);
+  std::memcpy(data + 24, &bytes, 8);
   return size;
 }

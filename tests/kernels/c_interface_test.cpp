@@ -9,68 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/c/handles.h"
 #include "ringlet/rest/material_parameters.h"
 #include "ringlet/scene/settings_fields.h"
+#include "tests/kernels/c_handles.h"
 #include "tests/kernels/sample_hairs.h"
-#include "tests/support/gpu_test.h"
 
 namespace ringlet::test {
 namespace {
 
-// Handles of C, released at the end.
-struct Handles {
-  ringlet_device* device = nullptr;
-  ringlet_settings* settings = nullptr;
-  ringlet_material* material = nullptr;
-  ringlet_asset* asset = nullptr;
-  std::vector<ringlet_hair*> hairs;
-  ~Handles() {
-    ringlet_device_release(device);  // in any order
-    for (ringlet_hair* hair : hairs) ringlet_hair_release(hair);
-    ringlet_asset_release(asset);
-    ringlet_material_release(material);
-    ringlet_settings_release(settings);
-  }
-};
-
-class CInterface : public GpuTest {
- protected:
-  // Opened by the fixture, so that the validation layer is watched.
-  void open(Handles& c) {
-    c.device = new ringlet_device{device(), device().name()};
-    ASSERT_EQ(ringlet_settings_create(&c.settings), RINGLET_OK);
-    ASSERT_EQ(ringlet_material_create(nullptr, &c.material), RINGLET_OK);
-  }
-};
-
-struct CGroom {
-  std::vector<std::uint32_t> sizes;
-  ringlet_groom groom = RINGLET_INIT(ringlet_groom);
-  explicit CGroom(const Groom& from) {
-    for (std::size_t s = 0; s < from.strandCount(); ++s)
-      sizes.push_back(static_cast<std::uint32_t>(from.strand(s).size()));
-    groom.points = &from.points[0].x, groom.strand_sizes = sizes.data();
-    groom.strand_count = static_cast<std::uint32_t>(sizes.size());
-    groom.metres_per_unit = from.metresPerUnit;
-  }
-};
-
-ringlet_pose poseOf(const HeadPose& head) {
-  return {{head.position.x, head.position.y, head.position.z},
-          {head.rotation.x, head.rotation.y, head.rotation.z, head.rotation.w}};
-}
-
-std::vector<Vec3f> positionsOf(const ringlet_hair* hair, std::size_t count) {
-  std::vector<Vec3f> points(count);
-  EXPECT_EQ(ringlet_positions(hair, &points[0].x, count), RINGLET_OK) << ringlet_error_message();
-  return points;
-}
-
-void expectInvalid(ringlet_result result, const char* part) {
-  EXPECT_EQ(result, RINGLET_ERROR_INVALID_ARGUMENT) << part;
-  EXPECT_NE(std::string(ringlet_error_message()).find(part), std::string::npos) << ringlet_error_message();
-}
+using CInterface = CTest;
 
 // Two heads of one asset together, with contacts or not, changed on the way; and a checkpoint of it.
 TEST_F(CInterface, GivesTheSameBits) {
@@ -215,6 +162,10 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   expectInvalid(ringlet_settings_set(c.settings, "steps_per_frame", 1.5), "steps_per_frame does not take");
   expectInvalid(ringlet_settings_set_text(c.settings, "contacts.taper", "tim"), "did you mean time?");
   expectInvalid(ringlet_settings_set_text(c.settings, "gravity", "down"), "gravity does not take a word");
+  expectInvalid(ringlet_settings_set(c.settings, "gravity", -9.81), "call ringlet_settings_set_vector");
+  expectInvalid(ringlet_settings_set(c.settings, "contacts.method", 1), "call ringlet_settings_set_text");
+  expectInvalid(ringlet_settings_set(c.settings, "integrator", 1), "call ringlet_settings_set_text");
+  expectInvalid(ringlet_settings_set_vector(c.settings, "fps", 1, 2, 3), "call ringlet_settings_set");
   expectInvalid(ringlet_material_set(c.material, "bendstiffness", 1), "did you mean bend_stiffness?");
   ringlet_material* none = nullptr;
   expectInvalid(ringlet_material_create("coils", &none), "did you mean coil?");
@@ -225,11 +176,14 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
 
   const Groom hair = randomGroom({8, 8}, 1);
   CGroom groom(hair);
-  expectInvalid(ringlet_asset_build(c.device, nullptr, nullptr, nullptr, nullptr, &c.asset),
-                "say their size");
+  expectInvalid(ringlet_asset_build(c.device, nullptr, nullptr, nullptr, nullptr, &c.asset), "groom is NULL");
   ringlet_asset_options unsized{};
   expectInvalid(ringlet_asset_build(c.device, &groom.groom, nullptr, nullptr, &unsized, &c.asset),
-                "say their size");
+                "options has no struct_size");
+  expectInvalid(ringlet_asset_build(nullptr, &groom.groom, nullptr, nullptr, nullptr, &c.asset),
+                "device is NULL");
+  expectInvalid(ringlet_asset_build(c.device, &groom.groom, nullptr, nullptr, nullptr, nullptr),
+                "asset is NULL");
   ringlet_groom empty = RINGLET_INIT(ringlet_groom);
   expectInvalid(ringlet_asset_build(c.device, &empty, nullptr, nullptr, nullptr, &c.asset), "no points");
   ringlet_groom bare = groom.groom;
@@ -255,7 +209,8 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   body.shape = RINGLET_MESH;
   initial = RINGLET_INIT(ringlet_initial_state);
   initial.bodies = &body, initial.body_count = 1;
-  EXPECT_EQ(ringlet_hair_create(c.asset, &initial, &lost), RINGLET_ERROR);  // no triangles
+  EXPECT_EQ(ringlet_hair_create(c.asset, &initial, &lost), RINGLET_ERROR);  // built without bodies
+  EXPECT_NE(std::string(ringlet_error_message()).find("set has_bodies"), std::string::npos);
 
   std::vector<ringlet_pose> poses(8);
   ringlet_frame frame = RINGLET_INIT(ringlet_frame);
@@ -275,9 +230,18 @@ TEST_F(CInterface, AnswersWhateverIsHandedOver) {
   expectInvalid(ringlet_hair_set_forces(c.hairs[0], few, 1), "forces for its 16 particles");
   expectInvalid(ringlet_hair_set_forces(c.hairs[0], nullptr, 16), "forces for its 16 particles");
   std::vector<float> endless(48);
-  EXPECT_EQ(ringlet_hair_set_forces(c.hairs[0], endless.data(), 16), RINGLET_ERROR);  // built without
-  endless[47] = INFINITY;
-  expectInvalid(ringlet_hair_set_forces(c.hairs[0], endless.data(), 16), "a force");
+  const auto expectBuiltWithout = [&](ringlet_result result, const char* option) {
+    EXPECT_EQ(result, RINGLET_ERROR);
+    EXPECT_NE(std::string(ringlet_error_message()).find(option), std::string::npos)
+        << ringlet_error_message();
+  };
+  expectBuiltWithout(ringlet_hair_set_forces(c.hairs[0], endless.data(), 16), "set has_forces");
+  ringlet_goals goals = RINGLET_INIT(ringlet_goals);
+  goals.places = goals.strengths = endless.data(), goals.particle_count = 16;
+  expectBuiltWithout(ringlet_hair_set_goals(c.hairs[0], &goals), "set has_goals");
+  ringlet_field field = RINGLET_INIT(ringlet_field);
+  expectBuiltWithout(ringlet_hair_set_fields(c.hairs[0], &field, nullptr, 1), "set has_fields");
+  expectBuiltWithout(ringlet_hair_set_bodies(c.hairs[0], &body, 1), "set has_bodies");
   expectInvalid(ringlet_positions(c.hairs[0], few, 1), "room for 1 particles, and the hair has 16");
   std::size_t size = 3;
   expectInvalid(ringlet_checkpoint(c.hairs[0], few, &size), "room for 3");

@@ -88,11 +88,40 @@ std::vector<Link> localLinks() {
 
 TEST(Docs, ShowTheProgramsThatTestsBuild) {
   const std::string library = textOf("docs/library.md");
-  for (const char* program : {"consumer/main.cpp", "installed/engine.cpp"}) {
+  for (const std::string program :
+       {"consumer/main.cpp", "installed/engine.cpp", "installed/film.cpp", "installed/film.c"}) {
     const std::string text = textOf(fs::path("tests/package") / program);
     EXPECT_GT(text.size(), 100u);
-    EXPECT_NE(library.find("```cpp\n" + text + "```\n"), std::string::npos) << program;
+    const std::string language = fs::path(program).extension().string().substr(1);
+    EXPECT_NE(library.find("```" + language + "\n" + text + "```\n"), std::string::npos) << program;
   }
+}
+
+TEST(Docs, NameFunctionsOfCThatThereAre) {
+  const std::string headers = textOf("src/ringlet/c/ringlet.h") + textOf("src/ringlet/c/ringlet_io.h");
+  const std::regex name("\\bringlet_[a-z_0-9]+\\b");
+  std::size_t count = 0;
+  for (const fs::path& page : pages()) {
+    const std::string text = textOf(page);
+    for (std::sregex_iterator at(text.begin(), text.end(), name), end; at != end; ++at) {
+      const bool isCalled = text[static_cast<std::size_t>(at->position() + at->length())] == '(';
+      if (!isCalled) continue;
+      ++count;
+      EXPECT_TRUE(std::regex_search(headers, std::regex("\\b" + at->str() + "\\b")))
+          << page << ": " << at->str();
+    }
+  }
+  EXPECT_GT(count, 20u);
+}
+
+// Headers that are installed must not be left out of the list, and the list is what find_package gives.
+TEST(Docs, TheLibrarysTableNamesHeadersThatAreInstalled) {
+  const std::string library = textOf("docs/library.md"), installed = textOf("src/CMakeLists.txt");
+  const std::regex link("\\.\\./src/ringlet/([a-z_/]+\\.h)\\)");
+  std::size_t count = 0;
+  for (std::sregex_iterator at(library.begin(), library.end(), link), end; at != end; ++at, ++count)
+    EXPECT_NE(installed.find((*at)[1].str()), std::string::npos) << (*at)[1] << " is not installed";
+  EXPECT_GT(count, 15u);
 }
 
 TEST(Docs, LinksLeadSomewhere) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs a build of ringlet and uses what was installed as a stranger does: find_package with every compiler there is,
-# and pkg-config.
+# and pkg-config. Then what a build lacks is left out.
 #   installed_test.sh BUILD_FOLDER GENERATOR static|shared
 set -euo pipefail
 build=$1 generator=$2 kind=$3
@@ -31,6 +31,13 @@ for compiler in g++ clang++; do
   for program in simulates reads_and_writes includes_all plain_c; do
     (cd "$work" && "$work/$compiler/$program") || fail "$program, compiled with $compiler"
   done
+  # The programs of docs/library.md, of curl.hair, which reads_and_writes left: C and C++ write the same bytes.
+  for ending in usda usdc rgc pc2; do
+    for language in c cpp; do
+      (cd "$work" && "$work/$compiler/film_in_$language" curl.hair $language.$ending) || fail "film.$language, compiled with $compiler"
+    done
+    cmp "$work/c.$ending" "$work/cpp.$ending" || fail "film.c and film.cpp write other animations"
+  done
   compilers=$((compilers + 1))
 done
 [ $compilers -gt 0 ] || fail "no compiler"
@@ -49,6 +56,39 @@ export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 flags=$([ "$kind" = static ] && echo --static || true)
 g++ -std=c++20 "$here/installed/reads_and_writes.cpp" $(pkg-config --cflags --libs $flags ringlet-io) -o "$work/by_pkg_config"
 (cd "$work" && LD_LIBRARY_PATH=$prefix/lib ./by_pkg_config) || fail "what pkg-config says"
+# A program in C is linked by the C compiler.
+gcc -std=c99 "$here/installed/plain_c.c" $(pkg-config --cflags --libs $flags ringlet-core) -lm -o "$work/c_by_pkg_config"
+(cd "$work" && LD_LIBRARY_PATH=$prefix/lib ./c_by_pkg_config) || fail "what pkg-config says to a C compiler"
+gcc -std=c99 "$here/installed/film.c" $(pkg-config --cflags --libs $flags ringlet-io) -lm -o "$work/film_by_pkg_config"
+(cd "$work" && LD_LIBRARY_PATH=$prefix/lib ./film_by_pkg_config curl.hair by_pkg_config.usda) || fail "what pkg-config says to a C compiler of ringlet-io"
+
+# Of a tree of which a part was built that part is installed, and a line names what is not. The rules are the build's own,
+# with what each case lacks at a place where it is not.
+#   install_without CASE FILE SENTENCE: as if FILE of the build, or all of that folder, were not there
+install_without() {
+  local lacking=$work/lacking_$1 script
+  while read -r script; do
+    mkdir -p "$lacking/$(dirname "${script#"$build"/}")"
+    sed -e "s|\"$build/\(.*/\)\?cmake_install.cmake\"|\"$lacking/\1cmake_install.cmake\"|" \
+      -e "s|$build/$2|$lacking/absent/$2|g" "$script" > "$lacking/${script#"$build"/}"
+  done < <(find "$build" -name cmake_install.cmake -not -path '*/Testing/*' -not -path "$build/tests/consumer/*")
+  cmake --install "$lacking" --prefix "$lacking/prefix" > "$lacking.txt" 2>&1 || return 1
+  grep -q "$3" "$lacking.txt" || fail "install without $2 does not say '$3': $(cat "$lacking.txt")"
+}
+if [ "$kind" = static ] && [ -e "$build/python" ] && [ -x "$build/ringlet" ]; then
+  install_without module python "Not installed: the Python module, which" || fail "no install without the Python module: $(cat "$work/lacking_module.txt")"
+  [ -x "$work/lacking_module/prefix/bin/ringlet" ] || fail "without the Python module the command is not installed"
+  [ ! -e "$work/lacking_module/prefix/lib/python3.11" ] || fail "a folder for a module that there is not"
+  install_without stubs python/ringlet-stubs "Not installed: the Python module's type stubs" || fail "no install without stubs"
+  install_without command 'ringlet"' "Not installed: the ringlet command" || fail "no install without the command"
+  [ -e "$work/lacking_command/prefix/lib/cmake/ringlet/ringletConfig.cmake" ] || fail "without the command the library is not installed"
+  install_without io src/libringlet_io "Not installed: ringlet::io" || fail "no install without ringlet::io"
+  sed -i 's/ moon//' "$work/CMakeLists.txt"
+  cmake -S "$work" -B "$work/core_only" -G "$generator" -DCMAKE_PREFIX_PATH="$work/lacking_io/prefix" > "$work/core_only.txt" 2>&1 ||
+    fail "find_package does not find core without io: $(cat "$work/core_only.txt")"
+  ! install_without core src/libringlet_core "nothing to install" || fail "an install of nothing succeeds"
+  grep -q "There is nothing to install" "$work/lacking_core.txt" || fail "an install of nothing says: $(cat "$work/lacking_core.txt")"
+fi
 for module in "$prefix"/lib/python3*/*-packages; do
   [ -d "$module" ] || continue  # it was not built
   (cd "$work" && PYTHONPATH=$module /usr/bin/python3 -c 'import ringlet; ringlet.make_curl().write("module.obj")') || fail "the Python module"

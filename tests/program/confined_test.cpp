@@ -47,7 +47,7 @@ TEST_F(Confined, EveryCommandThatReadsScenesRefusesFilesElsewhere) {
     all.push_back("--confined");
     const auto refused = runProgram(folder_, all);
     EXPECT_NE(refused.exitCode, 0) << command[0];
-    EXPECT_NE(refused.err.find("a path in or below the scene's folder, to which --confined keeps it"),
+    EXPECT_NE(refused.err.find("a path in or below the scene's folder, to which it is confined"),
               std::string::npos)
         << command[0] << ": " << refused.err;
     for (const char* made : {"scene/out", "swept", "drawn", "full.usdc"})

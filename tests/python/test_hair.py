@@ -373,7 +373,8 @@ def test_goals_that_do_not_fit_are_refused(device, swatch, hair):
                                        (rest, np.nan, 1), (rest, 1, np.nan), (rest * np.nan, 1, 1)):
         with pytest.raises(ValueError):
             held.set_goals(places, strengths, damping)
-    for places, strengths in ((rest.astype(float), 1), (rest, "much"), (None, 1)):
+    for places, strengths in ((rest.astype(complex), 1), (rest, "much"), (None, 1), (rest, 1j), (rest, np.array(1j)),
+                              (rest, np.ones(count, complex)), (rest, np.ones(count, bool))):
         with pytest.raises(TypeError):
             held.set_goals(places, strengths)
 
@@ -386,7 +387,7 @@ def test_forces_that_do_not_fit_are_refused(device, swatch, hair):
     with pytest.raises(ValueError):
         pulled.set_forces(np.zeros((count - 1, 3), np.float32))
     with pytest.raises(TypeError):
-        pulled.set_forces(np.zeros((count, 3)))
+        pulled.set_forces(np.zeros((count, 3), complex))
     with pytest.raises(ValueError):
         pulled.set_forces(np.full((count, 3), np.nan, np.float32))
 

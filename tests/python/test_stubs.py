@@ -1,4 +1,4 @@
-# The type stubs are those of the module, and everything in it has a docstring.
+# The type stubs are those of the module, everything in it has a docstring, and the page of the module names everything.
 import ast
 import inspect
 import re
@@ -146,3 +146,36 @@ def documented():
 def test_everything_has_a_docstring(name, doc):
     assert doc and len(doc.strip()) >= 3, name
     assert doc.strip()[-1] in ".)]:" and "  " not in doc.replace("\n    ", "\n").strip().split("\n\n")[0], name
+
+
+def public_names():
+    return [name for name in dir(ringlet) if not name.startswith("_")]
+
+
+def test_the_page_names_everything():
+    page = (Path(__file__).parents[2] / "docs/python.md").read_text()
+    table = page[page.index("## Everything"):page.index("## Errors")]
+    named = set(re.findall(r"`(\w+)`", table))
+    assert set(public_names()) <= named
+    assert named - set(public_names()) <= set(), "there is no such name"
+
+
+# Parameters that are arrays, by what their stubs say, and where their shapes are told: with the function or its class.
+def test_help_shows_the_shapes_of_arrays():
+    shape = re.compile(r"\((?:particles|points|strands|steps|keys|bodies|frames|nodes|nz|z|count|rows|n|\d)[^()]*,[^()]*\)")
+    lacking = []
+    for owner, body, holder in [("", TREE.body, ringlet)] + [
+            (name, node.body, getattr(ringlet, name)) for name, node in stub_classes().items()]:
+        for name, node in stub_functions(body).items():
+            arguments = node.args.args + node.args.kwonlyargs
+            arrays = [a.arg for a in arguments if a.annotation and "_PointsIn" in ast.unparse(a.annotation)]
+            told = getattr(holder, name).__doc__ + (holder.__doc__ if owner else "")
+            if arrays and not shape.search(told):
+                lacking.append(f"{owner}.{name}: {', '.join(arrays)}")
+    assert lacking == []
+
+
+def test_reprs_say_what_things_are():
+    classes = [value for value in vars(ringlet).values() if inspect.isclass(value) and value is not ringlet.Error]
+    assert len(classes) > 20
+    assert [c.__name__ for c in classes if "__repr__" not in vars(c)] == []

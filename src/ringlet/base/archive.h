@@ -3,8 +3,8 @@
 //   void Part::archive(Archive& a) { a.value(count_); a.list(points_); }
 //
 // Values have the bytes of the machine's memory: they are read by the same program on the same kind of
-// machine. Whoever keeps the bytes guards them against damage (output/checkpoint_file.h); a reader checks
-// only their number.
+// machine. Whoever keeps the bytes guards them against damage (base/checksum.h); a reader checks only their
+// number.
 #pragma once
 
 #include <cstddef>

@@ -83,8 +83,19 @@ Result<std::vector<std::byte>> readWholeFile(const std::filesystem::path& path) 
   return bytes;
 }
 
+Status checkReplaceable(const std::filesystem::path& path) {
+  std::error_code ignored;  // who may not look at it learns so when it is written
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return {};
+  const bool isFolder = std::filesystem::is_directory(status);
+  return Error{fmt::format("cannot write {}: it is {}; choose another name", path.string(),
+                           isFolder ? "a folder" : "a device or a pipe, which a file would replace"),
+               Fault::output};
+}
+
 Status writeWholeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const std::string name = path.string();
+  if (Status can = checkReplaceable(path); !can) return can;
   const std::filesystem::path temporary = temporaryBeside(path);
   File file(std::fopen(temporary.string().c_str(), "wbx"));
   if (!file)

@@ -16,9 +16,13 @@ namespace ringlet {
 /// Throws std::bad_alloc when memory does not hold it; readGroom turns that into an Error.
 Result<std::vector<std::byte>> readWholeFile(const std::filesystem::path& path);
 
+/// Fails where the name is that of something that a finished file must not take the place of: a folder, a
+/// device, a pipe. For whoever writes a file under another name and renames it.
+Status checkReplaceable(const std::filesystem::path& path);
+
 /// Replaces a file: writes a temporary beside it to the disk and renames that, so neither a crash nor a full
-/// disk leaves half a file. Errors: the folder is missing or read-only, the disk is full, the path is a
-/// folder.
+/// disk leaves half a file. Errors: the folder is missing or read-only, the disk is full, the path is
+/// that of no regular file.
 Status writeWholeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 /// The file whose replacement `path` was to become, where its name is that of a temporary of writeWholeFile:

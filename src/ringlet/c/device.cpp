@@ -1,4 +1,6 @@
 // Implements c/ringlet.h: errors and devices.
+#include <fmt/format.h>
+
 #include <mutex>
 #include <set>
 
@@ -40,16 +42,24 @@ HostVulkan hostOf(const ringlet_host_vulkan& host) {
   if (host.allocate) {
     taken.allocate = [host](std::uint64_t bytes, std::uint64_t alignment, std::uint32_t type,
                             HostMemory& to) {
-      ringlet_memory memory{};
-      const int result = host.allocate(host.user, bytes, alignment, type, &memory);
-      to = {memory.memory, memory.offset, memory.mapped, memory.own};
-      return result;
+      constexpr int kOutOfHostMemory = -1;  // VK_ERROR_OUT_OF_HOST_MEMORY
+      try {
+        ringlet_memory memory{};
+        const int result = host.allocate(host.user, bytes, alignment, type, &memory);
+        to = {memory.memory, memory.offset, memory.mapped, memory.own};
+        return result;
+      } catch (...) {  // a host in C++
+        return kOutOfHostMemory;
+      }
     };
   }
   if (host.free) {
     taken.free = [host](const HostMemory& from) {
       const ringlet_memory memory{from.memory, from.offset, from.mapped, from.own};
-      host.free(host.user, &memory);
+      try {
+        host.free(host.user, &memory);
+      } catch (...) {  // from a destructor there is no way out
+      }
     };
   }
   return taken;
@@ -84,6 +94,35 @@ ringlet_result tellOutOfMemory() noexcept {
   return RINGLET_ERROR_OUT_OF_MEMORY;
 }
 
+ringlet_result tellThrown(const char* what) noexcept {
+  try {
+    return tell(Error{fmt::format("a function of the caller's threw: {}", what)});
+  } catch (...) {
+    return tellOutOfMemory();
+  }
+}
+
+Outcome checkArguments(const char* sentence, std::initializer_list<Argument> arguments) {
+  for (const Argument& argument : arguments)
+    if (argument.fault)
+      return Outcome::invalid(fmt::format("{}: {} {}", sentence, argument.name, argument.fault));
+  return {};
+}
+
+Outcome checkProcess(const ringlet_hair& hair) { return hair.device.checkProcess(); }
+
+Outcome checkFree(const ringlet_hair& hair) {
+  if (Outcome outcome = checkProcess(hair); !outcome.isFine()) return outcome;
+  if (hair.recordedFrames == 0) return {};
+  return Outcome::invalid("a frame of the hair is in a host's commands: call ringlet_frame_is_over first");
+}
+
+Outcome checkBuiltFor(bool isBuiltForIt, const char* what, const char* option) {
+  if (isBuiltForIt) return {};
+  return Error{fmt::format("the hair's asset was built without {}; set {} in its ringlet_asset_options", what,
+                           option)};
+}
+
 }  // namespace ringlet::c
 
 using namespace ringlet;
@@ -95,7 +134,10 @@ const char* ringlet_error_message(void) { return fixedMessage ? fixedMessage : m
 
 ringlet_result ringlet_device_open(const char* choice, ringlet_device** device) {
   return guarded([&]() -> Outcome {
-    if (!device) return Outcome::invalid("ringlet_device_open has nowhere to put the device");
+    if (Outcome wrong =
+            checkArguments("ringlet_device_open has nowhere to put the device", {given("device", device)});
+        !wrong.isFine())
+      return wrong;
     auto opened = ComputeDevice::open(choice ? choice : "");
     if (!opened) return opened.error();
     *device = handleOf(std::move(*opened));
@@ -106,8 +148,10 @@ ringlet_result ringlet_device_open(const char* choice, ringlet_device** device) 
 ringlet_result ringlet_device_needs(const ringlet_host_vulkan* host, ringlet_host_needs* needs,
                                     const char** extension_names, uint32_t capacity) {
   return guarded([&]() -> Outcome {
-    if (!hasSize(host) || !hasSize(needs))
-      return Outcome::invalid("ringlet_device_needs takes two structs that say their size");
+    if (Outcome wrong = checkArguments("ringlet_device_needs takes two structs that say their size",
+                                       {sized("host", host), sized("needs", needs)});
+        !wrong.isFine())
+      return wrong;
     const auto found = ComputeDevice::needs(hostOf(taken(host)));
     if (!found) return found.error();
     give(needs, {.struct_size = 0,
@@ -123,9 +167,11 @@ ringlet_result ringlet_device_needs(const ringlet_host_vulkan* host, ringlet_hos
 
 ringlet_result ringlet_device_adopt(const ringlet_host_vulkan* host, ringlet_device** device) {
   return guarded([&]() -> Outcome {
-    if (!hasSize(host) || !device)
-      return Outcome::invalid(
-          "ringlet_device_adopt takes a host that says its size, and a place for the device");
+    if (Outcome wrong =
+            checkArguments("ringlet_device_adopt takes a host that says its size, and a place for the device",
+                           {sized("host", host), given("device", device)});
+        !wrong.isFine())
+      return wrong;
     auto adopted = ComputeDevice::adopt(hostOf(taken(host)));
     if (!adopted) return adopted.error();
     *device = handleOf(std::move(*adopted));

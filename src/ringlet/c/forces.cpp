@@ -60,8 +60,7 @@ Outcome takeFields(const ringlet_field* from, std::uint32_t count, std::vector<F
   if (count > 0 && !hasSize(from)) return Outcome::invalid("there are no fields that say their size");
   fields.resize(count);
   for (std::uint32_t k = 0; k < count; ++k) {
-    if (Outcome outcome = takeField(taken(from, k), k, fields[k]); outcome.result != RINGLET_OK)
-      return outcome;
+    if (Outcome outcome = takeField(taken(from, k), k, fields[k]); !outcome.isFine()) return outcome;
   }
   return {};
 }
@@ -78,6 +77,10 @@ ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uin
       return Outcome::invalid(
           fmt::format("ringlet_hair_set_forces takes hair, and forces for its {} particles",
                       hair ? hair->particleCount : 0));
+    if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
+    if (Outcome outcome = checkBuiltFor(hair->builtFor.forces, "forces from outside", "has_forces");
+        !outcome.isFine())
+      return outcome;
     std::vector<Vec3f> forces;
     if (!takeVectors(xyz, particle_count, forces)) return Outcome::invalid("a force is not finite");
     return hair->simulation.setForces(forces);
@@ -92,6 +95,9 @@ ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* g
           fmt::format("ringlet_hair_set_goals takes hair, and places and strengths for its {} particles in a "
                       "struct that says its size",
                       hair ? hair->particleCount : 0));
+    if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
+    if (Outcome outcome = checkBuiltFor(hair->builtFor.goals, "goals", "has_goals"); !outcome.isFine())
+      return outcome;
     std::vector<Vec3f> places, before;
     if (!takeVectors(from.places, from.particle_count, places) ||
         (from.from && !takeVectors(from.from, from.particle_count, before)))
@@ -105,13 +111,16 @@ ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* g
 ringlet_result ringlet_hair_set_fields(ringlet_hair* hair, const ringlet_field* fields,
                                        const ringlet_field* from, uint32_t field_count) {
   return guarded([&]() -> Outcome {
-    if (!hair) return Outcome::invalid("ringlet_hair_set_fields takes hair");
-    std::vector<ForceField> after, before;
-    if (Outcome outcome = takeFields(fields, field_count, after); outcome.result != RINGLET_OK)
+    if (Outcome wrong = checkArguments("ringlet_hair_set_fields takes hair", {given("hair", hair)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
+    if (Outcome outcome = checkBuiltFor(hair->builtFor.fields, "fields", "has_fields"); !outcome.isFine())
       return outcome;
+    std::vector<ForceField> after, before;
+    if (Outcome outcome = takeFields(fields, field_count, after); !outcome.isFine()) return outcome;
     if (from) {
-      if (Outcome outcome = takeFields(from, field_count, before); outcome.result != RINGLET_OK)
-        return outcome;
+      if (Outcome outcome = takeFields(from, field_count, before); !outcome.isFine()) return outcome;
     }
     return hair->simulation.setFields(after, before);
   });

@@ -39,7 +39,7 @@ Outcome take(const ringlet_frame& frame, TakenFrame& taken) {
   if (frame.step_count != steps)
     return Outcome::invalid(fmt::format(
         "a frame has {} poses of the head; its settings have {} steps a frame", frame.step_count, steps));
-  if (frame.root_poses && !hair.movesRoots)
+  if (frame.root_poses && !hair.builtFor.movingRoots)
     return Outcome::invalid(
         "strands have poses of their own only where the asset's options say moving_roots");
   taken.hair = &hair;
@@ -57,9 +57,10 @@ Outcome takeAll(const ringlet_frame* frames, uint32_t count, std::vector<TakenFr
   std::set<const ringlet_hair*> hairs;
   taken.resize(count);
   for (uint32_t k = 0; k < count; ++k) {
-    if (Outcome outcome = take(c::taken(frames, k), taken[k]); outcome.result != RINGLET_OK) return outcome;
+    if (Outcome outcome = take(c::taken(frames, k), taken[k]); !outcome.isFine()) return outcome;
+    if (Outcome outcome = checkProcess(*taken[k].hair); !outcome.isFine()) return outcome;
     if (!hairs.insert(taken[k].hair).second) return Outcome::invalid("a hair stands twice among the frames");
-    if (taken[k].hair->device != taken[0].hair->device)
+    if (&taken[k].hair->device.gpu() != &taken[0].hair->device.gpu())
       return Outcome::invalid("the frames are of hair on several devices");
   }
   return {};
@@ -72,8 +73,16 @@ std::vector<HairFrame> hairFramesOf(const std::vector<TakenFrame>& taken) {
   return frames;
 }
 
-Outcome isRecorded() {
-  return Outcome::invalid("a frame of the hair is in a host's commands: call ringlet_frame_is_over first");
+// The grid of a mesh of the caller's.
+Result<std::shared_ptr<const DistanceGrid>> gridOf(const ringlet_body& from, const std::string& name) {
+  TriangleMesh mesh;
+  for (std::size_t v = 0; from.vertices && v < from.vertex_count; ++v)
+    mesh.points.push_back({from.vertices[3 * v], from.vertices[3 * v + 1], from.vertices[3 * v + 2]});
+  for (std::size_t t = 0; from.triangles && t < from.triangle_count; ++t)
+    mesh.triangles.push_back({from.triangles[3 * t], from.triangles[3 * t + 1], from.triangles[3 * t + 2]});
+  auto grid = makeDistanceGrid(mesh, {.cells = from.cells == 0 ? 64 : from.cells});
+  if (!grid) return Error{fmt::format("{}: {}", name, grid.error().message), grid.error().fault};
+  return std::make_shared<const DistanceGrid>(std::move(grid->grid));
 }
 
 Result<Body> bodyOf(const ringlet_body& from, std::uint32_t index) {
@@ -83,20 +92,15 @@ Result<Body> bodyOf(const ringlet_body& from, std::uint32_t index) {
   body.halfExtents = {from.half_extents[0], from.half_extents[1], from.half_extents[2]};
   body.thickness = from.thickness, body.friction = from.friction;
   const auto place = poseOf<BodyPose>(from.pose);
-  if (!place) return Error{fmt::format("{} has a pose that is not finite", body.name)};
+  if (!place) return Error{fmt::format("{} {}", body.name, kWrongPose)};
   body.place = *place;
   if (from.shape < RINGLET_SPHERE || from.shape > RINGLET_MESH)
     return Error{fmt::format("{} has a shape that is none: {}", body.name, static_cast<int>(from.shape))};
   body.shape = static_cast<BodyShape>(from.shape);
   if (from.shape != RINGLET_MESH) return body;
-  TriangleMesh mesh;
-  for (std::size_t v = 0; from.vertices && v < from.vertex_count; ++v)
-    mesh.points.push_back({from.vertices[3 * v], from.vertices[3 * v + 1], from.vertices[3 * v + 2]});
-  for (std::size_t t = 0; from.triangles && t < from.triangle_count; ++t)
-    mesh.triangles.push_back({from.triangles[3 * t], from.triangles[3 * t + 1], from.triangles[3 * t + 2]});
-  auto grid = makeDistanceGrid(mesh, {.cells = from.cells == 0 ? 64 : from.cells});
-  if (!grid) return Error{fmt::format("{}: {}", body.name, grid.error().message), grid.error().fault};
-  body.grid = std::make_shared<const DistanceGrid>(std::move(grid->grid));
+  auto grid = gridOf(from, body.name);
+  if (!grid) return grid.error();
+  body.grid = std::move(*grid);
   return body;
 }
 
@@ -111,6 +115,10 @@ Outcome takeBodies(const ringlet_body* from, std::uint32_t count, std::vector<Bo
   return {};
 }
 
+Outcome checkBodies(const BuiltFor& builtFor, std::uint32_t count) {
+  return checkBuiltFor(builtFor.bodies || count == 0, "bodies", "has_bodies");
+}
+
 Outcome fill(const std::vector<Vec3f>& values, float* xyz, std::uint64_t particleCount) {
   if (!xyz || particleCount != values.size())
     return Outcome::invalid(fmt::format("there is room for {} particles, and the hair has {}",
@@ -120,6 +128,67 @@ Outcome fill(const std::vector<Vec3f>& values, float* xyz, std::uint64_t particl
 }
 
 }  // namespace
+
+Outcome takeGroom(const ringlet_groom& from, Groom& made) {
+  if (!from.points || !from.strand_sizes)
+    return Outcome::invalid("the groom has no points, or no sizes of strands");
+  made.metresPerUnit = from.metres_per_unit == 0 ? 1 : from.metres_per_unit;
+  std::uint64_t count = 0;
+  for (std::uint32_t s = 0; s < from.strand_count; ++s) {
+    count += from.strand_sizes[s];
+    if (count > 0xffffffffu) return Outcome::invalid("the groom has more particles than 32 bits count");
+    made.firstPoint.push_back(static_cast<std::uint32_t>(count));
+  }
+  made.points.resize(count);
+  for (std::uint64_t i = 0; i < count; ++i)
+    made.points[i] = {from.points[3 * i], from.points[3 * i + 1], from.points[3 * i + 2]};
+  return {};
+}
+
+Outcome checkStrands(const Groom& groom) {
+  if (groom.strandCount() == 0) return Outcome::invalid("the groom has no strands");
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    if (groom.strand(s).size() < 2)
+      return Outcome::invalid(
+          fmt::format("strand {} has {} particles; a strand has 2 at least", s, groom.strand(s).size()));
+  }
+  return {};
+}
+
+Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settings& settings,
+                   const Material& material, const ringlet_asset_options& options, ringlet_asset** asset) {
+  KernelChoice kernel;
+  kernel.movingRoots = options.moving_roots != 0;
+  kernel.forces = options.has_forces != 0;
+  kernel.goals = options.has_goals != 0;
+  kernel.fields = options.has_fields != 0;
+  kernel.heads = std::max(1, options.heads);
+  auto built = HairAsset::build(device, groom, material, settings, kernel,
+                                options.has_bodies ? BodyUse::some : BodyUse::none);
+  if (!built) return built.error();
+  for (const std::string& warning : built->warnings())
+    if (options.warn) options.warn(shownText(warning).c_str(), options.user);
+  const BuiltFor builtFor{options.has_bodies != 0, kernel.movingRoots, kernel.forces,
+                          kernel.goals || settings.goal.on, kernel.fields};
+  *asset = new ringlet_asset{std::move(*built), device, builtFor};
+  return {};
+}
+
+Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ringlet_hair** hair) {
+  auto made = Simulation::create(asset.asset, initial);
+  if (!made) return made.error();
+  std::vector<DevicePositions> positions = made->devicePositions();
+  *hair = new ringlet_hair{.simulation = std::move(*made),
+                           .device = asset.device,
+                           .builtFor = asset.builtFor,
+                           .particleCount = asset.asset.particleCount(),
+                           .strandCount = asset.asset.strandCount(),
+                           .bodyCount = static_cast<std::uint32_t>(initial.bodies.size()),
+                           .devicePositions = std::move(positions),
+                           .scene = asset.scene};
+  return {};
+}
+
 }  // namespace ringlet::c
 
 using namespace ringlet;
@@ -133,41 +202,16 @@ ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* 
                                    const ringlet_settings* settings, const ringlet_material* material,
                                    const ringlet_asset_options* options, ringlet_asset** asset) {
   return guarded([&]() -> Outcome {
-    if (!device || !asset || !hasSize(groom) || !hasSizeOrIsNull(options))
-      return Outcome::invalid(
-          "ringlet_asset_build takes a device, a groom and options that say their size, and a place for the "
-          "asset");
-    const ringlet_groom from = taken(groom);
-    if (!from.points || !from.strand_sizes)
-      return Outcome::invalid("the groom has no points, or no sizes of strands");
+    if (Outcome wrong = checkArguments("ringlet_asset_build takes a device, a groom and options that say "
+                                       "their size, and a place for the asset",
+                                       {given("device", device), sized("groom", groom),
+                                        sizedOrNull("options", options), given("asset", asset)});
+        !wrong.isFine())
+      return wrong;
     Groom made;
-    made.metresPerUnit = from.metres_per_unit == 0 ? 1 : from.metres_per_unit;
-    std::uint64_t count = 0;
-    for (std::uint32_t s = 0; s < from.strand_count; ++s) {
-      count += from.strand_sizes[s];
-      if (count > 0xffffffffu) return Outcome::invalid("the groom has more particles than 32 bits count");
-      made.firstPoint.push_back(static_cast<std::uint32_t>(count));
-    }
-    made.points.resize(count);
-    for (std::uint64_t i = 0; i < count; ++i)
-      made.points[i] = {from.points[3 * i], from.points[3 * i + 1], from.points[3 * i + 2]};
-
-    const ringlet_asset_options chosen = taken(options);
-    KernelChoice kernel;
-    kernel.movingRoots = chosen.moving_roots != 0;
-    kernel.forces = chosen.has_forces != 0;
-    kernel.goals = chosen.has_goals != 0;
-    kernel.fields = chosen.has_fields != 0;
-    kernel.heads = std::max(1, chosen.heads);
-    auto built = HairAsset::build(device->device, made, material ? material->material : Material{},
-                                  settings ? settings->settings : Settings{}, kernel,
-                                  chosen.has_bodies ? BodyUse::some : BodyUse::none);
-    if (!built) return built.error();
-    for (const std::string& warning : built->warnings())
-      if (chosen.warn) chosen.warn(shownText(warning).c_str(), chosen.user);
-    *asset = new ringlet_asset{std::move(*built), &device->device.gpu(), chosen.has_bodies != 0,
-                               kernel.movingRoots};
-    return {};
+    if (Outcome outcome = takeGroom(taken(groom), made); !outcome.isFine()) return outcome;
+    return buildAsset(device->device, made, settings ? settings->settings : Settings{},
+                      material ? material->material : Material{}, taken(options), asset);
   });
 }
 
@@ -182,23 +226,19 @@ void ringlet_asset_release(ringlet_asset* asset) { delete asset; }
 ringlet_result ringlet_hair_create(ringlet_asset* asset, const ringlet_initial_state* initial,
                                    ringlet_hair** hair) {
   return guarded([&]() -> Outcome {
-    if (!asset || !hair || !hasSizeOrIsNull(initial))
-      return Outcome::invalid(
-          "ringlet_hair_create takes an asset, a state that says its size, and a place for the hair");
+    if (Outcome wrong = checkArguments(
+            "ringlet_hair_create takes an asset, a state that says its size, and a place for the hair",
+            {given("asset", asset), sizedOrNull("initial", initial), given("hair", hair)});
+        !wrong.isFine())
+      return wrong;
     const ringlet_initial_state from = taken(initial);
     const auto head = poseOf<HeadPose>(from.head);
     if (!head) return notFinite("the head");
     std::vector<Body> bodies;
-    if (Outcome outcome = takeBodies(from.bodies, from.body_count, bodies); outcome.result != RINGLET_OK)
-      return outcome;
-    auto made = Simulation::create(asset->asset,
-                                   {.head = *head, .bodies = bodies, .readsBack = from.keeps_on_device == 0});
-    if (!made) return made.error();
-    std::vector<DevicePositions> positions = made->devicePositions();
-    *hair = new ringlet_hair{std::move(*made),           asset->device,   asset->asset.particleCount(),
-                             asset->asset.strandCount(), from.body_count, asset->movesRoots,
-                             std::move(positions)};
-    return {};
+    if (Outcome outcome = checkBodies(asset->builtFor, from.body_count); !outcome.isFine()) return outcome;
+    if (Outcome outcome = takeBodies(from.bodies, from.body_count, bodies); !outcome.isFine()) return outcome;
+    return createHair(*asset, {.head = *head, .bodies = bodies, .readsBack = from.keeps_on_device == 0},
+                      hair);
   });
 }
 
@@ -207,17 +247,20 @@ void ringlet_hair_release(ringlet_hair* hair) { delete hair; }
 ringlet_result ringlet_step(const ringlet_frame* frames, uint32_t frame_count) {
   return guarded([&]() -> Outcome {
     std::vector<TakenFrame> all;
-    if (Outcome outcome = takeAll(frames, frame_count, all); outcome.result != RINGLET_OK) return outcome;
+    if (Outcome outcome = takeAll(frames, frame_count, all); !outcome.isFine()) return outcome;
     for (const TakenFrame& frame : all)
-      if (frame.hair->recordedFrames > 0) return isRecorded();
+      if (Outcome outcome = checkFree(*frame.hair); !outcome.isFine()) return outcome;
     return stepFrames(hairFramesOf(all));
   });
 }
 
 ringlet_result ringlet_step_to(ringlet_hair* hair, const ringlet_pose* head) {
   return guarded([&]() -> Outcome {
-    if (!hair || !head) return Outcome::invalid("ringlet_step_to takes hair and a pose");
-    if (hair->recordedFrames > 0) return isRecorded();
+    if (Outcome wrong = checkArguments("ringlet_step_to takes hair and a pose",
+                                       {given("hair", hair), given("head", head)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     const auto end = poseOf<HeadPose>(*head);
     if (!end) return notFinite("the head");
     return hair->simulation.stepFrame(*end);
@@ -226,9 +269,12 @@ ringlet_result ringlet_step_to(ringlet_hair* hair, const ringlet_pose* head) {
 
 ringlet_result ringlet_record(const ringlet_frame* frames, uint32_t frame_count, void* command_buffer) {
   return guarded([&]() -> Outcome {
-    if (!command_buffer) return Outcome::invalid("ringlet_record takes a command buffer");
+    if (Outcome wrong = checkArguments("ringlet_record takes a command buffer",
+                                       {given("command_buffer", command_buffer)});
+        !wrong.isFine())
+      return wrong;
     std::vector<TakenFrame> all;
-    if (Outcome outcome = takeAll(frames, frame_count, all); outcome.result != RINGLET_OK) return outcome;
+    if (Outcome outcome = takeAll(frames, frame_count, all); !outcome.isFine()) return outcome;
     if (Status status = recordFrames(hairFramesOf(all), command_buffer); !status) return status;
     for (const TakenFrame& frame : all) ++frame.hair->recordedFrames;
     return {};
@@ -237,7 +283,10 @@ ringlet_result ringlet_record(const ringlet_frame* frames, uint32_t frame_count,
 
 ringlet_result ringlet_frame_is_over(ringlet_hair* hair) {
   return guarded([&]() -> Outcome {
-    if (!hair) return Outcome::invalid("ringlet_frame_is_over takes hair");
+    if (Outcome wrong = checkArguments("ringlet_frame_is_over takes hair", {given("hair", hair)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
     hair->recordedFrames = std::max(0, hair->recordedFrames - 1);
     return hair->simulation.frameIsOver();
   });
@@ -245,7 +294,10 @@ ringlet_result ringlet_frame_is_over(ringlet_hair* hair) {
 
 ringlet_result ringlet_positions(const ringlet_hair* hair, float* xyz, uint64_t particle_count) {
   return guarded([&]() -> Outcome {
-    if (!hair) return Outcome::invalid("ringlet_positions takes hair");
+    if (Outcome wrong = checkArguments("ringlet_positions takes hair", {given("hair", hair)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     const auto values = hair->simulation.positions();
     return values ? fill(*values, xyz, particle_count) : values.error();
   });
@@ -253,7 +305,10 @@ ringlet_result ringlet_positions(const ringlet_hair* hair, float* xyz, uint64_t 
 
 ringlet_result ringlet_velocities(const ringlet_hair* hair, float* xyz, uint64_t particle_count) {
   return guarded([&]() -> Outcome {
-    if (!hair) return Outcome::invalid("ringlet_velocities takes hair");
+    if (Outcome wrong = checkArguments("ringlet_velocities takes hair", {given("hair", hair)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     const auto state = hair->simulation.state();
     return state ? fill(state->velocities, xyz, particle_count) : state.error();
   });
@@ -266,9 +321,15 @@ uint32_t ringlet_device_positions_count(const ringlet_hair* hair) {
 ringlet_result ringlet_get_device_positions(const ringlet_hair* hair, uint32_t index,
                                             ringlet_device_positions* positions) {
   return guarded([&]() -> Outcome {
-    if (!hair || !hasSize(positions) || index >= hair->devicePositions.size())
+    if (Outcome wrong = checkArguments(
+            "ringlet_get_device_positions takes hair, one of its buffers, and a struct that says its size",
+            {given("hair", hair), sized("positions", positions)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
+    if (index >= hair->devicePositions.size())
       return Outcome::invalid(
-          "ringlet_get_device_positions takes hair, one of its buffers, and a struct that says its size");
+          fmt::format("there is no buffer {}; the hair has {}", index, hair->devicePositions.size()));
     const DevicePositions& from = hair->devicePositions[index];
     give(positions, {0, from.buffer, from.bytes, from.particles.data(), from.particles.size()});
     return {};
@@ -277,21 +338,34 @@ ringlet_result ringlet_get_device_positions(const ringlet_hair* hair, uint32_t i
 
 ringlet_result ringlet_hair_set_settings(ringlet_hair* hair, const ringlet_settings* settings) {
   return guarded([&]() -> Outcome {
-    if (!hair || !settings) return Outcome::invalid("ringlet_hair_set_settings takes hair and settings");
+    if (Outcome wrong = checkArguments("ringlet_hair_set_settings takes hair and settings",
+                                       {given("hair", hair), given("settings", settings)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     return hair->simulation.setSettings(settings->settings);
   });
 }
 
 ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_material* material) {
   return guarded([&]() -> Outcome {
-    if (!hair || !material) return Outcome::invalid("ringlet_hair_set_material takes hair and a material");
+    if (Outcome wrong = checkArguments("ringlet_hair_set_material takes hair and a material",
+                                       {given("hair", hair), given("material", material)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     return hair->simulation.setMaterial(material->material);
   });
 }
 
 ringlet_result ringlet_hair_cut(ringlet_hair* hair, const ringlet_cut* cuts, uint32_t cut_count) {
   return guarded([&]() -> Outcome {
-    if (!hair || (!cuts && cut_count > 0)) return Outcome::invalid("ringlet_hair_cut takes hair and cuts");
+    if (Outcome wrong = checkArguments(
+            "ringlet_hair_cut takes hair and cuts",
+            {given("hair", hair), Argument{"cuts", cuts || cut_count == 0 ? nullptr : "is NULL"}});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     std::vector<StrandCut> taken;
     for (uint32_t i = 0; i < cut_count; ++i) taken.push_back({cuts[i].strand, cuts[i].keep});
     return hair->simulation.cut(taken);
@@ -300,9 +374,13 @@ ringlet_result ringlet_hair_cut(ringlet_hair* hair, const ringlet_cut* cuts, uin
 
 ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count) {
   return guarded([&]() -> Outcome {
-    if (!hair) return Outcome::invalid("ringlet_hair_set_bodies takes hair");
+    if (Outcome wrong = checkArguments("ringlet_hair_set_bodies takes hair", {given("hair", hair)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
+    if (Outcome outcome = checkBodies(hair->builtFor, body_count); !outcome.isFine()) return outcome;
     std::vector<Body> taken;
-    if (Outcome outcome = takeBodies(bodies, body_count, taken); outcome.result != RINGLET_OK) return outcome;
+    if (Outcome outcome = takeBodies(bodies, body_count, taken); !outcome.isFine()) return outcome;
     if (Status status = hair->simulation.setBodies(taken); !status) return status;
     hair->bodyCount = body_count;
     return {};
@@ -311,8 +389,11 @@ ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* b
 
 ringlet_result ringlet_get_report(const ringlet_hair* hair, ringlet_report* report) {
   return guarded([&]() -> Outcome {
-    if (!hair || !hasSize(report))
-      return Outcome::invalid("ringlet_get_report takes hair, and a report that says its size");
+    if (Outcome wrong = checkArguments("ringlet_get_report takes hair, and a report that says its size",
+                                       {given("hair", hair), sized("report", report)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     const auto told = hair->simulation.report();
     if (!told) return told.error();
     const auto contacts = hair->simulation.contactReport();
@@ -325,7 +406,11 @@ ringlet_result ringlet_get_report(const ringlet_hair* hair, ringlet_report* repo
 
 ringlet_result ringlet_checkpoint(ringlet_hair* hair, void* bytes, size_t* size) {
   return guarded([&]() -> Outcome {
-    if (!hair || !size) return Outcome::invalid("ringlet_checkpoint takes hair, and a place for the size");
+    if (Outcome wrong = checkArguments("ringlet_checkpoint takes hair, and a place for the size",
+                                       {given("hair", hair), given("size", size)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     const auto made = hair->simulation.checkpoint();
     if (!made) return made.error();
     const std::size_t room = std::exchange(*size, made->size());
@@ -340,7 +425,11 @@ ringlet_result ringlet_checkpoint(ringlet_hair* hair, void* bytes, size_t* size)
 
 ringlet_result ringlet_restore(ringlet_hair* hair, const void* bytes, size_t size) {
   return guarded([&]() -> Outcome {
-    if (!hair || !bytes) return Outcome::invalid("ringlet_restore takes hair and a checkpoint");
+    if (Outcome wrong = checkArguments("ringlet_restore takes hair and a checkpoint",
+                                       {given("hair", hair), given("bytes", bytes)});
+        !wrong.isFine())
+      return wrong;
+    if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     return hair->simulation.restore({static_cast<const std::byte*>(bytes), size});
   });
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <initializer_list>
+#include <memory>
 #include <new>
 #include <string>
 #include <utility>
@@ -27,19 +29,27 @@ struct ringlet_settings {
 struct ringlet_material {
   ringlet::Material material;
 };
+namespace ringlet::c {
+/// What an asset was built for: ringlet_asset_options.
+struct BuiltFor {
+  bool bodies = false, movingRoots = false, forces = false, goals = false, fields = false;
+};
+}  // namespace ringlet::c
 struct ringlet_asset {
   ringlet::HairAsset asset;
-  const void* device;  // to tell devices apart
-  bool hasBodies, movesRoots;
+  ringlet::ComputeDevice device;
+  ringlet::c::BuiltFor builtFor{};
+  std::shared_ptr<const void> scene{};  // that it was built of; none: a groom of the caller's
 };
 struct ringlet_hair {
   ringlet::Simulation simulation;
-  const void* device;
+  ringlet::ComputeDevice device;
+  ringlet::c::BuiltFor builtFor{};
   std::uint64_t particleCount, strandCount;
   std::uint32_t bodyCount;
-  bool movesRoots;
-  std::vector<ringlet::DevicePositions> devicePositions;
-  int recordedFrames = 0;  // in commands of the host's, and not over
+  std::vector<ringlet::DevicePositions> devicePositions{};
+  std::shared_ptr<const void> scene{};  // the asset's
+  int recordedFrames = 0;               // in commands of the host's, and not over
 };
 
 namespace ringlet::c {
@@ -52,6 +62,7 @@ struct Outcome {
   Outcome() = default;
   Outcome(const Error& error);
   Outcome(const Status& status) : Outcome(status ? Outcome() : Outcome(status.error())) {}
+  bool isFine() const { return result == RINGLET_OK; }
   static Outcome invalid(std::string message) {
     Outcome outcome;
     outcome.result = RINGLET_ERROR_INVALID_ARGUMENT;
@@ -63,6 +74,7 @@ struct Outcome {
 /// Keeps the message for ringlet_error_message.
 ringlet_result tell(Outcome outcome) noexcept;
 ringlet_result tellOutOfMemory() noexcept;
+ringlet_result tellThrown(const char* what) noexcept;
 
 /// What a function does, with no way out for an exception.
 template <class Body>
@@ -72,7 +84,9 @@ ringlet_result guarded(Body&& body) noexcept {
   } catch (const std::bad_alloc&) {
     return tellOutOfMemory();
   } catch (const std::exception& error) {
-    return tell(Error{error.what()});
+    return tellThrown(error.what());
+  } catch (...) {  // of a callback
+    return tellThrown("something that is no std::exception");
   }
 }
 
@@ -98,10 +112,42 @@ template <class T>
 bool hasSize(const T* from) {
   return from && from->struct_size >= sizeof(std::size_t);
 }
-/// Of one that may be left out.
-template <class T>
-bool hasSizeOrIsNull(const T* from) {
-  return !from || hasSize(from);
+
+/// An argument, and what is wrong with it; null: nothing.
+struct Argument {
+  const char* name;
+  const char* fault;
+};
+inline Argument given(const char* name, const void* argument) {
+  return {name, argument ? nullptr : "is NULL"};
 }
+/// A struct, or an array of them.
+template <class T>
+Argument sized(const char* name, const T* argument) {
+  if (!argument) return given(name, argument);
+  return {name, hasSize(argument) ? nullptr : "has no struct_size; make it with RINGLET_INIT"};
+}
+template <class T>
+Argument sizedOrNull(const char* name, const T* argument) {
+  return argument ? sized(name, argument) : Argument{name, nullptr};
+}
+/// "ringlet_step_to takes hair and a pose: head is NULL" for the first that is wrong.
+Outcome checkArguments(const char* sentence, std::initializer_list<Argument> arguments);
+
+/// A groom of the caller's.
+Outcome takeGroom(const ringlet_groom& from, Groom& made);
+/// Whether it has strands of two particles at least.
+Outcome checkStrands(const Groom& groom);
+/// ringlet_asset_build and ringlet_hair_create, of what was taken.
+Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settings& settings,
+                   const Material& material, const ringlet_asset_options& options, ringlet_asset** asset);
+Outcome createHair(const ringlet_asset& asset, const InitialState& initial, ringlet_hair** hair);
+
+/// Whether hair can be used in this process.
+Outcome checkProcess(const ringlet_hair& hair);
+/// The same, and no frame of it is in a host's commands.
+Outcome checkFree(const ringlet_hair& hair);
+/// Whether hair was built for something; `option` is the member of ringlet_asset_options that says so.
+Outcome checkBuiltFor(bool isBuiltForIt, const char* what, const char* option);
 
 }  // namespace ringlet::c

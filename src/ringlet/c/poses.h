@@ -8,6 +8,7 @@
 
 #include "ringlet/base/vec3.h"
 #include "ringlet/c/handles.h"
+#include "ringlet/scene/outside_numbers.h"
 
 namespace ringlet::c {
 
@@ -18,19 +19,22 @@ inline std::optional<Quatd> rotationOf(const double (&r)[4]) {
   return Quatd{r[0] / length, r[1] / length, r[2] / length, r[3] / length};
 }
 
-/// None where it is not finite.
+/// What is said of one that poseOf does not take.
+inline constexpr const char* kWrongPose = "has a pose that is not finite, or more than 1e9 m away";
+
+/// None where it is not finite or too far away.
 template <class Pose>
 std::optional<Pose> poseOf(const ringlet_pose& pose) {
   const auto rotation = rotationOf(pose.rotation);
   const Vec3d position{pose.position[0], pose.position[1], pose.position[2]};
-  if (!rotation || !std::isfinite(dot(position, position))) return std::nullopt;
+  if (!rotation || !contains(kPosePlace, position)) return std::nullopt;
   Pose made;
   made.position = position, made.rotation = *rotation;
   return made;
 }
 
 inline Outcome notFinite(const char* what) {
-  return Outcome::invalid(fmt::format("{} has a pose that is not finite", what));
+  return Outcome::invalid(fmt::format("{} {}", what, kWrongPose));
 }
 
 }  // namespace ringlet::c

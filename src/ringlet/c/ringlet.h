@@ -1,8 +1,8 @@
 /* Ringlet's C interface: the solver for programs that are not written in C++. The same core, the same bits.
 
    Functions that can fail return a ringlet_result; where it is not RINGLET_OK, ringlet_error_message() says,
-   on the same thread, what was tried, what was found and what to do. No exception leaves a function, and none
-   aborts for a wrong argument.
+   on the same thread, what was tried, what was found and what to do. No exception leaves a function, not one
+   of a callback either, and none aborts for a wrong argument.
 
    Structs that are handed over begin with their size, so that later versions may add members: set it with
    RINGLET_INIT, which leaves the rest 0, and 0 is the default of every member. Structs of one array have one
@@ -10,7 +10,8 @@
 
    Handles may be used by one thread at a time; those of one device or asset by different threads at once. A
    device lives as long as anything made of it, an asset as long as any hair of it, whatever was released
-   before. Releasing NULL is fine.
+   before. Releasing NULL is fine. After fork() they are of use in the process that made them only: in
+   another each function that takes hair or a device is an error. Open a device there.
 
    Lengths are in metres, times in seconds, turns as quaternions x, y, z, w with the axes of the groom. */
 #ifndef RINGLET_C_RINGLET_H
@@ -110,7 +111,7 @@ void ringlet_device_release(ringlet_device* device);
 /* Settings and materials are set by the names that scene and material files have (`ringlet scene --keys`,
    `ringlet material --list`): "gravity", "steps_per_frame", "contacts.friction", "air.wind";
    "bend_stiffness", "variation.core_stiffness". An unknown name is an error, whose message says the nearest
-   name. Numbers are checked when an asset is built of them or hair is given them. */
+   name. Ranges are checked when an asset is built of them or hair is given them. */
 
 ringlet_result ringlet_settings_create(ringlet_settings** settings);
 /* Sets a number, a whole number or a switch (0 or 1). */
@@ -160,7 +161,7 @@ uint32_t ringlet_asset_strand_count(const ringlet_asset* asset);
 void ringlet_asset_release(ringlet_asset* asset);
 
 typedef struct ringlet_pose {
-  double position[3];
+  double position[3]; /* at most 1e9 m away along each axis */
   double rotation[4]; /* quaternion x, y, z, w, which is normalized; four zeros are the identity */
 } ringlet_pose;
 
@@ -217,7 +218,9 @@ ringlet_result ringlet_step(const ringlet_frame* frames, uint32_t frame_count);
 ringlet_result ringlet_step_to(ringlet_hair* hair, const ringlet_pose* head);
 
 /* Records frames into a VkCommandBuffer of the host's. When the device has executed it, the host calls
-   ringlet_frame_is_over for each hair. The rules are those of recordFrames in solver/hair_frames.h. */
+   ringlet_frame_is_over for each hair. Until then what looks at the hair's state or changes it is an error;
+   forces, goals and fields may be set, and act from the next frame that is recorded. The rules are those of
+   recordFrames in solver/hair_frames.h. */
 ringlet_result ringlet_record(const ringlet_frame* frames, uint32_t frame_count, void* command_buffer);
 ringlet_result ringlet_frame_is_over(ringlet_hair* hair);
 
@@ -247,18 +250,20 @@ ringlet_result ringlet_hair_set_material(ringlet_hair* hair, const ringlet_mater
 /* Replaces all bodies, by any number. They stand where their poses in the head's frame say. */
 ringlet_result ringlet_hair_set_bodies(ringlet_hair* hair, const ringlet_body* bodies, uint32_t body_count);
 
-/* Sets external forces: an acceleration x, y, z for every particle in the groom's order [m/s^2], which acts
-   until others are set (Simulation::setForces). The asset's options must have has_forces. */
+/* Sets external forces: an acceleration x, y, z for every particle in the groom's order [m/s^2], each number
+   from -1e6 to 1e6, which acts until others are set (Simulation::setForces). The asset's options must have
+   has_forces. */
 ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uint64_t particle_count);
 
 /* Places that particles are pulled to (Simulation::setGoals), in the groom's order and axes, carried by the
    head. A strength of 1 holds a particle's own weight 1 cm away. */
 typedef struct ringlet_goals {
   size_t struct_size;
-  const float* places;    /* x, y, z of every particle, at the end of the next frame and from then on */
-  const float* strengths; /* of every particle, not negative */
+  const float* places;    /* x, y, z of every particle, at the end of the next frame and from then on; each
+                             number from -1e6 to 1e6 */
+  const float* strengths; /* of every particle, 0 to 1e7 */
   uint64_t particle_count;
-  double damping_ratio; /* of the motion about a place, critical at 1; 0 means 1 */
+  double damping_ratio; /* of the motion about a place, critical at 1, at most 1000; 0 means 1 */
   int undamped;         /* 1 for a damping ratio of 0 */
   const float* from;    /* places at the beginning of the next frame; NULL: those set before */
 } ringlet_goals;
@@ -306,6 +311,9 @@ ringlet_result ringlet_get_report(const ringlet_hair* hair, ringlet_report* repo
 /* Writes the state that later frames depend on (Simulation::checkpoint). `size` is the room in `bytes` and
    becomes the number of bytes written. With `bytes` NULL it only becomes that number. */
 ringlet_result ringlet_checkpoint(ringlet_hair* hair, void* bytes, size_t* size);
+/* Goes on from a checkpoint of such hair: of the same groom, settings, material and options, on the same
+   device. Damaged bytes and those of other hair are an error, and nothing changes. The checks are against
+   mistakes and not against intent: trust a checkpoint as you trust a program. */
 ringlet_result ringlet_restore(ringlet_hair* hair, const void* bytes, size_t size);
 
 #ifdef __cplusplus

@@ -15,7 +15,8 @@
 namespace ringlet::c {
 namespace {
 
-constexpr std::string_view kContacts = "contacts.", kAir = "air.", kGoal = "goal.", kVariation = "variation.";
+constexpr std::string_view kContacts = "contacts.", kAir = "air.", kGoal = "goal.", kVariation = "variation.",
+                           kIntegrator = "integrator";
 constexpr const char* kIntegrators[] = {"jacobi", "point_jacobi", "paper"};
 
 Outcome unknown(std::string_view what, std::string_view name, const std::vector<std::string>& names) {
@@ -30,7 +31,7 @@ void addNames(std::vector<std::string>& names, std::string_view table, const Fie
   for (const auto& field : fields) names.push_back(fmt::format("{}{}", table, field.key));
 }
 std::vector<std::string> settingNames() {
-  std::vector<std::string> names{"integrator"};
+  std::vector<std::string> names{std::string(kIntegrator)};
   addNames(names, "", settingsFields());
   addNames(names, kContacts, contactFields());
   addNames(names, kAir, airFields());
@@ -56,32 +57,54 @@ bool put(Vec3d& to, Vec3d value) { return to = value, true; }
 bool put(auto&, double) { return false; }
 bool put(auto&, Vec3d) { return false; }
 
+// What a setting takes, and the function that sets it.
+template <class T>
+constexpr const char* kTakes = "a number: call ringlet_settings_set";
+template <>
+constexpr const char* kTakes<int> = "a whole number: call ringlet_settings_set";
+template <>
+constexpr const char* kTakes<std::uint32_t> = "a whole number from 0 on: call ringlet_settings_set";
+template <>
+constexpr const char* kTakes<bool> = "0 or 1: call ringlet_settings_set";
+template <>
+constexpr const char* kTakes<Vec3d> = "three numbers: call ringlet_settings_set_vector";
+constexpr const char* kTakesWord = "a word: call ringlet_settings_set_text";
+
 template <class Owner, class Put>
 Outcome setField(std::span<const SettingField<Owner>> fields, std::string_view key, Owner& owner,
-                 std::string_view name, const char* type, Put&& putInto) {
+                 std::string_view name, const std::string& found, Put&& putInto) {
   const SettingField<Owner>* field = fieldNamed(fields, key);
   if (!field) return unknown("setting", name, settingNames());
-  const bool fits = std::visit([&](auto member) { return putInto(*field, owner.*member); }, field->member);
-  return fits ? Outcome{} : Outcome::invalid(fmt::format("the setting {} does not take {}", name, type));
+  return std::visit(
+      [&](auto member) -> Outcome {
+        if (putInto(*field, owner.*member)) return {};
+        using Value = typename Unwrapped<std::remove_cvref_t<decltype(owner.*member)>>::Type;
+        return Outcome::invalid(fmt::format("the setting {} does not take {}; it takes {}", name, found,
+                                            std::is_enum_v<Value> ? kTakesWord : kTakes<Value>));
+      },
+      field->member);
 }
 
 // Calls putInto(field, member) for the setting of this name.
 template <class Put>
-Outcome setNamed(Settings& settings, std::string_view name, const char* type, Put&& putInto) {
+Outcome setNamed(Settings& settings, std::string_view name, const std::string& found, Put&& putInto) {
+  if (name == kIntegrator)
+    return Outcome::invalid(
+        fmt::format("the setting {} does not take {}; it takes {}", name, found, kTakesWord));
   if (name.starts_with(kContacts))
-    return setField(contactFields(), name.substr(kContacts.size()), settings.contacts, name, type, putInto);
+    return setField(contactFields(), name.substr(kContacts.size()), settings.contacts, name, found, putInto);
   if (name.starts_with(kAir))
-    return setField(airFields(), name.substr(kAir.size()), settings.air, name, type, putInto);
+    return setField(airFields(), name.substr(kAir.size()), settings.air, name, found, putInto);
   if (name.starts_with(kGoal))
-    return setField(goalFields(), name.substr(kGoal.size()), settings.goal, name, type, putInto);
-  return setField(settingsFields(), name, settings, name, type, putInto);
+    return setField(goalFields(), name.substr(kGoal.size()), settings.goal, name, found, putInto);
+  return setField(settingsFields(), name, settings, name, found, putInto);
 }
 
 Outcome setWord(Settings& settings, std::string_view name, std::string_view word) {
   const auto indexIn = [&](const auto& names) {
     return static_cast<int>(std::ranges::find(names, word) - std::ranges::begin(names));
   };
-  if (name == "integrator") {
+  if (name == kIntegrator) {
     const auto index = static_cast<std::size_t>(indexIn(kIntegrators));
     if (index == std::size(kIntegrators))
       return unknown("integrator", word, {std::begin(kIntegrators), std::end(kIntegrators)});
@@ -104,14 +127,25 @@ Outcome setWord(Settings& settings, std::string_view name, std::string_view word
   return outcome.result == RINGLET_OK && !words.empty() ? unknown(name, word, words) : outcome;
 }
 
+Outcome unknownNumber(std::string_view name) {
+  std::vector<std::string> names;
+  addNames(names, "", materialParameters());
+  addNames(names, kVariation, variationParameters());
+  return unknown("number of a material", name, names);
+}
+
 template <class Owner>
-bool setParameter(std::span<const Parameter<Owner>> parameters, std::string_view key, Owner& owner,
-                  double value) {
+Outcome setParameter(std::span<const Parameter<Owner>> parameters, std::string_view key, Owner& owner,
+                     std::string_view name, double value) {
   const auto found =
       std::ranges::find(parameters, key, [](const auto& p) { return std::string_view(p.key); });
-  if (found == parameters.end()) return false;
+  if (found == parameters.end()) return unknownNumber(name);
+  // A number without a whole value becomes none.
+  if (found->isWhole() && !(found->allowed.contains(value) && value == std::floor(value)))
+    return Outcome::invalid(
+        fmt::format("{} is {}; it takes a whole number{}", name, value, " " + rangeText(found->allowed, "")));
   found->set(owner, value);
-  return true;
+  return {};
 }
 
 }  // namespace
@@ -122,7 +156,10 @@ using namespace ringlet::c;
 
 ringlet_result ringlet_settings_create(ringlet_settings** settings) {
   return guarded([&]() -> Outcome {
-    if (!settings) return Outcome::invalid("ringlet_settings_create has nowhere to put the settings");
+    if (Outcome wrong = checkArguments("ringlet_settings_create has nowhere to put the settings",
+                                       {given("settings", settings)});
+        !wrong.isFine())
+      return wrong;
     *settings = new ringlet_settings{};
     return {};
   });
@@ -130,8 +167,11 @@ ringlet_result ringlet_settings_create(ringlet_settings** settings) {
 
 ringlet_result ringlet_settings_set(ringlet_settings* settings, const char* name, double value) {
   return guarded([&]() -> Outcome {
-    if (!settings || !name) return Outcome::invalid("ringlet_settings_set takes settings and a name");
-    return setNamed(settings->settings, name, "this number",
+    if (Outcome wrong = checkArguments("ringlet_settings_set takes settings and a name",
+                                       {given("settings", settings), given("name", name)});
+        !wrong.isFine())
+      return wrong;
+    return setNamed(settings->settings, name, fmt::format("the number {}", value),
                     [&](const auto&, auto& member) { return put(member, value); });
   });
 }
@@ -139,8 +179,11 @@ ringlet_result ringlet_settings_set(ringlet_settings* settings, const char* name
 ringlet_result ringlet_settings_set_vector(ringlet_settings* settings, const char* name, double x, double y,
                                            double z) {
   return guarded([&]() -> Outcome {
-    if (!settings || !name) return Outcome::invalid("ringlet_settings_set_vector takes settings and a name");
-    return setNamed(settings->settings, name, "three numbers", [&](const auto&, auto& member) {
+    if (Outcome wrong = checkArguments("ringlet_settings_set_vector takes settings and a name",
+                                       {given("settings", settings), given("name", name)});
+        !wrong.isFine())
+      return wrong;
+    return setNamed(settings->settings, name, "three numbers here", [&](const auto&, auto& member) {
       return put(member, Vec3d{x, y, z});
     });
   });
@@ -148,8 +191,11 @@ ringlet_result ringlet_settings_set_vector(ringlet_settings* settings, const cha
 
 ringlet_result ringlet_settings_set_text(ringlet_settings* settings, const char* name, const char* value) {
   return guarded([&]() -> Outcome {
-    if (!settings || !name || !value)
-      return Outcome::invalid("ringlet_settings_set_text takes settings, a name and a word");
+    if (Outcome wrong =
+            checkArguments("ringlet_settings_set_text takes settings, a name and a word",
+                           {given("settings", settings), given("name", name), given("value", value)});
+        !wrong.isFine())
+      return wrong;
     return setWord(settings->settings, name, value);
   });
 }
@@ -158,7 +204,10 @@ void ringlet_settings_release(ringlet_settings* settings) { delete settings; }
 
 ringlet_result ringlet_material_create(const char* preset, ringlet_material** material) {
   return guarded([&]() -> Outcome {
-    if (!material) return Outcome::invalid("ringlet_material_create has nowhere to put the material");
+    if (Outcome wrong = checkArguments("ringlet_material_create has nowhere to put the material",
+                                       {given("material", material)});
+        !wrong.isFine())
+      return wrong;
     Material made;
     if (preset && *preset) {
       const auto found = materialPreset(preset);
@@ -172,18 +221,15 @@ ringlet_result ringlet_material_create(const char* preset, ringlet_material** ma
 
 ringlet_result ringlet_material_set(ringlet_material* material, const char* name, double value) {
   return guarded([&]() -> Outcome {
-    if (!material || !name) return Outcome::invalid("ringlet_material_set takes a material and a name");
+    if (Outcome wrong = checkArguments("ringlet_material_set takes a material and a name",
+                                       {given("material", material), given("name", name)});
+        !wrong.isFine())
+      return wrong;
     const std::string_view key = name;
     Material& m = material->material;
-    const bool isKnown =
-        key.starts_with(kVariation)
-            ? setParameter(variationParameters(), key.substr(kVariation.size()), m.variation, value)
-            : setParameter(materialParameters(), key, m, value);
-    if (isKnown) return {};
-    std::vector<std::string> names;
-    addNames(names, "", materialParameters());
-    addNames(names, kVariation, variationParameters());
-    return unknown("number of a material", name, names);
+    if (key.starts_with(kVariation))
+      return setParameter(variationParameters(), key.substr(kVariation.size()), m.variation, key, value);
+    return setParameter(materialParameters(), key, m, key, value);
   });
 }
 

@@ -39,7 +39,7 @@ Allocation& Allocation::operator=(Allocation&& other) noexcept {
 }
 
 Allocation::~Allocation() {
-  if (!device_) return;
+  if (!device_ || !device_->isOfThisProcess()) return;
   if (const HostAllocator& host = device_->hostAllocator(); host.allocate) {
     host.free(piece_);
   } else {

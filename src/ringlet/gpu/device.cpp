@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "ringlet/gpu/check.h"
 #include "ringlet/gpu/device_lack.h"
@@ -504,14 +505,29 @@ void Device::take(std::unique_ptr<Instance> instance, VkPhysicalDevice physical,
   vkGetPhysicalDeviceMemoryProperties(physical, &memory_);
 }
 
-Device::Device() : kernels_(std::make_unique<KernelCache>()) {}
+Device::Device() : kernels_(std::make_unique<KernelCache>()), process_(getpid()) {}
 
 Device::~Device() {
+  if (!isOfThisProcess()) static_cast<void>(instance_.release());
   if (!device_) return;
+  if (!isOfThisProcess()) {
+    static_cast<void>(kernels_.release());
+    return;
+  }
   keepPipelineCache();
   kernels_.reset();
   table_.vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
   if (isOwned_) table_.vkDestroyDevice(device_, nullptr);
+}
+
+bool Device::isOfThisProcess() const { return process_ == getpid(); }
+
+Status Device::checkProcess() const {
+  if (isOfThisProcess()) return {};
+  return Error{fmt::format(
+      "{} was opened by process {}, and this is process {}, after fork(): a device and all that was "
+      "made with it are of use in their own process only. Open a device in this one",
+      properties_.name, process_, getpid())};
 }
 
 std::vector<std::string> Device::validationMessages() const {

@@ -162,6 +162,11 @@ class Device : public std::enable_shared_from_this<Device> {
   const DeviceProperties& properties() const { return properties_; }
   const DeviceOptions& options() const { return options_; }
 
+  /// Fails in another process than the one that opened the device, after fork(): a driver's threads are not
+  /// in it, and a wait would never end. What such a process destroys of the device's is left to its end.
+  Status checkProcess() const;
+  bool isOfThisProcess() const;
+
   /// Warnings and errors of the validation layer so far; empty where it is off.
   std::vector<std::string> validationMessages() const;
   /// The log behind it, which may be kept past the device; null where the layer is off.
@@ -226,6 +231,7 @@ class Device : public std::enable_shared_from_this<Device> {
   PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
   DeviceProperties properties_;
   DeviceOptions options_;
+  const int process_;  // that opened it
 };
 
 }  // namespace ringlet::gpu

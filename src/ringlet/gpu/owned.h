@@ -28,7 +28,7 @@ class Owned {
     return *this;
   }
   ~Owned() {
-    if (handle_) (device_->vk().*destroy)(device_->handle(), handle_, nullptr);
+    if (handle_ && device_->isOfThisProcess()) (device_->vk().*destroy)(device_->handle(), handle_, nullptr);
   }
 
   explicit operator bool() const { return handle_ != Handle{}; }

@@ -44,6 +44,7 @@ struct Recorder::State {
   ~State() {
     // Nothing may be destroyed under the device's hands; a lost device answers at once. Where the fence tells
     // nothing, work may still go on.
+    if (!device->isOfThisProcess()) return;
     if (phase == Phase::submitted && !waitForFence()) (void)vk().vkDeviceWaitIdle(device->handle());
   }
 
@@ -219,6 +220,7 @@ Status Recorder::write() {
 Status Recorder::submit() {
   RINGLET_ASSERT(self_->phase == State::Phase::recording || self_->phase == State::Phase::recorded,
                  "submit without a recording, or before wait");
+  if (Status status = self_->device->checkProcess(); !status) return status;
   const Clock::time_point begin = Clock::now();
   if (self_->phase == State::Phase::recording) {
     RINGLET_ASSERT(!isStageOpen(), "submit before endStage");
@@ -238,6 +240,7 @@ Status Recorder::submit() {
 
 Status Recorder::wait() {
   RINGLET_ASSERT(self_->phase == State::Phase::submitted, "wait without submit");
+  if (Status status = self_->device->checkProcess(); !status) return status;
   const Clock::time_point begin = Clock::now();
   if (Status status = self_->waitForFence(); !status) return status;  // its end is still to come
   self_->phase = State::Phase::recorded;

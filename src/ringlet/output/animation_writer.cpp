@@ -1,6 +1,9 @@
 // Implements output/animation_writer.h: the table of formats.
 #include "ringlet/output/animation_writer.h"
 
+#include <fmt/format.h>
+
+#include <string>
 #include <vector>
 
 #include "ringlet/output/cache_writer.h"
@@ -71,6 +74,17 @@ const AnimationFormat* animationFormatOf(const std::filesystem::path& path) {
   for (const AnimationFormat& format : kFormats)
     if (path.extension() == format.extension) return &format;
   return nullptr;
+}
+
+Result<Writer> createAnimation(const std::filesystem::path& path, const Groom& topology,
+                               const AnimationOptions& options) {
+  if (const AnimationFormat* format = animationFormatOf(path))
+    return format->resume(path, topology, options, 0);
+  std::string known;
+  for (const AnimationFormat& each : kFormats)
+    known += (known.empty() ? "" : ", ") + std::string(each.extension);
+  return Error{fmt::format("cannot write {}: an animation ends in one of {}", path.string(), known),
+               Fault::output};
 }
 
 }  // namespace ringlet

@@ -94,5 +94,10 @@ std::span<const AnimationFormat> animationFormats();
 std::string animationEndings(bool AnimationFormat::*property, const char* last);
 /// By the ending of the name; null for one that is none of theirs.
 const AnimationFormat* animationFormatOf(const std::filesystem::path& path);
+/// Begins an animation in the format of the ending; a PATH.partial that is there is replaced. Errors: another
+/// ending, with those there are; those of AnimationFormat::resume.
+Result<std::unique_ptr<AnimationWriter>> createAnimation(const std::filesystem::path& path,
+                                                         const Groom& topology,
+                                                         const AnimationOptions& options);
 
 }  // namespace ringlet

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "ringlet/base/file_fault.h"
+#include "ringlet/base/whole_file.h"
 
 namespace ringlet {
 namespace {
@@ -130,6 +131,9 @@ Status ByteFile::truncate(std::uint64_t size) {
 bool ByteFile::isThere() const { return isNamed(path_, descriptor()); }
 
 Status ByteFile::rename(const fs::path& name) {
+  if (Status can = checkReplaceable(name); !can)
+    return Error{fmt::format("{}; what was written is kept as {}", can.error().message, path_.string()),
+                 Fault::output};
   std::error_code code;
   if (isThere()) fs::rename(path_, name, code);
   if (code || !isNamed(name, descriptor())) {
@@ -155,6 +159,11 @@ Status ByteFile::closeAs(const fs::path& finished) {
   if (Status renamed = rename(finished); !renamed) return renamed;
   if (std::fclose(file_.release()) != 0) return failure("finish writing", errno);
   return {};
+}
+
+Result<ByteFile> createPartial(const fs::path& path) {
+  if (Status can = checkReplaceable(path); !can) return can.error();
+  return ByteFile::create(path.string() + ".partial");
 }
 
 Result<ByteFile> openPartial(const fs::path& path) {

@@ -62,6 +62,10 @@ class ByteFile {
   std::filesystem::path path_;
 };
 
+/// A file to be written that will have this name once it is finished (closeAs), and until then PATH.partial.
+/// Errors: those of ByteFile::create; the name is that of no regular file.
+Result<ByteFile> createPartial(const std::filesystem::path& path);
+
 /// Where one run goes on with what another left: PATH.partial, or, where that one was ended while it gave its
 /// files their names, PATH; nothing is changed yet.
 Result<ByteFile> openPartial(const std::filesystem::path& path);

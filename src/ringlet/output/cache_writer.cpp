@@ -24,7 +24,7 @@ std::string_view textOf(std::span<const std::byte> bytes) {
 Result<CacheWriter> CacheWriter::create(const std::filesystem::path& path, const Groom& topology,
                                         const CacheHeader& header) {
   RINGLET_ASSERT(topology.strandCount() > 0, "a groom without strands is not written");
-  auto file = ByteFile::create(path.string() + ".partial");
+  auto file = createPartial(path);
   if (!file) return file.error();
   CacheWriter writer(std::move(*file), path, topology, header);
 

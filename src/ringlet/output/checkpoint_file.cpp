@@ -2,7 +2,6 @@
 #include "ringlet/output/checkpoint_file.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <string_view>
 
 #include "ringlet/base/archive.h"
+#include "ringlet/base/checksum.h"
 #include "ringlet/base/little_endian.h"
 #include "ringlet/base/whole_file.h"
 
@@ -18,8 +18,8 @@ namespace {
 
 // No text, as a cache's magic (cache_format.h).
 constexpr std::string_view kMagic = "\x89RGK\r\n\x1a\n";
-constexpr std::uint32_t kVersion = 3;
-constexpr std::size_t kHeaderBytes = 24;
+constexpr std::uint64_t kVersion = 4;
+constexpr std::size_t kHeaderBytes = 32;
 constexpr std::size_t kMostDifferences = 4;  // told of
 
 void archiveAll(Archive& archive, Checkpoint& checkpoint) {
@@ -35,11 +35,6 @@ void archiveAll(Archive& archive, Checkpoint& checkpoint) {
   archive.value(checkpoint.frame);
   archive.list(checkpoint.computed);
   archive.list(checkpoint.written);
-}
-
-std::uint32_t checksumOf(std::span<const std::byte> bytes) {
-  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
-  return static_cast<std::uint32_t>(crc32_z(0, data, bytes.size()));
 }
 
 Error refused(const std::filesystem::path& path, std::string_view why) {
@@ -63,8 +58,8 @@ Status writeCheckpoint(const std::filesystem::path& path, Checkpoint checkpoint)
   const std::span<const std::byte> content = std::span(file).subspan(kHeaderBytes);
   std::vector<std::byte> header;
   for (const char c : kMagic) header.push_back(static_cast<std::byte>(c));
-  appendU32(header, kVersion);
-  appendU32(header, checksumOf(content));
+  appendU64(header, kVersion);
+  appendU64(header, checksum64(content));
   appendU64(header, content.size());
   std::ranges::copy(header, file.begin());
   return writeWholeFile(path, file);
@@ -78,11 +73,11 @@ Result<Checkpoint> readCheckpoint(const std::filesystem::path& path) {
       bytes.size() >= kHeaderBytes && std::ranges::equal(bytes.first(kMagic.size()), kMagic, {}, {},
                                                          [](char c) { return static_cast<std::byte>(c); });
   if (!isOurs) return refused(path, "is no checkpoint of Ringlet");
-  if (const std::uint32_t version = readU32(bytes, 8); version != kVersion)
+  if (const std::uint64_t version = readU64(bytes, 8); version != kVersion)
     return refused(
         path, fmt::format("is a checkpoint of version {}, and this program reads {}", version, kVersion));
   const auto content = bytes.subspan(kHeaderBytes);
-  if (readU64(bytes, 16) != content.size() || readU32(bytes, 12) != checksumOf(content))
+  if (readU64(bytes, 24) != content.size() || readU64(bytes, 16) != checksum64(content))
     return refused(path, "is damaged");
   Checkpoint checkpoint;
   Archive archive = Archive::reading(content);

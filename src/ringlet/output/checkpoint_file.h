@@ -1,7 +1,7 @@
 // The file that a run which was killed goes on from: what it was a run of, how many frames were done, and all
 // that the frames after them depend on.
 //
-//   magic 8 | version u32 | CRC-32 of the content u32 | bytes of the content u64 | content
+//   magic 8 | version u64 | checksum64 of the content u64 | bytes of the content u64 | content
 //
 // The content is an Archive (base/archive.h), as the machine has it in memory: the program that wrote it
 // reads it, on such a machine. A file that is damaged, or another version's, is refused.

@@ -41,7 +41,7 @@ Result<Pc2Writer> Pc2Writer::resume(const std::filesystem::path& path, const Gro
   if (topology.firstPoint.back() > std::uint32_t{std::numeric_limits<std::int32_t>::max()})
     return Error{fmt::format("cannot write {}: it can hold 2^31 - 1 points, and there are {}", path.string(),
                              topology.firstPoint.back())};
-  auto file = frameCount == 0 ? ByteFile::create(path.string() + ".partial") : openPartial(path);
+  auto file = frameCount == 0 ? createPartial(path) : openPartial(path);
   if (!file) return file.error();
   Pc2Writer writer(std::move(*file), path, topology);
   const std::vector<std::byte> expected = headerOf(topology, 0);

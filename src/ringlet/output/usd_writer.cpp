@@ -97,7 +97,7 @@ UsdWriter::UsdWriter(ByteFile file, const std::filesystem::path& path, const Gro
 
 Result<UsdWriter> UsdWriter::create(const std::filesystem::path& path, const Groom& topology,
                                     const AnimationOptions& options) {
-  auto file = ByteFile::create(path.string() + ".partial");
+  auto file = createPartial(path);
   if (!file) return file.error();
   UsdWriter writer(std::move(*file), path, topology, options);
   if (Status written = writer.file_.writeAt(0, writer.headerText(topology)); !written) return written.error();

@@ -73,7 +73,7 @@ UsdcWriter::UsdcWriter(ByteFile file, const std::filesystem::path& path, const G
 
 Result<UsdcWriter> UsdcWriter::create(const std::filesystem::path& path, const Groom& topology,
                                       const AnimationOptions& options) {
-  auto file = ByteFile::create(path.string() + ".partial");
+  auto file = createPartial(path);
   if (!file) return file.error();
   UsdcWriter writer(std::move(*file), path, topology, options);
   if (Status written = writer.file_.writeAt(0, textOf(writer.head_.bytes)); !written) return written.error();

@@ -7,6 +7,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/scene/body_forms.h"
+#include "ringlet/scene/outside_numbers.h"
 
 namespace ringlet {
 
@@ -28,6 +29,8 @@ Status checkBody(const Body& body) {
     return fail(fmt::format("keeps hair {} m away; it takes 0 to 1", body.thickness));
   if (!(body.friction >= 0 && body.friction <= 100))
     return fail(fmt::format("has a friction of {}; it takes 0 to 100", body.friction));
+  if (!contains(kPosePlace, body.place.position))
+    return fail(fmt::format("stands {} m away; it takes 1e9 along each axis", length(body.place.position)));
   if (body.shape != BodyShape::grid) return {};
   const DistanceGrid* grid = body.grid.get();
   if (!grid || grid->cellCount() == 0 || !(grid->cell > 0)) return fail("has no distance grid");

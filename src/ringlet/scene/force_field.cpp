@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "ringlet/scene/outside_numbers.h"
+
 namespace ringlet {
 
 Status checkForceField(const ForceField& field) {
@@ -32,8 +34,8 @@ Status checkForceField(const ForceField& field) {
   }
   if (!(length(field.axis) > 1e-9 && std::isfinite(length(field.axis))))
     return wrong("length of the axis", length(field.axis), "more than 0");
-  if (!std::isfinite(length(field.place.position)))
-    return wrong("distance of the place", length(field.place.position), "a finite one");
+  if (!contains(kPosePlace, field.place.position))
+    return wrong("distance of the place", length(field.place.position), "at most 1e9 m along each axis");
   if (!field.grid) return {};
   const VelocityGrid& grid = *field.grid;
   std::size_t count = 1;
@@ -44,6 +46,9 @@ Status checkForceField(const ForceField& field) {
   if (count != grid.velocities.size())
     return wrong("grid's number of velocities", static_cast<double>(grid.velocities.size()),
                  "as many as it has nodes");
+  if (Status checked = checkEach(grid.velocities, "velocity", kOutsideSpeed, "m/s"); !checked)
+    return Error{fmt::format("the field {}, of its grid's nodes as particles: {}", field.name,
+                             checked.error().message)};
   if (!(grid.cell > 0 && grid.cell <= 1000)) return wrong("grid's cell", grid.cell, "above 0, to 1000 m");
   return {};
 }

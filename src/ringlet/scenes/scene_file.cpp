@@ -300,7 +300,7 @@ class SceneReader {
     }
     std::filesystem::path path = folder_ / *text;
     if (reach_ == SceneReach::anywhere || isBelow(path, folder_)) return path;
-    problems_.addFound(node, key, "a path in or below the scene's folder, to which --confined keeps it");
+    problems_.addFound(node, key, "a path in or below the scene's folder, to which it is confined");
     return std::nullopt;
   }
 

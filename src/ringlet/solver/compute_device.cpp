@@ -111,6 +111,7 @@ std::vector<DeviceSummary> ComputeDevice::list() {
 
 std::string ComputeDevice::name() const { return device_->properties().name; }
 std::string ComputeDevice::driver() const { return device_->properties().driver; }
+Status ComputeDevice::checkProcess() const { return device_->checkProcess(); }
 DeviceLimits ComputeDevice::limits() const { return limitsOf(device_->properties()); }
 std::vector<std::string> ComputeDevice::validationMessages() const { return device_->validationMessages(); }
 

@@ -99,6 +99,10 @@ class ComputeDevice {
   std::string driver() const;
   DeviceLimits limits() const;
 
+  /// Fails in a process that fork() made of the one which opened the device: nothing that was made with it
+  /// is of use there. Every function that needs the device's work fails so.
+  Status checkProcess() const;
+
   /// Messages of the validation layer so far (it is on when RINGLET_VALIDATION=1); a correct program has
   /// none.
   std::vector<std::string> validationMessages() const;

@@ -78,6 +78,7 @@ Status checkPart(const Settings& settings, const PartLink* link) {
 
 Result<HairAsset> HairAsset::build(const ComputeDevice& device, const Groom& groom, const Material& material,
                                    const Settings& settings, const KernelChoice& choice, BodyUse bodies) {
+  if (Status status = device.checkProcess(); !status) return status.error();
   const bool hasBodies = bodies == BodyUse::some;
   if (hasBodies && settings.integrator != Integrator::jacobi) return Error{kBodiesNeedJacobi};
   if (choice.goals && settings.integrator != Integrator::jacobi)

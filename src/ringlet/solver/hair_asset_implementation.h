@@ -1,6 +1,7 @@
 // What a HairAsset holds, for the files that implement it and simulations of it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct HairAsset::Implementation {
   std::optional<GroomGoal> goal{};                   // where Settings::goal is on
   std::optional<std::vector<GoalUnit>> goalUnits{};  // with goals
 
+  /// Of rest state, settings, material, choice, device, driver and version: what a checkpoint of its hair
+  /// depends on.
+  std::uint64_t fingerprint() const;
   ContactKinds kinds() const { return contacts ? contacts->kinds : ContactKinds{}; }
   std::vector<GroomChunk> chunks() const {
     std::vector<GroomChunk> parts;

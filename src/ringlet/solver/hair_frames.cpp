@@ -81,6 +81,7 @@ Status HairFrames::recordAll(std::span<const HairFrame> frames, gpu::CommandList
 // Whether a frame can be recorded now.
 Status Simulation::Implementation::checkFree(const HairFrame& frame) const {
   if (lostFrame) return *lostFrame;
+  if (Status status = device.checkProcess(); !status) return status;
   if (divided)
     return Error{"a frame of hair that other devices share is several submissions: step it by itself"};
   const std::uint64_t open = submitted - finished;

@@ -11,6 +11,7 @@
 
 #include "layout/strands.h"
 #include "ringlet/base/assert.h"
+#include "ringlet/base/checksum.h"
 #include "ringlet/base/packed.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/rest/rest_contacts.h"
@@ -54,6 +55,7 @@ Result<Simulation> Simulation::create(const HairAsset& asset, const InitialState
   const HairAsset::Implementation& constant = *asset.self_;
   const Settings& settings = constant.settings;
   const RestState& rest = constant.rest;
+  if (Status status = constant.device.checkProcess(); !status) return status.error();
   gpu::Device& device = constant.device.gpu();
   if (!initial.bodies.empty() && constant.bodies == BodyUse::none) return Error{kBuiltWithoutBodies};
   const DeviceLimits& limits = constant.limits;
@@ -323,14 +325,26 @@ Status Simulation::Implementation::archive(Archive& archive) {
   return {};
 }
 
+// Of what a checkpoint of this hair is, now.
+CheckpointOwner Simulation::Implementation::checkpointOwner() const {
+  std::vector<std::uint32_t> cuts;
+  for (const FallenPiece& piece : pieces) cuts.insert(cuts.end(), {piece.strand, piece.begin, piece.end});
+  return {asset->fingerprint(), checksum64(std::as_bytes(std::span(cuts))), world.bodyCount()};
+}
+
 Result<std::vector<std::byte>> Simulation::checkpoint() {
   Archive archive = Archive::writing();
+  archive.room(kCheckpointGuardBytes);
   if (Status status = self_->archive(archive); !status) return status.error();
-  return archive.take();
+  std::vector<std::byte> bytes = archive.take();
+  guardCheckpoint(bytes, self_->checkpointOwner());
+  return bytes;
 }
 
 Status Simulation::restore(std::span<const std::byte> checkpoint) {
-  Archive archive = Archive::reading(checkpoint);
+  const auto state = stateOfCheckpoint(checkpoint, self_->checkpointOwner());
+  if (!state) return state.error();
+  Archive archive = Archive::reading(*state);
   if (Status status = self_->archive(archive); !status) return status;
   if (!archive.isWhole()) return Error{kForeignCheckpoint};
   self_->forgetFrames();

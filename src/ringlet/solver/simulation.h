@@ -237,9 +237,11 @@ class Simulation {
   /// The state on which later frames depend: hair, contacts, poses of head, bodies and roots, and the counts
   /// of report(). restore() puts it into a simulation created with the same arguments on the same device by
   /// the same program, which then continues with the same bits as if it had stepped all frames itself. The
-  /// bytes have no checksum. Cost: 32 bytes a particle to read back, and with contacts their lists.
+  /// bytes have a checksum and a fingerprint of the hair (checkpoint_guard.h). Both guard against mistakes
+  /// and not against intent: restore only what you would run as a program. Cost: 32 bytes a particle to read
+  /// back, and with contacts their lists.
   Result<std::vector<std::byte>> checkpoint();
-  /// Fails where the bytes are of another simulation; this one is then unusable.
+  /// Fails, without a change, where the bytes are damaged or of other hair.
   Status restore(std::span<const std::byte> checkpoint);
 
   /// Changes settings from the next frame on. These may change: gravity (the rest pose stays balanced against
@@ -261,19 +263,21 @@ class Simulation {
   /// bodies. Cost: it waits for frames in flight, and copies bodies and grids of meshes to the device.
   Status setBodies(std::span<const Body> bodies, std::span<const BodyPose> places = {});
   /// Sets external accelerations of all particles, in groom order [m/s^2], along world axes; they are added
-  /// to gravity. They act in every step of frames submitted from now on, until others are set; initially they
-  /// are 0. The solve treats them explicitly: a force that pulls towards a place must not be stiffer than
-  /// about 1/T^2 a metre, T being the step. Fails where the asset was built without KernelChoice::forces.
-  /// Cost: 16 bytes a particle to write, and to copy in each frame; 68 bytes of memory.
+  /// to gravity; each number is from -1e6 to 1e6. They act in every step of frames submitted from now on,
+  /// until others are set; initially they are 0. The solve treats them explicitly: a force that pulls towards
+  /// a place must not be stiffer than about 1/T^2 a metre, T being the step. Fails where the asset was built
+  /// without KernelChoice::forces. Cost: 16 bytes a particle to write, and to copy in each frame; 68 bytes of
+  /// memory.
   Status setForces(std::span<const Vec3f> forces);
   /// Pulls particles to places: `places` in groom order, in the groom's axes [m] (the groom itself is its
-  /// rest pose), carried by the head and by root poses as roots are. Each is reached at the end of the next
-  /// frame submitted, evenly from the place before or, with `from`, from there, and held until others are
-  /// set. `strengths` of every particle, not negative: a goal of strength 1 holds the particle's own weight 1
-  /// cm away; initially they are 0. `dampingRatio`, not negative: of the particle's motion about its place,
-  /// critical at 1. The solve treats goals implicitly, so that any strength is stable. Fails where the asset
-  /// was built without KernelChoice::goals. Cost: 32 bytes a particle to write, and to copy in each frame;
-  /// 136 of memory. The strand kernel is that of bodies and air.
+  /// rest pose), each number from -1e6 to 1e6, carried by the head and by root poses as roots are. Each is
+  /// reached at the end of the next frame submitted, evenly from the place before or, with `from`, from
+  /// there, and held until others are set. `strengths` of every particle, 0 to 1e7: a goal of strength 1
+  /// holds the particle's own weight 1 cm away; initially they are 0. `dampingRatio`, 0 to 1000: of the
+  /// particle's motion about its place, critical at 1. The solve treats goals implicitly, so that any
+  /// strength is stable. Fails where the asset was built without KernelChoice::goals. Cost: 32 bytes a
+  /// particle to write, and to copy in each frame; 136 of memory. The strand kernel is that of bodies and
+  /// air.
   Status setGoals(std::span<const Vec3f> places, std::span<const float> strengths, double dampingRatio = 1,
                   std::span<const Vec3f> from = {});
   /// Replaces the fields that hair is in: as they are at the end of the next frame submitted, and from then

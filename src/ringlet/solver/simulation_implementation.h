@@ -17,6 +17,7 @@
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/rest/live_material.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/solver/checkpoint_guard.h"
 #include "ringlet/solver/contact_stage.h"
 #include "ringlet/solver/device_fields.h"
 #include "ringlet/solver/device_forces.h"
@@ -196,6 +197,7 @@ struct Simulation::Implementation {
   Status carryTo(const HeadPose& end);
   DeviceGroom& changed();
   Status archive(Archive& archive);
+  CheckpointOwner checkpointOwner() const;
   Result<std::vector<Vec3f>> inGroomOrder(DeviceGroom::Field field) const;
   std::vector<Vec3f> positionsOf(const FrameSlot& slot) const;
 

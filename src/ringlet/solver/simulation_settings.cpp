@@ -5,6 +5,7 @@
 
 #include "layout/strands.h"
 #include "ringlet/rest/material_parameters.h"
+#include "ringlet/scene/outside_numbers.h"
 #include "ringlet/scene/settings_fields.h"
 #include "ringlet/solver/simulation_implementation.h"
 #include "ringlet/solver/strand_kernels.h"
@@ -124,6 +125,7 @@ Status Simulation::setForces(std::span<const Vec3f> forces) {
     return Error{
         "the hair's asset was built without forces from outside; build it with KernelChoice::forces"};
   }
+  if (Status status = checkEach(forces, "force", kOutsideForce, "m/s^2"); !status) return status;
   self_->forces.set(forces);
   self_->stillness.wake();
   return {};
@@ -136,6 +138,7 @@ Status Simulation::setGoals(std::span<const Vec3f> places, std::span<const float
                  "every particle has a place and a strength");
   if (!self_->goals.areThere())
     return Error{"the hair's asset was built without goals; build it with KernelChoice::goals"};
+  if (Status status = checkGoals(places, strengths, dampingRatio, from); !status) return status;
   self_->goals.set(places, strengths, dampingRatio, from);
   self_->stillness.wake();
   return {};
