@@ -123,8 +123,9 @@ Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& 
 
 Result<RenderOutcome> runGroom(const RenderOptions& typed, const ComputeDevice& device,
                                const RenderPlan& plan) {
-  const auto groom = readGroom(typed.input);
+  auto groom = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
   if (!groom) return groom.error();
+  if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
   for (const std::string& warning : groom->warnings) say("ringlet render: warning: {}\n", warning);
   return renderGroom(groom->groom, typed.up == "Z" ? UpAxis::z : UpAxis::y, device, plan);
 }
@@ -149,7 +150,7 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
     plan.scene = &*scene;
     plan.rest = &scene->groom;
   } else if (!typed.groom.empty()) {
-    auto read = readGroom(typed.groom);
+    auto read = readGroom(typed.groom, readingOf(typed.reading));
     if (!read) return read.error();
     groom = std::move(*read);
     plan.rest = &groom->groom;

@@ -19,6 +19,7 @@
 #include "program/command_line.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
+#include "program/groom_options.h"
 #include "program/material_command.h"
 #include "program/output_options.h"
 #include "program/rendered_sheet.h"
@@ -99,6 +100,7 @@ struct Typed {
   std::optional<std::string> motion, joint, animation, up, integrator, bind;
   MaterialChoice material;
   ContactChoice contacts;
+  GroomChoice groom;
   OutputChoice outputs;
   std::string backend = "gpu", device, kernel = "auto";
   std::vector<std::string> devices;
@@ -162,6 +164,7 @@ void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
 void applyOptions(const Typed& typed, SceneFile& scene) {
   replace(scene.groom.metresPerUnit, typed.unit);
   replace(scene.groom.up, typed.up);
+  applyGroomOptions(typed.groom, scene.groom);
   replace(scene.groom.bind, typed.bind);
   replace(scene.groom.bindFrame, typed.bindFrame);
   applyMotionOptions(typed, scene.motion);
@@ -388,6 +391,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS")
       ->group(scene);
+  addGroomOptions(*command, typed->groom, scene);
   command
       ->add_option(
           "--bind", typed->bind,

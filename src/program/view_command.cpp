@@ -12,6 +12,7 @@
 #include "program/cache_folder.h"
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/groom_options.h"
 #include "program/follow_plan.h"
 #include "program/hair_look.h"
 #include "program/interruption.h"
@@ -63,12 +64,20 @@ struct Typed {
   std::string size = "640x480", colour = "auburn", device;
   int frames = 0, samples = 2, hairs = 0;
   HairLook look;
+  GroomChoice reading;
+  std::optional<std::string> up;
+  std::optional<double> metresPerUnit;
   bool paused = false, json = false;
 };
 
 // A scene, or a groom as one. Its paths are absolute, so that it can be saved anywhere.
 Result<SceneFile> sceneOf(const Typed& typed) {
   std::vector<SceneChange> changes;
+  if (typed.metresPerUnit) changes.push_back({"groom.unit", fmt::format("{}", *typed.metresPerUnit)});
+  if (typed.up) changes.push_back({"groom.up", *typed.up});
+  if (typed.reading.rootEnd) changes.push_back({"groom.root_end", *typed.reading.rootEnd});
+  if (typed.reading.pointsPerStrand)
+    changes.push_back({"groom.points_per_strand", fmt::format("{}", *typed.reading.pointsPerStrand)});
   for (const std::string& change : typed.changes) {
     const std::size_t equals = change.find('=');
     changes.push_back({change.substr(0, equals), change.substr(equals + 1)});
@@ -239,6 +248,15 @@ void addViewCommand(CLI::App& app, int& exitCode) {
                    "A key of the scene, as its file would have it: motion.kind=shake; again for others")
       ->check(isChange())
       ->type_name("KEY=VALUE");
+  command
+      ->add_option("--unit", typed->metresPerUnit,
+                   "Metres per unit of the groom's file (default: what a USD file states, else 0.01)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
+  command->add_option("--up", typed->up, "The groom's up axis, Y or Z (default Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS");
+  addGroomOptions(*command, typed->reading);
   addHairLookOptions(*command, typed->look);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")
       ->check(wholeBetween(0, 10'000'000))

@@ -7,6 +7,8 @@
 
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/mend_groom.h"
+#include "ringlet/groom/root_ends.h"
+#include "ringlet/groom/stray_points.h"
 
 namespace ringlet {
 namespace {
@@ -87,8 +89,10 @@ GroomInspection inspectGroom(const Groom& groom) {
       continue;
     }
     if (chord > kNoEdgeShare * whole) shares.push_back(whole / chord);
-    std::size_t none = 0, few = 0;
+    std::size_t none = 0, few = 0, many = 0;
+    const double longest = kLongEdge * medianEdge(groom.strand(s));
     for (const double edge : edges) {
+      many += edge > longest;
       if (edge <= kNoEdgeShare * whole) {
         ++none;
       } else if (edge < kShortEdgeShare * whole / static_cast<double>(edges.size())) {
@@ -97,6 +101,7 @@ GroomInspection inspectGroom(const Groom& groom) {
     }
     found.repeatedParticles.add(s, none);
     found.shortEdges.add(s, few);
+    found.longEdges.add(s, many);
     const CurlShape shape = measureCurl(strand);
     if (shape.turns > 0) {
       ++found.curledCount;
@@ -130,9 +135,18 @@ GroomInspection inspectGroom(const Groom& groom) {
     if (lengths[s] > kStrayLength * found.length.median && found.length.median > 0) found.tooLong.add(s);
     if (distances[s] > kStrayDistance * near) found.farAway.add(s);
   }
-  const std::vector<bool> isDuplicate = duplicatesIn(groom);
+  const std::vector<bool> isDuplicate = duplicatesIn(groom), isReversed = findRootEnds(groom).isReversed;
+  const std::vector<bool> isShared = sharedPlaces(groom, isDuplicate), isStray = strayPoints(groom, isShared);
   for (std::size_t s = 0; s < isDuplicate.size(); ++s) {
     if (isDuplicate[s]) found.duplicates.add(s);
+    if (isReversed[s]) found.reversedStrands.add(s);
+    for (std::size_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i) {
+      if (isStray[i]) {
+        found.strayParticles.add(s);
+      } else if (isShared[i]) {
+        found.sharedParticles.add(s);
+      }
+    }
   }
   return found;
 }

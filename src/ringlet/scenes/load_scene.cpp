@@ -300,7 +300,7 @@ Status addHairMaps(const SceneFile& scene, LoadedScene& loaded) {
 Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims) {
   LoadedGroom loaded;
   if (scene.generate.empty()) {
-    auto read = readGroom(scene.file, {.upIsZ = scene.up == "Z", .keepsPrims = keepsPrims});
+    auto read = readGroom(scene.file, readingOf(scene, keepsPrims));
     if (!read) return read.error();
     loaded = std::move(*read);
     if (scene.metresPerUnit) loaded.groom.metresPerUnit = *scene.metresPerUnit;
