@@ -29,7 +29,7 @@ name = "head"
 shape = "sphere"
 radius = 0.08
 END
-run=("$ringlet" simulate scene.toml --cache float32 --checkpoint 5 --resume --quiet)
+run=("$ringlet" simulate scene.toml --cache float32 --checkpoint 5 --resume --overwrite --quiet)
 "${run[@]}" -o whole 2> whole.txt
 size=$(stat -c %s whole/hair.usda)
 

@@ -3,13 +3,13 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-scripts/install_packages.sh
-cmake --preset release
-cmake --build --preset release --target ringlet_program
+scripts/install_packages.sh demo
+cmake --preset demo
+cmake --build --preset demo
 
 out=${1:-out/demo}
 mkdir -p "$out"
-build/release/ringlet simulate examples/demo.toml --sheet rendered -o "$out"
+build/release/ringlet simulate examples/demo.toml --sheet rendered --overwrite -o "$out"
 echo
 echo "Results are in $(realpath "$out"):"
 echo "  sheet.png   six frames side by side"

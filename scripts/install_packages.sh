@@ -1,17 +1,22 @@
 #!/usr/bin/env bash
 # Installs the Debian packages ringlet is built from and tested with; skips what is there. Run as root or with sudo.
-# Without those of `extras` everything else is built and tested.
+# With the word demo only those of the program and the library. Without those of `extras` everything else is built and
+# tested.
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config                                   # the build
   libvulkan-dev libvulkan-volk-dev glslang-tools                     # Vulkan, its loader's entry points, the shader compiler
-  mesa-vulkan-drivers vulkan-validationlayers                        # a Vulkan device without a GPU; the layers the tests run under
-  libeigen3-dev libgtest-dev libbenchmark-dev                        # reference, tests, benchmarks
+  mesa-vulkan-drivers                                                # a Vulkan device without a GPU
+  libeigen3-dev                                                      # the reference
   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev zlib1g-dev   # the program and its outputs
   libzstd-dev                                                        # caches of animations
   libtomlplusplus-dev                                                # material files
   libtinygltf-dev                                                    # glTF motion
+)
+
+tests=(
+  vulkan-validationlayers libgtest-dev libbenchmark-dev              # the layers the tests run under; tests, benchmarks
   python3-dev pybind11-dev python3-numpy python3-pytest              # the Python module and its tests
 )
 
@@ -21,6 +26,12 @@ extras=(
   libopenmpi-dev openmpi-bin libmetis-dev                            # runs on several ranks, and their parts of the hair
   ffmpeg                                                             # films of `ringlet render`
 )
+
+if [ "${1:-}" = demo ]; then
+  extras=()
+else
+  packages+=("${tests[@]}")
+fi
 
 # missing PACKAGE...: those that are not installed.
 missing() {

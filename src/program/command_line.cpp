@@ -27,6 +27,14 @@ std::string fullName(const CLI::App& app) {
   return app.get_parent() ? fullName(*app.get_parent()) + " " + app.get_name() : app.get_name();
 }
 
+// "Could not convert: --seed = 99999999999", of a number that no check had looked at.
+std::string outOfRange(const std::string& what) {
+  const std::size_t colon = what.find(": "), equals = what.find(" = ");
+  if (colon == std::string::npos || equals == std::string::npos || equals < colon) return what;
+  return fmt::format("{}: '{}' is no number, or beyond what it can be",
+                     what.substr(colon + 2, equals - colon - 2), what.substr(equals + 3));
+}
+
 }  // namespace
 
 std::string closestName(std::string_view word, const std::vector<std::string>& names) {
@@ -106,6 +114,7 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = innermost(app);
   std::string what = error.what();
+  if (dynamic_cast<const CLI::ConversionError*>(&error)) what = outOfRange(what);
 
   // The first word nobody knows: an option, or a subcommand where one was due.
   const std::vector<std::string> unknown = app.remaining(true);

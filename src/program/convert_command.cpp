@@ -15,8 +15,10 @@
 #include <string>
 
 #include "program/command_line.h"
+#include "program/confined_option.h"
 #include "program/convert_run.h"
 #include "program/exit_codes.h"
+#include "program/frame_range.h"
 #include "program/groom_options.h"
 #include "program/hair_look.h"
 #include "program/precision_names.h"
@@ -65,6 +67,7 @@ constexpr const char* kExample =
 // The command line as typed.
 struct Typed {
   std::filesystem::path input, output;
+  SceneReach reach = SceneReach::anywhere;
   std::string frames;
   std::optional<int> frame;
   std::string precision;
@@ -94,30 +97,6 @@ std::string animationList(bool withNotes) {
   return list;
 }
 
-struct FrameRange {
-  int first = 1, last = 1;
-};
-
-// "3:7", or nothing.
-std::optional<FrameRange> parseRange(const std::string& text) {
-  const char *at = text.data(), *end = at + text.size();
-  FrameRange range;
-  auto [colon, first] = std::from_chars(at, end, range.first);
-  if (first != std::errc() || colon == end || *colon != ':') return std::nullopt;
-  auto [stop, last] = std::from_chars(colon + 1, end, range.last);
-  if (last != std::errc() || stop != end || range.first < 1 || range.last < range.first) return std::nullopt;
-  return range;
-}
-
-CLI::Validator isRange() {
-  return CLI::Validator(
-      [](std::string& text) {
-        if (parseRange(text)) return std::string();
-        return fmt::format("must be two frames from 1 up, as 1:24, not '{}'", text);
-      },
-      "");
-}
-
 // By the ending of its name; nothing where that says nothing.
 std::optional<ConvertTo> kindOf(const Typed& typed) {
   const std::string extension = typed.output.extension().string();
@@ -132,7 +111,7 @@ std::optional<ConvertTo> kindOf(const Typed& typed) {
 // The scene that IN was simulated from, where it is named.
 Result<std::optional<LoadedScene>> sceneOf(const Typed& typed) {
   if (typed.scene.empty()) return std::optional<LoadedScene>();
-  const auto file = readScene(typed.scene);
+  const auto file = readScene(typed.scene, {}, typed.reach);
   if (!file) return file.error();
   auto scene = loadScene(*file);
   if (!scene) return scene.error();
@@ -210,7 +189,7 @@ Result<FrameRange> chooseFrames(const Typed& typed, const AnimationReader& sourc
   if (count == 0) return Error{fmt::format("{} holds no frame", typed.input.string())};
   FrameRange range{1, count};
   if (typed.frame) range = {*typed.frame, *typed.frame};
-  if (!typed.frames.empty()) range = *parseRange(typed.frames);
+  if (!typed.frames.empty()) range = *parseFrameRange(typed.frames);
   if (range.last > count)
     return Error{
         fmt::format("{} has frames 1 to {}; there is no frame {}", typed.input.string(), count, range.last)};
@@ -387,9 +366,10 @@ int run(const Typed& typed) {
     throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
                                "IN is a groom itself; only the hairs of an animation need one");
   if (!isGroom && (typed.up || typed.metresPerUnit || (typed.reading.isMade() && typed.groom.empty())))
-    throw CLI::ValidationError("IN",
-                               "is an animation, which says its unit and axis itself; --unit, --up, --root-end and "
-                               "--points-per-strand are of grooms");
+    throw CLI::ValidationError(
+        "IN",
+        "is an animation, which says its unit and axis itself; --unit, --up, --root-end and "
+        "--points-per-strand are of grooms");
   if (!isGroom) checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
@@ -415,8 +395,8 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
                                "(name.0001.obj and so on); or a folder for .obj files",
                                animationList(true)))
       ->type_name("PATH");
-  command->add_option("--frames", typed->frames, "First and last frame, from 1 (default: all)")
-      ->check(isRange())
+  command->add_option("--frames", typed->frames, "First and last frame, from 1, or one (default: all)")
+      ->check(isFrameRange())
       ->type_name("A:B");
   command->add_option("--frame", typed->frame, "One frame, from 1; an .obj then has the name of OUT")
       ->check(wholeBetween(1, 1'000'000'000))
@@ -460,8 +440,9 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
   command
-      ->add_option("--up", typed->up,
-                   "Of a groom: the axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
+      ->add_option(
+          "--up", typed->up,
+          "Of a groom: the axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
   addGroomOptions(*command, typed->reading);
@@ -471,6 +452,7 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->add_option("--scene", typed->scene,
                    "The scene that IN was simulated from: its groom, and its bodies, which hairs stay out of")
       ->type_name("FILE");
+  addConfinedOption(*command, typed->reach);
   command->add_flag("--overwrite", typed->overwrite,
                     "Begin anew where OUT.partial holds frames of something that did not end");
   command->add_flag("--info", typed->info, "Say what is in IN, and write nothing");

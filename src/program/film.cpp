@@ -51,6 +51,8 @@ Status checkFilms() {
 Result<Film> Film::start(const std::filesystem::path& path, int width, int height, double framesPerSecond) {
   if (Status can = checkFilms(); !can) return can.error();
   const std::filesystem::path partial = path.string() + ".partial";
+  std::error_code ignored;
+  std::filesystem::remove(partial, ignored);  // ffmpeg would write through a symbolic link of that name
   std::vector<std::string> arguments = {"-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24"};
   for (std::string each :
        {std::string("-video_size"), fmt::format("{}x{}", width, height), std::string("-framerate"),

@@ -11,9 +11,10 @@ namespace ringlet::program {
 void addGroomOptions(CLI::App& command, GroomChoice& choice, const std::string& group) {
   CLI::Option* end =
       command
-          .add_option("--root-end", choice.rootEnd,
-                      "Which end of each strand of the file is its root: first (default) or last point, or of "
-                      "each the one on the head, a ball on which most strands have an end")
+          .add_option(
+              "--root-end", choice.rootEnd,
+              "Which end of each strand of the file is its root: first (default) or last point, or of "
+              "each the one on the head, a ball on which most strands have an end")
           ->check(oneOf({"first", "last", "head"}))
           ->type_name("END");
   if (!group.empty()) end->group(group);
@@ -21,12 +22,11 @@ void addGroomOptions(CLI::App& command, GroomChoice& choice, const std::string& 
 }
 
 void addPointsOption(CLI::App& command, GroomChoice& choice, const std::string& group) {
-  CLI::Option* points =
-      command
-          .add_option("--points-per-strand", choice.pointsPerStrand,
-                      "Points of each strand, of a file that holds points and nothing else")
-          ->check(wholeBetween(2, 1'000'000))
-          ->type_name("N");
+  CLI::Option* points = command
+                            .add_option("--points-per-strand", choice.pointsPerStrand,
+                                        "Points of each strand, of a file that holds points and nothing else")
+                            ->check(wholeBetween(2, 1'000'000))
+                            ->type_name("N");
   if (!group.empty()) points->group(group);
 }
 

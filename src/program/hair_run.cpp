@@ -211,7 +211,7 @@ class HairRun {
 
 Status HairRun::openFolder() {
   if (options_.folder.empty()) return {};
-  auto opened = RunFolder::open(options_.folder, options_.leftovers);
+  auto opened = RunFolder::open(options_.folder, options_.leftovers, outputsOf(options_));
   if (!opened) return opened.error();
   folder_.emplace(std::move(*opened));
   if (folder_->checkpoint()) outcome_.resumedFrom = folder_->checkpoint()->frame;

@@ -16,9 +16,9 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/groom_options.h"
-#include "program/written_groom.h"
 #include "program/run_report.h"
 #include "program/standard_error.h"
+#include "program/written_groom.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/mend_groom.h"
 #include "ringlet/measure/groom_inspection.h"
@@ -43,7 +43,8 @@ constexpr const char* kExample =
     "or at\n"
     "the origin, each edge to them above 4 times the median) and others in the place of another strand's, "
     "strands\n"
-    "that end on the head where others begin (where one end of most strands is on a ball), strands all in one\n"
+    "that end on the head where others begin (where one end of most strands is on a ball), strands all in "
+    "one\n"
     "place, duplicates (the very particles of a strand before), strands 20 times shorter or longer than the\n"
     "median or 6 times as far from the middle of all. Strands that cannot be read, or hold numbers that are "
     "not\n"
@@ -64,7 +65,8 @@ constexpr const char* kExample =
     "{min median mean max}; turns and radius_mm of curled strands) curled box {low high size} (in units)\n"
     "metres_per_unit unit_from (file, option, default) likely_units [{name metres_per_unit mean_length_mm}]\n"
     "up_from (file, or null) likely_up (Y, Z or null) faults {repeated_particles short_edges long_edges\n"
-    "stray_particles shared_particles reversed_strands point_strands duplicates too_short too_long far_away}, "
+    "stray_particles shared_particles reversed_strands point_strands duplicates too_short too_long "
+    "far_away}, "
     "each\n"
     "{count first_strand} (null without) warnings; with --fix also fixed {strands particles merged strays\n"
     "dropped_points dropped_duplicates output}.\n"
@@ -237,7 +239,8 @@ Result<Fixed> fix(const Typed& typed, const LoadedGroom& loaded, const GroomInsp
         *typed.particles, found.turns.max));
   }
   if (Status written = writeGroom(typed.output, fixed.mended.groom); !written) return written.error();
-  for (std::string& lost : lostIn(typed.output, loaded, typed.up == "Z")) fixed.warnings.push_back(std::move(lost));
+  for (std::string& lost : lostIn(typed.output, loaded, typed.up == "Z"))
+    fixed.warnings.push_back(std::move(lost));
   return fixed;
 }
 

@@ -19,8 +19,22 @@ static_assert(std::atomic<int>::is_always_lock_free);
 std::atomic<int> unheard = 0;      // EndsUnheard that live
 constexpr unsigned kPatience = 2;  // [s]
 
-void noteInterruption(int) {
-  interrupted = 1;
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+
+bool isIgnored(int signal) {
+  struct sigaction now {};
+  return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+// Only what a signal's handler may call, which sigaction and raise are.
+void noteInterruption(int signal) {
+  const bool isSecond = interrupted.exchange(1) != 0;
+  // The next one, of whatever kind, finds the system's own handler.
+  for (const int each : kSignals) {
+    if (!isIgnored(each)) std::signal(each, SIG_DFL);
+  }
+  // Both were there before either was handled.
+  if (isSecond) raise(signal);
   if (unheard > 0) alarm(kPatience);
 }
 
@@ -32,20 +46,13 @@ void endUnheard(int) {
   _exit(kExitInterrupted);
 }
 
-bool isIgnored(int signal) {
-  struct sigaction now {};
-  return sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
-}
-
 }  // namespace
 
 void catchInterruption() {
   struct sigaction action {};
   action.sa_handler = noteInterruption;
-  // RESETHAND: the second one finds the system's own handler. RESTART: no file operation fails because of the
-  // first.
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+  action.sa_flags = SA_RESTART;  // no file operation fails because of the first
+  for (const int signal : kSignals) {
     if (!isIgnored(signal)) sigaction(signal, &action, nullptr);  // as nohup asks for
   }
   struct sigaction late {};

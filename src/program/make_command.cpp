@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "program/command_line.h"
@@ -69,7 +70,9 @@ int write(const char* command, const Typed& typed, const Result<Groom>& groom) {
 // Adds a numeric option that shows its default; what is in range, the generator knows and says.
 template <class Number>
 void addNumber(CLI::App* command, const char* name, Number& value, const char* what, const char* unit) {
-  command->add_option(name, value, fmt::format("{} (default {})", what, value))->type_name(unit);
+  CLI::Option* option =
+      command->add_option(name, value, fmt::format("{} (default {})", what, value))->type_name(unit);
+  if constexpr (std::is_integral_v<Number>) option->check(wholeBetween(0, 100'000'000));
 }
 
 void addCurlOptions(CLI::App* command, Typed& typed) {

@@ -173,6 +173,8 @@ nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands) 
   return json;
 }
 
+std::string riseNote(double droop) { return droop < 0 ? " (below 0: the tip rose)" : ""; }
+
 std::string measuredText(const Measured& measured) {
   const GroomMeasure groom = measured.ruler.summarize(measured.strands);
   const CurlNumbers& numbers = measured.numbers;
@@ -187,13 +189,14 @@ std::string measuredText(const Measured& measured) {
                         measured.seconds, measured.isUnfinished ? " (not finished)" : "");
   }
   text += fmt::format("\n  {:<20}{:>12}{:>12}{:>12}\n", "", "mean", "min", "max");
-  auto line = [&](const char* label, const Spread& spread, int digits) {
-    text += fmt::format("  {:<20}{:>12}{:>12}{:>12}\n", label, shown(spread.mean, digits),
-                        shown(spread.min, digits), shown(spread.max, digits));
+  auto line = [&](const char* label, const Spread& spread, int digits, const std::string& note = "") {
+    text += fmt::format("  {:<20}{:>12}{:>12}{:>12}{}\n", label, shown(spread.mean, digits),
+                        shown(spread.min, digits), shown(spread.max, digits), note);
   };
   for (const Row& row : kRows) {
     if (row.onlyInPoses && !measured.isPose) continue;
-    line(row.label, spreadOf(valuesOf(measured.strands, row, row.scale)), row.digits);
+    const Spread spread = spreadOf(valuesOf(measured.strands, row, row.scale));
+    line(row.label, spread, row.digits, row.member == &StrandMeasure::droop ? riseNote(spread.min) : "");
     if (!measured.isPose) continue;
     if (row.member == &StrandMeasure::turns) line("  at rest", groom.turnsAtRest, row.digits);
     if (row.member == &StrandMeasure::meanRadius) {
@@ -214,9 +217,10 @@ std::string measuredText(const Measured& measured) {
 
   // What only a motion has.
   text += fmt::format(
-      "  at the worst  droop {} mm, core elongation {}, longest edge {} x, tip rotation {} degrees\n",
-      shown(1000 * numbers.worstDroop, 3), shown(numbers.worstCoreElongation, 4),
-      shown(numbers.maxEdgeStretch, 4), shown(numbers.worstTipRotation, 2));
+      "  at the worst  droop {} mm{}, core elongation {}, longest edge {} x, tip rotation {} degrees\n",
+      shown(1000 * numbers.worstDroop, 3), riseNote(numbers.worstDroop),
+      shown(numbers.worstCoreElongation, 4), shown(numbers.maxEdgeStretch, 4),
+      shown(numbers.worstTipRotation, 2));
   text += fmt::format("  bounce        {}{}, sway {}{}\n", shown(numbers.bounceHz, 3),
                       numbers.bounceHz ? " Hz" : "", shown(numbers.swayHz, 3), numbers.swayHz ? " Hz" : "");
   text += fmt::format("  settled       {}\n", numbers.settleSeconds

@@ -45,6 +45,8 @@ void addCurlKeys(nlohmann::ordered_json& json, const CurlNumbers& numbers);
 
 /// A number as tables show it, with so many digits and never "-0.00"; "-" for none.
 std::string shown(std::optional<double> value, int digits);
+/// " (below 0: the tip rose)" behind such a droop; nothing behind others.
+std::string riseNote(double droop);
 
 /// The keys of `ringlet measure --json`.
 nlohmann::ordered_json measuredJson(const Measured& measured, bool withStrands);

@@ -94,6 +94,17 @@ Status setCamera(RenderPlan& plan, const SceneFile& scene, const std::string& na
 // Into the folder of the pictures, as a cache.
 Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOptions& typed,
                 const ComputeDevice& device) {
+  // A cache in it may be that of an earlier picture; of a run's other files none is written here.
+  for (const char* name : {"hair.usda", "hair.usdc", "last.obj", "sheet.png", "checkpoint.rgk"}) {
+    std::error_code code;
+    if (!std::filesystem::exists(typed.output / name, code)) continue;
+    return Error{
+        fmt::format(
+            "{} holds a run's {}, beside which the pictures' own run would be written; choose another "
+            "folder with -o",
+            typed.output.string(), name),
+        Fault::output};
+  }
   RunOptions options;
   options.folder = typed.output;
   options.up = file.groom.up == "Z" ? UpAxis::z : UpAxis::y;
@@ -110,7 +121,7 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOpt
 }
 
 Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& device, RenderPlan plan) {
-  const auto file = readScene(typed.input);
+  const auto file = readScene(typed.input, {}, typed.reach);
   if (!file) return file.error();
   const auto scene = loadScene(*file);
   if (!scene) return scene.error();
@@ -141,7 +152,7 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
   std::optional<LoadedScene> scene;
   std::optional<LoadedGroom> groom;
   if (!typed.scene.empty()) {
-    const auto file = readScene(typed.scene);
+    const auto file = readScene(typed.scene, {}, typed.reach);
     if (!file) return file.error();
     auto loaded = loadScene(*file);
     if (!loaded) return loaded.error();
@@ -202,12 +213,15 @@ void printOutcome(const RenderOptions& typed, const RenderPlan& plan, const Rend
 }
 
 int run(const RenderOptions& typed) {
-  checkRenderOptions(typed);
-  catchInterruption();
   const auto fail = [](const Error& error) {
     say("ringlet render: {}\n", error.message);
     return exitCodeOf(error);
   };
+  std::error_code code;
+  if (!std::filesystem::exists(typed.input, code))
+    return fail({fmt::format("{}: there is no such file or folder", typed.input.string()), Fault::input});
+  checkRenderOptions(typed);
+  catchInterruption();
   if (isFilm(typed.output)) {
     if (Status can = checkFilms(); !can) return fail(can.error());
   }

@@ -5,10 +5,14 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <numbers>
+#include <string_view>
 
 #include "program/command_line.h"
+#include "program/confined_option.h"
+#include "program/frame_range.h"
 #include "program/picture_options.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
@@ -28,14 +32,32 @@ std::optional<double> heightOf(const std::string& text) {
   return isNumber ? std::optional(height) : std::nullopt;
 }
 
+// A folder may have any name, but who says x.jpg wants no folder.
+void checkOutput(const RenderOptions& options) {
+  constexpr auto kForeign = std::to_array<std::string_view>(
+      {".jpg",  ".jpeg", ".tif",  ".tiff", ".tga", ".bmp", ".dpx", ".hdr", ".jp2",
+       ".heic", ".avif", ".apng", ".svg",  ".pdf", ".ppm", ".mov", ".avi", ".mkv",
+       ".webm", ".mpg",  ".mpeg", ".m4v",  ".wmv", ".ogv", ".mxf"});
+  std::string ending = options.output.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const bool isForeign = std::ranges::find(kForeign, ending) != kForeign.end();
+  const bool isOurs = isPicture("x" + ending) || isFilm("x" + ending);  // but in capitals
+  std::error_code code;
+  const bool isFine = isPicture(options.output) || isFilm(options.output);
+  if (isFine || !(isForeign || isOurs) || std::filesystem::is_directory(options.output, code)) return;
+  throw CLI::ValidationError(
+      "--output",
+      fmt::format("'{}' must end in .png or .exr (one picture) or in .mp4, .webp or .gif (a film); "
+                  "for a folder of that name make it first",
+                  options.output.string()));
+}
+
 void checkFrames(const RenderOptions& options) {
-  const auto range = parsePair(options.frames, ':');
-  if (range && range->first > range->second)
-    throw CLI::ValidationError("--frames", "the first frame comes after the last");
+  const auto range = parseFrameRange(options.frames);
   const bool isGroom = isGroomToRender(options.input);
-  if (isPicture(options.output) && !isGroom && !(range && range->first == range->second))
+  if (isPicture(options.output) && !isGroom && !(range && range->first == range->last))
     throw CLI::ValidationError("--output",
-                               "is one picture; say which frame, as --frames 12:12, or name a folder");
+                               "is one picture; say which frame, as --frames 12, or name a folder");
   if (options.format != "png" && (isPicture(options.output) || isFilm(options.output)))
     throw CLI::ValidationError("--format", "is of the pictures in a folder; a file's ending says its own");
   if (isGroom && isFilm(options.output))
@@ -92,6 +114,7 @@ bool isGroomToRender(const std::filesystem::path& input) {
 }
 
 void checkRenderOptions(const RenderOptions& options) {
+  checkOutput(options);
   checkFrames(options);
   checkInput(options);
   checkColours(options);
@@ -101,8 +124,8 @@ RenderPlan renderPlanOf(const RenderOptions& options) {
   RenderPlan plan;
   plan.target.path = options.output;
   plan.target.isExr = options.format == "exr";
-  if (const auto range = parsePair(options.frames, ':'))
-    plan.firstFrame = range->first, plan.lastFrame = range->second;
+  if (const auto range = parseFrameRange(options.frames))
+    plan.firstFrame = range->first, plan.lastFrame = range->last;
   plan.hair = {options.hairs, options.width, options.look};
   const auto size = *parsePair(options.size, 'x');
   plan.size = {size.first, size.second, options.samples};
@@ -139,8 +162,8 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                   "Folder for frame.0001.png and so on; one .png or .exr; or a film, .mp4, .webp or .gif")
       ->required()
       ->type_name("PATH");
-  command.add_option("--frames", options.frames, "First and last frame, from 1 (default: all)")
-      ->check(isPair(':', 1, 1'000'000'000, "1:24"))
+  command.add_option("--frames", options.frames, "First and last frame, from 1, or one (default: all)")
+      ->check(isFrameRange())
       ->type_name("A:B");
   command
       .add_option("--hairs", options.hairs,
@@ -155,6 +178,7 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
       .add_option("--scene", options.scene,
                   "The scene that IN was simulated from: its bodies, and its groom at rest")
       ->type_name("FILE");
+  addConfinedOption(command, options.reach);
   command
       .add_option("--width", options.width,
                   "Diameter of hairs at the root, metres (default: by their number)")

@@ -9,6 +9,7 @@
 #include "program/groom_options.h"
 #include "program/hair_look.h"
 #include "program/render_run.h"
+#include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::program {
 
@@ -19,6 +20,7 @@ struct RenderOptions {
   std::optional<int> hairs;
   HairLook look;
   GroomChoice reading;
+  SceneReach reach = SceneReach::anywhere;
   std::optional<double> metresPerUnit, width, melanin, most;
   double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
   int samples = 4, blur = 1;

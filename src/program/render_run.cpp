@@ -276,7 +276,7 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
     before = drawn->groom().points;
   }
   const int count = static_cast<int>(frames.size());
-  ProgressBar progress(0, count, plan.showProgress);
+  ProgressBar progress(0, count, plan.showProgress, plan.isSheet ? "picture of the sheet" : "picture");
   int finished = 0;
   for (; finished < count && !wasInterrupted(); ++finished) {
     const int frame = frames[static_cast<std::size_t>(finished)];

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "ringlet/base/whole_file.h"
 #include "ringlet/output/animation_writer.h"
 
 namespace ringlet::program {
@@ -19,17 +20,54 @@ namespace fs = std::filesystem;
 
 constexpr const char* kCheckpoint = "checkpoint.rgk";
 
-// The temporary of a file that is written at once (base/whole_file.h): "last.obj.18a3-0.partial".
-bool isTemporary(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return path.extension() == ".partial" && name != "hair.usda.partial" &&
-         std::ranges::any_of(std::to_array({"checkpoint.rgk.", "last.obj.", "sheet.png.", "hair.usda."}),
-                             [&](const char* of) { return name.starts_with(of); });
+// What a run leaves that did not end.
+std::vector<std::string> leftIn(const fs::path& folder) {
+  std::vector<std::string> names{kCheckpoint}, left;
+  for (const AnimationFormat& format : animationFormats())
+    names.push_back(fmt::format("hair{}.partial", format.extension));
+  std::error_code code;
+  for (const std::string& name : names) {
+    if (fs::exists(fs::symlink_status(folder / name, code))) left.push_back(name);
+  }
+  return left;
+}
+
+// Whether a run may have written a file of that name at once: the checkpoint, last.obj, sheet.png, and what
+// stands beside an animation (hair.obj of hair.pc2, hair.usda.cuts.csv).
+bool isOfARun(const std::string& name) {
+  return name == kCheckpoint || name == "last.obj" || name == "sheet.png" || name.starts_with("hair.");
+}
+
+Error isFinished(const fs::path& folder, const std::vector<std::string>& finished) {
+  return {
+      fmt::format("{} holds a run's files: {}. --overwrite replaces them; choose another folder with -o to "
+                  "keep them",
+                  folder.string(), fmt::join(finished, ", ")),
+      Fault::output};
+}
+
+std::vector<std::string> finishedOf(const std::vector<fs::path>& outputs) {
+  std::vector<std::string> finished;
+  std::error_code code;
+  for (const fs::path& output : outputs) {
+    if (fs::exists(fs::symlink_status(output, code))) finished.push_back(output.filename().string());
+  }
+  return finished;
+}
+
+Error isLeft(const fs::path& folder, const std::vector<std::string>& left) {
+  const bool hasCheckpoint = std::ranges::find(left, kCheckpoint) != left.end();
+  return {
+      fmt::format("{} holds what a run left that did not end: {}. {}--overwrite begins anew; `ringlet "
+                  "convert` takes frames out of a .partial",
+                  folder.string(), fmt::join(left, ", "), hasCheckpoint ? "--resume goes on with it; " : ""),
+      Fault::output};
 }
 
 }  // namespace
 
-Result<RunFolder> RunFolder::open(const fs::path& folder, Leftovers leftovers) {
+Result<RunFolder> RunFolder::open(const fs::path& folder, Leftovers leftovers,
+                                  const std::vector<fs::path>& outputs) {
   std::error_code code;
   fs::create_directories(folder, code);
   if (code)
@@ -40,60 +78,48 @@ Result<RunFolder> RunFolder::open(const fs::path& folder, Leftovers leftovers) {
   auto lock = FolderLock::take(folder, "ringlet simulate", kPatience);
   if (!lock) return lock.error();
   RunFolder made(folder, std::move(*lock));
-  if (Status read = made.readLeftovers(leftovers); !read) return read.error();
+  if (Status read = made.readLeftovers(leftovers, outputs); !read) return read.error();
   return made;
 }
 
-std::vector<std::string> RunFolder::leftBehind() const {
-  std::vector<std::string> left;
-  std::error_code code;
-  std::vector<std::string> names{kCheckpoint};
-  for (const AnimationFormat& format : animationFormats())
-    names.push_back(fmt::format("hair{}.partial", format.extension));
-  for (const std::string& name : names) {
-    if (fs::exists(fs::symlink_status(folder_ / name, code))) left.push_back(name);
-  }
-  return left;
-}
-
-Status RunFolder::readLeftovers(Leftovers leftovers) {
+Status RunFolder::readLeftovers(Leftovers leftovers, const std::vector<fs::path>& outputs) {
   if (!lock_.deadOwner().empty())
     warnings_.push_back(fmt::format(
         "{} had this folder and ended without giving it back; this run takes it over", lock_.deadOwner()));
-  const std::vector<std::string> left = leftBehind();
+  if (leftovers == Leftovers::refuse) return checkFolderIsFree(folder_, outputs);
+  const std::vector<std::string> left = leftIn(folder_);
   const bool hasCheckpoint = std::ranges::find(left, kCheckpoint) != left.end();
-  if (leftovers == Leftovers::refuse && !left.empty()) {
-    return Error{
-        fmt::format("{} holds what a run left that did not end: {}. {}--overwrite begins anew; `ringlet "
-                    "convert` takes frames out of a .partial",
-                    folder_.string(), fmt::join(left, ", "),
-                    hasCheckpoint ? "--resume goes on with it; " : ""),
-        Fault::output};
+  if (leftovers != Leftovers::overwrite && hasCheckpoint) {
+    auto checkpoint = readCheckpoint(checkpointPath());
+    if (!checkpoint) return checkpoint.error();
+    checkpoint_ = std::move(*checkpoint);
   }
-  if (leftovers == Leftovers::resume) {
-    if (!hasCheckpoint && !left.empty()) {
+  if (leftovers == Leftovers::resume && !hasCheckpoint) {
+    if (!left.empty()) {
       return Error{fmt::format("{} holds {} and no checkpoint to go on from; --overwrite begins anew",
                                folder_.string(), fmt::join(left, ", ")),
                    Fault::output};
     }
-    if (hasCheckpoint) {
-      auto checkpoint = readCheckpoint(checkpointPath());
-      if (!checkpoint) return checkpoint.error();
-      checkpoint_ = std::move(*checkpoint);
-    } else {
-      warnings_.push_back(
-          fmt::format("{} has nothing to go on with; the run begins at its first frame", folder_.string()));
-    }
+    if (const auto finished = finishedOf(outputs); !finished.empty()) return isFinished(folder_, finished);
   }
-  if (leftovers == Leftovers::refuse) return {};
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, ignored)) {
-    if (isTemporary(entry.path())) fs::remove(entry.path(), ignored);
-  }
+  if (leftovers != Leftovers::overwrite && !hasCheckpoint)
+    warnings_.push_back(
+        fmt::format("{} has nothing to go on with; the run begins at its first frame", folder_.string()));
+  dropTemporaries();
   // Of the run that begins anew nothing may be taken for its own. Its frames stay until there is one to
   // replace them.
-  if (leftovers == Leftovers::overwrite) fs::remove(checkpointPath(), ignored);
+  std::error_code ignored;
+  if (!checkpoint_) fs::remove(checkpointPath(), ignored);
   return {};
+}
+
+// What a killed run left of files that are written at once.
+void RunFolder::dropTemporaries() const {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, ignored)) {
+    const auto of = fileOfTemporary(entry.path());
+    if (of && isOfARun(of->filename().string())) fs::remove(entry.path(), ignored);
+  }
 }
 
 void RunFolder::dropState() {
@@ -105,6 +131,12 @@ void RunFolder::dropState() {
 void RunFolder::finish() const {
   std::error_code ignored;
   fs::remove(checkpointPath(), ignored);
+}
+
+Status checkFolderIsFree(const fs::path& folder, const std::vector<fs::path>& outputs) {
+  if (const auto left = leftIn(folder); !left.empty()) return isLeft(folder, left);
+  if (const auto finished = finishedOf(outputs); !finished.empty()) return isFinished(folder, finished);
+  return {};
 }
 
 Status checkInputsStay(const std::vector<fs::path>& inputs, const std::vector<fs::path>& outputs) {

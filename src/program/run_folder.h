@@ -1,5 +1,6 @@
-// RunFolder: the folder that a run writes its results into, and has for itself. What a run leaves there that
-// was killed (hair.usda.partial, hair.rgc.partial, checkpoint.rgk) is never touched without being asked to.
+// RunFolder: the folder that a run writes its results into, and has for itself. What runs left there,
+// finished (hair.usda, sheet.png) or killed (hair.usda.partial, checkpoint.rgk), is never touched without
+// being asked to.
 #pragma once
 
 #include <filesystem>
@@ -13,15 +14,17 @@
 
 namespace ringlet::program {
 
-/// What becomes of a run that did not end.
-enum class Leftovers { refuse, overwrite, resume };
+/// What becomes of what a run finds in its folder. The last goes on with a run that has a checkpoint and
+/// begins anew where there is none.
+enum class Leftovers { refuse, overwrite, resume, resumeOrOverwrite };
 
 class RunFolder {
  public:
-  /// Makes the folder and takes it. Errors: it cannot be written; another run has it; it holds what another
-  /// run left, and `leftovers` says to refuse; there is something to go on with, but no checkpoint that can
-  /// be read.
-  static Result<RunFolder> open(const std::filesystem::path& folder, Leftovers leftovers);
+  /// Makes the folder and takes it for a run that will write `outputs`. Errors: it cannot be written; another
+  /// run has it; it holds what another run left or some of `outputs`, and `leftovers` does not say to
+  /// overwrite; there is something to go on with, but no checkpoint that can be read.
+  static Result<RunFolder> open(const std::filesystem::path& folder, Leftovers leftovers,
+                                const std::vector<std::filesystem::path>& outputs);
 
   /// To go on from; none where the run begins.
   const std::optional<Checkpoint>& checkpoint() const { return checkpoint_; }
@@ -37,14 +40,18 @@ class RunFolder {
  private:
   RunFolder(std::filesystem::path folder, FolderLock lock)
       : folder_(std::move(folder)), lock_(std::move(lock)) {}
-  std::vector<std::string> leftBehind() const;
-  Status readLeftovers(Leftovers leftovers);
+  Status readLeftovers(Leftovers leftovers, const std::vector<std::filesystem::path>& outputs);
+  void dropTemporaries() const;
 
   std::filesystem::path folder_;
   FolderLock lock_;
   std::optional<Checkpoint> checkpoint_;
   std::vector<std::string> warnings_;
 };
+
+/// Fails where `folder` holds what a run left that did not end, or some of `outputs`, which are in it.
+Status checkFolderIsFree(const std::filesystem::path& folder,
+                         const std::vector<std::filesystem::path>& outputs);
 
 /// Fails where one of `inputs` is a file that the run would write: `simulate out/last.obj -o out`.
 Status checkInputsStay(const std::vector<std::filesystem::path>& inputs,

@@ -112,8 +112,9 @@ void printList(bool asJson) {
 // What was measured, a line a subject, below the lines of the run.
 std::string measureText(const SceneNumbers& numbers, const Settings& settings) {
   const CurlNumbers& curl = numbers.curl;
-  std::string text = fmt::format("  droop         {} mm at the end, {} mm at the worst frame\n",
-                                 shown(1000 * curl.droop, 4), shown(1000 * curl.worstDroop, 4));
+  std::string text = fmt::format("  droop         {} mm at the end, {} mm at the worst frame{}\n",
+                                 shown(1000 * curl.droop, 4), shown(1000 * curl.worstDroop, 4),
+                                 riseNote(std::min(curl.droop, curl.worstDroop)));
   text += fmt::format("  core          {} x its length at rest, {} x at the worst frame\n",
                       shown(curl.coreElongation, 4), shown(curl.worstCoreElongation, 4));
   text += curl.meanRadius == 0
@@ -379,7 +380,7 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
   command->add_option("-o,--output", typed->run.folder, "Folder for the animation (default: none is written)")
       ->type_name("DIR");
   command->add_flag("--overwrite", typed->overwrite,
-                    "Begin anew where DIR holds frames of a run that did not end");
+                    "Begin anew where DIR holds files of another run, finished or not");
 
   const char* hair = "Hair";
   command->add_option("--particles", typed->scene.particles, "Particles of each strand (default 64)")

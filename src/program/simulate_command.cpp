@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "program/command_line.h"
+#include "program/confined_option.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
 #include "program/groom_options.h"
@@ -41,7 +42,8 @@ constexpr const char* kExample =
     "  ringlet simulate head.obj --contacts on --measure-contacts --prune 12 --json -o out\n"
     "  ringlet simulate head.obj --motion walk.bvh --skip-frames 1 -o out\n"
     "  ringlet simulate scene.toml --frames 24 -o out\n"
-    "  ringlet simulate scene.toml -o out --checkpoint 10 --resume      again and again, until it ends\n"
+    "  ringlet simulate scene.toml -o out --checkpoint 10 --resume --overwrite      again and again, until "
+    "it ends\n"
     "  ringlet simulate head.obj --cache 16bit --no-usd -o out && ringlet convert out/hair.rgc --info\n"
     "\n"
     "Writes into DIR: hair.usda (time-sampled BasisCurves, frame k at time code k), last.obj (the last "
@@ -98,6 +100,7 @@ struct Typed {
   std::optional<int> frames, bindFrame, stepsPerFrame, iterations, roots, skipFrames, lanes, run, subgroup;
   std::optional<double> preRoll, framesPerSecond, unit, motionUnit, amplitude, frequency, gravity, preload;
   std::optional<std::string> motion, joint, animation, up, integrator, bind;
+  SceneReach reach = SceneReach::anywhere;
   MaterialChoice material;
   ContactChoice contacts;
   GroomChoice groom;
@@ -116,7 +119,7 @@ void replace(Value& value, const auto& typed) {
 
 // A groom by itself is a scene as well: one whose head shakes.
 Result<SceneFile> readInput(const Typed& typed) {
-  if (isSceneFile(typed.input)) return readScene(typed.input);
+  if (isSceneFile(typed.input)) return readScene(typed.input, {}, typed.reach);
   SceneFile scene;
   scene.groom.file = typed.input;
   scene.motion.kind = "shake";
@@ -237,9 +240,8 @@ RunOptions optionsOf(const Typed& typed, const SceneFile& scene) {
   options.showProgress = !typed.quiet;
   options.tellsFrames = typed.jsonProgress;
   options.checkpointFrames = typed.checkpoint.value_or(0);
-  options.leftovers = typed.resume      ? Leftovers::resume
-                      : typed.overwrite ? Leftovers::overwrite
-                                        : Leftovers::refuse;
+  options.leftovers = typed.resume ? (typed.overwrite ? Leftovers::resumeOrOverwrite : Leftovers::resume)
+                                   : (typed.overwrite ? Leftovers::overwrite : Leftovers::refuse);
   return options;
 }
 
@@ -256,10 +258,16 @@ int run(const Typed& typed) {
   checkOptions(typed, *scene);
   if (Status applied = applyMaterialOptions(typed.material, *scene); !applied) return fail(applied.error());
   RunOptions options = optionsOf(typed, *scene);
+  if (typed.reach == SceneReach::ownFolder && typed.folder.empty()) {
+    if (Status linkless = checkHoldsNoLinks(options.folder); !linkless) return fail(linkless.error());
+  }
   const bool rendersSheet = typed.outputs.sheet == "rendered" && options.writesSheet;
   if (rendersSheet) {
     if (Status can = checkRenderedSheet(options); !can) return fail(can.error());
   }
+  if (outputsOf(options).empty() && !typed.json && !typed.jsonProgress)
+    say("ringlet simulate: warning: every file is left out, so that nothing will be written into {}\n",
+        options.folder.string());
   const std::vector<std::filesystem::path> inputs = inputFilesOf(typed.input, *scene);
   if (Status stays = checkInputsStay(inputs, outputsOf(options)); !stays) return fail(stays.error());
   std::optional<LoadedGroom> origin;
@@ -313,6 +321,8 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->add_option("-o,--output", typed->folder,
                    "Folder for the results, made if it is not there; a scene file may say it")
       ->type_name("DIR");
+
+  addConfinedOption(*command, typed->reach);
 
   // What moves.
   const char* scene = "Scene";
@@ -509,15 +519,16 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(wholeBetween(1, kMostFrames))
       ->type_name("N")
       ->group(output);
-  CLI::Option* resume =
-      command->add_flag("--resume", typed->resume,
-                        "Go on with the run in DIR from its last checkpoint, to the same bits as without a "
-                        "break; begin where there is "
-                        "nothing to go on with. Everything else must be asked for as it was");
-  CLI::Option* overwrite = command->add_flag("--overwrite", typed->overwrite,
-                                             "Begin anew where DIR holds frames of a run that did not end");
-  resume->group(output)->excludes(overwrite);
-  overwrite->group(output);
+  command
+      ->add_flag("--resume", typed->resume,
+                 "Go on with the run in DIR from its last checkpoint, to the same bits as without a break; "
+                 "begin where there is nothing to go on with. Everything else must be asked for as it was")
+      ->group(output);
+  command
+      ->add_flag("--overwrite", typed->overwrite,
+                 "Begin anew where DIR holds files of another run, finished or not; with --resume only where "
+                 "there is no checkpoint")
+      ->group(output);
   command
       ->add_flag("--json-progress", typed->jsonProgress,
                  "Print a line of JSON for every frame that is written: frame, frames, seconds, seconds_left")

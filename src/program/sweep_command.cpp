@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "program/command_line.h"
+#include "program/confined_option.h"
 #include "program/exit_codes.h"
 #include "program/output_options.h"
 #include "program/run_report.h"
@@ -70,6 +71,7 @@ struct Typed {
   std::filesystem::path scene;
   std::vector<std::string> vary;
   std::string only, backend = "gpu";
+  SceneReach reach = SceneReach::anywhere;
   SweepOptions options;
   bool noSheet = false, untuned = false, list = false, json = false, quiet = false;
 };
@@ -147,7 +149,7 @@ int run(Typed& typed) {
   options.drawsSheet = !typed.noSheet;
   options.showProgress = !typed.quiet;
 
-  const auto runs = planRuns(typed.scene, axes);
+  const auto runs = planRuns(typed.scene, axes, typed.reach);
   if (!runs) return fail(runs.error());
   if (!options.lastOnly)
     for (const SweepRun& run : *runs) checkOutputs(run.scene.output);
@@ -200,6 +202,7 @@ void addSweepCommand(CLI::App& app, int& exitCode) {
       ->type_name("i/n");
   command->add_flag("--list", typed->list, "Print the runs and their states, and run none");
   command->add_flag("--overwrite", options.overwrites, "Run all anew, whatever DIR holds");
+  addConfinedOption(*command, typed->reach);
 
   const char* machine = "Machine";
   addBackendOption(*command, typed->backend)->group(machine);

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "ringlet/scenes/scene_paths.h"
+
 namespace ringlet::program {
 namespace {
 
@@ -65,16 +67,11 @@ std::optional<std::vector<std::string>> rangeOf(std::string_view text) {
 
 // So that a scene can be read from anywhere.
 void makeAbsolute(SceneFile& scene) {
-  const auto absolute = [](fs::path& path) {
+  forEachFileOf(scene, [](fs::path& path) {
     std::error_code code;
-    const fs::path whole = path.empty() ? path : fs::absolute(path, code);
+    const fs::path whole = fs::absolute(path, code);
     if (!code) path = whole.lexically_normal();
-  };
-  for (fs::path* path : {&scene.groom.file, &scene.motion.file, &scene.scalp.file}) absolute(*path);
-  for (SceneBody& body : scene.bodies) {
-    absolute(body.file);
-    if (body.motion) absolute(body.motion->file);
-  }
+  });
 }
 
 std::string changesText(std::span<const SceneChange> changes) {
@@ -120,14 +117,15 @@ Result<SweepAxis> parseAxis(std::string_view typed) {
   return axis;
 }
 
-Result<std::vector<SweepRun>> planRuns(const fs::path& scene, std::span<const SweepAxis> axes) {
+Result<std::vector<SweepRun>> planRuns(const fs::path& scene, std::span<const SweepAxis> axes,
+                                       SceneReach reach) {
   if (Status checked = checkAxes(axes); !checked) return checked.error();
   std::vector<SweepRun> runs;
   std::vector<std::size_t> at(axes.size(), 0);  // which value of each
   for (bool isDone = false; !isDone;) {
     SweepRun run{static_cast<int>(runs.size()) + 1, {}, {}};
     for (std::size_t i = 0; i < axes.size(); ++i) run.changes.push_back({axes[i].key, axes[i].values[at[i]]});
-    auto read = readScene(scene, run.changes);
+    auto read = readScene(scene, run.changes, reach);
     if (!read) {
       return Error{fmt::format("{} (with {})", read.error().message, changesText(run.changes)),
                    read.error().fault};

@@ -31,7 +31,8 @@ Result<SweepAxis> parseAxis(std::string_view typed);
 
 /// Every combination of values, the last axis changing fastest. Errors: too many, a key twice, a scene that
 /// cannot be read, and what its reader says of a change, with the run's values.
-Result<std::vector<SweepRun>> planRuns(const std::filesystem::path& scene, std::span<const SweepAxis> axes);
+Result<std::vector<SweepRun>> planRuns(const std::filesystem::path& scene, std::span<const SweepAxis> axes,
+                                       SceneReach reach = SceneReach::anywhere);
 
 /// "hold = 2, gravity = 5": of the axes with more than one value, or of all where no axis has.
 std::string valuesText(const SweepRun& run, std::span<const SweepAxis> axes);

@@ -24,6 +24,7 @@
 #include "program/progress_bar.h"
 #include "program/run_facts.h"
 #include "program/run_report.h"
+#include "program/run_writers.h"
 #include "program/simulate_run.h"
 #include "program/standard_error.h"
 #include "program/sweep_record.h"
@@ -223,25 +224,21 @@ class Sweep {
     for (const std::string& warning : warnings) warnings_[warning].insert(run);
   }
 
-  // The run's folder, with its scene. What a run of this scene left there that did not end makes way.
-  Result<Leftovers> prepareFolder(const SweepRun& run, const fs::path& folder) const {
+  // The run's folder, with its scene. What a run of this scene left there makes way: it has no record, so it
+  // did not end. Of all else nothing is touched.
+  Status prepareFolder(const SweepRun& run, const RunOptions& options) const {
+    const fs::path& folder = options.folder;
     std::error_code code;
     fs::create_directories(folder, code);
     if (code)
       return Error{fmt::format("cannot create the folder {}: {}", folder.string(), code.message()),
                    Fault::output};
     const std::string text = sceneTextOf(run);
-    if (options_.overwrites || holdsText(folder / kScene, text)) {
-      fs::remove(folder / kRecord, code);
-      if (Status written = writeWholeFile(folder / kScene, std::as_bytes(std::span<const char>(text)));
-          !written)
-        return written.error();
-      return Leftovers::overwrite;
+    if (!options_.overwrites && !holdsText(folder / kScene, text)) {
+      if (Status isFree = checkFolderIsFree(folder, outputsOf(options)); !isFree) return isFree;
     }
-    if (Status written = writeWholeFile(folder / kScene, std::as_bytes(std::span<const char>(text)));
-        !written)
-      return written.error();
-    return Leftovers::refuse;
+    fs::remove(folder / kRecord, code);
+    return writeWholeFile(folder / kScene, std::as_bytes(std::span<const char>(text)));
   }
 
   Status runAndRecord(SweepEntry& entry) {
@@ -257,9 +254,8 @@ class Sweep {
     auto scene = loadScene(run.scene, groom->loaded.get(), groom->geometry);
     if (!scene) return scene.error();
     if (Status chosen = chooseOrigin(*groom->loaded, options); !chosen) return chosen.error();
-    auto leftovers = prepareFolder(run, options.folder);
-    if (!leftovers) return leftovers.error();
-    options.leftovers = *leftovers;
+    if (Status prepared = prepareFolder(run, options); !prepared) return prepared;
+    options.leftovers = Leftovers::overwrite;
 
     FrameWatch watch(*scene, run.scene.groom.up == "Z" ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0});
     if (options_.measures) {

@@ -11,9 +11,10 @@
 
 #include "program/cache_folder.h"
 #include "program/command_line.h"
+#include "program/confined_option.h"
 #include "program/exit_codes.h"
-#include "program/groom_options.h"
 #include "program/follow_plan.h"
+#include "program/groom_options.h"
 #include "program/hair_look.h"
 #include "program/interruption.h"
 #include "program/picture_options.h"
@@ -61,6 +62,7 @@ constexpr const char* kExample =
 struct Typed {
   std::filesystem::path input, save, pictures, widgets;
   std::vector<std::string> changes;
+  SceneReach reach = SceneReach::anywhere;
   std::string size = "640x480", colour = "auburn", device;
   int frames = 0, samples = 2, hairs = 0;
   HairLook look;
@@ -85,7 +87,7 @@ Result<SceneFile> sceneOf(const Typed& typed) {
   std::error_code code;  // a path that cannot be made absolute stays as it is
   std::filesystem::path input = std::filesystem::absolute(typed.input, code);
   if (code) input = typed.input;
-  if (isSceneFile(input)) return readScene(input, changes);
+  if (isSceneFile(input)) return readScene(input, changes, typed.reach);
   if (!isGroomFile(input))
     return Error{
         fmt::format("{} is neither a scene (.toml) nor a groom ({})", typed.input.string(), kGroomEndings),
@@ -257,6 +259,7 @@ void addViewCommand(CLI::App& app, int& exitCode) {
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
   addGroomOptions(*command, typed->reading);
+  addConfinedOption(*command, typed->reach);
   addHairLookOptions(*command, typed->look);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")
       ->check(wholeBetween(0, 10'000'000))

@@ -15,10 +15,11 @@ std::vector<std::string> lostIn(const std::filesystem::path& path, const LoadedG
                     path.string(), unit, Groom{}.metresPerUnit, unit, unit));
   }
   if (upIsZ) {
-    lost.push_back(fmt::format(
-        "{} does not hold its up axis, Z, and without an option counts as Y up; say --up Z to every command that "
-        "reads it, or up = \"Z\" of [groom]",
-        path.string()));
+    lost.push_back(
+        fmt::format("{} does not hold its up axis, Z, and without an option counts as Y up; say --up Z to "
+                    "every command that "
+                    "reads it, or up = \"Z\" of [groom]",
+                    path.string()));
   }
   return lost;
 }

@@ -23,6 +23,7 @@ Status writeWidgets(const std::filesystem::path& path, const WindowState& state,
   // Readers see a whole file or the one before. It is not for keeps, so the disk is not waited for.
   const std::filesystem::path written = path.string() + ".partial";
   std::error_code code;
+  std::filesystem::remove(written, code);  // a symbolic link of that name would be followed
   std::ofstream out(written);
   out << json.dump() << '\n';
   out.close();

@@ -47,6 +47,27 @@ TEST(BodyWatch, CountsWhatWasOutside) {
   EXPECT_EQ(watch.numbers().particle, 1);
 }
 
+// The rounding of positions, or of a grid, puts hair that lies on a surface a little below it.
+TEST(BodyWatch, HairThatLiesOnABodyIsNotInside) {
+  Groom groom;
+  groom.metresPerUnit = 1;
+  groom.addStrand(std::vector<Vec3f>{{0, 0, 0}, {0.2f, 0, 0}, {0.2f, 0, 0}, {0.2f, 0, 0}});
+  const std::vector<Body> bodies{{.radius = 0.1}};
+  const std::vector<BodyPose> poses{{{0, 0, 0}, {}}};
+  const auto insideAt = [&](std::vector<std::vector<float>> looks) {
+    BodyWatch watch(groom, bodies, 1);
+    for (const auto& x : looks)
+      watch.look(std::vector<Vec3f>{{0, 0, 0}, {x[0], 0, 0}, {x[1], 0, 0}, {x[2], 0, 0}}, HeadPose{}, poses);
+    EXPECT_EQ(watch.numbers().deepest, 0) << "none was outside";
+    return watch.numbers().inside;
+  };
+  EXPECT_EQ(insideAt({{0.099999f, 0.099995f, 0.0999f}}), 1u) << "1 and 5 um are rounding, 0.1 mm is not";
+  EXPECT_EQ(insideAt({{0.09f, 0.09f, 0.09f}, {0.099999f, 0.095f, 0.09f}}), 2u)
+      << "one was pushed to the surface";
+  EXPECT_EQ(insideAt({{0.099999f, 0.09f, 0.09f}, {0.0999f, 0.09f, 0.09f}}), 2u)
+      << "and stays counted as that";
+}
+
 // Against a look at every particle by itself, in all shapes, along strands that wander out of bodies and in.
 TEST(BodyWatch, LeavesOutNothingThatIsInside) {
   constexpr int kStrands = 200, kParticles = 12, kLooks = 4;

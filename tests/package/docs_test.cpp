@@ -115,6 +115,24 @@ TEST(Docs, EveryPageIsLinkedFromAnother) {
   }
 }
 
+TEST(Docs, EveryPackageThatIsInstalledIsListed) {
+  const std::string page = textOf("docs/getting-started.md");
+  std::istringstream script(textOf("scripts/install_packages.sh"));
+  std::set<std::string> packages;
+  bool isList = false;
+  for (std::string line; std::getline(script, line);) {
+    if (line == ")") isList = false;
+    std::istringstream words(line.substr(0, line.find('#')));
+    for (std::string word; isList && words >> word;) packages.insert(word);
+    if (line.ends_with("=(")) isList = true;
+  }
+  EXPECT_GT(packages.size(), 30u);
+  for (const std::string& package : packages) {
+    const std::regex whole("[` ]" + std::regex_replace(package, std::regex("[+]"), "[+]") + "[` ]");
+    EXPECT_TRUE(std::regex_search(page, whole)) << package << " is not in the table of packages";
+  }
+}
+
 TEST(Docs, TheReadmeIsShort) {
   const std::string readme = textOf("README.md");
   EXPECT_LE(std::ranges::count(readme, '\n'), 160);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
@@ -96,6 +97,34 @@ TEST(Usage, WrongCommandLinesExitWith2AndSayWhatWouldBeRight) {
     EXPECT_EQ(result.err.substr(0, 7), "ringlet");
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "o"));
+}
+
+// Of every number that an option of the program takes.
+TEST(Usage, NumbersThatAreTooLargeAreToldWithWhatIsAllowed) {
+  const auto folder = scratchFolder("too_large");
+  const std::vector<std::vector<std::string>> commands{
+      {"make", "curl"}, {"make", "swatch"}, {"make", "head"}, {"simulate"}, {"sweep"},
+      {"scene"},        {"measure"},        {"info"},         {"material"}, {"convert"},
+      {"render"},       {"view"},           {"tune"},         {"conform"},  {"kernels"}};
+  int tried = 0;
+  for (const auto& command : commands) {
+    std::vector<std::string> asks = command;
+    asks.push_back("--help");
+    const std::string help = runProgram(folder, asks).out;
+    const std::regex number("(--[a-z-]+) N[ \n]");
+    for (auto at = std::sregex_iterator(help.begin(), help.end(), number); at != std::sregex_iterator();
+         ++at) {
+      std::vector<std::string> all = command;
+      all.insert(all.end(), {(*at)[1], "100000000000"});
+      const auto result = runProgram(folder, all);
+      EXPECT_EQ(result.exitCode, 2) << command.back() << " " << (*at)[1];
+      expectContains(result.err, (*at)[1].str() + ": ");
+      expectContains(result.err, "'100000000000'");
+      EXPECT_EQ(result.err.find("ould not convert"), std::string::npos) << result.err;
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 60);
 }
 
 TEST(Devices, ListsThemOrSaysThereAreNone) {

@@ -70,7 +70,7 @@ TEST_F(Conform, WhatIsKnownIsThereWhenItIsKilled) {
     const json report = json::parse(test::readText(file), nullptr, false);
     return report.is_object() ? report["checks"].size() : 0;
   };
-  EXPECT_TRUE(RunningProgram::waitUntil([&] { return std::filesystem::exists(file) && known() >= 2; }));
+  EXPECT_TRUE(program.waitUntil([&] { return std::filesystem::exists(file) && known() >= 2; }));
   program.send(SIGKILL);
   program.wait();
   report_ = json::parse(test::readText(file), nullptr, false);

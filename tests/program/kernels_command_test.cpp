@@ -53,7 +53,7 @@ TEST_F(Kernels, WhatIsKnownIsThereWhenItIsKilled) {
     const json report = json::parse(test::readText(file), nullptr, false);
     return report.is_object() ? report["kernels"].size() : 0;
   };
-  EXPECT_TRUE(RunningProgram::waitUntil([&] { return std::filesystem::exists(file) && known() >= 1; }));
+  EXPECT_TRUE(program.waitUntil([&] { return std::filesystem::exists(file) && known() >= 1; }));
   program.send(SIGKILL);
   EXPECT_EQ(program.wait().exitCode, -1) << "it was not done";
   const json report = json::parse(test::readText(file), nullptr, false);

@@ -184,14 +184,27 @@ TEST_F(Render, BlurAndOrbitAreOfAnimations) {
 // all.
 TEST_F(Render, FramesAreThoseAskedFor) {
   EXPECT_EQ(render({"out", "-o", "some", "--frames", "2:3"})["frames"], 2);
+  EXPECT_EQ(render({"out", "-o", "one", "--frames", "3"})["frames"], 1);
   EXPECT_FALSE(fs::exists(folder_ / "some/frame.0001.png"));
   EXPECT_TRUE(fs::exists(folder_ / "some/frame.0002.png"));
   EXPECT_FALSE(fs::exists(folder_ / "some/frame.0004.png"));
 }
 
 TEST_F(Render, WhatMakesNoSenseIsRefused) {
-  expectRefused({"out", "-o", "x.png"}, 2, {"one picture", "--frames 12:12"});
-  expectRefused({"out", "-o", "x", "--frames", "3:2"}, 2, {"comes after the last"});
+  expectRefused({"out", "-o", "x.png"}, 2, {"one picture", "--frames 12,"});
+  for (const char* frames : {"3:2", "0", "2:", ":2", "two", "1:2:3"})
+    expectRefused({"out", "-o", "x", "--frames", frames}, 2, {"as 12, or the first and the last, as 1:24"});
+  expectRefused({"nothing", "-o", "x.png"}, 4, {"nothing: there is no such file or folder"});
+  for (const char* file : {"x.jpg", "x.JPG", "x.tif", "x.tga", "x.mov", "x.PNG"}) {
+    expectRefused({"out", "-o", file}, 2,
+                  {file, "must end in .png or .exr", "for a folder of that name make it first"});
+    std::filesystem::create_directory(folder_ / file);
+    render({"out", "-o", file, "--frames", "1"});
+    EXPECT_TRUE(std::filesystem::exists(folder_ / file / "frame.0001.png"));
+    std::filesystem::remove_all(folder_ / file);
+  }
+  render({"out", "-o", "take.v2", "--frames", "1"});
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "take.v2/frame.0001.png"));
   expectRefused({"out", "-o", "x", "--frames", "2:9"}, 1, {"has 4 frames", "2 to 9"});
   expectRefused({"out", "-o", "x", "--size", "10by10"}, 2, {"960x540", "10by10"});
   expectRefused({"out", "-o", "x", "--colour", "bleu"}, 2, {"auburn", "bleu"});

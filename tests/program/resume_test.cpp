@@ -153,7 +153,7 @@ TEST_P(Resume, KilledRunsGoOn) {
   for (const int killedAt : isGpu() ? std::vector{6} : std::vector{1, 6, 15, 23}) {
     fs::remove_all(folder_ / "out");
     RunningProgram program(folder_, argumentsOf("out", {"--checkpoint", "5", "--json-progress", "--quiet"}));
-    EXPECT_TRUE(RunningProgram::waitUntil([&] {
+    EXPECT_TRUE(program.waitUntil([&] {
       const std::string lines = readText(folder_ / "stdout.txt");
       return std::ranges::count(lines, '\n') >= killedAt;
     }));
@@ -168,7 +168,7 @@ TEST_P(Resume, AKilledResumeGoesOn) {
   for (int k = 0; k < 2; ++k) {
     RunningProgram program(
         folder_, argumentsOf("out", {"--checkpoint", "2", "--resume", "--json-progress", "--quiet"}));
-    EXPECT_TRUE(RunningProgram::waitUntil([&] {
+    EXPECT_TRUE(program.waitUntil([&] {
       const std::string lines = readText(folder_ / "stdout.txt");
       return std::ranges::count(lines, '\n') >= 4;
     }));
@@ -180,7 +180,7 @@ TEST_P(Resume, AKilledResumeGoesOn) {
 
 TEST_P(Resume, AnInterruptedRunGoesOn) {
   RunningProgram program(folder_, argumentsOf("out", {"--checkpoint", "100", "--json-progress", "--quiet"}));
-  EXPECT_TRUE(RunningProgram::waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
+  EXPECT_TRUE(program.waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
   program.send(SIGTERM);
   const auto result = program.wait();
   EXPECT_EQ(result.exitCode, 130);
@@ -242,7 +242,7 @@ TEST_P(Resume, WhatKeysDidBeforeIsDoneAgain) {
     for (const char* out : {"keys_whole", "keys_out"}) fs::remove_all(folder_ / out);
     ASSERT_EQ(runProgram(folder_, arguments("keys_whole")).exitCode, 0) << c.what;
     RunningProgram program(folder_, arguments("keys_out"));
-    EXPECT_TRUE(RunningProgram::waitUntil([&] {
+    EXPECT_TRUE(program.waitUntil([&] {
       const std::string lines = readText(folder_ / "stdout.txt");
       return std::ranges::count(lines, '\n') >= c.killedAt && hasDoneFrames(folder_ / "keys_out");
     }));
@@ -301,7 +301,7 @@ TEST_P(Resume, AfterALostDeviceTheRunGoesOn) {
 TEST_P(Resume, WhatDiffersIsSaid) {
   setenv("VK_LAYER_PATH", "", 1);
   RunningProgram program(folder_, argumentsOf("out", {"--checkpoint", "3", "--json-progress", "--quiet"}));
-  EXPECT_TRUE(RunningProgram::waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
+  EXPECT_TRUE(program.waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
   program.send(SIGKILL);
   (void)program.wait();
   const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
@@ -337,7 +337,7 @@ TEST_P(Resume, WhatDiffersIsSaid) {
 
 TEST_P(Resume, AFolderBelongsToOneRun) {
   RunningProgram first(folder_, argumentsOf("out", {"--frames", "100000", "--json-progress", "--quiet"}));
-  EXPECT_TRUE(RunningProgram::waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
+  EXPECT_TRUE(first.waitUntil([&] { return !readText(folder_ / "stdout.txt").empty(); }));
   const fs::path elsewhere = scratchFolder(std::string("resume_second_") + GetParam());
   fs::copy(folder_ / "tuft.obj", elsewhere / "tuft.obj");
   const auto second = [&](const std::vector<std::string>& more) {

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -63,11 +64,21 @@ class RunningProgram {
 
   void send(int signal) { kill(process_, signal); }
 
-  /// Waits until the condition holds; false if that took longer than the patience of a test.
-  static bool waitUntil(const std::function<bool()>& condition) {
-    for (int i = 0; i < 3000; ++i) {
-      if (condition()) return true;
+  /// Waits until the condition holds, however busy the machine is; false where the program ended before.
+  bool waitUntil(const std::function<bool()>& condition) const {
+    while (!condition()) {
+      if (isOver()) return condition();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return true;
+  }
+
+  /// Whether it has a handler of its own for a signal (Linux: the mask of /proc).
+  bool handles(int signal) const {
+    std::istringstream lines(readText("/proc/" + std::to_string(process_) + "/status"));
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("SigCgt:"))
+        return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
     }
     return false;
   }
@@ -80,6 +91,12 @@ class RunningProgram {
   }
 
  private:
+  bool isOver() const {
+    siginfo_t ended{};
+    return waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           ended.si_pid == process_;
+  }
+
   std::filesystem::path folder_;
   pid_t process_ = -1;
 };

@@ -450,8 +450,8 @@ class Interruption : public testing::Test {
                                       "reference", "--json",     "-o",       "out"};
   std::filesystem::path folder_ = scratchFolder("interruption");
 
-  bool waitForFrames() const {
-    return RunningProgram::waitUntil([this] {
+  bool waitForFrames(const RunningProgram& program) const {
+    return program.waitUntil([this] {
       const std::string key = "endTimeCode = ";
       std::string text(200, ' ');
       std::ifstream(folder_ / "out/hair.usda.partial").read(text.data(), 200);
@@ -515,7 +515,7 @@ TEST_F(Interruption, WorkgroupsOfAnySizeHaveTheSameBits) {
 
 TEST_F(Interruption, CtrlCKeepsFinishedFrames) {
   RunningProgram program(folder_, arguments_);
-  EXPECT_TRUE(waitForFrames());
+  EXPECT_TRUE(waitForFrames(program));
   program.send(SIGINT);
   const auto result = program.wait();
   EXPECT_EQ(result.exitCode, 130);
@@ -535,7 +535,7 @@ TEST_F(Interruption, CtrlCKeepsFinishedFrames) {
 
 TEST_F(Interruption, AKilledRunLeavesItsFrames) {
   RunningProgram program(folder_, arguments_);
-  EXPECT_TRUE(waitForFrames());
+  EXPECT_TRUE(waitForFrames(program));
   program.send(SIGKILL);
   EXPECT_EQ(program.wait().exitCode, -1);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/hair.usda"));

@@ -114,7 +114,7 @@ void Split::killAndGoOn(const std::string& contacts) {
   std::ranges::replace(arguments, "--json", "--json-progress");
   std::ranges::replace(arguments, "--overwrite", "--quiet");
   RunningProgram program(folder_, arguments);
-  EXPECT_TRUE(RunningProgram::waitUntil([&] {
+  EXPECT_TRUE(program.waitUntil([&] {
     const std::string lines = readText(folder_ / "stdout.txt");
     return std::ranges::count(lines, '\n') >= 30 && hasDoneFrames(folder_ / "killed");
   }));

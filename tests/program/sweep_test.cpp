@@ -173,6 +173,59 @@ TEST_F(Sweep, FinishedRunsAreKeptAndOthersAreRun) {
   EXPECT_EQ(states(), (States{"finished", "finished", "finished"}));
 }
 
+// Every path of a scene, from another folder than that in which the sweep was started.
+TEST_F(Sweep, ARunsSceneIsRunAgainFromAnywhere) {
+  const fs::path made = scratchFolder("sweep_paths");
+  fs::create_directory(made / "files");
+  for (const auto& words : std::vector<std::vector<std::string>>{
+           {"make", "swatch", "--columns", "3", "--rows", "1", "--particles", "16", "-o", "files/groom.obj"},
+           {"make", "head", "--strands", "1", "-o", "files/head.obj"}})
+    ASSERT_EQ(runProgram(made, words).exitCode, 0);
+  std::ofstream(made / "files/ball.obj") << "v 0.02 -0.3 0\nv -0.02 -0.3 0\nv 0 -0.27 0.03\nv 0 -0.3 -0.03\n"
+                                            "f 1 3 2\nf 1 4 3\nf 2 3 4\nf 1 2 4\n";
+  std::ofstream(made / "files/map.txt") << "0 1\n1 0.5\n2 2\n";
+  std::ofstream(made / "files/m.bvh")
+      << "HIERARCHY\nROOT Head\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\n"
+         "OFFSET 0 170 0\n}\n}\nMOTION\nFrames: 4\nFrame Time: 0.04\n0 0 0\n0 4 0\n0 9 0\n0 9 0\n";
+  std::ofstream(made / "files/grid.txt") << "2 2 2\n0 0 0\n1 1 1\n"
+                                         << [] {
+                                              std::string rows;
+                                              for (int i = 0; i < 8; ++i) rows += "1 0 0\n";
+                                              return rows;
+                                            }();
+  std::ofstream(made / "scene.toml")
+      << "[groom]\nfile = 'files/groom.obj'\n[motion]\nfile = 'files/m.bvh'\nunit = 0.01\n"
+         "[goal]\nfile = 'files/groom.obj'\n[[body]]\nname = 'ball'\nshape = 'mesh'\nfile = "
+         "'files/ball.obj'\n"
+         "unit = 1\ncells = 8\n[body.moves]\nfile = 'files/m.bvh'\nunit = 0.01\n"
+         "[[map]]\nnumber = 'bend_stiffness'\nfile = 'files/map.txt'\n[simulation]\nframes = "
+         "3\nsteps_per_frame = "
+         "4\n"
+         "[output]\nhairs = 9\nhair_scalp_file = 'files/ball.obj'\n";
+  const auto swept = runProgram(made, {"sweep", "scene.toml", "--vary", "material.dials.hold=1,2",
+                                       "--backend", "reference", "-o", "out", "--no-sheet"});
+  ASSERT_EQ(swept.exitCode, 0) << swept.err;
+  const json expected = json::parse(readText(made / "out/run-0002/run.json"))["report"]["positions_hash"];
+  const fs::path elsewhere = scratchFolder("sweep_paths_elsewhere");
+  const auto again = runProgram(elsewhere, {"simulate", (made / "out/run-0002/scene.toml").string(),
+                                            "--backend", "reference", "--json", "-o", "again"});
+  ASSERT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out)["positions_hash"], expected);
+}
+
+// What was in a run's folder before the sweep stays, however often it is tried.
+TEST_F(Sweep, FilesOfOthersAreNotReplaced) {
+  fs::create_directories(folder_ / "out/run-0001");
+  std::ofstream(folder_ / "out/run-0001/last.obj") << "mine";
+  for (int k = 0; k < 2; ++k) {
+    const auto refused = onCpu({"material.dials.hold=1,2"});
+    EXPECT_EQ(refused.exitCode, 5);
+    EXPECT_NE(refused.err.find("holds a run's files: last.obj"), std::string::npos) << refused.err;
+    EXPECT_EQ(readText(folder_ / "out/run-0001/last.obj"), "mine");
+    EXPECT_EQ(states(), (States{"failed", k == 0 ? "finished" : "kept"}));
+  }
+}
+
 TEST_F(Sweep, AFolderOfSomethingElseIsRefused) {
   std::ofstream(folder_ / "groom.obj") << "v 0 0 0\nv 0 -10 0\nv 10 -10 0\nl 1 2 3\n";
   std::ofstream(folder_ / "scene.toml") << "[groom]\nfile = 'groom.obj'\n[simulation]\nframes = 2\n";
@@ -243,7 +296,7 @@ TEST_F(Sweep, AnInterruptionKeepsWhatIsFinished) {
                                     "--vary", frames,       "--jobs", "1",   "--no-sheet", "--last-only"};
   };
   test::RunningProgram running(folder_, arguments("simulation.frames=3,1000000"));
-  ASSERT_TRUE(test::RunningProgram::waitUntil([&] { return fs::exists(folder_ / "out/run-0001/run.json"); }));
+  ASSERT_TRUE(running.waitUntil([&] { return fs::exists(folder_ / "out/run-0001/run.json"); }));
   running.send(SIGINT);
   EXPECT_EQ(running.wait().exitCode, 130);
   EXPECT_EQ(states().front(), "finished");
@@ -259,8 +312,7 @@ TEST_F(Sweep, AnInterruptionBetweenRunsIsOneToo) {
     test::RunningProgram running(folder_, {"sweep", "scene.toml", "-o", "out", "--backend", "reference",
                                            "--vary", "material.dials.hold=0.5:2:2000", "--vary",
                                            "simulation.frames=1", "--jobs", "1", "--no-sheet"});
-    ASSERT_TRUE(
-        test::RunningProgram::waitUntil([&] { return fs::exists(folder_ / "out/run-0002/run.json"); }));
+    ASSERT_TRUE(running.waitUntil([&] { return fs::exists(folder_ / "out/run-0002/run.json"); }));
     running.send(SIGINT);
     const auto result = running.wait();
     ASSERT_EQ(states().back(), "to do") << "the signal came too late to say anything";

@@ -169,7 +169,7 @@ TEST_F(Tune, WhatIsKnownIsThereWhenItIsKilled) {
     const json said = json::parse(test::readText(report), nullptr, false);
     return said.is_object() ? said["shapes"].size() : 0;
   };
-  EXPECT_TRUE(RunningProgram::waitUntil([&] { return std::filesystem::exists(report) && known() >= 1; }));
+  EXPECT_TRUE(program.waitUntil([&] { return std::filesystem::exists(report) && known() >= 1; }));
   program.send(SIGKILL);
   program.wait();
   const json said = json::parse(test::readText(report), nullptr, false);

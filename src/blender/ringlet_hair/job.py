@@ -1,6 +1,7 @@
 """One run: what is written for the program, the program at work, and what it leaves."""
 import os
 import shutil
+import tempfile
 import threading
 from dataclasses import dataclass
 
@@ -11,15 +12,17 @@ from .hair_file import write_hair
 from .mesh_file import write_obj_mesh
 from .point_cache import write_point_cache
 from .program import Run, command_line
-from .scene_text import Collider, Scene, keys_of, scene_text
+from .scene_text import SCENE_HEADING, Collider, Scene, keys_of, scene_text
 from .strands import joined
 from .usd_points import usd_frames
+
+OUR_FILES = ("scene.toml", "groom.hair", "head.obj", "hair.pc2", "hair.pc2.partial")
 
 
 @dataclass
 class JobSettings:
     program: str
-    folder: str             # made anew; what an earlier run left there is replaced
+    folder: str             # the add-on's; what an earlier run left there is replaced
     first_frame: int        # written are the frames from here ...
     last_frame: int         # ... to here
     fps: float
@@ -40,9 +43,25 @@ class JobSettings:
         return range(self.start_frame - self.pre_roll, self.last_frame + 1)
 
 
+def check_folder(folder):
+    """Raises RingletError where the folder holds files under the add-on's names that it did not write. A .blend
+    names the folder, so it may be any."""
+    scene = os.path.join(folder, "scene.toml")
+    try:
+        with open(scene, encoding="utf-8", errors="replace") as file:
+            is_ours = file.readline().rstrip("\n") == SCENE_HEADING
+    except FileNotFoundError:
+        is_ours = False
+    taken = [name for name in OUR_FILES if os.path.lexists(os.path.join(folder, name))]
+    if taken and not is_ours:
+        raise RingletError(f"{folder} holds {', '.join(taken)}, which this add-on did not write and would replace; "
+                           "choose another folder, or move them away")
+
+
 def write_inputs(settings, samples):
     """Fills the folder with the groom, the head and the scene file, whose path it returns. Raises
     RingletError, OSError."""
+    check_folder(settings.folder)
     strands = joined(samples.strands)
     pivot = strands.roots.mean(axis=0)  # hair's coordinates are small where the head's origin is among it
     strands.points = strands.points - pivot
@@ -79,8 +98,13 @@ class Job:
         self.cache = os.path.join(settings.folder, "hair.pc2")
         self.report = self.error = None
         scene = write_inputs(settings, samples)
-        self._output = os.path.join(settings.folder, "out")
-        self.run = Run(command_line(settings.program, scene, self._output, settings.options))
+        # A folder that nobody else has: it is removed with all that is in it.
+        self._output = tempfile.mkdtemp(prefix="run-", dir=settings.folder)
+        try:
+            self.run = Run(command_line(settings.program, scene, self._output, settings.options))
+        except RingletError:
+            os.rmdir(self._output)
+            raise
         self._thread = threading.Thread(target=self._work, daemon=True)
         self._thread.start()
 
@@ -111,14 +135,22 @@ class Job:
             self.report = self.run.result()
             animation = os.path.join(self._output, "hair.usda")
             partial = self.cache + ".partial"
+            if os.path.lexists(partial):
+                os.remove(partial)  # a symbolic link of that name would be followed
             write_point_cache(partial, self._checked(usd_frames(animation)), self.point_count,
                               self.settings.first_frame)
             os.replace(partial, self.cache)
-            shutil.rmtree(self._output, ignore_errors=True)  # the cache holds the same numbers
         except RingletError as error:
             self.error = str(error)
         except OSError as error:
             self.error = f"{error.filename or self.settings.folder}: {error.strerror}"
+        finally:
+            self._drop_output()
+
+    def _drop_output(self):
+        # After a run that ended the cache holds the same numbers; of one that failed the frames are kept.
+        if self.error is None or self.run.is_cancelled or not os.listdir(self._output):
+            shutil.rmtree(self._output, ignore_errors=True)
 
     def _checked(self, frames):
         for points in frames:

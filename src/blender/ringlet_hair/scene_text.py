@@ -6,6 +6,9 @@ import numpy as np
 
 from .rigid_motion import RigidMotion
 
+# The first line of every scene file of the add-on, by which it knows its folders.
+SCENE_HEADING = "# Written by the Ringlet add-on of Blender; `ringlet simulate` runs it by itself, too."
+
 
 @dataclass
 class Keys:
@@ -45,7 +48,7 @@ def keys_of(motion: RigidMotion, pivot, frames, first_frame, fps, unit):
 
 def scene_text(scene: Scene):
     """The whole file. Paths stand in it as they are given: relative to where it will be."""
-    lines = ["# Written by the Ringlet add-on of Blender; `ringlet simulate` runs it by itself, too.",
+    lines = [SCENE_HEADING,
              "[groom]", f"file = {quoted(scene.groom)}", f"unit = {scene.unit!r}", 'up = "Z"', ""]
     if scene.material:
         key = "file" if scene.material.endswith(".toml") else "preset"

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "ringlet/base/file_fault.h"
@@ -115,6 +116,18 @@ Status writeWholeFile(const std::filesystem::path& path, std::span<const std::by
   }
   syncFolder(path.parent_path());
   return {};
+}
+
+std::optional<std::filesystem::path> fileOfTemporary(const std::filesystem::path& path) {
+  // NAME.TIME-COUNT.partial, both in hexadecimal: see temporaryBeside.
+  if (path.extension() != ".partial") return std::nullopt;
+  const std::filesystem::path named = path.parent_path() / path.stem();
+  const std::string mark = named.extension().string();
+  constexpr std::string_view kHex = "0123456789abcdef";
+  const std::size_t dash = mark.find_first_not_of(kHex, 1);
+  const bool isMark = dash != std::string::npos && dash > 1 && mark[dash] == '-' && dash + 1 < mark.size() &&
+                      mark.find_first_not_of(kHex, dash + 1) == std::string::npos;
+  return isMark ? std::optional(named.parent_path() / named.stem()) : std::nullopt;
 }
 
 }  // namespace ringlet

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,5 +20,9 @@ Result<std::vector<std::byte>> readWholeFile(const std::filesystem::path& path);
 /// disk leaves half a file. Errors: the folder is missing or read-only, the disk is full, the path is a
 /// folder.
 Status writeWholeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+/// The file whose replacement `path` was to become, where its name is that of a temporary of writeWholeFile:
+/// a process that is killed leaves it.
+std::optional<std::filesystem::path> fileOfTemporary(const std::filesystem::path& path);
 
 }  // namespace ringlet

@@ -17,7 +17,7 @@ struct BodyNumbers {
   double deepest = 0;                       // of any particle in any body, once it was outside of it [m]
   std::int64_t strand = -1, particle = -1;  // which it was, groom order; or -1
   std::int64_t frame = -1;                  // the look it was seen at, from 0
-  std::size_t inside = 0;  // particles, times bodies, that have not yet been outside: they began in it
+  std::size_t inside = 0;  // particles, times bodies, that have not yet been outside or on the surface
 };
 
 class BodyWatch {
@@ -32,7 +32,7 @@ class BodyWatch {
   BodyNumbers numbers() const;
   /// What was seen so far, for a checkpoint.
   void archive(Archive& archive) {
-    archive.values(std::span(wasOutside_));
+    archive.values(std::span(seen_));
     archive.value(numbers_);
     archive.value(looks_);
   }
@@ -41,7 +41,7 @@ class BodyWatch {
   std::vector<std::uint32_t> firstPoint_;
   std::vector<Body> bodies_;
   std::size_t rootCount_;
-  std::vector<std::uint8_t> wasOutside_;  // by body, then particle
+  std::vector<std::uint8_t> seen_;  // where each was, by body, then particle
   BodyNumbers numbers_;
   std::int64_t looks_ = 0;
 };

@@ -72,8 +72,12 @@ Result<ByteFile> ByteFile::open(const fs::path& path) { return openLocked(path, 
 
 Result<ByteFile> ByteFile::openLocked(const fs::path& path, int flags) {
   while (true) {
-    // Without O_NONBLOCK a pipe of that name would make the program wait.
-    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK | flags, 0666);
+    // Without O_NONBLOCK a pipe of that name would make the program wait; without O_NOFOLLOW whoever may
+    // write into the folder could name any file of ours to be emptied.
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW | flags, 0666);
+    if (file < 0 && errno == ELOOP)
+      return Error{fmt::format("cannot write {}: it is a symbolic link; remove it", path.string()),
+                   Fault::output};
     if (file < 0) return cannot(flags & O_CREAT ? "create" : "open", path, errno);
     ByteFile made;
     made.path_ = path;

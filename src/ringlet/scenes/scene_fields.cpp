@@ -71,14 +71,16 @@ std::span<const SceneField<SceneGroom>> groomFields() {
       {"root_end",
        "",
        "",
-       "Which end of each strand of the file is its root: its first point, its last, or of each the one on the "
+       "Which end of each strand of the file is its root: its first point, its last, or of each the one on "
+       "the "
        "head, a ball on which most strands have an end.",
        &G::rootEnd,
        {},
        "first, last, head",
        "file"},
-      {"points_per_strand", "", "none", "Points of each strand, of a file that holds points and nothing else.",
-       &G::pointsPerStrand, kPointsPerStrand, "", "file"},
+      {"points_per_strand", "", "none",
+       "Points of each strand, of a file that holds points and nothing else.", &G::pointsPerStrand,
+       kPointsPerStrand, "", "file"},
       {"scale",
        "1",
        "",

@@ -106,10 +106,20 @@ std::optional<std::array<double, count>> numbersOf(const toml::node& node, const
   return numbers;
 }
 
+// Whether what a path leads to, links followed, is in or below a folder.
+bool isBelow(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  std::error_code code;
+  const auto base = std::filesystem::canonical(folder.empty() ? "." : folder, code);
+  if (code) return false;
+  const auto whole = std::filesystem::weakly_canonical(path, code);
+  return !code && std::ranges::mismatch(base, whole).in1 == base.end();
+}
+
 // Walks a parsed file.
 class SceneReader {
  public:
-  SceneReader(const std::string& name, const std::filesystem::path& folder) : name_(name), folder_(folder) {}
+  SceneReader(const std::string& name, const std::filesystem::path& folder, SceneReach reach)
+      : name_(name), folder_(folder), reach_(reach) {}
 
   Result<SceneFile> read(const toml::table& file) {
     SceneFile scene;
@@ -135,11 +145,8 @@ class SceneReader {
     if (const toml::table* table = tableOf(file, "", "goal")) {
       scene.goal.on = true;
       readFields(*table, "goal", goalFields(), scene.goal);
-      if (const toml::node* path = table->get("file")) {
-        const auto pose = valueOf<std::filesystem::path>(*path, {}, "");
-        if (!pose) problems_.addFound(*path, "goal.file", "a path");
-        scene.goalFile = pose.value_or(std::filesystem::path{});
-      }
+      if (const toml::node* path = table->get("file"))
+        scene.goalFile = pathOf(*path, "goal.file").value_or(std::filesystem::path{});
     }
     for (const toml::table* table : tablesOf(file, "", "body")) {
       scene.bodies.emplace_back();
@@ -222,7 +229,10 @@ class SceneReader {
       std::visit(
           [&](auto member) {
             using Value = typename Unwrapped<std::remove_reference_t<decltype(owner.*member)>>::Type;
-            if (std::optional<Value> value = valueOf<Value>(*node, field.allowed, field.choices)) {
+            if constexpr (std::is_same_v<Value, std::filesystem::path>) {
+              if (auto path = pathOf(*node, key)) owner.*member = std::move(*path);
+              return;
+            } else if (std::optional<Value> value = valueOf<Value>(*node, field.allowed, field.choices)) {
               owner.*member = std::move(*value);
               return;
             }
@@ -257,10 +267,6 @@ class SceneReader {
     } else if constexpr (std::is_same_v<Value, std::string>) {
       auto text = node.value_exact<std::string>();
       return text && !text->empty() && (choices.empty() || isAmong(*text, choices)) ? text : std::nullopt;
-    } else if constexpr (std::is_same_v<Value, std::filesystem::path>) {
-      const auto text = node.value_exact<std::string>();
-      if (!text || text->empty()) return std::nullopt;
-      return folder_ / *text;
     } else if constexpr (std::is_same_v<Value, Vec3d>) {
       const auto numbers = numbersOf<3>(node, allowed);
       if (!numbers) return std::nullopt;
@@ -285,6 +291,19 @@ class SceneReader {
       }
       return texts;
     }
+  }
+
+  // Nothing where it is none, or out of reach; that is a problem then.
+  std::optional<std::filesystem::path> pathOf(const toml::node& node, const std::string& key) {
+    const auto text = node.value_exact<std::string>();
+    if (!text || text->empty()) {
+      problems_.addFound(node, key, "a path");
+      return std::nullopt;
+    }
+    std::filesystem::path path = folder_ / *text;
+    if (reach_ == SceneReach::anywhere || isBelow(path, folder_)) return path;
+    problems_.addFound(node, key, "a path in or below the scene's folder, to which --confined keeps it");
+    return std::nullopt;
   }
 
   // Keys that only others have: `mode` is the kind, shape or source of this one ("" where that is wrong
@@ -475,21 +494,26 @@ class SceneReader {
     if (!table) return;
     scene.hasMaterial = true;
     problems_.addUnknownKeys(*table, "material", knownKeys());
-    if (const toml::node* node = table->get("file")) {
-      const auto path = valueOf<std::filesystem::path>(*node, {}, "");
-      if (!path) {
-        problems_.addFound(*node, "material.file", "a path");
-      } else if (const toml::node* preset = table->get("preset")) {
-        problems_.add(std::max(lineOf(*node), lineOf(*preset)),
-                      "found material.file and material.preset; expected one of the two");
-      } else if (auto loaded = ringlet::readMaterial(*path)) {
-        scene.material = std::move(*loaded);
-        scene.material.warnings.clear();  // told of the whole below
-      } else {
-        problems_.add(lineOf(*node), loaded.error().message);
-      }
-    }
+    if (const toml::node* node = table->get("file"))
+      readMaterialFile(*node, table->get("preset"), scene.material);
     readMaterialTable(*table, "material", scene.material, problems_);
+  }
+
+  void readMaterialFile(const toml::node& node, const toml::node* preset, LoadedMaterial& material) {
+    const auto path = pathOf(node, "material.file");
+    if (!path) return;
+    if (preset) {
+      problems_.add(std::max(lineOf(node), lineOf(*preset)),
+                    "found material.file and material.preset; expected one of the two");
+      return;
+    }
+    auto loaded = ringlet::readMaterial(*path);
+    if (!loaded) {
+      problems_.add(lineOf(node), loaded.error().message);
+      return;
+    }
+    material = std::move(*loaded);
+    material.warnings.clear();  // told of the whole below
   }
 
   void readHeadMotion(const toml::table& table, SceneMotion& motion) {
@@ -696,6 +720,7 @@ class SceneReader {
 
   const std::string& name_;
   const std::filesystem::path& folder_;
+  SceneReach reach_;
   TomlProblems problems_, missing_;  // what is missing may be there, but mistyped: it is told last
 };
 
@@ -704,20 +729,22 @@ class SceneReader {
 bool isSceneFile(const std::filesystem::path& path) { return isMaterialFile(path); }
 
 Result<SceneFile> parseScene(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder, std::span<const SceneChange> changes) {
+                             const std::filesystem::path& folder, std::span<const SceneChange> changes,
+                             SceneReach reach) {
   auto file = parseToml(text, name, kWhat);
   if (!file) return file.error();
   for (const SceneChange& change : changes) {
     if (Status changed = applyChange(change, *file); !changed)
       return Error{fmt::format("{}: {}", name, changed.error().message)};
   }
-  return SceneReader(name, folder).read(*file);
+  return SceneReader(name, folder, reach).read(*file);
 }
 
-Result<SceneFile> readScene(const std::filesystem::path& path, std::span<const SceneChange> changes) {
+Result<SceneFile> readScene(const std::filesystem::path& path, std::span<const SceneChange> changes,
+                            SceneReach reach) {
   const auto text = readTomlText(path, kWhat);
   if (!text) return text.error();
-  return parseScene(*text, path.string(), path.parent_path(), changes);
+  return parseScene(*text, path.string(), path.parent_path(), changes, reach);
 }
 
 }  // namespace ringlet

@@ -311,15 +311,25 @@ struct SceneChange {
   std::string value;  // as a file has it, or a text without its quotes
 };
 
+/// Which files a scene may name.
+enum class SceneReach {
+  anywhere,
+  ownFolder,  // those in or below the folder of the scene file, symbolic links followed: for scenes of
+              // strangers
+};
+
 /// Paths are relative to the file. Errors, each with file and line, what was found and what was expected: no
 /// file or no TOML, an unknown key (with the nearest known one), a value of another type or out of its range,
-/// keys that make no sense together. Of several the topmost; those of changes come first, without a line.
-Result<SceneFile> readScene(const std::filesystem::path& path, std::span<const SceneChange> changes = {});
+/// keys that make no sense together, a file out of reach. Of several the topmost; those of changes come
+/// first, without a line.
+Result<SceneFile> readScene(const std::filesystem::path& path, std::span<const SceneChange> changes = {},
+                            SceneReach reach = SceneReach::anywhere);
 
 /// The same from text; `name` stands for the file in messages, paths are relative to `folder`.
 Result<SceneFile> parseScene(std::string_view text, const std::string& name,
                              const std::filesystem::path& folder = {},
-                             std::span<const SceneChange> changes = {});
+                             std::span<const SceneChange> changes = {},
+                             SceneReach reach = SceneReach::anywhere);
 
 /// TOML of all that is not the default, every key with its comment, below the lines of `heading`; parseScene
 /// gives back the same bits. Paths below `folder` are written relative to it. Not for a preset's or a file's

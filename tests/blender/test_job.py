@@ -1,0 +1,99 @@
+"""A run of the add-on from its inputs to its cache, and what it does to the folder, which a .blend names."""
+import os
+
+import numpy as np
+import pytest
+
+from ringlet_hair.errors import RingletError
+from ringlet_hair.job import OUR_FILES, Job, JobSettings
+from ringlet_hair.rigid_motion import RigidMotion
+from ringlet_hair.sampling import HeadMesh, Samples
+from ringlet_hair.strands import Strands
+
+PROGRAM = os.environ.get("RINGLET_PROGRAM", "")
+pytestmark = pytest.mark.skipif(not os.path.exists(PROGRAM),
+                                reason="SKIPPED, NOTHING WAS TESTED: the ringlet command was not built")
+
+OPTIONS = "--backend reference"
+OTHERS = ["out/notes.txt", "out/hair.usda", "out/renders/a.png", "run-mine/a.txt", "notes.txt"]
+
+
+def still(frames):
+    return RigidMotion(np.tile(np.eye(3), (frames, 1, 1)), np.zeros((frames, 3)))
+
+
+def job(folder, options=OPTIONS, program=PROGRAM):
+    """Two frames of two strands beside a head."""
+    settings = JobSettings(program=program, folder=str(folder), first_frame=1, last_frame=2, fps=24, unit=0.01,
+                           gravity=9.81, pre_roll=0, material="", contacts=False, options=options)
+    points = np.array([[0, 0, -i] for i in range(8)] + [[1, 0, -i] for i in range(8)], float)
+    frames = list(settings.sampled_frames)
+    head = HeadMesh("Head", np.array([[0, 0, 3], [1, 0, 3], [0, 1, 3], [0, 0, 4]], float),
+                    np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]), still(len(frames)), 0)
+    return Job(settings, Samples([], [Strands(points, [8, 8])], still(len(frames)), head, frames, []))
+
+
+def files_in(folder):
+    """Text of every file by its path."""
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def run(folder, **more):
+    done = job(folder, **more)
+    done.wait()
+    return done
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """The add-on's, in which the user keeps files as well."""
+    for name in OTHERS:
+        path = tmp_path / "hair" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(f"my {name}")
+    return tmp_path / "hair"
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_files_of_the_user_stay(folder, times):
+    before = files_in(folder)
+    for _ in range(times):
+        assert run(folder).error is None
+    after = files_in(folder)
+    assert {name: after.get(name) for name in OTHERS} == before
+    assert set(after) - set(before) == {"scene.toml", "groom.hair", "head.obj", "hair.pc2"}
+    assert {path.name for path in folder.iterdir()} == {"out", "run-mine", "notes.txt", *set(after) - set(before)}
+
+
+@pytest.mark.parametrize("name", OUR_FILES)
+def test_files_of_others_are_not_replaced(folder, name):
+    (folder / name).write_text("somebody else's")
+    before = files_in(folder)
+    with pytest.raises(RingletError, match=f"holds {name}, which this add-on did not write"):
+        job(folder)
+    assert files_in(folder) == before
+
+
+@pytest.mark.parametrize("name", OUR_FILES)
+def test_links_are_not_followed(folder, tmp_path, name):
+    victim = tmp_path / "victim"
+    victim.write_text("a secret")
+    (folder / name).symlink_to(victim)
+    with pytest.raises(RingletError, match="did not write"):
+        job(folder)
+    assert victim.read_text() == "a secret"
+
+
+def test_what_fails_leaves_the_folder_as_it_was(folder):
+    before = files_in(folder)
+    with pytest.raises(RingletError, match="cannot be started"):
+        job(folder, program="/nowhere/ringlet")
+    failed = run(folder, options="--no-such-option")
+    assert "no-such-option" in failed.error
+    cancelled = job(folder, options=OPTIONS + " --frames 100000")
+    cancelled.run.cancel()
+    cancelled.wait()
+    assert cancelled.error == "cancelled"
+    after = files_in(folder)
+    assert {name: after.get(name) for name in OTHERS} == before
+    assert [path.name for path in folder.iterdir() if path.name.startswith("run-")] == ["run-mine"]
