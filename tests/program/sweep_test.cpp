@@ -198,8 +198,7 @@ TEST_F(Sweep, ARunsSceneIsRunAgainFromAnywhere) {
          "[goal]\nfile = 'files/groom.obj'\n[[body]]\nname = 'ball'\nshape = 'mesh'\nfile = "
          "'files/ball.obj'\n"
          "unit = 1\ncells = 8\n[body.moves]\nfile = 'files/m.bvh'\nunit = 0.01\n"
-         "[[map]]\nnumber = 'bend_stiffness'\nfile = 'files/map.txt'\n[simulation]\nframes = "
-         "3\nsteps_per_frame = "
+         "[[map]]\nnumber = 'bend_stiffness'\nfile = 'files/map.txt'\n[simulation]\nframes = 3\nsteps_per_frame = "
          "4\n"
          "[output]\nhairs = 9\nhair_scalp_file = 'files/ball.obj'\n";
   const auto swept = runProgram(made, {"sweep", "scene.toml", "--vary", "material.dials.hold=1,2",
