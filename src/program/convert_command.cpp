@@ -293,7 +293,7 @@ Status runGroomConvert(const Typed& typed) {
   auto loaded = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
   if (!loaded) return loaded.error();
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
-  for (std::string& lost : lostIn(typed.output, *loaded, typed.up == "Z"))
+  for (std::string& lost : lostIn(typed.output, loaded->groom.metresPerUnit, typed.up == "Z"))
     loaded->warnings.push_back(std::move(lost));
   for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
   const auto hair = fullHairOf(typed, loaded->groom, loaded->groom.metresPerUnit);
@@ -316,6 +316,13 @@ Status runGroomConvert(const Typed& typed) {
                typed.output.string(), sizeText(bytes));
   }
   return {};
+}
+
+// What files of frames do not hold of an animation.
+std::vector<std::string> lostOf(const Typed& typed, const CacheHeader& header) {
+  const ConvertTo kind = *kindOf(typed);
+  if (kind != ConvertTo::frame && kind != ConvertTo::frameSequence) return {};
+  return lostIn(typed.output, header.metresPerUnit, header.up == UpAxis::z);
 }
 
 Status runConvert(const Typed& typed) {
@@ -352,7 +359,12 @@ Status runConvert(const Typed& typed) {
        .showProgress = !typed.quiet});
   if (!outcome) return outcome.error();
   const Groom& written = *hair ? (*hair)->groom() : source->groom();
-  printOutcome(typed, written, source->warnings(), *outcome, range->last - range->first + 1);
+  std::vector<std::string> warnings = source->warnings();
+  for (std::string& lost : lostOf(typed, source->header())) {
+    say("ringlet convert: warning: {}\n", lost);
+    warnings.push_back(std::move(lost));
+  }
+  printOutcome(typed, written, warnings, *outcome, range->last - range->first + 1);
   return {};
 }
 

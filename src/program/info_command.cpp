@@ -239,7 +239,7 @@ Result<Fixed> fix(const Typed& typed, const LoadedGroom& loaded, const GroomInsp
         *typed.particles, found.turns.max));
   }
   if (Status written = writeGroom(typed.output, fixed.mended.groom); !written) return written.error();
-  for (std::string& lost : lostIn(typed.output, loaded, typed.up == "Z"))
+  for (std::string& lost : lostIn(typed.output, loaded.groom.metresPerUnit, typed.up == "Z"))
     fixed.warnings.push_back(std::move(lost));
   return fixed;
 }

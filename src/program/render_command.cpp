@@ -21,6 +21,7 @@
 #include "program/simulate_run.h"
 #include "program/standard_error.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/groom_doubts.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_camera.h"
@@ -137,6 +138,8 @@ Result<RenderOutcome> runGroom(const RenderOptions& typed, const ComputeDevice& 
   auto groom = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
   if (!groom) return groom.error();
   if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
+  if (auto doubt = groom->statesUp ? std::nullopt : doubtOfUp(groom->groom, typed.up == "Z"))
+    groom->warnings.push_back(std::move(*doubt));
   for (const std::string& warning : groom->warnings) say("ringlet render: warning: {}\n", warning);
   return renderGroom(groom->groom, typed.up == "Z" ? UpAxis::z : UpAxis::y, device, plan);
 }

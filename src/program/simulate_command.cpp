@@ -84,7 +84,9 @@ constexpr const char* kExample =
     "particles;\n"
     "null without) compile_ms (making the kernels, once) backend positions_hash integrator\n"
     "material steps_per_frame fps\n"
-    "resumed_from (frames that a run before had done) interrupted warnings outputs. Times are of this run's "
+    "resumed_from (frames that a run before had done) interrupted warnings notes (a preset that fits "
+    "better)\n"
+    "outputs. Times are of this run's "
     "frames.\n";
 constexpr const char* kExitHelp =
     "\n"

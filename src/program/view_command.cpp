@@ -88,6 +88,10 @@ Result<SceneFile> sceneOf(const Typed& typed) {
   std::filesystem::path input = std::filesystem::absolute(typed.input, code);
   if (code) input = typed.input;
   if (isSceneFile(input)) return readScene(input, changes, typed.reach);
+  if (std::filesystem::is_directory(input, code))
+    return Error{fmt::format("{}: is a folder; expected the file of a scene (.toml) or of a groom ({})",
+                             typed.input.string(), kGroomEndings),
+                 Fault::input};
   if (!isGroomFile(input))
     return Error{
         fmt::format("{} is neither a scene (.toml) nor a groom ({})", typed.input.string(), kGroomEndings),

@@ -5,9 +5,8 @@
 
 namespace ringlet::program {
 
-std::vector<std::string> lostIn(const std::filesystem::path& path, const LoadedGroom& groom, bool upIsZ) {
+std::vector<std::string> lostIn(const std::filesystem::path& path, double unit, bool upIsZ) {
   std::vector<std::string> lost;
-  const double unit = groom.groom.metresPerUnit;
   if (unit != Groom{}.metresPerUnit) {
     lost.push_back(
         fmt::format("{} does not hold its unit, {} m, and without an option counts as {} m; say --unit {} to "

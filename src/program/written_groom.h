@@ -9,8 +9,8 @@
 
 namespace ringlet::program {
 
-/// A sentence each for the unit and the up axis of `groom`, where whoever reads `path` without options would
-/// take others: all formats that are written state neither. `upIsZ`: the axis it was read to.
-std::vector<std::string> lostIn(const std::filesystem::path& path, const LoadedGroom& groom, bool upIsZ);
+/// A sentence each for the unit and the up axis of strands, where whoever reads `path` without options would
+/// take others: its format states neither. `path` may be a folder of such files.
+std::vector<std::string> lostIn(const std::filesystem::path& path, double metresPerUnit, bool upIsZ);
 
 }  // namespace ringlet::program

@@ -109,6 +109,12 @@ void applyRootEnd(RootEnd end, const std::filesystem::path& path, LoadedGroom& l
 bool isGroomFile(const std::filesystem::path& path) { return formatOf(path).has_value(); }
 
 Result<LoadedGroom> readGroom(const std::filesystem::path& path, const GroomReading& reading) {
+  std::error_code code;  // what is not there is no folder
+  if (std::filesystem::is_directory(path, code)) {
+    return Error{
+        fmt::format("{}: is a folder; expected the file of a groom, {}", path.string(), kGroomEndings),
+        Fault::input};
+  }
   const std::optional<Format> format = formatOf(path);
   if (!format) return unknownExtension(path, "read", kGroomEndings);
   try {

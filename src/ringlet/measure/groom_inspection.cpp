@@ -52,6 +52,13 @@ std::vector<LikelyUnit> likelyUnits(double meanLength) {
   return likely;
 }
 
+char likelyUpOf(const Groom& groom) {
+  Vec3d way;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    way += Vec3d(groom.strand(s).back()) - Vec3d(groom.strand(s).front());
+  return upOf(way);
+}
+
 GroomInspection inspectGroom(const Groom& groom) {
   GroomInspection found;
   found.strandCount = groom.strandCount();
@@ -61,7 +68,6 @@ GroomInspection inspectGroom(const Groom& groom) {
 
   std::vector<double> counts, lengths, shares, turns, radii;
   std::vector<Vec3d> centres;
-  Vec3d way;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     std::vector<Vec3d> strand;
     Vec3d sum;
@@ -83,7 +89,6 @@ GroomInspection inspectGroom(const Groom& groom) {
     counts.push_back(static_cast<double>(strand.size()));
     lengths.push_back(whole);
     centres.push_back(sum / static_cast<double>(strand.size()));
-    way += strand.back() - strand.front();
     if (!(whole > 0)) {
       found.pointStrands.add(s);
       continue;
@@ -115,7 +120,7 @@ GroomInspection inspectGroom(const Groom& groom) {
   found.arcOverChord = middleOf(shares);
   found.turns = middleOf(turns);
   found.radius = middleOf(radii);
-  found.likelyUp = upOf(way);
+  found.likelyUp = likelyUpOf(groom);
   found.units = likelyUnits(found.length.mean);
 
   // Strays, against the middle of all strands.

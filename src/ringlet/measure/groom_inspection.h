@@ -76,6 +76,9 @@ struct GroomInspection {
 std::vector<LikelyUnit> likelyUnits(double meanLength);
 
 /// Of a groom as readers return it: two finite particles and more a strand. Cost: n log n.
+/// The axis against which the strands hang, all together: 'Y' or 'Z', 0 where they hang along neither.
+char likelyUpOf(const Groom& groom);
+
 GroomInspection inspectGroom(const Groom& groom);
 
 }  // namespace ringlet

@@ -38,16 +38,13 @@ Stand standOf(const Groom& groom, const HeadPose& head) {
   }
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const auto strand = groom.strand(s);
-    for (std::size_t i = 1; i < strand.size(); ++i)
-      stand.meanLength += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
     const auto placed = [&](Vec3f end) {
       return head.position + rotate(head.rotation, Vec3d(end) * groom.metresPerUnit);
     };
     stand.roots.push_back(placed(strand.front()));
     stand.tips.push_back(placed(strand.back()));
   }
-  stand.meanLength *=
-      groom.metresPerUnit / static_cast<double>(std::max<std::size_t>(1, groom.strandCount()));
+  stand.meanLength = meanLength(groom);
   stand.size = length(high - low) * groom.metresPerUnit;
   return stand;
 }
@@ -124,6 +121,16 @@ std::optional<std::string> doubtOfRootEnds(const Groom& groom, std::span<const B
 
 }  // namespace
 
+double meanLength(const Groom& groom) {
+  double sum = 0;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const auto strand = groom.strand(s);
+    for (std::size_t i = 1; i < strand.size(); ++i)
+      sum += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
+  }
+  return sum * groom.metresPerUnit / static_cast<double>(std::max<std::size_t>(1, groom.strandCount()));
+}
+
 std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, double meanLength,
                                          const std::string& what) {
   const double on = std::max(kLeastOn, kOnShare * meanLength);
@@ -142,6 +149,12 @@ std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, dou
       isMost ? "all" : "those that end on the head");
 }
 
+std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Body> bodies,
+                                         const HeadPose& head) {
+  const Stand stand = standOf(groom, head);
+  return stand.roots.empty() ? std::nullopt : doubtOfRootEnds(groom, bodies, stand, head);
+}
+
 std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body> bodies,
                                         const HeadPose& head) {
   std::vector<std::string> doubts;
@@ -151,7 +164,6 @@ std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body
   for (const Body& body : bodies) {
     if (auto doubt = doubtOfBody(body, stand, head)) doubts.push_back(std::move(*doubt));
   }
-  if (auto doubt = doubtOfRootEnds(groom, bodies, stand, head)) doubts.push_back(std::move(*doubt));
   return doubts;
 }
 

@@ -23,6 +23,13 @@ inline constexpr double kLeastMeanLength = 0.01, kMostMeanLength = 2;
 std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body> bodies,
                                         const HeadPose& head);
 
+/// Of a groom's strands [m].
+double meanLength(const Groom& groom);
+
+/// A sentence about strands that run from tip to root, by the bodies that the head carries.
+std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Body> bodies,
+                                         const HeadPose& head);
+
 /// A sentence where strands end on what the others begin on, `what`, and begin off it: from how far both ends
 /// of each are from it [m]. `meanLength`: of the strands [m].
 std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, double meanLength,
