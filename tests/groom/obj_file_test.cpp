@@ -154,6 +154,7 @@ TEST(ObjFile, RefusesFilesWithoutStrands) {
   expectError("", {"0 points", "no polylines"});
   expectError("\n\n# nothing\n", {"no polylines"});
   expectError(kSixPoints, {"6 points", "no polylines", "l 1 2 3"});
+  expectError(kSixPoints, {"--points-per-strand N"});
   expectError(kSixPoints + "f 1 2 3\n", {"1 faces", "no polylines"});
   expectError(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + "\xff\xfe", {"no polylines"});
   expectError("HAIR" + std::string(200, '\0'), {"no polylines"});

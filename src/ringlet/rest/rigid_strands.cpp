@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "layout/strands.h"
+#include "ringlet/groom/mend_groom.h"
 #include "ringlet/rest/strand_constants.h"
 
 namespace ringlet {
