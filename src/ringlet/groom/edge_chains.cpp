@@ -56,24 +56,23 @@ class EdgeJoiner {
       leaveOut(e, "an edge of a closed loop", "strands, which have a root and a tip");
     }
     std::ranges::sort(joined_.chains, {}, &EdgeChain::firstLine);
-    std::ranges::stable_sort(found_, {}, &Found::line);
-    for (const Found& found : found_) joined_.leftOut.add(found.text);
     return std::move(joined_);
   }
 
  private:
-  struct Found {
-    std::size_t line;
-    std::string text;
-  };
-
   bool isOfStrand(std::size_t e) {
     return edges_[e].from != edges_[e].to && !isBad_[parts_.of(edges_[e].from)];
   }
+  // One more that is left out; the topmost of the file is told.
+  void note(std::size_t line, const std::string& what, const char* expected) {
+    ++joined_.leftOut.count;
+    if (line >= firstLine_) return;
+    firstLine_ = line;
+    joined_.leftOut.first = fmt::format("line {}: found {}; expected {}", line, what, expected);
+  }
   // All that hangs together with the edge.
   void leaveOut(std::size_t e, const std::string& what, const char* expected) {
-    const std::size_t line = edges_[e].line;
-    found_.push_back({line, fmt::format("line {}: found {}; expected {}", line, what, expected)});
+    note(edges_[e].line, what, expected);
     isBad_[parts_.of(edges_[e].from)] = true;
   }
 
@@ -82,9 +81,7 @@ class EdgeJoiner {
     RINGLET_ASSERT(edge.from < ends_.size() && edge.to < ends_.size(),
                    "joinEdges needs indices below pointCount");
     if (edge.from == edge.to) {
-      found_.push_back({edge.line, fmt::format("line {}: found an edge from point {} to itself; expected two "
-                                               "different points",
-                                               edge.line, edge.from + 1)});
+      note(edge.line, fmt::format("an edge from point {} to itself", edge.from + 1), "two different points");
       return;
     }
     const bool wasBad = isBad_[parts_.of(edge.from)] || isBad_[parts_.of(edge.to)];
@@ -131,10 +128,10 @@ class EdgeJoiner {
 
   std::span<const ListedEdge> edges_;
   Parts parts_;
-  std::vector<Ends> ends_;     // of each point
-  std::vector<bool> isBad_;    // of the point that stands for a part
-  std::vector<bool> isTaken_;  // of each edge, by a chain
-  std::vector<Found> found_;
+  std::vector<Ends> ends_;         // of each point
+  std::vector<bool> isBad_;        // of the point that stands for a part
+  std::vector<bool> isTaken_;      // of each edge, by a chain
+  std::size_t firstLine_ = kNone;  // of what is left out
   JoinedEdges joined_;
 };
 

@@ -38,6 +38,8 @@ constexpr auto kOtherKeywords = std::to_array<std::string_view>(
      "bevel",  "c_interp", "d_interp", "lod",    "shadow_obj", "trace_obj", "ctech", "stech", "call",
      "csh",    "bsp",      "bzp",      "cdc",    "cdp",        "res"});
 
+constexpr const char* kThreeNumbers = "three finite numbers after 'v'";
+
 // An element of two or more points, as its line gives it: an edge to join, or a whole strand.
 struct Polyline {
   std::size_t firstIndex = 0, indexCount = 0;  // into ObjContent::indices
@@ -46,8 +48,12 @@ struct Polyline {
 
 // A point that is not finite.
 struct BadPoint {
-  std::size_t index = 0;
-  std::string found;  // "line 3: found ..."
+  std::size_t index = 0, line = 0;
+  std::string_view word;  // of the file's text
+
+  std::string text() const {
+    return fmt::format("line {}: found {}; expected {}", line, quoted(word), kThreeNumbers);
+  }
 };
 
 struct ObjContent {
@@ -81,12 +87,9 @@ Status readPoint(ObjText& text, ObjContent& content, const std::string& name) {
     const std::size_t line = text.line();
     const std::string_view word = text.nextWord();
     const std::optional<float> number = parseObjNumber(word);
-    constexpr const char* kExpected = "three finite numbers after 'v'";
-    if (!number && !isNotFinite(word)) return wrong(name, line, shown(word), kExpected);
-    if (!number && (content.badPoints.empty() || content.badPoints.back().index != content.points.size())) {
-      content.badPoints.push_back({content.points.size(), fmt::format("line {}: found {}; expected {}", line,
-                                                                      shown(word), kExpected)});
-    }
+    if (!number && !isNotFinite(word)) return wrong(name, line, shown(word), kThreeNumbers);
+    if (!number && (content.badPoints.empty() || content.badPoints.back().index != content.points.size()))
+      content.badPoints.push_back({content.points.size(), line, word});
     value = number.value_or(0);
   }
   if (content.points.size() == std::numeric_limits<std::uint32_t>::max()) {
@@ -225,7 +228,7 @@ Result<LoadedGroom> withoutPolylines(const ObjContent& content, const std::strin
       name, content.points.size(), content.faces);
   if (content.faces > 0 || content.points.empty()) return Error{found};
   if (reading.pointsPerStrand == 0) return Error{fmt::format("{}; {}", found, kSayPointsPerStrand)};
-  if (!content.badPoints.empty()) return Error{fmt::format("{}: {}", name, content.badPoints.front().found)};
+  if (!content.badPoints.empty()) return Error{fmt::format("{}: {}", name, content.badPoints.front().text())};
   return strandsOfPoints(content.points, reading.pointsPerStrand, name);
 }
 
@@ -247,7 +250,7 @@ Result<LoadedGroom> readObj(std::span<const std::byte> bytes, const std::filesys
   loaded.groom.firstPoint.reserve(strands->good.size() + 1);
   for (const FoundStrand& strand : strands->good) {
     if (const BadPoint* bad = badPointOf(*content, strand)) {
-      leftOut.add(bad->found);
+      leftOut.add(bad->text());
       continue;
     }
     for (std::uint32_t index : strand.indices) loaded.groom.points.push_back(content->points[index]);
