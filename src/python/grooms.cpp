@@ -9,9 +9,11 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "python/arrays.h"
+#include "ringlet/base/quoted.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/generate.h"
@@ -23,6 +25,8 @@
 
 namespace ringlet::python {
 namespace {
+
+constexpr std::int64_t kMostPointsPerStrand = 1'000'000;
 
 GroomHandle handleOf(Groom groom) { return std::make_shared<GroomObject>(LoadedGroom{std::move(groom), {}}); }
 

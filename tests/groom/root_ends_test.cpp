@@ -106,7 +106,9 @@ TEST(RootEnds, AFileIsReadFromTheEndThatIsAskedFor) {
       ASSERT_TRUE(loaded) << loaded.error().message;
       EXPECT_TRUE(test::hasSameBits(loaded->groom, good)) << name << one.says;
       ASSERT_EQ(loaded->warnings.size(), *one.says ? 1u : 0u) << name;
-      if (*one.says) EXPECT_TRUE(contains(loaded->warnings[0], one.says)) << loaded->warnings[0];
+      if (*one.says) {
+        EXPECT_TRUE(contains(loaded->warnings[0], one.says)) << loaded->warnings[0];
+      }
     }
   }
   // Where no head is found, nothing is turned, and that is said.

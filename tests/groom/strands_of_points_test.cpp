@@ -74,7 +74,9 @@ TEST(StrandsOfPoints, AreCutWhereTheNumberIsSaidAndTheRefusalNamesTheOption) {
       const auto wrong = readGroom(folder / sample.name, {.pointsPerStrand = each});
       ASSERT_FALSE(wrong) << sample.what;
       EXPECT_TRUE(contains(wrong.error().message, std::to_string(each) + " points")) << wrong.error().message;
-      if (each > 1) EXPECT_TRUE(contains(wrong.error().message, "has 12 points")) << wrong.error().message;
+      if (each > 1) {
+        EXPECT_TRUE(contains(wrong.error().message, "has 12 points")) << wrong.error().message;
+      }
     }
   }
 }

@@ -156,7 +156,9 @@ TEST_F(GroomFaults, AScenesBodyOrHeadSaysThatStrandsRunFromTipToRoot) {
     EXPECT_TRUE(contains(all, "60 of 60 strands") && contains(all, "--root-end last")) << all;
     EXPECT_TRUE(contains(some, "20 of 60 strands") && contains(some, "--root-end head")) << some;
     EXPECT_EQ(all.find("tip to root"), all.rfind("tip to root")) << "said once: " << all;
-    if (*body) EXPECT_TRUE(contains(all, contains(body, "skin") ? "the body skin" : "the body ball")) << all;
+    if (*body) {
+      EXPECT_TRUE(contains(all, contains(body, "skin") ? "the body skin" : "the body ball")) << all;
+    }
     EXPECT_FALSE(contains(warningsOf("all.obj", "root_end = \"last\"", body), "tip to root"));
     EXPECT_FALSE(contains(warningsOf("some.obj", "root_end = \"head\"", body), "tip to root"));
   }
@@ -334,7 +336,9 @@ TEST_F(GroomFaults, WhatAFileCannotHoldIsSaidWhenItIsWritten) {
         const ProgramResult result = runProgram(folder_, arguments);
         ASSERT_EQ(result.exitCode, 0) << result.err;
         EXPECT_EQ(contains(result.err, "does not hold its unit"), *one.unit != 0) << result.err;
-        if (*one.unit) EXPECT_TRUE(contains(result.err, one.unit)) << result.err;
+        if (*one.unit) {
+          EXPECT_TRUE(contains(result.err, one.unit)) << result.err;
+        }
         EXPECT_EQ(contains(result.err, "does not hold its up axis") && contains(result.err, "--up Z"),
                   one.isZ)
             << result.err;
