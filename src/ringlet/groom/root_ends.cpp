@@ -16,7 +16,6 @@ constexpr double kCounted = 0.7;      // of the ends, the nearest; others may be
 constexpr int kFits = 8;              // each without the farthest of the one before
 constexpr double kMostUneven = 0.06;  // of ends from a head's ball, rms over its radius
 constexpr double kNearRms = 3, kNear = 0.03;  // of the ball: so many rms, and this share of its radius
-constexpr double kOffOverOn = 2;
 // Hair spreads out from a head: where its first and its last ends are on balls, the head is the smaller. Not
 // one smaller than this share of the other, a knot into which hair is gathered, nor one that is less even.
 constexpr double kLeastOfOther = 0.4, kAsEven = 0.01;
@@ -48,13 +47,13 @@ HeadOfEnds headOf(const std::vector<Vec3d>& ends) {
 
 }  // namespace
 
-std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, double off) {
+std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, double clear) {
   std::vector<bool> isReversed(strands.size(), false);
   const auto touching = std::ranges::count_if(
       strands, [&](const EndDistances& ends) { return std::min(ends.first, ends.last) <= on; });
   if (static_cast<double>(touching) < kLeastOn * static_cast<double>(strands.size())) return isReversed;
   for (std::size_t s = 0; s < strands.size(); ++s)
-    isReversed[s] = strands[s].last <= on && strands[s].first > off;
+    isReversed[s] = strands[s].last <= on && strands[s].first > strands[s].last + clear;
   return isReversed;
 }
 
@@ -79,7 +78,7 @@ RootEnds findRootEnds(const Groom& groom) {
   for (std::size_t s = 0; s < groom.strandCount(); ++s)
     distances.push_back({found.head->distanceTo(firsts[s]), found.head->distanceTo(lasts[s])});
   const double on = kNearRms * found.head->rms + kNear * found.head->radius;
-  found.isReversed = reversedBy(distances, on, kOffOverOn * on);
+  found.isReversed = reversedBy(distances, on, 2 * on);
   return found;
 }
 

@@ -17,8 +17,8 @@ struct EndDistances {
 };
 
 /// Strands that have their last end on what roots stand on and their first clearly off it: within `on` of it,
-/// and further than `off`. None where fewer than four of five strands have an end on it: roots are elsewhere.
-std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, double off);
+/// and further by `clear`. None where fewer than four of five strands have an end on it: roots are elsewhere.
+std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, double clear);
 
 struct RootEnds {
   std::optional<Ball> head{};      // [unit]

@@ -489,11 +489,12 @@ class UsdGroomMaker {
       const std::string_view by = layer_.prims[inherited_[first].deformed].deformedBy;
       const bool isSkeleton = by.find("blendShape") == by.npos;
       warn(fmt::format(
-          "{} bound to {} ({}), the first {}, which is not followed: the strands stand {}; bake the "
-          "deformation into the points before the export",
-          deformed_.count == 1 ? "1 BasisCurves prim is"
-                               : fmt::format("{} BasisCurves prims are", deformed_.count),
-          isSkeleton ? "a skeleton" : "blend shapes", by, pathOf(first),
+          "{} bound to {} ({}), which is not followed: the strands stand {}; bake the deformation into the "
+          "points before the export",
+          deformed_.count == 1
+              ? pathOf(first) + " is"
+              : fmt::format("{} BasisCurves prims, the first {}, are", deformed_.count, pathOf(first)),
+          isSkeleton ? "a skeleton" : "blend shapes", by,
           isSkeleton ? "in their bind pose" : "as they are without any"));
     }
     if (guides_ && others_)

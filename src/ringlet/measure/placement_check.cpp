@@ -18,8 +18,8 @@ namespace {
 constexpr double kSmallBody = 0.05, kLargeBody = 20;  // as shares of the groom's size
 constexpr double kDeepRoots = 0.25;                   // of the body's size
 constexpr double kOnShare = 0.2,
-                 kLeastOn = 0.005;  // of a strand's length, and at least [m]: an end on a body
-constexpr double kOffOverOn = 2;    // from which distance on an end is off it
+                 kClearShare = 0.1;    // of a strand's length: an end on a body; one that is further
+constexpr double kLeastClear = 0.005;  // at least [m]
 
 // The groom as it stands in the world.
 struct Stand {
@@ -133,8 +133,8 @@ double meanLength(const Groom& groom) {
 
 std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, double meanLength,
                                          const std::string& what) {
-  const double on = std::max(kLeastOn, kOnShare * meanLength);
-  const std::vector<bool> isReversed = reversedBy(ends, on, kOffOverOn * on);
+  const double clear = std::max(kLeastClear, kClearShare * meanLength);
+  const std::vector<bool> isReversed = reversedBy(ends, std::max(kLeastClear, kOnShare * meanLength), clear);
   const auto count = std::ranges::count(isReversed, true);
   if (count == 0) return std::nullopt;
   const auto first = std::ranges::find(isReversed, true) - isReversed.begin();
