@@ -477,7 +477,7 @@ TEST(UsdTransforms, OpsWithoutAValueAreSkippedWithAWarning) {
 TEST(UsdSamples, TheFirstThatIsNotEmptyCountsWithAWarning) {
   std::string text = textOf({kHair});
   const std::string standard = "point3f[] points = ";
-  const std::size_t at = text.find(standard), end = text.find(']', at) + 1;
+  const std::size_t at = text.find(standard), end = text.find(']', at + standard.size()) + 1;
   const std::string points = text.substr(at + standard.size(), end - at - standard.size());
   for (const std::string& samples :
        {"{ 1: [], 5: " + points + ", 6: [(9, 9, 9)] }", "{ 6: [(9, 9, 9)], 5: " + points + ", 1: [] }",

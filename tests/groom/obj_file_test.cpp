@@ -106,7 +106,7 @@ TEST(ObjFile, LeavesOutLinesOfOnePoint) {
   EXPECT_EQ(loaded->groom.strandCount(), 1u);
   ASSERT_EQ(loaded->warnings.size(), 1u);
   EXPECT_TRUE(contains(loaded->warnings[0], "left out 2 'l' lines of one point")) << loaded->warnings[0];
-  expectError(kSixPoints + "l 1\nl 4\n", {"no polylines"});
+  expectError(kSixPoints + "l 1\nl 4\n", {"6 points", "2 lines ('l') of one point each"});
 }
 
 TEST(ObjFile, NumbersInAllForms) {

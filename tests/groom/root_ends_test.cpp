@@ -21,17 +21,22 @@ namespace {
 
 using test::contains;
 
-// Straight hair of a ball of radius 9 units, as long as `length`, hanging down.
+// Hair of a ball of radius 9 units, `length` long: it lies on the ball, further out with every particle, and
+// hangs from where that is widest.
 Groom ballOfHair(std::size_t strands, double length) {
   Groom groom;
   for (std::size_t s = 0; s < strands; ++s) {
-    const double z = 1 - (static_cast<double>(s) + 0.5) / static_cast<double>(strands);
-    const double turn = static_cast<double>(s) * std::numbers::pi * (3 - std::sqrt(5.0)),
-                 r = std::sqrt(1 - z * z);
-    const Vec3d out{r * std::cos(turn), z, r * std::sin(turn)};
+    const double up = 1 - (static_cast<double>(s) + 0.5) / static_cast<double>(strands);
+    const double turn = static_cast<double>(s) * std::numbers::pi * (3 - std::sqrt(5.0));
     std::vector<Vec3f> strand;
-    for (int i = 0; i < 8; ++i)
-      strand.push_back(Vec3f(out * (9 + 0.3 * i) - Vec3d{0, length * i * i / 49.0, 0}));
+    for (int i = 0; i < 12; ++i) {
+      const double way = length * i / 11, from = 9 * std::acos(up), widest = 9 * std::numbers::pi / 2;
+      const double angle = std::min(from + way, widest) / 9, radius = 9 + 0.25 * i;
+      const double below = std::max(from + way - widest, 0.0);
+      strand.push_back(
+          Vec3f(Vec3d{radius * std::sin(angle) * std::cos(turn), radius * std::cos(angle) - below,
+                      radius * std::sin(angle) * std::sin(turn)}));
+    }
     groom.addStrand(strand);
   }
   return groom;
@@ -51,7 +56,7 @@ TEST(RootEnds, AllOrSomeThatRunFromTipToRootAreFound) {
       ASSERT_TRUE(none.head);
       EXPECT_NEAR(none.head->radius, 9, 0.2);
       EXPECT_EQ(std::ranges::count(none.isReversed, true), 0) << strands << " " << length;
-      for (const std::size_t step : {1u, 4u, 7u}) {
+      for (const std::size_t step : {1u, 2u, 3u, 7u}) {
         Groom turned = good;
         turnRound(every(step, strands), turned);
         const RootEnds found = findRootEnds(turned);
@@ -71,6 +76,11 @@ TEST(RootEnds, AHeadOfEveryStyleHasNoneTurnedAndAllOnceItIs) {
     ASSERT_TRUE(head) << style;
     const RootEnds good = findRootEnds(*head);
     EXPECT_EQ(std::ranges::count(good.isReversed, true), 0) << style;
+    for (const std::size_t step : {1u, 2u, 10u}) {
+      Groom turned = *head;
+      turnRound(every(step, head->strandCount()), turned);
+      EXPECT_EQ(findRootEnds(turned).isReversed, every(step, head->strandCount())) << style << step;
+    }
   }
 }
 

@@ -120,7 +120,8 @@ TEST(MendGroom, IsDoneAtOnce) {
   // Taking out strays makes strands repeat others, or leaves repeats side by side.
   Groom chained = with({0, 0, 0}, 10, 1);
   chained.addStrand(goodGroom().strand(0));
-  std::vector<Vec3f> around(goodGroom().strand(1).begin(), goodGroom().strand(1).end());
+  const Groom good = goodGroom();
+  std::vector<Vec3f> around(good.strand(1).begin(), good.strand(1).end());
   around.insert(around.begin() + 5, {Vec3f{0, 0, 0}, around[4]});
   chained.addStrand(around);
   chained.addStrand(std::vector<Vec3f>{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}});

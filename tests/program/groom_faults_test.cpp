@@ -28,16 +28,21 @@ namespace {
 using namespace test;
 using nlohmann::json;
 
-// Sixty strands of a head of 9 cm at the origin, Y up, in centimetres.
+// Strands of a head of 9 cm at the origin, Y up, in centimetres: they lie on it, further out with every
+// particle, and hang from where it is widest.
 Groom hairOfAHead(std::size_t strands = 60) {
   Groom groom;
   for (std::size_t s = 0; s < strands; ++s) {
-    const double y = 1 - (static_cast<double>(s) + 0.5) / static_cast<double>(strands);
-    const double turn = static_cast<double>(s) * std::numbers::pi * (3 - std::sqrt(5.0)),
-                 r = std::sqrt(1 - y * y);
-    const Vec3d out{r * std::cos(turn), y, r * std::sin(turn)};
+    const double up = 1 - (static_cast<double>(s) + 0.5) / static_cast<double>(strands);
+    const double turn = static_cast<double>(s) * std::numbers::pi * (3 - std::sqrt(5.0));
     std::vector<Vec3f> strand;
-    for (int i = 0; i < 12; ++i) strand.push_back(Vec3f(out * (9 + 0.2 * i) - Vec3d{0, 0.13 * i * i, 0}));
+    for (int i = 0; i < 12; ++i) {
+      const double along = 9 * std::acos(up) + 1.8 * i, widest = 9 * std::numbers::pi / 2;
+      const double angle = std::min(along, widest) / 9, radius = 9 + 0.25 * i;
+      strand.push_back(Vec3f(Vec3d{radius * std::sin(angle) * std::cos(turn),
+                                   radius * std::cos(angle) - std::max(along - widest, 0.0),
+                                   radius * std::sin(angle) * std::sin(turn)}));
+    }
     groom.addStrand(strand);
   }
   return groom;

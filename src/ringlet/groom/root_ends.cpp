@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/groom/seeded_random.h"
 
 namespace ringlet {
 namespace {
@@ -19,11 +21,19 @@ constexpr double kNearRms = 3, kNear = 0.03;  // of the ball: so many rms, and t
 // Hair spreads out from a head: where its first and its last ends are on balls, the head is the smaller. Not
 // one smaller than this share of the other, a knot into which hair is gathered, nor one that is less even.
 constexpr double kLeastOfOther = 0.4, kAsEven = 0.01;
+// A ball through one end of each strand, whichever: so many tries, each through the ends of a few strands,
+// then through the nearer end of most; of a groom a sample. It counts where it is very even, and twice as
+// even as the ball through first or last ends: with a choice of two, ends lie near some ball or other.
+constexpr int kTries = 64, kTurns = 12;
+constexpr std::size_t kPicked = 6, kMostSampled = 200;
+constexpr double kNearer = 0.9, kVeryEven = 0.01, kMoreEven = 0.5;
 
 struct HeadOfEnds {
   Ball ball;
   bool isFound = false;
 };
+
+double unevenness(const Ball& ball) { return ball.rms / ball.radius; }
 
 // Through most of them, if these lie on a ball.
 HeadOfEnds headOf(const std::vector<Vec3d>& ends) {
@@ -43,6 +53,62 @@ HeadOfEnds headOf(const std::vector<Vec3d>& ends) {
   }
   head.isFound = isHead(head.ball, counted, kMostUneven);
   return head;
+}
+
+// From a guess: through the nearer ends of most strands, again and again.
+std::optional<Ball> settled(Ball ball, std::span<const Vec3d> firsts, std::span<const Vec3d> lasts) {
+  std::vector<Vec3d> ends(firsts.size());
+  const auto keep = static_cast<std::ptrdiff_t>(kNearer * static_cast<double>(ends.size()));
+  for (int turn = 0; turn < kTurns; ++turn) {
+    if (!(ball.radius > 0)) return std::nullopt;
+    for (std::size_t s = 0; s < firsts.size(); ++s)
+      ends[s] = ball.distanceTo(firsts[s]) < ball.distanceTo(lasts[s]) ? firsts[s] : lasts[s];
+    std::ranges::nth_element(ends, ends.begin() + keep, {}, [&](Vec3d p) { return ball.distanceTo(p); });
+    ball = ballThrough(std::span(ends).first(static_cast<std::size_t>(keep)));
+  }
+  const bool isOne = isHead(ball, std::span(ends).first(static_cast<std::size_t>(keep)), kVeryEven);
+  return isOne ? std::optional(ball) : std::nullopt;
+}
+
+// The smallest that goes through an end of nearly every strand, first or last, but for knots.
+std::optional<Ball> headOfEither(const std::vector<Vec3d>& firsts, const std::vector<Vec3d>& lasts) {
+  if (firsts.size() < kLeastForOutliers) return std::nullopt;
+  std::vector<Vec3d> someFirsts, someLasts;
+  const std::size_t step = (firsts.size() + kMostSampled - 1) / kMostSampled;
+  for (std::size_t s = 0; s < firsts.size(); s += step) {
+    someFirsts.push_back(firsts[s]);
+    someLasts.push_back(lasts[s]);
+  }
+  SeededRandom random(1, 0);
+  std::vector<Ball> balls;
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    std::vector<Vec3d> picked;
+    for (std::size_t k = 0; k < kPicked; ++k) {
+      const auto s = static_cast<std::size_t>(random.uniform() * static_cast<double>(someFirsts.size()));
+      picked.push_back(random.uniform() < 0.5 ? someFirsts[s] : someLasts[s]);
+    }
+    if (const auto ball = settled(ballThrough(picked), someFirsts, someLasts)) balls.push_back(*ball);
+  }
+  if (balls.empty()) return std::nullopt;
+  const double largest = std::ranges::max(balls, {}, &Ball::radius).radius;
+  std::erase_if(balls, [&](const Ball& ball) { return ball.radius < kLeastOfOther * largest; });
+  return std::ranges::min(balls, {}, &Ball::radius);
+}
+
+// On which most strands have their first ends, or their last, or either.
+std::optional<Ball> headOf(const std::vector<Vec3d>& firsts, const std::vector<Vec3d>& lasts) {
+  const HeadOfEnds byFirsts = headOf(firsts), byLasts = headOf(lasts);
+  std::optional<Ball> head;
+  if (byFirsts.isFound) head = byFirsts.ball;
+  if (byLasts.isFound) {
+    const Ball &first = byFirsts.ball, &last = byLasts.ball;
+    const bool isSmaller = last.radius < first.radius && last.radius > kLeastOfOther * first.radius;
+    if (!head || (isSmaller && unevenness(last) < unevenness(first) + kAsEven)) head = last;
+  }
+  const auto either = headOfEither(firsts, lasts);
+  if (!either) return head;
+  const bool isNoLarger = !head || either->radius < (1 + kVeryEven) * head->radius;
+  return isNoLarger && (!head || unevenness(*either) < kMoreEven * unevenness(*head)) ? either : head;
 }
 
 }  // namespace
@@ -65,15 +131,8 @@ RootEnds findRootEnds(const Groom& groom) {
     firsts.emplace_back(groom.strand(s).front());
     lasts.emplace_back(groom.strand(s).back());
   }
-  const HeadOfEnds byFirsts = headOf(firsts), byLasts = headOf(lasts);
-  if (!byFirsts.isFound && !byLasts.isFound) return found;
-  bool isOfLasts = !byFirsts.isFound;
-  if (byFirsts.isFound && byLasts.isFound) {
-    const Ball &first = byFirsts.ball, &last = byLasts.ball;
-    isOfLasts = last.radius < first.radius && last.radius > kLeastOfOther * first.radius &&
-                last.rms / last.radius < first.rms / first.radius + kAsEven;
-  }
-  found.head = isOfLasts ? byLasts.ball : byFirsts.ball;
+  found.head = headOf(firsts, lasts);
+  if (!found.head) return found;
   std::vector<EndDistances> distances;
   for (std::size_t s = 0; s < groom.strandCount(); ++s)
     distances.push_back({found.head->distanceTo(firsts[s]), found.head->distanceTo(lasts[s])});

@@ -26,8 +26,8 @@ struct RootEnds {
 };
 
 /// Of a groom as readers return it. There is a head where eight strands and more have their first ends, or
-/// their last, on one ball, but for three of ten; where they have both, it is the
-/// smaller. Cost: n log n in the strands.
+/// their last, on one ball, but for three of ten, or twenty and more have either end very evenly on one; of
+/// several such balls it is the smallest. Cost: n log n in the strands.
 RootEnds findRootEnds(const Groom& groom);
 
 /// Turns these strands round: their last particle is the first. As many as the groom has.

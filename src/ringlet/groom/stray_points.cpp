@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/groom/mend_groom.h"
 
 namespace ringlet {
 namespace {
@@ -31,9 +32,12 @@ std::vector<Stop> stopsOf(std::span<const Vec3f> strand) {
 
 double medianEdge(std::span<const Vec3f> strand) {
   std::vector<double> edges;
+  double whole = 0;
   for (std::size_t i = 1; i < strand.size(); ++i) {
-    if (const double edge = edgeOf(strand[i - 1], strand[i]); edge > 0) edges.push_back(edge);
+    edges.push_back(edgeOf(strand[i - 1], strand[i]));
+    whole += edges.back();
   }
+  std::erase_if(edges, [&](double edge) { return edge <= kNoEdgeShare * whole; });
   if (edges.empty()) return 0;
   const auto middle = edges.begin() + static_cast<std::ptrdiff_t>((edges.size() - 1) / 2);
   std::ranges::nth_element(edges, middle);

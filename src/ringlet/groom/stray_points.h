@@ -20,7 +20,7 @@ std::vector<bool> sharedPlaces(const Groom& groom, const std::vector<bool>& isDu
 /// sharedPlaces says. Cost: linear in the particles.
 std::vector<bool> strayPoints(const Groom& groom, const std::vector<bool>& isShared);
 
-/// Of a strand's edges that have a length, the lower of two in the middle; 0 without any.
+/// Of a strand's edges that have a length (kNoEdgeShare), the lower of two in the middle; 0 without any.
 double medianEdge(std::span<const Vec3f> strand);
 
 }  // namespace ringlet
