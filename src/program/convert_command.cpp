@@ -19,10 +19,12 @@
 #include "program/convert_run.h"
 #include "program/exit_codes.h"
 #include "program/frame_range.h"
+#include "program/groom_options.h"
 #include "program/hair_look.h"
 #include "program/precision_names.h"
 #include "program/run_report.h"
 #include "program/standard_output.h"
+#include "program/written_groom.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
@@ -75,6 +77,9 @@ struct Typed {
   std::optional<double> tipWidth;
   std::optional<int> hairs;
   HairLook look;
+  GroomChoice reading;
+  std::optional<std::string> up;
+  std::optional<double> metresPerUnit;
   std::filesystem::path groom, scene;
   bool info = false, json = false, quiet = false, overwrite = false;
 };
@@ -131,7 +136,7 @@ Result<std::optional<FullHair>> fullHairOf(const Typed& typed, double metresPerU
                                            const std::optional<LoadedScene>& scene) {
   if (!typed.hairs) return std::optional<FullHair>();
   if (scene) return fullHairOf(typed, scene->groom, metresPerUnit, cuts, &*scene);
-  const auto rest = readGroom(typed.groom);
+  const auto rest = readGroom(typed.groom, readingOf(typed.reading));
   if (!rest) return rest.error();
   return fullHairOf(typed, rest->groom, metresPerUnit, cuts);
 }
@@ -284,8 +289,11 @@ void printOutcome(const Typed& typed, const Groom& groom, const std::vector<std:
 Status runGroomConvert(const Typed& typed) {
   if (typed.info)
     return Error{fmt::format("{} is a groom; `ringlet info` says what is in it", typed.input.string())};
-  const auto loaded = readGroom(typed.input);
+  auto loaded = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
   if (!loaded) return loaded.error();
+  if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
+  for (std::string& lost : lostIn(typed.output, loaded->groom.metresPerUnit, typed.up == "Z"))
+    loaded->warnings.push_back(std::move(lost));
   for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
   const auto hair = fullHairOf(typed, loaded->groom, loaded->groom.metresPerUnit);
   if (!hair) return hair.error();
@@ -307,6 +315,13 @@ Status runGroomConvert(const Typed& typed) {
           typed.output.string(), sizeText(bytes));
   }
   return {};
+}
+
+// What files of frames do not hold of an animation.
+std::vector<std::string> lostOf(const Typed& typed, const CacheHeader& header) {
+  const ConvertTo kind = *kindOf(typed);
+  if (kind != ConvertTo::frame && kind != ConvertTo::frameSequence) return {};
+  return lostIn(typed.output, header.metresPerUnit, header.up == UpAxis::z);
 }
 
 Status runConvert(const Typed& typed) {
@@ -343,7 +358,12 @@ Status runConvert(const Typed& typed) {
        .showProgress = !typed.quiet});
   if (!outcome) return outcome.error();
   const Groom& written = *hair ? (*hair)->groom() : source->groom();
-  printOutcome(typed, written, source->warnings(), *outcome, range->last - range->first + 1);
+  std::vector<std::string> warnings = source->warnings();
+  for (std::string& lost : lostOf(typed, source->header())) {
+    say("ringlet convert: warning: {}\n", lost);
+    warnings.push_back(std::move(lost));
+  }
+  printOutcome(typed, written, warnings, *outcome, range->last - range->first + 1);
   return {};
 }
 
@@ -356,6 +376,11 @@ int run(const Typed& typed) {
   if (isGroom && (!typed.groom.empty() || !typed.scene.empty()))
     throw CLI::ValidationError(typed.groom.empty() ? "--scene" : "--groom",
                                "IN is a groom itself; only the hairs of an animation need one");
+  if (!isGroom && (typed.up || typed.metresPerUnit || (typed.reading.isMade() && typed.groom.empty())))
+    throw CLI::ValidationError(
+        "IN",
+        "is an animation, which says its unit and axis itself; --unit, --up, --root-end and "
+        "--points-per-strand are of grooms");
   if (!isGroom) checkOptions(typed);
   const Status done = isGroom ? runGroomConvert(typed) : runConvert(typed);
   if (done) return kExitFine;
@@ -420,6 +445,18 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->check(wholeBetween(1, 10'000'000))
       ->type_name("N");
   addHairLookOptions(*command, typed->look);
+  command
+      ->add_option("--unit", typed->metresPerUnit,
+                   "Of a groom: metres per unit of its file (default: what a USD file states, else 0.01)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
+  command
+      ->add_option(
+          "--up", typed->up,
+          "Of a groom: the axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS");
+  addGroomOptions(*command, typed->reading);
   command->add_option("--groom", typed->groom, "The groom that IN was simulated from; for --hairs")
       ->type_name("FILE");
   command

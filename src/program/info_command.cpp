@@ -15,9 +15,11 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/groom_options.h"
 #include "program/run_report.h"
 #include "program/standard_error.h"
 #include "program/standard_output.h"
+#include "program/written_groom.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/mend_groom.h"
 #include "ringlet/measure/groom_inspection.h"
@@ -38,26 +40,37 @@ constexpr const char* kExample =
     "Up is likely the axis against which the strands hang.\n"
     "\n"
     "Faults: repeated particles (in the place of the one before), short edges (below a thousandth of their\n"
-    "strand's mean), strands all in one place, duplicates (the very particles of a strand before), strays "
-    "(20\n"
-    "times shorter or longer than the median, or 6 times as far from the middle of all). A file that cannot "
-    "be\n"
-    "read, or holds numbers that are not finite, fails with the reason.\n"
+    "strand's mean) and long ones (above 6 times the median), stray particles (in a place of several strands "
+    "or at\n"
+    "the origin, each edge to them above 4 times the median) and others in the place of another strand's, "
+    "strands\n"
+    "that end on the head where others begin (where one end of most strands is on a ball), strands all in "
+    "one\n"
+    "place, duplicates (the very particles of a strand before), strands 20 times shorter or longer than the\n"
+    "median or 6 times as far from the middle of all. Strands that cannot be read, or hold numbers that are "
+    "not\n"
+    "finite, are left out with a warning; a file without any other fails with the reason.\n"
     "\n"
-    "--fix merges repeated particles, drops strands in one place and duplicates, and leaves strays alone. "
-    "With\n"
-    "--particles each strand has that many, at equal distances along its edges; four a turn keep a curl. It\n"
-    "writes in the file's unit, which its formats do not hold: what was said as --unit must be said "
-    "again.\n"
+    "--fix takes out stray particles, merges repeated ones, drops strands in one place and duplicates, and "
+    "leaves\n"
+    "the other faults alone. --root-end last turns all strands round, --root-end head those that end on the "
+    "head.\n"
+    "With --particles each strand has that many, at equal distances along its edges; four a turn keep a "
+    "curl. It\n"
+    "writes in the file's unit, which its formats do not hold: a warning says what --unit and --up a groom "
+    "needs\n"
+    "from then on.\n"
     "\n"
     "--json keys: strands particles particles_per_strand length length_mm turns radius_mm arc_over_chord "
     "(each\n"
     "{min median mean max}; turns and radius_mm of curled strands) curled box {low high size} (in units)\n"
     "metres_per_unit unit_from (file, option, default) likely_units [{name metres_per_unit mean_length_mm}]\n"
-    "up_from (file, or null) likely_up (Y, Z or null) faults {repeated_particles short_edges point_strands\n"
-    "duplicates too_short too_long far_away}, each {count first_strand} (null without) warnings; with --fix "
-    "also\n"
-    "fixed {strands particles merged dropped_points dropped_duplicates output}.\n"
+    "up_from (file, or null) likely_up (Y, Z or null) faults {repeated_particles short_edges long_edges\n"
+    "stray_particles shared_particles reversed_strands point_strands duplicates too_short too_long "
+    "far_away}, "
+    "each\n"
+    "{count first_strand} (null without) warnings; with --fix also fixed {strands particles merged strays\n"
+    "dropped_points dropped_duplicates output}.\n"
     "\n"
     "Exit status: 0 done, with faults or without, 2 wrong usage, 4 a file that cannot be read, 5 one that "
     "cannot\n"
@@ -68,6 +81,7 @@ struct Typed {
   std::filesystem::path input, output;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
+  GroomChoice groom;
   std::optional<int> particles;
   bool json = false;
 };
@@ -80,6 +94,13 @@ struct Row {
 constexpr Row kFaults[] = {
     {"repeated_particles", "repeated particles: {}", &GroomInspection::repeatedParticles},
     {"short_edges", "edges below a thousandth of their strand's mean: {}", &GroomInspection::shortEdges},
+    {"long_edges", "edges 6 times longer than their strand's median: {}", &GroomInspection::longEdges},
+    {"stray_particles", "particles far off in a place that several strands share, or at the origin: {}",
+     &GroomInspection::strayParticles},
+    {"shared_particles", "particles in the very place of another strand's: {}",
+     &GroomInspection::sharedParticles},
+    {"reversed_strands", "strands that end on the head where others begin: {}",
+     &GroomInspection::reversedStrands},
     {"point_strands", "strands all in one place: {}", &GroomInspection::pointStrands},
     {"duplicates", "strands that are there twice: {}", &GroomInspection::duplicates},
     {"too_short", "strands 20 times shorter than the median: {}", &GroomInspection::tooShort},
@@ -144,6 +165,7 @@ nlohmann::ordered_json infoJson(const Typed& typed, const LoadedGroom& loaded, c
     json["fixed"] = {{"strands", mended.groom.strandCount()},
                      {"particles", mended.groom.points.size()},
                      {"merged", mended.repeatedCount},
+                     {"strays", mended.strayCount},
                      {"dropped_points", mended.pointStrandCount},
                      {"dropped_duplicates", mended.duplicateCount},
                      {"output", typed.output.string()}};
@@ -218,16 +240,19 @@ Result<Fixed> fix(const Typed& typed, const LoadedGroom& loaded, const GroomInsp
         *typed.particles, found.turns.max));
   }
   if (Status written = writeGroom(typed.output, fixed.mended.groom); !written) return written.error();
+  for (std::string& lost : lostIn(typed.output, loaded.groom.metresPerUnit, typed.up == "Z"))
+    fixed.warnings.push_back(std::move(lost));
   return fixed;
 }
 
 void printFixed(const Typed& typed, const Fixed& fixed) {
   const MendedGroom& mended = fixed.mended;
   print(
-      "\n{}: {} strands, {} particles, in units of {} m; {} particles merged, {} strands in one place and {} "
-      "duplicates dropped\n",
+      "\n{}: {} strands, {} particles, in units of {} m; {} particles merged and {} strays taken out, {} "
+      "strands in one place and {} duplicates dropped\n",
       typed.output.string(), mended.groom.strandCount(), mended.groom.points.size(),
-      mended.groom.metresPerUnit, mended.repeatedCount, mended.pointStrandCount, mended.duplicateCount);
+      mended.groom.metresPerUnit, mended.repeatedCount, mended.strayCount, mended.pointStrandCount,
+      mended.duplicateCount);
 }
 
 int fail(const Error& error) {
@@ -238,7 +263,7 @@ int fail(const Error& error) {
 int run(const Typed& typed) {
   if (typed.particles && typed.output.empty())
     throw CLI::ValidationError("--particles", "only --fix writes strands; name its file");
-  auto loaded = readGroom(typed.input, {.upIsZ = typed.up == "Z"});
+  auto loaded = readGroom(typed.input, readingOf(typed.groom, typed.up == "Z"));
   if (!loaded) return fail(loaded.error());
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
   const GroomInspection found = inspectGroom(loaded->groom);
@@ -281,6 +306,7 @@ void addInfoCommand(CLI::App& app, int& exitCode) {
                    "The axis that is to point up, to which a USD file is turned, Y or Z (default Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
+  addGroomOptions(*command, typed->groom);
   command->add_option("--fix", typed->output, "File to write a mended groom to: .hair, .obj or .ply")
       ->check(endsIn({".obj", ".hair", ".ply"}))
       ->type_name("OUT");

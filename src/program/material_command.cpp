@@ -16,6 +16,7 @@
 #include "program/command_line.h"
 #include "program/exit_codes.h"
 #include "program/standard_output.h"
+#include "program/groom_options.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_inspection.h"
 #include "ringlet/measure/material_suggestion.h"
@@ -64,6 +65,7 @@ struct Typed {
   std::filesystem::path file, groom;
   std::optional<double> metresPerUnit;
   bool list = false, json = false;
+  GroomChoice reading;
 };
 
 std::string unitText(const ParameterText& parameter) {
@@ -167,7 +169,7 @@ int list(const Typed& typed) {
 
 // Shows the preset that a groom looks like, and on standard error why.
 Result<std::string> suggested(const Typed& typed) {
-  auto groom = readGroom(typed.groom);
+  auto groom = readGroom(typed.groom, readingOf(typed.reading));
   if (!groom) return groom.error();
   if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
   for (const std::string& warning : groom->warnings) say("ringlet material: warning: {}\n", warning);
@@ -256,6 +258,7 @@ void addMaterialCommand(CLI::App& app, int& exitCode) {
           "Show the preset that this groom looks most like, by how many of its strands are curled, and "
           "how wide")
       ->type_name("GROOM");
+  addPointsOption(*command, typed->reading);
   command->add_option("--unit", typed->metresPerUnit, "With --suggest: metres per unit of the groom")
       ->check(between(1e-6, 1000))
       ->type_name("METRES");
@@ -271,6 +274,8 @@ void addMaterialCommand(CLI::App& app, int& exitCode) {
     if (!typed->list && typed->name.empty() && typed->groom.empty())
       throw CLI::ValidationError("MATERIAL",
                                  "name a preset or a .toml file, or use --list or --suggest GROOM");
+    if (typed->reading.isMade() && typed->groom.empty())
+      throw CLI::ValidationError("--points-per-strand", "only --suggest reads a groom");
     if (typed->metresPerUnit && typed->groom.empty())
       throw CLI::ValidationError("--unit", "only --suggest reads a groom");
     if (typed->list && !typed->file.empty())

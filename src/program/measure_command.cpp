@@ -116,6 +116,7 @@ void addMeasureCommand(CLI::App& app, int& exitCode) {
   command->add_option("--up", typed->plan.up, "The files' up axis, Y or Z (default: the animation's, else Y)")
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS");
+  addPointsOption(*command, typed->plan.reading);
   command
       ->add_option(
           "--against", typed->plan.against,

@@ -25,7 +25,7 @@ void warn(const std::string& sentence) { say("ringlet measure: warning: {}\n", s
 // `unit` where that is known.
 Result<Groom> read(const std::filesystem::path& path, const MeasurePlan& plan, bool upIsZ,
                    std::optional<double> unit = {}) {
-  auto loaded = readGroom(path, {.upIsZ = upIsZ});
+  auto loaded = readGroom(path, readingOf(plan.reading, upIsZ));
   if (!loaded) return loaded.error();
   for (const std::string& warning : loaded->warnings) warn(warning);
   Groom& groom = loaded->groom;

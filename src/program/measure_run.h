@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "program/groom_options.h"
 #include "program/measure_report.h"
 #include "ringlet/base/result.h"
 
@@ -17,6 +18,7 @@ struct MeasurePlan {
   std::vector<std::filesystem::path> over;
   std::optional<double> metresPerUnit;
   std::optional<std::string> up;
+  GroomChoice reading;
 };
 
 /// What became of plan.rest in plan.other; the plot too, if there is to be one. Warnings go to standard

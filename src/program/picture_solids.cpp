@@ -10,14 +10,12 @@
 #include "program/scene_bodies.h"
 #include "ringlet/bodies/body_surface.h"
 #include "ringlet/bodies/head_mesh.h"
+#include "ringlet/groom/ball.h"
 #include "ringlet/scene/body.h"
 
 namespace ringlet::program {
 namespace {
 
-constexpr std::size_t kLeastRoots = 30;
-constexpr double kLeastRadius = 0.04, kGreatestRadius = 0.2;  // of a head's ball [m]
-constexpr double kMostUneven = 0.03;                          // rms of roots from it, share of the radius
 constexpr double kBelowRoots = 0.985;  // skin under hair, which is not simulated to touch it
 constexpr double kPlaneShare = 6;      // side of a plane that is shown, over the hair's size
 
@@ -25,41 +23,6 @@ Vec3d meanOf(std::span<const Vec3d> points) {
   Vec3d sum;
   for (const Vec3d& p : points) sum += p;
   return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-}
-
-struct Ball {
-  Vec3d middle;
-  double radius = 0, rms = 0;
-};
-
-// Least squares of |x|^2 = 2 c . x + k, about the mean: three equations for the middle (Coope 1993).
-Ball ballThrough(std::span<const Vec3d> points) {
-  const Vec3d mean = meanOf(points);
-  double squares = 0;
-  for (const Vec3d& p : points) squares += dot(p - mean, p - mean);
-  squares /= static_cast<double>(points.size());
-  Vec3d rows[3]{}, right{};
-  for (const Vec3d& p : points) {
-    const Vec3d x = p - mean;
-    rows[0] += x * x.x;
-    rows[1] += x * x.y;
-    rows[2] += x * x.z;
-    right += x * ((dot(x, x) - squares) / 2);
-  }
-  const double volume = dot(rows[0], cross(rows[1], rows[2]));
-  Ball ball;
-  if (!(std::abs(volume) > 0)) return ball;
-  const Vec3d columns[3] = {{rows[0].x, rows[1].x, rows[2].x},
-                            {rows[0].y, rows[1].y, rows[2].y},
-                            {rows[0].z, rows[1].z, rows[2].z}};
-  const Vec3d middle = {dot(right, cross(columns[1], columns[2])) / volume,
-                        dot(columns[0], cross(right, columns[2])) / volume,
-                        dot(columns[0], cross(columns[1], right)) / volume};
-  ball.middle = mean + middle;
-  for (const Vec3d& p : points) ball.radius += length(p - ball.middle) / static_cast<double>(points.size());
-  for (const Vec3d& p : points) ball.rms += std::pow(length(p - ball.middle) - ball.radius, 2);
-  ball.rms = std::sqrt(ball.rms / static_cast<double>(points.size()));
-  return ball;
 }
 
 }  // namespace
@@ -80,13 +43,10 @@ PictureSolids PictureSolids::ofScene(const LoadedScene& scene, double hairSize) 
 
 PictureSolids PictureSolids::ofRoots(std::span<const Vec3d> roots, Vec3d up) {
   PictureSolids solids;
-  if (roots.size() < kLeastRoots) return solids;
-  const Ball ball = ballThrough(roots);
-  if (!(ball.radius >= kLeastRadius && ball.radius <= kGreatestRadius &&
-        ball.rms < kMostUneven * ball.radius))
-    return solids;
-  solids.meshes_.push_back(solidMeshOf(makeHeadMesh({.scalpRadius = kBelowRoots * ball.radius})));
-  solids.fromRoots_ = ball.middle - meanOf(roots);
+  const auto head = headUnder(roots);
+  if (!head) return solids;
+  solids.meshes_.push_back(solidMeshOf(makeHeadMesh({.scalpRadius = kBelowRoots * head->radius})));
+  solids.fromRoots_ = head->middle - meanOf(roots);
   if (up.z > 0.5) solids.upright_ = fromRotationVector(Vec3d{std::numbers::pi / 2, 0, 0});
   return solids;
 }

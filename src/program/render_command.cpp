@@ -22,6 +22,7 @@
 #include "program/standard_error.h"
 #include "program/standard_output.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/groom_doubts.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_camera.h"
@@ -135,8 +136,11 @@ Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& 
 
 Result<RenderOutcome> runGroom(const RenderOptions& typed, const ComputeDevice& device,
                                const RenderPlan& plan) {
-  const auto groom = readGroom(typed.input);
+  auto groom = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
   if (!groom) return groom.error();
+  if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
+  if (auto doubt = groom->statesUp ? std::nullopt : doubtOfUp(groom->groom, typed.up == "Z"))
+    groom->warnings.push_back(std::move(*doubt));
   for (const std::string& warning : groom->warnings) say("ringlet render: warning: {}\n", warning);
   return renderGroom(groom->groom, typed.up == "Z" ? UpAxis::z : UpAxis::y, device, plan);
 }
@@ -161,7 +165,7 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
     plan.scene = &*scene;
     plan.rest = &scene->groom;
   } else if (!typed.groom.empty()) {
-    auto read = readGroom(typed.groom);
+    auto read = readGroom(typed.groom, readingOf(typed.reading));
     if (!read) return read.error();
     groom = std::move(*read);
     plan.rest = &groom->groom;

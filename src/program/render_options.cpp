@@ -74,6 +74,11 @@ void checkInput(const RenderOptions& options) {
         "with -o, and neither --scene nor --groom");
   if (!isGroom && options.up != "Y")
     throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
+  if (!isGroom && options.metresPerUnit)
+    throw CLI::ValidationError("--unit", "is of a groom; animations and scenes say it themselves");
+  if (!isGroom && options.groom.empty() && options.reading.isMade())
+    throw CLI::ValidationError(options.reading.rootEnd ? "--root-end" : "--points-per-strand",
+                               "is of a groom's file, and none is named here");
   if (options.hairs == 0 && options.look.isAsked())
     throw CLI::ValidationError("--hairs", "0 are no hairs that could have frizz, clumps or blends");
   if (isGroom && (!options.frames.empty() || !options.groom.empty() || !options.scene.empty()))
@@ -236,10 +241,16 @@ void addRenderOptions(CLI::App& command, RenderOptions& options) {
                       "One of the scene: of its [[camera]] tables, or of the glTF file of its motion")
           ->type_name("NAME");
   for (const char* other : {"--azimuth", "--elevation", "--distance", "--orbit"}) camera->excludes(other);
+  command
+      .add_option("--unit", options.metresPerUnit,
+                  "Of a groom: metres per unit of its file (default: what a USD file states, else 0.01)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
   command.add_option("--up", options.up, "Of a groom: the axis that points up, Y or Z")
       ->check(oneOf({"Y", "Z"}))
       ->capture_default_str()
       ->type_name("AXIS");
+  addGroomOptions(command, options.reading);
   command.add_flag("--no-bodies", options.noBodies, "Hair alone: no bodies and no head");
   command
       .add_flag("--ground", options.ground,

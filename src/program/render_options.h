@@ -6,6 +6,7 @@
 #include <string>
 
 #include "program/cli_fwd.h"
+#include "program/groom_options.h"
 #include "program/hair_look.h"
 #include "program/render_run.h"
 #include "ringlet/scenes/scene_file.h"
@@ -18,8 +19,9 @@ struct RenderOptions {
   std::string frames, size = "960x540", colour = "auburn", up = "Y", camera, ground, format = "png", device;
   std::optional<int> hairs;
   HairLook look;
+  GroomChoice reading;
   SceneReach reach = SceneReach::anywhere;
-  std::optional<double> width, melanin, most;
+  std::optional<double> metresPerUnit, width, melanin, most;
   double redness = 0.3, azimuth = 35, elevation = 5, distance = 1, orbit = 0;
   int samples = 4, blur = 1;
   bool noBodies = false, noLegend = false, json = false, quiet = false;

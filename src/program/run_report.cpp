@@ -13,6 +13,8 @@
 namespace ringlet::program {
 namespace {
 
+constexpr double kFar = 0.05;  // hair that stays further from all bodies never met them [m]
+
 // Null where there are no contacts, or they were not measured.
 void addContactKeys(nlohmann::ordered_json& json, const SimulateOutcome& outcome) {
   const auto& known = outcome.contacts;
@@ -129,6 +131,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["resumed_from"] = outcome.resumedFrom;
   json["interrupted"] = outcome.interrupted;
   json["warnings"] = outcome.warnings;
+  json["notes"] = outcome.notes;
   json["outputs"] = nlohmann::json::array();
   for (const auto& path : outcome.outputs) json["outputs"].push_back(path.string());
   return json;
@@ -153,7 +156,9 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
                   outcome.report.maxEdgeStretch, 100 * outcome.report.limitedShare);
   text += contactText(outcome, settings.contacts);
   if (const auto& bodies = outcome.bodyNumbers) {
-    text += fmt::format("  bodies        deepest {:.3g} mm", 1000 * bodies->deepest);
+    text += bodies->deepest == 0 && bodies->nearest > kFar
+                ? std::string("  bodies        hair did not meet them; do they stand where the hair is?")
+                : fmt::format("  bodies        deepest {:.3g} mm", 1000 * bodies->deepest);
     if (bodies->strand >= 0)
       text += fmt::format(" (strand {} particle {}, frame {})", bodies->strand, bodies->particle,
                           bodies->frame + 1);
@@ -161,6 +166,7 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
                 ? fmt::format("; {} particles began inside and are there still\n", bodies->inside)
                 : "\n";
   }
+  for (const std::string& note : outcome.notes) text += fmt::format("  note          {}\n", note);
   for (const auto& path : outcome.outputs) {
     text += fmt::format("  {}  {}", path == outcome.outputs.front() ? "written     " : "            ",
                         path.string());

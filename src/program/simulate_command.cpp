@@ -21,6 +21,7 @@
 #include "program/confined_option.h"
 #include "program/contact_options.h"
 #include "program/exit_codes.h"
+#include "program/groom_options.h"
 #include "program/material_command.h"
 #include "program/output_options.h"
 #include "program/rendered_sheet.h"
@@ -85,7 +86,9 @@ constexpr const char* kExample =
     "particles;\n"
     "null without) compile_ms (making the kernels, once) backend positions_hash integrator\n"
     "material steps_per_frame fps\n"
-    "resumed_from (frames that a run before had done) interrupted warnings outputs. Times are of this run's "
+    "resumed_from (frames that a run before had done) interrupted warnings notes (a preset that fits "
+    "better)\n"
+    "outputs. Times are of this run's "
     "frames.\n";
 constexpr const char* kExitHelp =
     "\n"
@@ -104,6 +107,7 @@ struct Typed {
   SceneReach reach = SceneReach::anywhere;
   MaterialChoice material;
   ContactChoice contacts;
+  GroomChoice groom;
   OutputChoice outputs;
   std::string backend = "gpu", device, kernel = "auto";
   std::vector<std::string> devices;
@@ -181,6 +185,7 @@ void applyMotionOptions(const Typed& typed, SceneMotion& motion) {
 void applyOptions(const Typed& typed, SceneFile& scene) {
   replace(scene.groom.metresPerUnit, typed.unit);
   replace(scene.groom.up, typed.up);
+  applyGroomOptions(typed.groom, scene.groom);
   replace(scene.groom.bind, typed.bind);
   replace(scene.groom.bindFrame, typed.bindFrame);
   applyMotionOptions(typed, scene.motion);
@@ -419,6 +424,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->check(oneOf({"Y", "Z"}))
       ->type_name("AXIS")
       ->group(scene);
+  addGroomOptions(*command, typed->groom, scene);
   command
       ->add_option(
           "--bind", typed->bind,

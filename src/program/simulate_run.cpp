@@ -29,6 +29,7 @@ Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions opti
               options, observer);
   if (!outcome) return outcome.error();
   outcome->warnings.insert(outcome->warnings.begin(), scene.warnings.begin(), scene.warnings.end());
+  outcome->notes = scene.notes;
   return outcome;
 }
 

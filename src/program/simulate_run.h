@@ -108,7 +108,7 @@ struct SimulateOutcome {
   bool interrupted = false;
   bool canResume = false;  // it was interrupted, and a checkpoint is there
   int resumedFrom = 0;     // frames that a run before had done
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
   std::vector<std::filesystem::path> outputs;
   std::optional<double> cacheErrorBound;  // how far a point of the cache may be from its particle [m]
 };

@@ -17,6 +17,7 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
+#include "program/groom_options.h"
 #include "program/growing_report.h"
 #include "program/open_device.h"
 #include "program/run_report.h"
@@ -82,6 +83,7 @@ struct Typed {
   std::string device;
   TuneOptions options;
   bool json = false, quiet = false;
+  GroomChoice reading;
 };
 
 nlohmann::ordered_json asJson(const ComputeDevice& device, const TuneOutcome& outcome,
@@ -144,7 +146,7 @@ Result<std::vector<std::uint32_t>> lengthsOf(const Typed& typed) {
     lengths.erase(std::unique(lengths.begin(), lengths.end()), lengths.end());
     return lengths;
   }
-  const auto loaded = readGroom(typed.groom);
+  const auto loaded = readGroom(typed.groom, readingOf(typed.reading));
   if (!loaded) return loaded.error();
   std::vector<std::uint32_t> counts;
   for (std::size_t s = 0; s < loaded->groom.strandCount(); ++s)
@@ -222,6 +224,7 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
                                         "lengths to tune for: four at "
                                         "most that stand for all")
                            ->type_name("FILE");
+  addPointsOption(*command, typed->reading);
   command
       ->add_option(
           "--particles", typed->particles,

@@ -14,6 +14,7 @@
 #include "program/confined_option.h"
 #include "program/exit_codes.h"
 #include "program/follow_plan.h"
+#include "program/groom_options.h"
 #include "program/hair_look.h"
 #include "program/interruption.h"
 #include "program/picture_options.h"
@@ -66,12 +67,20 @@ struct Typed {
   std::string size = "640x480", colour = "auburn", device;
   int frames = 0, samples = 2, hairs = 0;
   HairLook look;
+  GroomChoice reading;
+  std::optional<std::string> up;
+  std::optional<double> metresPerUnit;
   bool paused = false, json = false;
 };
 
 // A scene, or a groom as one. Its paths are absolute, so that it can be saved anywhere.
 Result<SceneFile> sceneOf(const Typed& typed) {
   std::vector<SceneChange> changes;
+  if (typed.metresPerUnit) changes.push_back({"groom.unit", fmt::format("{}", *typed.metresPerUnit)});
+  if (typed.up) changes.push_back({"groom.up", *typed.up});
+  if (typed.reading.rootEnd) changes.push_back({"groom.root_end", *typed.reading.rootEnd});
+  if (typed.reading.pointsPerStrand)
+    changes.push_back({"groom.points_per_strand", fmt::format("{}", *typed.reading.pointsPerStrand)});
   for (const std::string& change : typed.changes) {
     const std::size_t equals = change.find('=');
     changes.push_back({change.substr(0, equals), change.substr(equals + 1)});
@@ -80,6 +89,10 @@ Result<SceneFile> sceneOf(const Typed& typed) {
   std::filesystem::path input = std::filesystem::absolute(typed.input, code);
   if (code) input = typed.input;
   if (isSceneFile(input)) return readScene(input, changes, typed.reach);
+  if (std::filesystem::is_directory(input, code))
+    return Error{fmt::format("{}: is a folder; expected the file of a scene (.toml) or of a groom ({})",
+                             typed.input.string(), kGroomEndings),
+                 Fault::input};
   if (!isGroomFile(input))
     return Error{
         fmt::format("{} is neither a scene (.toml) nor a groom ({})", typed.input.string(), kGroomEndings),
@@ -242,6 +255,15 @@ void addViewCommand(CLI::App& app, int& exitCode) {
                    "A key of the scene, as its file would have it: motion.kind=shake; again for others")
       ->check(isChange())
       ->type_name("KEY=VALUE");
+  command
+      ->add_option("--unit", typed->metresPerUnit,
+                   "Metres per unit of the groom's file (default: what a USD file states, else 0.01)")
+      ->check(between(1e-6, 1000))
+      ->type_name("METRES");
+  command->add_option("--up", typed->up, "The groom's up axis, Y or Z (default Y)")
+      ->check(oneOf({"Y", "Z"}))
+      ->type_name("AXIS");
+  addGroomOptions(*command, typed->reading);
   addConfinedOption(*command, typed->reach);
   addHairLookOptions(*command, typed->look);
   command->add_option("--hairs", typed->hairs, "Hairs that follow the strands; 0: the strands themselves")

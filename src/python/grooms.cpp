@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "python/arrays.h"
@@ -18,10 +19,13 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
 #include "ringlet/groom/obj_file.h"
+#include "ringlet/measure/groom_doubts.h"
 #include "ringlet/measure/groom_measure.h"
 
 namespace ringlet::python {
 namespace {
+
+constexpr std::int64_t kMostPointsPerStrand = 1'000'000;
 
 GroomHandle handleOf(Groom groom) { return std::make_shared<GroomObject>(LoadedGroom{std::move(groom), {}}); }
 
@@ -59,10 +63,37 @@ GroomHandle makeGroom(const py::object& points, const py::object& firstPoint, co
   return handleOf(std::move(groom));
 }
 
-GroomHandle readGroomFile(const std::filesystem::path& path, const std::optional<double>& metresPerUnit,
-                          const std::string& up) {
+RootEnd rootEndOf(const std::string& name) {
+  if (name == "first") return RootEnd::first;
+  if (name == "last") return RootEnd::last;
+  if (name == "head") return RootEnd::head;
+  throw py::value_error(unknownName("root end", name, {"first", "last", "head"}));
+}
+
+GroomReading readingOf(std::optional<std::int64_t> pointsPerStrand, const std::string& rootEnd,
+                       const std::string& up) {
+  if (pointsPerStrand && (*pointsPerStrand < 2 || *pointsPerStrand > kMostPointsPerStrand))
+    throw py::value_error(fmt::format("points_per_strand must be from 2 to {}, got {}", kMostPointsPerStrand,
+                                      *pointsPerStrand));
   if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
-  LoadedGroom loaded = withoutGil([&] { return valueOf(readGroom(path, {.upIsZ = up == "Z"})); });
+  return {.upIsZ = up == "Z",
+          .pointsPerStrand = static_cast<std::uint32_t>(pointsPerStrand.value_or(0)),
+          .rootEnd = rootEndOf(rootEnd)};
+}
+
+// What seems wrong with it is among its warnings, as in a scene's.
+GroomHandle readGroomFile(const std::filesystem::path& path, std::optional<double> metresPerUnit,
+                          std::optional<std::int64_t> pointsPerStrand, const std::string& rootEnd,
+                          const std::string& up) {
+  const GroomReading reading = readingOf(pointsPerStrand, rootEnd, up);
+  LoadedGroom loaded = withoutGil([&] {
+    LoadedGroom read = valueOf(readGroom(path, reading));
+    for (std::string& doubt : doubtsOfPlaces(read.groom)) read.warnings.push_back(std::move(doubt));
+    if (auto doubt = doubtOfRootEnds(read.groom)) read.warnings.push_back(std::move(*doubt));
+    if (auto doubt = read.statesUp ? std::nullopt : doubtOfUp(read.groom, reading.upIsZ))
+      read.warnings.push_back(std::move(*doubt));
+    return read;
+  });
   if (metresPerUnit) loaded.groom.metresPerUnit = *metresPerUnit;
   return std::make_shared<GroomObject>(std::move(loaded));
 }
@@ -282,16 +313,15 @@ GroomObject::GroomObject(LoadedGroom loaded) : loaded_(std::move(loaded)) {
 
 void addGrooms(py::module_& module) {
   addGroomClass(module);
-  module.def("read_groom", &readGroomFile, py::arg("path"), py::arg("metres_per_unit") = py::none(),
-             py::kw_only(), py::arg("up") = "Y",
-             "Reads a groom from a .hair, .obj, .tfx, .ply, .data, .bin, .usda, .usdc, .usd or .usdz file. "
-             "metres_per_unit: of its points; None: the file's, where it states one, as USD does, else 0.01. "
-             "up: \"Y\" "
-             "or \"Z\", the axis that shall point up: a USD file that states the other is turned, and points "
-             "of other "
-             "files are as they are. What was odd about the file is in the groom's warnings. ringlet.Error "
-             "for a file "
-             "that is missing or broken.");
+  module.def(
+      "read_groom", &readGroomFile, py::arg("path"), py::arg("metres_per_unit") = py::none(), py::kw_only(),
+      py::arg("points_per_strand") = py::none(), py::arg("root_end") = "first", py::arg("up") = "Y",
+      "Reads a groom from a file of any format of docs/formats.md. metres_per_unit: None takes what a USD "
+      "file states, else 0.01. points_per_strand: of a file that holds points and nothing else. root_end: "
+      "which end of each strand is its root, first, last, or head, the one on a ball on which most strands "
+      "have an end. up: the axis that is to point up, Y or Z, to which a USD file is turned. What was odd "
+      "about the file, or seems wrong with the groom, is in its warnings. ringlet.Error for a file that is "
+      "missing or broken.");
 
   const CurlParameters c;
   const Variation v;

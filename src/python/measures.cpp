@@ -341,11 +341,15 @@ void addMeasures(py::module_& module) {
   module.def(
       "check_placement",
       [](const GroomObject& groom, const std::vector<BodyObject>& bodies, const py::object& head) {
-        return checkPlacement(groom.groom(), bodiesOf(bodies),
-                              head.is_none() ? HeadPose{} : poseOf(head, "head"));
+        const std::vector<Body> carried = bodiesOf(bodies);
+        const HeadPose pose = head.is_none() ? HeadPose{} : poseOf(head, "head");
+        std::vector<std::string> doubts = checkPlacement(groom.groom(), carried, pose);
+        if (auto ends = checkRootEnds(groom.groom(), carried, pose)) doubts.push_back(std::move(*ends));
+        return doubts;
       },
       py::arg("groom"), py::arg("bodies") = py::tuple(), py::arg("head") = py::none(),
-      "Whether the groom and the bodies that the head carries have the sizes and places of hair and a head: "
+      "Whether the groom and the bodies that the head carries have the sizes and places of hair and a head, "
+      "and strands begin on it: "
       "a "
       "list of sentences, each with the likely cause; empty where nothing is odd. Scene.load does this.");
   addMotionMeasure(module);

@@ -96,6 +96,13 @@ void writeOthersGrooms(const fs::path& folder) {
   write(seed(folder, "usdz_file", "text"), test::ZipBytes{.content = linear}.bytes());
   write(seed(folder, "usdz_file", "crate"),
         test::ZipBytes{.name = "a.usdc", .content = moving.bytes(), .others = 1}.bytes());
+  write(seed(folder, "usda_file", "left_out"),
+        linear +
+            "def BasisCurves \"Rig\" { rel skel:skeleton = </S> uniform token wrap = \"periodic\" point3f[] "
+            "points.timeSamples = { 1: [], 2: [(0,0,0),(0,1,nan)] } uniform token[] xformOpOrder = "
+            "[\"xformOp:scale\"] }\n");
+  write(seed(folder, "obj_file", "left_out"),
+        "v 0 0 0\nv 0 1 0\nv 0 2 nan\nl 1 2\nl 2 1\nl 1 2 1\nl 3 3\nl 1 2 3\nl 1\nl 2 3 1 2\n");
   write(seed(folder, "ply_file", "text"), test::plyText());
   write(seed(folder, "ply_file", "bytes"), test::plyBinary());
   write(seed(folder, "ply_file", "edges"),

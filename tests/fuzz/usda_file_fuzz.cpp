@@ -8,8 +8,10 @@ namespace ringlet::fuzz {
 const MemoryBound kMemory{.base = 16 << 20, .perByte = 1024};
 
 void tryBytes(std::span<const std::byte> bytes) {
-  const auto loaded = readUsd(bytes, "fuzz.usda");
-  if (loaded) demandUsable(loaded->groom);
+  for (const std::uint32_t pointsPerStrand : {0u, 3u}) {
+    const auto loaded = readUsd(bytes, "fuzz.usda", {.pointsPerStrand = pointsPerStrand});
+    if (loaded) demandUsable(loaded->groom);
+  }
 }
 
 }  // namespace ringlet::fuzz

@@ -106,7 +106,7 @@ TEST(ObjFile, LeavesOutLinesOfOnePoint) {
   EXPECT_EQ(loaded->groom.strandCount(), 1u);
   ASSERT_EQ(loaded->warnings.size(), 1u);
   EXPECT_TRUE(contains(loaded->warnings[0], "left out 2 'l' lines of one point")) << loaded->warnings[0];
-  expectError(kSixPoints + "l 1\nl 4\n", {"no polylines"});
+  expectError(kSixPoints + "l 1\nl 4\n", {"6 points", "2 lines ('l') of one point each"});
 }
 
 TEST(ObjFile, NumbersInAllForms) {
@@ -154,6 +154,7 @@ TEST(ObjFile, RefusesFilesWithoutStrands) {
   expectError("", {"0 points", "no polylines"});
   expectError("\n\n# nothing\n", {"no polylines"});
   expectError(kSixPoints, {"6 points", "no polylines", "l 1 2 3"});
+  expectError(kSixPoints, {"--points-per-strand N"});
   expectError(kSixPoints + "f 1 2 3\n", {"1 faces", "no polylines"});
   expectError(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16) + "\xff\xfe", {"no polylines"});
   expectError("HAIR" + std::string(200, '\0'), {"no polylines"});

@@ -83,8 +83,10 @@ TEST(PlyFile, RefusesWhatItCannotRead) {
   expectError(head + "end_header\n1 2 3\n4 5 6\n",
               {"found 2 points and neither an element `strand` nor `edge`"});
   expectError(head + "end_header\n1 2 3\n4 five 6\n", {"vertex 1: found no number"});
-  expectError(head + "end_header\n1 2 3\n4 5 nan\n", {"vertex 1", "expected finite numbers"});
-  expectError(head + "end_header\n1 2 3\n4 5 1e39\n", {"vertex 1", "expected finite numbers"});
+  for (const char* bad : {"nan", "1e39", "-inf"}) {
+    expectError(head + "element strand 1\nproperty ushort nsegs\nend_header\n1 2 3\n4 5 " + bad + "\n1\n",
+                {"vertex 1", "expected finite numbers"});
+  }
   expectError(head + "element strand 1\nproperty ushort nverts\nend_header\n1 2 3\n4 5 6\n2\n",
               {"has no property nsegs"});
   expectError(test::plyText("2\n2\n"), {"have 6 points by their nsegs, and it has 5"});

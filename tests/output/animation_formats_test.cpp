@@ -2,6 +2,7 @@
 // is stated; after every frame, of fewer frames than were announced, on a full disk.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <cmath>
 #include <csignal>
@@ -216,6 +217,26 @@ TEST_P(Formats, AMissingFolderIsNamed) {
   ASSERT_FALSE(writer);
   EXPECT_NE(writer.error().message.find(path.string()), std::string::npos) << writer.error().message;
   EXPECT_EQ(writer.error().fault, Fault::output);
+}
+
+// What has the name of the unfinished file, and is none: a link could lead to any file of the user's, and a
+// pipe has no places.
+TEST_P(Formats, WhatIsNoFileIsNotWrittenTo) {
+  const auto expectRefused = [&](const std::string& why) {
+    const auto writer = begin();
+    ASSERT_FALSE(writer) << why;
+    EXPECT_EQ(writer.error().message, "cannot write " + partial_.string() + ": it is " + why);
+    EXPECT_EQ(writer.error().fault, Fault::output);
+    fs::remove(partial_);
+  };
+  putText(path_.parent_path() / "precious", "text");
+  fs::create_symlink("precious", partial_);
+  expectRefused("a symbolic link; remove it");
+  EXPECT_EQ(readText(path_.parent_path() / "precious"), "text");
+  fs::create_symlink("/dev/full", partial_);
+  expectRefused("a symbolic link; remove it");
+  ASSERT_EQ(mkfifo(partial_.c_str(), 0600), 0);
+  expectRefused("not a regular file");
 }
 
 // A byte of a finished file that is changed is never a crash, nor a frame that is not finite.

@@ -65,6 +65,7 @@ SimulateOutcome outcome() {
   outcome.resumedFrom = 3;
   outcome.interrupted = true;
   outcome.warnings = {"a warning"};
+  outcome.notes = {"a note"};
   outcome.outputs = {"out/hair.usda", "out/hair.rgc"};
   outcome.cacheErrorBound = 0.000244140625;
   return outcome;
@@ -128,6 +129,7 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
       {"resumed_from", 3},
       {"interrupted", true},
       {"warnings", {"a warning"}},
+      {"notes", {"a note"}},
       {"outputs", {"out/hair.usda", "out/hair.rgc"}},
   };
   EXPECT_EQ(printed(runJson(kNames, settings(), outcome())), expected);
@@ -170,8 +172,21 @@ TEST(RunReport, TheTextHasTheSameNumbers) {
         "103 of 102 pairs of strands", "110 strands meet as a volume, with up to 1.1 of its range",
         "0.3750 of the radii beyond rest at the deepest, 12.5 in all", "recall 0.875", "crossings     108",
         "deepest 62.5 mm (strand 4 particle 5, frame 7)", "9 particles began inside",
-        "off by at most 0.244 mm"})
+        "note          a note", "off by at most 0.244 mm"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is missing in:\n" << text;
+}
+
+TEST(RunReport, BodiesThatHairDidNotMeetAreNoSuccess) {
+  SimulateOutcome far = outcome();
+  far.bodyNumbers = BodyNumbers{.nearest = 0.4};
+  const std::string text = runText(kNames, settings(), far);
+  EXPECT_NE(text.find("hair did not meet them"), std::string::npos) << text;
+  EXPECT_EQ(text.find("deepest 0 mm"), std::string::npos) << text;
+  // Near and not in it, or in it.
+  far.bodyNumbers->nearest = 0.001;
+  EXPECT_NE(runText(kNames, settings(), far).find("deepest 0 mm"), std::string::npos);
+  far.bodyNumbers = BodyNumbers{.deepest = 0.002, .nearest = 0.4};
+  EXPECT_NE(runText(kNames, settings(), far).find("deepest 2 mm"), std::string::npos);
 }
 
 TEST(MeasureReport, EveryNumberIsInItsUnit) {

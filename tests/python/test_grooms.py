@@ -130,3 +130,54 @@ def test_generators_make_what_the_program_makes(program):
 def test_a_curl_that_is_cut_too_coarsely_is_warned_of():
     assert any("particles" in sentence for sentence in ringlet.make_curl(turns=30, particles=32).warnings)
     assert ringlet.make_curl().warnings == []
+
+
+def test_read_groom_takes_the_files_unit_and_how_it_is_read(tmp_path):
+    inches = tmp_path / "inches.usda"
+    inches.write_text('#usda 1.0\n(\n metersPerUnit = 0.0254\n upAxis = "Z"\n)\ndef BasisCurves "Hair" { uniform token '
+                      'type = "linear" int[] curveVertexCounts = [2, 2] point3f[] points = '
+                      '[(0, 0, 0), (0, 1, -9), (1, 0, 0), (1, 1, -9)] }\n')
+    assert ringlet.read_groom(inches).metres_per_unit == 0.0254
+    assert ringlet.read_groom(inches, 0.5).metres_per_unit == 0.5
+    assert np.array_equal(ringlet.read_groom(inches).points[1], np.float32([0, -9, -1]))
+    assert np.array_equal(ringlet.read_groom(inches, up="Z").points[1], np.float32([0, 1, -9]))
+    points = tmp_path / "points.obj"
+    points.write_text("".join(f"v {i // 4} {-(i % 4)} 0\n" for i in range(8)))
+    with pytest.raises(ringlet.Error, match="points_per_strand"):
+        ringlet.read_groom(points)
+    with pytest.raises(ringlet.Error, match="8 points.*3 points"):
+        ringlet.read_groom(points, points_per_strand=3)
+    cut = ringlet.read_groom(points, points_per_strand=4)
+    assert cut.counts.tolist() == [4, 4] and cut.metres_per_unit == 0.01
+    turned = ringlet.read_groom(points, points_per_strand=4, root_end="last")
+    assert np.array_equal(turned.strand(1), cut.strand(1)[::-1])
+    for wrong in ({"points_per_strand": 1}, {"points_per_strand": -4}, {"root_end": "tip"}, {"up": "X"}):
+        with pytest.raises(ValueError, match=next(iter(wrong))):
+            ringlet.read_groom(points, **wrong)
+
+
+def test_read_groom_says_what_seems_wrong(tmp_path):
+    head = ringlet.make_head(strands=60)
+    strands = [head.strand(s) for s in range(60)]
+
+    def warnings(strands, **reading):
+        counts = [len(strand) for strand in strands]
+        ringlet.Groom(np.concatenate(strands).astype(np.float32), counts=counts).write(tmp_path / "a.hair")
+        return ringlet.read_groom(tmp_path / "a.hair", **reading).warnings
+
+    assert warnings(strands) == []
+    (tips,) = warnings([strand[::-1] for strand in strands])
+    assert "60 of 60" in tips and "tip to root" in tips
+    assert "tip to root" not in " ".join(warnings([strand[::-1] for strand in strands], root_end="last"))
+    (strays,) = warnings([np.append(strand, np.zeros((1, 3)), 0) for strand in strands])
+    assert "60 particles stand far off" in strays
+    (sideways,) = warnings([strand[:, [0, 2, 1]] * [1, -1, 1] for strand in strands])
+    assert "--up Z" in sideways
+
+
+def test_placement_tells_tips_from_roots():
+    head = ringlet.make_head(strands=60)
+    skin = ringlet.Body.sphere(0.09, name="skin")
+    turned = ringlet.Groom(np.concatenate([head.strand(s)[::-1] for s in range(60)]), counts=head.counts)
+    assert ringlet.check_placement(head, [skin]) == []
+    assert any("60 of 60" in doubt and "the body skin" in doubt for doubt in ringlet.check_placement(turned, [skin]))

@@ -102,6 +102,12 @@ ringlet_result tellThrown(const char* what) noexcept {
   }
 }
 
+void warnOf(const std::vector<std::string>& warnings, void (*warn)(const char* sentence, void* user),
+            void* user) {
+  for (const std::string& sentence : warnings)
+    if (warn) warn(shownText(sentence).c_str(), user);
+}
+
 Outcome checkArguments(const char* sentence, std::initializer_list<Argument> arguments) {
   for (const Argument& argument : arguments)
     if (argument.fault)

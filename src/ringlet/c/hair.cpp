@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 
-#include "ringlet/base/shown_text.h"
 #include "ringlet/bodies/mesh_grid.h"
 #include "ringlet/c/handles.h"
 #include "ringlet/c/poses.h"
@@ -166,8 +165,7 @@ Outcome buildAsset(const ComputeDevice& device, const Groom& groom, const Settin
   auto built = HairAsset::build(device, groom, material, settings, kernel,
                                 options.has_bodies ? BodyUse::some : BodyUse::none);
   if (!built) return built.error();
-  for (const std::string& warning : built->warnings())
-    if (options.warn) options.warn(shownText(warning).c_str(), options.user);
+  warnOf(built->warnings(), options.warn, options.user);
   const BuiltFor builtFor{options.has_bodies != 0, kernel.movingRoots, kernel.forces,
                           kernel.goals || settings.goal.on, kernel.fields};
   *asset = new ringlet_asset{std::move(*built), device, builtFor};

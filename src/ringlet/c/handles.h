@@ -134,6 +134,10 @@ Argument sizedOrNull(const char* name, const T* argument) {
 /// "ringlet_step_to takes hair and a pose: head is NULL" for the first that is wrong.
 Outcome checkArguments(const char* sentence, std::initializer_list<Argument> arguments);
 
+/// Tells sentences to a host, which prints them; `warn` may be null.
+void warnOf(const std::vector<std::string>& warnings, void (*warn)(const char* sentence, void* user),
+            void* user);
+
 /// A groom of the caller's.
 Outcome takeGroom(const ringlet_groom& from, Groom& made);
 /// Whether it has strands of two particles at least.

@@ -25,11 +25,6 @@ struct ShownGroom {
   ringlet_groom show() const;
 };
 
-inline void warnOf(const std::vector<std::string>& warnings, ringlet_warn warn, void* user) {
-  for (const std::string& sentence : warnings)
-    if (warn) warn(sentence.c_str(), user);
-}
-
 }  // namespace ringlet::c
 
 struct ringlet_loaded_groom {

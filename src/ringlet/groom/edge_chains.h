@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ringlet/base/result.h"
+#include "ringlet/groom/left_out.h"
 
 namespace ringlet {
 
@@ -25,10 +25,14 @@ struct EdgeChain {
   bool isOneDirection = false;  // all its edges run the same way
 };
 
-/// Joins edges that share a point, in order of their first lines; all indices must be below pointCount.
-/// Errors, naming `fileName` and the line: a point with more than two edges, a closed loop. Cost: linear in
-/// edges and points.
-Result<std::vector<EdgeChain>> joinEdges(std::span<const ListedEdge> edges, std::size_t pointCount,
-                                         const std::string& fileName);
+struct JoinedEdges {
+  std::vector<EdgeChain> chains;  // in order of their first lines
+  LeftOutStrands leftOut;         // what hangs together and is no strand: branches, closed loops
+};
+
+/// Joins edges that share a point; all indices must be below pointCount. Edges that hang together and branch,
+/// close a loop or go from a point to itself are left out, with the line of the first. Cost: linear in edges
+/// and points.
+JoinedEdges joinEdges(std::span<const ListedEdge> edges, std::size_t pointCount);
 
 }  // namespace ringlet

@@ -125,11 +125,12 @@ Result<std::vector<std::uint32_t>> readPointCounts(std::span<const std::byte> by
 
 // The points' colours as USD's displayColor, of the strands that the groom has.
 void addColours(std::span<const std::byte> bytes, const Header& header, std::span<const std::uint32_t> counts,
-                const std::string& name, LoadedGroom& loaded) {
+                const std::vector<bool>& isKept, const std::string& name, LoadedGroom& loaded) {
   GroomValue colours{"primvars:displayColor", "color3f[]", "vertex", {}, {}};
   std::size_t offset = static_cast<std::size_t>(header.coloursOffset());
-  for (const std::uint32_t count : counts) {
-    for (std::size_t k = 0; count >= 2 && k < 3 * std::size_t{count}; ++k) {
+  for (std::size_t s = 0; s < counts.size(); ++s) {
+    const std::uint32_t count = counts[s];
+    for (std::size_t k = 0; isKept[s] && k < 3 * std::size_t{count}; ++k) {
       colours.numbers.push_back(readF32(bytes, offset + 4 * k));
       if (std::isfinite(colours.numbers.back())) continue;
       loaded.warnings.push_back(fmt::format(
@@ -160,6 +161,8 @@ Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesy
   groom.firstPoint.reserve(counts->size() + 1);
   std::size_t offset = static_cast<std::size_t>(header->pointsOffset());
   std::size_t tooShort = 0;
+  LeftOutStrands leftOut;
+  std::vector<bool> isKept(counts->size(), false);
   for (std::size_t s = 0; s < counts->size(); ++s) {
     // A strand of one point has no direction: nothing to simulate.
     const std::uint32_t count = (*counts)[s];
@@ -168,21 +171,23 @@ Result<LoadedGroom> readHair(std::span<const std::byte> bytes, const std::filesy
       ++tooShort;
       continue;
     }
-    if (Status added = addStrandAt(bytes, offset, kPointSize, count, s, name, groom); !added)
-      return added.error();
+    isKept[s] = addStrandAt(bytes, offset, kPointSize, count, s, groom, leftOut);
     offset += kPointSize * std::size_t{count};
   }
+  if (groom.strandCount() == 0 && leftOut.count > 0) return Error{fmt::format("{}: {}", name, leftOut.first)};
   if (groom.strandCount() == 0) {
     return Error{
         fmt::format("{}: none of the {} strands has two points; a strand needs two", name, counts->size())};
   }
 
+  if (leftOut.count > 0) loaded.warnings.push_back(leftOut.warning(name, counts->size()));
   if (tooShort > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: left out {} of {} strands, which have one point; a strand needs two", name, tooShort,
                     counts->size()));
   }
-  if (reading.keepsPrims && header->has(kHasColours)) addColours(bytes, *header, *counts, name, loaded);
+  if (reading.keepsPrims && header->has(kHasColours))
+    addColours(bytes, *header, *counts, isKept, name, loaded);
   if (magicOf(bytes) == kLowerMagic) {
     loaded.warnings.push_back(
         fmt::format("{}: at byte 0: found '{}' for '{}'; read as the same", name, kLowerMagic, kMagic));

@@ -1,6 +1,7 @@
 // LoadedGroom: what a reader returns, the groom and what was odd about its file.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,19 @@
 
 namespace ringlet {
 
+/// Which of a strand's two ends in the file is its root.
+enum class RootEnd : std::uint8_t {
+  first,
+  last,
+  head  // the one that is nearer to the head, a ball on which most strands have an end (root_ends.h)
+};
+
 /// How a groom is wanted.
 struct GroomReading {
-  bool upIsZ = false;       // a file that states its up axis is turned to this one, Y or Z
-  bool keepsPrims = false;  // LoadedGroom::prims
+  bool upIsZ = false;                 // a file that states its up axis is turned to this one, Y or Z
+  bool keepsPrims = false;            // LoadedGroom::prims
+  std::uint32_t pointsPerStrand = 0;  // of a file that holds points only; 0: such a file is refused
+  RootEnd rootEnd = RootEnd::first;   // strands whose root is the last point are turned round
 };
 
 /// What a file says of its curves beside their points: a primvar, ids, widths. Names are USD's.

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <utility>
+#include <vector>
+
+#include "ringlet/groom/stray_points.h"
 
 namespace ringlet {
 namespace {
@@ -41,6 +45,35 @@ std::vector<Vec3f> resampled(std::span<const Vec3f> strand, std::size_t count) {
   return particles;
 }
 
+// One pass over all strands. What it takes out may make others strays, repeats or duplicates: says whether it
+// took out anything.
+bool mendOnce(MendedGroom& mended) {
+  const Groom groom = std::move(mended.groom);
+  mended.groom = {};
+  mended.groom.metresPerUnit = groom.metresPerUnit;
+  const std::vector<bool> isDuplicate = duplicatesIn(groom);
+  const std::vector<bool> isStray = strayPoints(groom, sharedPlaces(groom, isDuplicate));
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    if (isDuplicate[s]) {
+      ++mended.duplicateCount;
+      continue;
+    }
+    std::vector<Vec3f> strand;
+    for (std::uint32_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i) {
+      if (!isStray[i]) strand.push_back(groom.points[i]);
+    }
+    mended.strayCount += groom.strand(s).size() - strand.size();
+    const std::vector<Vec3f> kept = strand.empty() ? std::vector<Vec3f>{} : withoutRepeats(strand);
+    if (kept.size() < 2) {
+      ++mended.pointStrandCount;
+      continue;
+    }
+    mended.repeatedCount += strand.size() - kept.size();
+    mended.groom.addStrand(kept);
+  }
+  return mended.groom.points.size() != groom.points.size();
+}
+
 }  // namespace
 
 std::vector<bool> duplicatesIn(const Groom& groom) {
@@ -62,22 +95,15 @@ std::vector<bool> duplicatesIn(const Groom& groom) {
 
 MendedGroom mendGroom(const Groom& groom, std::size_t particleCount) {
   MendedGroom mended;
-  mended.groom.metresPerUnit = groom.metresPerUnit;
-  const std::vector<bool> isDuplicate = duplicatesIn(groom);
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    const auto strand = groom.strand(s);
-    if (isDuplicate[s]) {
-      ++mended.duplicateCount;
-      continue;
-    }
-    const std::vector<Vec3f> kept = strand.empty() ? std::vector<Vec3f>{} : withoutRepeats(strand);
-    if (kept.size() < 2) {
-      ++mended.pointStrandCount;
-      continue;
-    }
-    mended.repeatedCount += strand.size() - kept.size();
-    mended.groom.addStrand(particleCount >= 2 ? resampled(kept, particleCount) : kept);
+  mended.groom = groom;
+  while (mendOnce(mended)) {
   }
+  if (particleCount < 2) return mended;
+  const Groom whole = std::move(mended.groom);
+  mended.groom = {};
+  mended.groom.metresPerUnit = groom.metresPerUnit;
+  for (std::size_t s = 0; s < whole.strandCount(); ++s)
+    mended.groom.addStrand(resampled(whole.strand(s), particleCount));
   return mended;
 }
 

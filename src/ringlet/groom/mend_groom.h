@@ -16,11 +16,12 @@ struct MendedGroom {
   std::size_t repeatedCount = 0;     // particles in the place of the one before them, taken out
   std::size_t pointStrandCount = 0;  // strands all in one place, dropped
   std::size_t duplicateCount = 0;    // strands of the very particles of one before, dropped
+  std::size_t strayCount = 0;  // particles far off in a place of several strands, taken out (stray_points.h)
 };
 
-/// Merges, drops and, with a `particleCount` of 2 or more, lays that many particles along each strand, at
-/// equal distances along its edges, the first and the last where they were. Four a turn keep a curl. May
-/// leave no strand at all. Cost: n log n in the particles.
+/// Takes out strays, merges, drops, until there is nothing more to mend, and, with a `particleCount` of 2 or
+/// more, lays that many particles along each strand, at equal distances along its edges, the first and the
+/// last where they were. Four a turn keep a curl. May leave no strand at all. Cost: n log n in the particles.
 MendedGroom mendGroom(const Groom& groom, std::size_t particleCount = 0);
 
 /// For each strand whether one before it has the very same particles. Cost: n log n in the particles.

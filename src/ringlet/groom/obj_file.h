@@ -14,9 +14,12 @@ namespace ringlet {
 /// Reads the text of an .obj file; `path` is for messages, which name the line, what was found and what was
 /// expected. An `l` of three or more indices is a strand, root first. Lines of two indices are edges and are
 /// joined where they share a point, in whatever order they come; a strand then runs the way most of its edges
-/// do. Other keywords are ignored. Errors: a bad number or index, edges that branch or close a loop, no
-/// strand at all. Throws nothing but std::bad_alloc. Cost: one pass over the text, one over the edges.
-Result<LoadedGroom> readObj(std::span<const std::byte> text, const std::filesystem::path& path);
+/// do. Closed loops, edges that branch and strands with a point that is not finite are left out, with a
+/// warning. Other keywords are ignored. A file of points only is cut into strands of
+/// `reading.pointsPerStrand`. Errors: a bad number or index, no strand at all. Throws nothing but
+/// std::bad_alloc. Cost: one pass over the text, one over the edges.
+Result<LoadedGroom> readObj(std::span<const std::byte> text, const std::filesystem::path& path,
+                            const GroomReading& reading = {});
 
 /// Writes a groom as .obj with nine significant digits; reading it gives the same bits. Errors: see
 /// writeGroom.

@@ -32,6 +32,8 @@
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/edge_chains.h"
 #include "ringlet/groom/groom_check.h"
+#include "ringlet/groom/left_out.h"
+#include "ringlet/groom/strands_of_points.h"
 
 namespace ringlet {
 namespace {
@@ -59,6 +61,7 @@ constexpr std::array<KindName, 16> kKinds{{{"char", Kind::i8},
                                            {"double", Kind::f64},
                                            {"float64", Kind::f64}}};
 constexpr std::size_t kMostProperties = 256;  // of all elements
+constexpr float kNoPlace = std::numeric_limits<float>::quiet_NaN();
 
 std::optional<Kind> kindOf(std::string_view name) {
   const auto* found = std::ranges::find(kKinds, name, &KindName::name);
@@ -102,8 +105,11 @@ struct Element {
 
 class PlyReader {
  public:
-  PlyReader(std::span<const std::byte> bytes, const std::string& name)
-      : bytes_(bytes), text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_(name) {}
+  PlyReader(std::span<const std::byte> bytes, const std::string& name, const GroomReading& reading)
+      : bytes_(bytes),
+        text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
+        name_(name),
+        reading_(reading) {}
 
   Result<LoadedGroom> read() {
     if (Status read = readHeader(); !read) return read.error();
@@ -116,10 +122,16 @@ class PlyReader {
       return Error{fmt::format("{}: has {} points; at most 2^32 - 1 can be read", name_, points_.size())};
     if (hasStrands_) return strandsByCount();
     if (!edges_.empty()) return strandsByEdge();
-    return Error{fmt::format(
+    if (faceCount_ == 0 && reading_.pointsPerStrand > 0) {
+      if (notFinite_.count > 0) return Error{fmt::format("{}: {}", name_, notFinite_.first)};
+      return strandsOfPoints(points_, reading_.pointsPerStrand, name_);
+    }
+    const std::string found = fmt::format(
         "{}: found {} points and neither an element `strand` nor `edge`; expected one of them, which "
         "says where strands end",
-        name_, points_.size())};
+        name_, points_.size());
+    if (faceCount_ > 0) return Error{fmt::format("{}; its {} faces make it a mesh", found, faceCount_)};
+    return Error{fmt::format("{}; {}", found, kSayPointsPerStrand)};
   }
 
  private:
@@ -276,6 +288,7 @@ class PlyReader {
       found = want(&PlyReader::addStrand, {"nsegs"});
     }
     if (element.name == "edge" && !hasStrands_) found = want(&PlyReader::addEdge, {"vertex1", "vertex2"});
+    if (element.name == "face") faceCount_ = element.count;
     if (!found) return found;
 
     std::vector<double> values(element.properties.size()), chosen(wanted.size());
@@ -305,12 +318,16 @@ class PlyReader {
   Status addPoint(const Element& element, std::uint64_t index, std::span<const double> v) {
     constexpr double kMost = std::numeric_limits<float>::max();
     for (const double value : v) {
-      if (!(std::abs(value) <= kMost))
-        return wrongValue(element, index, fmt::format("({}, {}, {})", v[0], v[1], v[2]), "finite numbers");
+      if (std::abs(value) <= kMost) continue;
+      notFinite_.add(fmt::format("{} {}: found ({}, {}, {}); expected finite numbers", element.name, index,
+                                 v[0], v[1], v[2]));
+      points_.push_back({kNoPlace, kNoPlace, kNoPlace});
+      return {};
     }
     points_.push_back(Vec3f(Vec3d{v[0], v[1], v[2]}));
     return {};
   }
+  static bool isFinite(Vec3f p) { return std::isfinite(p.x); }
   Status addStrand(const Element& element, std::uint64_t index, std::span<const double> v) {
     if (!(v[0] >= 0 && v[0] < 4294967295.0) || v[0] != std::floor(v[0]))
       return wrongValue(element, index, fmt::format("nsegs {}", v[0]), "a count of edges");
@@ -336,20 +353,26 @@ class PlyReader {
           fmt::format("{}: its {} strands have {} points by their nsegs, and it has {}; expected as many",
                       name_, edgeCounts_.size(), sum, points_.size())};
     }
-    std::size_t first = 0, tooShort = 0;
+    std::size_t first = 0, tooShort = 0, bad = 0;
     for (const std::uint32_t count : edgeCounts_) {
       const auto strand = std::span<const Vec3f>(points_).subspan(first, std::size_t{count} + 1);
       first += strand.size();
       if (strand.size() < 2) {
         ++tooShort;
+      } else if (!std::ranges::all_of(strand, isFinite)) {
+        ++bad;
       } else {
         loaded.groom.addStrand(strand);
       }
     }
+    if (loaded.groom.strandCount() == 0 && bad > 0)
+      return Error{fmt::format("{}: {}", name_, notFinite_.first)};
     if (loaded.groom.strandCount() == 0) {
       return Error{fmt::format("{}: none of the {} strands has two points; a strand needs two", name_,
                                edgeCounts_.size())};
     }
+    if (bad > 0)
+      loaded.warnings.push_back(LeftOutStrands{bad, notFinite_.first}.warning(name_, edgeCounts_.size()));
     if (tooShort > 0) {
       loaded.warnings.push_back(
           fmt::format("{}: left out {} of {} strands, which have one point; a strand needs two", name_,
@@ -373,13 +396,25 @@ class PlyReader {
         isUsed[end] = true;
       }
     }
-    const auto chains = joinEdges(edges_, points_.size(), name_ + ": its edges, one a line");
-    if (!chains) return chains.error();
+    const JoinedEdges joined = joinEdges(edges_, points_.size());
+    const std::string edges = name_ + ": its edges, one a line";
     LoadedGroom loaded;
-    for (const EdgeChain& chain : *chains) {
+    std::size_t bad = 0;
+    for (const EdgeChain& chain : joined.chains) {
+      if (!std::ranges::all_of(chain.points, [&](std::uint32_t point) { return isFinite(points_[point]); })) {
+        ++bad;
+        continue;
+      }
       for (const std::uint32_t point : chain.points) loaded.groom.points.push_back(points_[point]);
       loaded.groom.firstPoint.push_back(static_cast<std::uint32_t>(loaded.groom.points.size()));
     }
+    if (loaded.groom.strandCount() == 0) {
+      return Error{bad > 0 ? fmt::format("{}: {}", name_, notFinite_.first)
+                           : fmt::format("{}: {}", edges, joined.leftOut.first)};
+    }
+    const std::size_t all = joined.chains.size() + joined.leftOut.count;
+    if (joined.leftOut.count > 0) loaded.warnings.push_back(joined.leftOut.warning(edges, all));
+    if (bad > 0) loaded.warnings.push_back(LeftOutStrands{bad, notFinite_.first}.warning(name_, all));
     if (const auto alone = std::ranges::count(isUsed, false); alone > 0) {
       loaded.warnings.push_back(
           fmt::format("{}: {} of {} points are of no strand", name_, alone, points_.size()));
@@ -390,6 +425,9 @@ class PlyReader {
   std::span<const std::byte> bytes_;
   std::string_view text_;  // the same
   const std::string& name_;
+  const GroomReading& reading_;
+  std::uint64_t faceCount_ = 0;
+  LeftOutStrands notFinite_;  // points of this kind, which are kNoPlace
   std::size_t at_ = 0, line_ = 0, propertyCount_ = 0;
   bool isText_ = true, hasStrands_ = false;
   std::vector<Element> elements_;
@@ -400,9 +438,10 @@ class PlyReader {
 
 }  // namespace
 
-Result<LoadedGroom> readPly(std::span<const std::byte> bytes, const std::filesystem::path& path) {
+Result<LoadedGroom> readPly(std::span<const std::byte> bytes, const std::filesystem::path& path,
+                            const GroomReading& reading) {
   const std::string name = path.string();
-  return PlyReader(bytes, name).read();
+  return PlyReader(bytes, name, reading).read();
 }
 
 Status writePly(const std::filesystem::path& path, const Groom& topology, std::span<const Vec3f> points) {

@@ -9,19 +9,21 @@
 
 namespace ringlet {
 
-Status addStrandAt(std::span<const std::byte> bytes, std::size_t offset, std::size_t stride,
-                   std::uint32_t count, std::size_t strand, const std::string& name, Groom& groom) {
+bool addStrandAt(std::span<const std::byte> bytes, std::size_t offset, std::size_t stride,
+                 std::uint32_t count, std::size_t strand, Groom& groom, LeftOutStrands& leftOut) {
   for (std::uint32_t i = 0; i < count; ++i, offset += stride) {
     const Vec3f p{readF32(bytes, offset), readF32(bytes, offset + 4), readF32(bytes, offset + 8)};
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-      return Error{
-          fmt::format("{}: at byte {}: found ({}, {}, {}) for strand {}, point {}; expected finite numbers",
-                      name, offset, p.x, p.y, p.z, strand, i)};
+      leftOut.add(
+          fmt::format("at byte {}: found ({}, {}, {}) for strand {}, point {}; expected finite numbers",
+                      offset, p.x, p.y, p.z, strand, i));
+      groom.points.resize(groom.firstPoint.back());
+      return false;
     }
     groom.points.push_back(p);
   }
   groom.firstPoint.push_back(static_cast<std::uint32_t>(groom.points.size()));
-  return {};
+  return true;
 }
 
 }  // namespace ringlet

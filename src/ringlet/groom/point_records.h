@@ -6,15 +6,15 @@
 #include <span>
 #include <string>
 
-#include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/left_out.h"
 
 namespace ringlet {
 
 /// Adds a strand of `count` points, the first at byte `offset`, each `stride` bytes after the one before; the
-/// caller knows them to be there. Fails, with byte, strand and point, on one that is not finite; `name` is
-/// the file's and `strand` its number there.
-Status addStrandAt(std::span<const std::byte> bytes, std::size_t offset, std::size_t stride,
-                   std::uint32_t count, std::size_t strand, const std::string& name, Groom& groom);
+/// caller knows them to be there. One with a point that is not finite is left out, with byte, strand and
+/// point; `strand` is its number in the file. Says whether it was added.
+bool addStrandAt(std::span<const std::byte> bytes, std::size_t offset, std::size_t stride,
+                 std::uint32_t count, std::size_t strand, Groom& groom, LeftOutStrands& leftOut);
 
 }  // namespace ringlet

@@ -32,6 +32,7 @@ Result<LoadedGroom> readList(std::span<const std::byte> bytes, std::size_t strid
 
   LoadedGroom loaded;
   std::size_t at = 4, none = 0;
+  LeftOutStrands leftOut;
   for (std::uint32_t s = 0; s < strandCount; ++s) {
     if (bytes.size() - at < 4) return ended(at, fmt::format("the points of strand {} of {}", s, strandCount));
     const std::uint32_t count = readU32(bytes, at);
@@ -43,15 +44,17 @@ Result<LoadedGroom> readList(std::span<const std::byte> bytes, std::size_t strid
     } else {
       if (count > std::numeric_limits<std::uint32_t>::max() - loaded.groom.points.size())
         return Error{fmt::format("{}: its strands have too many points; at most 2^32 - 1 can be read", name)};
-      if (Status added = addStrandAt(bytes, at, stride, count, s, name, loaded.groom); !added)
-        return added.error();
+      addStrandAt(bytes, at, stride, count, s, loaded.groom, leftOut);
     }
     at += stride * count;
   }
+  if (loaded.groom.strandCount() == 0 && leftOut.count > 0)
+    return Error{fmt::format("{}: {}", name, leftOut.first)};
   if (loaded.groom.strandCount() == 0) {
     return Error{
         fmt::format("{}: none of the {} strands has two points; a strand needs two", name, strandCount)};
   }
+  if (leftOut.count > 0) loaded.warnings.push_back(leftOut.warning(name, strandCount));
   if (none > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: left out {} of {} strands, which have no or one point: they stand for "

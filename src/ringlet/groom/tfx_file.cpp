@@ -103,10 +103,9 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
   groom.points.reserve(header->pointCount());
   groom.firstPoint.reserve(std::size_t{header->strandCount} + 1);
   std::size_t offset = header->positions;
+  LeftOutStrands leftOut;
   for (std::uint32_t s = 0; s < header->strandCount; ++s) {
-    if (Status added = addStrandAt(bytes, offset, kPointSize, header->pointsPerStrand, s, name, groom);
-        !added)
-      return added.error();
+    addStrandAt(bytes, offset, kPointSize, header->pointsPerStrand, s, groom, leftOut);
     offset += kPointSize * std::size_t{header->pointsPerStrand};
   }
 
@@ -115,6 +114,7 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
     groom.firstPoint.pop_back();
     groom.points.resize(groom.firstPoint.back());
   }
+  if (groom.strandCount() == 0 && leftOut.count > 0) return Error{fmt::format("{}: {}", name, leftOut.first)};
   if (groom.strandCount() == 0) {
     return Error{
         fmt::format("{}: each of the {} strands has all its points in one place; expected strands "
@@ -122,7 +122,8 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
                     name, header->strandCount)};
   }
 
-  if (const std::size_t left = header->strandCount - groom.strandCount(); left > 0) {
+  if (leftOut.count > 0) loaded.warnings.push_back(leftOut.warning(name, header->strandCount));
+  if (const std::size_t left = header->strandCount - leftOut.count - groom.strandCount(); left > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: left out the last {} of {} strands, whose points are all in one place: they fill up "
                     "the count",

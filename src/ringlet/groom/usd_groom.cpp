@@ -8,11 +8,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
 #include "ringlet/base/quoted.h"
 #include "ringlet/groom/cubic_curve.h"
+#include "ringlet/groom/strands_of_points.h"
 #include "ringlet/groom/usd_transform.h"
 
 namespace ringlet {
@@ -35,8 +38,25 @@ struct Inherited {
   std::uint32_t transform = 0;          // into the transforms
   std::uint32_t composed = kNoUsdPrim;  // the topmost that brings in others
   LeftOut leftOut = LeftOut::no;
-  bool hasStrands = false;  // curves that are read, itself or below it
+  std::uint32_t deformed = kNoUsdPrim;  // the nearest that binds to a skeleton or to blend shapes
+  std::uint32_t unplaced = kNoUsdPrim;  // the topmost whose transforms cannot be followed
+  bool hasStrands = false;              // curves that are read, itself or below it
   std::string_view purpose;
+};
+
+// How many there are of a kind, and where the first is.
+struct Found {
+  std::size_t count = 0;
+  std::uint32_t firstPrim = kNoUsdPrim;
+
+  void add(std::uint32_t prim) {
+    if (count++ == 0) firstPrim = prim;
+  }
+};
+
+// Prims of one fault, or curves.
+struct Unread : Found {
+  std::string sentence;  // of the first
 };
 
 const UsdAttribute* find(const UsdPrim& prim, std::string_view name) {
@@ -73,11 +93,7 @@ class UsdGroomMaker {
       if (!isCurves(i)) continue;
       if (Status read = readCurves(i); !read) return read.error();
     }
-    if (loaded_.groom.strandCount() == 0) {
-      return Error{fmt::format(
-          "{}: {} without a strand{}", name_, counted(curves_, "BasisCurves prim"),
-          tooShort_ > 0 ? fmt::format(": {} have too few points", counted(tooShort_, "curve")) : "")};
-    }
+    if (loaded_.groom.strandCount() == 0) return noStrand();
     warn();
     return std::move(loaded_);
   }
@@ -85,8 +101,27 @@ class UsdGroomMaker {
  private:
   bool isCurves(std::uint32_t prim) const { return layer_.prims[prim].type == "BasisCurves"; }
 
+  std::string pathOf(std::uint32_t prim) const { return usdPathOf(layer_, prim); }
   Error wrong(std::uint32_t prim, const std::string& sentence) const {
-    return Error{fmt::format("{}: {}: {}", name_, usdPathOf(layer_, prim), sentence)};
+    return Error{fmt::format("{}: {}: {}", name_, pathOf(prim), sentence)};
+  }
+  // A prim that cannot be read, with what is wrong at `prim` or above it.
+  void leaveOut(std::uint32_t prim, const std::string& sentence) {
+    ++unreadCount_;
+    auto same = std::ranges::find(unread_, sentence, &Unread::sentence);
+    if (same == unread_.end()) {
+      if (unread_.size() == kMostNamed) return;
+      same = unread_.insert(same, Unread{{}, sentence});
+    }
+    same->add(prim);
+  }
+  Error noStrand() const {
+    if (!unread_.empty()) return wrong(unread_.front().firstPrim, unread_.front().sentence);
+    if (notFinite_.count > 0) return wrong(notFinite_.firstPrim, notFinite_.sentence);
+    return Error{fmt::format("{}: {} without a strand{}", name_, counted(curves_, "BasisCurves prim"),
+                             tooShort_.count > 0
+                                 ? fmt::format(": {} have too few points", counted(tooShort_.count, "curve"))
+                                 : "")};
   }
   void warn(const std::string& sentence) {
     loaded_.warnings.push_back(fmt::format("{}: {}", name_, sentence));
@@ -126,6 +161,7 @@ class UsdGroomMaker {
       own.hasStrands = false;
       own.purpose = tokenOf(prim, "purpose", own.purpose);
       if (own.composed == kNoUsdPrim && !prim.composedBy.empty()) own.composed = i;
+      if (!prim.deformedBy.empty()) own.deformed = i;
       if (own.leftOut == LeftOut::no) own.leftOut = leftOutBy(prim);
       const LeftOut why = own.leftOut == LeftOut::no && own.purpose == "proxy" ? LeftOut::proxy : own.leftOut;
       inherited_.push_back(own);
@@ -202,8 +238,18 @@ class UsdGroomMaker {
       return wrong(own.composed, fmt::format("has {}, which bring in more than this file holds; {}",
                                              layer_.prims[own.composed].composedBy, kFlatten));
     }
+    if (prim.parent != kNoUsdPrim) own.unplaced = inherited_[prim.parent].unplaced;
+    if (own.unplaced != kNoUsdPrim) return {};
     const auto placement = usdPlacementOf(prim);
-    if (!placement) return wrong(index, placement.error().message);
+    if (!placement) {
+      own.unplaced = index;
+      unplaced_[index] = placement.error().message;
+      return {};
+    }
+    for (const std::string& op : placement->valueless) {
+      if (valueless_.count == 0) valueless_.sentence = op;
+      valueless_.add(index);
+    }
     for (const UsdAttribute& attribute : prim.attributes) noteSamples(attribute);
     own.transform = prim.parent == kNoUsdPrim || placement->isOfWorld ? 0 : inherited_[prim.parent].transform;
     if (placement->transform == UsdTransform{}) return {};
@@ -213,7 +259,7 @@ class UsdGroomMaker {
   }
 
   void noteSamples(const UsdAttribute& attribute) {
-    if (!attribute.isSampled || isUsdValue(attribute.name)) return;
+    if (!attribute.isSampled || isUsdValue(attribute.name) || attribute.emptyTime) return;
     firstTime_ = moves_ ? std::min(firstTime_, *attribute.time) : *attribute.time;
     moves_ = true;
   }
@@ -227,21 +273,21 @@ class UsdGroomMaker {
   };
 
   Result<Form> formOf(std::uint32_t index) const {
+    const auto unfit = [](const std::string& sentence) { return Error{sentence}; };
     const UsdPrim& prim = layer_.prims[index];
     for (const std::string_view name : {"type", "basis", "wrap", "points", "curveVertexCounts"}) {
       const UsdAttribute* attribute = find(prim, name);
       if (attribute && !attribute->drivenBy.empty())
-        return wrong(index,
-                     fmt::format("its {} are given by {}, which is not followed", name, attribute->drivenBy));
+        return unfit(fmt::format("its {} are given by {}, which is not followed", name, attribute->drivenBy));
     }
     const std::string_view type = tokenOf(prim, "type", "cubic"), basis = tokenOf(prim, "basis", "bezier"),
                            wrap = tokenOf(prim, "wrap", "nonperiodic");
     if (type != "cubic" && type != "linear")
-      return wrong(index, fmt::format("found type {}; expected linear or cubic", quoted(type)));
+      return unfit(fmt::format("found type {}; expected linear or cubic", quoted(type)));
     if (wrap == "periodic")
-      return wrong(index, "its curves are closed loops (wrap 'periodic'); a strand has a root and a tip");
+      return unfit("its curves are closed loops (wrap 'periodic'); a strand has a root and a tip");
     if (wrap != "nonperiodic" && wrap != "pinned")
-      return wrong(index, fmt::format("found wrap {}; expected nonperiodic or pinned", quoted(wrap)));
+      return unfit(fmt::format("found wrap {}; expected nonperiodic or pinned", quoted(wrap)));
     Form form{.isCubic = type == "cubic", .isPinned = wrap == "pinned"};
     if (!form.isCubic) return form;
     if (basis == "bspline") {
@@ -249,37 +295,65 @@ class UsdGroomMaker {
     } else if (basis == "catmullRom") {
       form.basis = CubicBasis::catmullRom;
     } else if (basis != "bezier") {
-      return wrong(index,
-                   fmt::format("found basis {}; expected bezier, bspline or catmullRom", quoted(basis)));
+      return unfit(fmt::format("found basis {}; expected bezier, bspline or catmullRom", quoted(basis)));
     }
     return form;
   }
 
-  Status readCurves(std::uint32_t index) {
-    const auto form = formOf(index);
-    if (!form) return form.error();
-    static const UsdAttribute none{};
-    const UsdAttribute* pointsFound = find(layer_.prims[index], "points");
-    const UsdAttribute* countsFound = find(layer_.prims[index], "curveVertexCounts");
-    const UsdValue &points = (pointsFound ? pointsFound : &none)->value,
-                   &counts = (countsFound ? countsFound : &none)->value;
+  // Whether points and counts are such, and fit each other.
+  static Status checkCounts(const UsdValue& points, const UsdValue& counts) {
     if (!points.numbers.empty() && points.width != 3)
-      return wrong(index, fmt::format("its points have {} numbers each; expected 3", points.width));
+      return Error{fmt::format("its points have {} numbers each; expected 3", points.width)};
     if (!counts.numbers.empty() && counts.width != 1)
-      return wrong(index, "found tuples as curveVertexCounts; expected whole numbers");
-    const std::size_t pointCount = points.numbers.size() / 3;
+      return Error{"found tuples as curveVertexCounts; expected whole numbers"};
     double sum = 0;
     for (const double count : counts.numbers) {
       if (!(count >= 0 && count <= 4294967295.0) || count != std::floor(count))
-        return wrong(index, fmt::format("found {} in curveVertexCounts; expected counts of points", count));
+        return Error{fmt::format("found {} in curveVertexCounts; expected counts of points", count)};
       sum += count;
     }
-    if (sum != static_cast<double>(pointCount)) {
-      return wrong(index,
-                   fmt::format("its curveVertexCounts add up to {}, and it has {} points; expected as many",
-                               sum, pointCount));
-    }
+    const std::size_t pointCount = points.numbers.size() / 3;
+    if (sum == static_cast<double>(pointCount)) return {};
+    return Error{fmt::format("its curveVertexCounts add up to {}, and it has {} points; expected as many{}",
+                             sum, pointCount,
+                             counts.numbers.empty() ? std::string("; ") + kSayPointsPerStrand : "")};
+  }
+  // Of a prim without, where all curves are said to have as many.
+  void addCounts(std::size_t pointCount, UsdValue& counts) const {
+    const std::size_t each = reading_.pointsPerStrand;
+    if (each == 0) return;
+    counts.numbers.assign(pointCount / each, static_cast<double>(each));
+    if (pointCount % each != 0) counts.numbers.push_back(static_cast<double>(each));
+  }
 
+  // Fails only where the groom becomes too large: what is wrong with one prim leaves it out.
+  Status readCurves(std::uint32_t index) {
+    if (const std::uint32_t above = inherited_[index].unplaced; above != kNoUsdPrim) {
+      leaveOut(above, unplaced_[above]);
+      return {};
+    }
+    const auto form = formOf(index);
+    if (!form) {
+      leaveOut(index, form.error().message);
+      return {};
+    }
+    static const UsdAttribute none{};
+    const UsdAttribute* pointsFound = find(layer_.prims[index], "points");
+    const UsdAttribute* countsFound = find(layer_.prims[index], "curveVertexCounts");
+    const UsdValue& points = (pointsFound ? pointsFound : &none)->value;
+    UsdValue counts = (countsFound ? countsFound : &none)->value;
+    if (counts.numbers.empty() && points.width == 3) addCounts(points.numbers.size() / 3, counts);
+    if (Status fits = checkCounts(points, counts); !fits) {
+      leaveOut(index, fits.error().message);
+      return {};
+    }
+    if (points.numbers.empty()) {
+      empty_.add(index);
+      return {};
+    }
+    if (pointsFound->emptyTime) begunEmpty_.add(index);
+    if (inherited_[index].deformed != kNoUsdPrim) deformed_.add(index);
+    const std::size_t pointCount = points.numbers.size() / 3;
     const std::span<const double> numbers(points.numbers);
     const auto firstStrand = static_cast<std::uint32_t>(loaded_.groom.strandCount());
     std::vector<std::size_t> kept;  // curves that are strands
@@ -352,21 +426,22 @@ class UsdGroomMaker {
     const std::size_t count = numbers.size() / 3;
     const bool isStrand = form.isCubic ? isCubicCount(form.basis, form.isPinned, count) : count >= 2;
     if (!isStrand) {
-      ++tooShort_;
+      tooShort_.add(prim);
       return {};
     }
     points_.clear();
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3d p{numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-      if (!isFloat(p)) return noPlace(prim, curve, i, p);
+      if (!isFloat(p)) {
+        noteNoPlace(prim, curve, i, p);
+        return {};
+      }
       points_.push_back(p);
     }
     if (form.isCubic) {
       particles_.clear();
       appendCubic(points_, form.basis, form.isPinned, particles_);
       std::swap(points_, particles_);
-      ++cubic_;
-      loose_ += form.basis != CubicBasis::bezier && !form.isPinned;
     }
     Groom& groom = loaded_.groom;
     if (points_.size() > std::numeric_limits<std::uint32_t>::max() - groom.points.size())
@@ -378,11 +453,15 @@ class UsdGroomMaker {
     }
     const UsdTransform& transform = transforms_[inherited_[prim].transform];
     const bool isPlaced = transform != UsdTransform{};  // else the file's own bits stay
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const Vec3d p = isPlaced ? transform(points_[i]) : points_[i];
-      if (!isFloat(p)) return noPlace(prim, curve, i, p);
-      groom.points.push_back(Vec3f(p));
+    for (std::size_t i = 0; isPlaced && i < points_.size(); ++i) {
+      points_[i] = transform(points_[i]);
+      if (isFloat(points_[i])) continue;
+      noteNoPlace(prim, curve, i, points_[i]);
+      return {};
     }
+    cubic_ += form.isCubic;
+    loose_ += form.isCubic && form.basis != CubicBasis::bezier && !form.isPinned;
+    for (const Vec3d& p : points_) groom.points.push_back(Vec3f(p));
     groom.firstPoint.push_back(static_cast<std::uint32_t>(groom.points.size()));
     return {};
   }
@@ -391,9 +470,12 @@ class UsdGroomMaker {
     constexpr double kMost = std::numeric_limits<float>::max();
     return std::abs(p.x) <= kMost && std::abs(p.y) <= kMost && std::abs(p.z) <= kMost;
   }
-  Error noPlace(std::uint32_t prim, std::size_t curve, std::size_t point, Vec3d p) const {
-    return wrong(prim, fmt::format("found ({}, {}, {}) for curve {}, point {}; expected finite numbers", p.x,
-                                   p.y, p.z, curve, point));
+  void noteNoPlace(std::uint32_t prim, std::size_t curve, std::size_t point, Vec3d p) {
+    if (notFinite_.count == 0) {
+      notFinite_.sentence = fmt::format("found ({}, {}, {}) for curve {}, point {}; expected finite numbers",
+                                        p.x, p.y, p.z, curve, point);
+    }
+    notFinite_.add(prim);
   }
 
   // --- What a person should hear.
@@ -401,10 +483,25 @@ class UsdGroomMaker {
   void warn() {
     if (const std::string leftOut = leftOutFound(); !leftOut.empty())
       warn(fmt::format("left out BasisCurves that are not drawn: {}", leftOut));
+    warnOfUnread();
+    if (deformed_.count > 0) {
+      const std::uint32_t first = deformed_.firstPrim;
+      const std::string_view by = layer_.prims[inherited_[first].deformed].deformedBy;
+      const bool isSkeleton = by.find("blendShape") == by.npos;
+      warn(fmt::format(
+          "{} bound to {} ({}), which is not followed: the strands stand {}; bake the deformation into the "
+          "points before the export",
+          deformed_.count == 1
+              ? pathOf(first) + " is"
+              : fmt::format("{} BasisCurves prims, the first {}, are", deformed_.count, pathOf(first)),
+          isSkeleton ? "a skeleton" : "blend shapes", by,
+          isSkeleton ? "in their bind pose" : "as they are without any"));
+    }
     if (guides_ && others_)
       warn("some BasisCurves have purpose 'guide' and some have not; all of them are strands of the groom");
-    if (tooShort_ > 0)
-      warn(fmt::format("left out {}, which have too few points", counted(tooShort_, "curve")));
+    if (tooShort_.count > 0)
+      warn(fmt::format("left out {}, which have too few points, the first of {}",
+                       counted(tooShort_.count, "curve"), pathOf(tooShort_.firstPrim)));
     if (cubic_ > 0) {
       warn(fmt::format("{} cubic, cut into edges that stay within a thousandth of their length",
                        cubic_ == 1 ? "1 curve is" : fmt::format("{} curves are", cubic_)));
@@ -417,6 +514,19 @@ class UsdGroomMaker {
     if (valuesLeft_ > 0)
       warn(fmt::format("left aside {} of curves, which move or do not fit the strands",
                        counted(valuesLeft_, "value")));
+    if (begunEmpty_.count > 0) {
+      const UsdAttribute& points = *find(layer_.prims[begunEmpty_.firstPrim], "points");
+      warn(fmt::format("{} without points at first, {} at time {}; read as at the first time with points, {}",
+                       begunEmpty_.count == 1 ? "1 BasisCurves prim is"
+                                              : fmt::format("{} BasisCurves prims are", begunEmpty_.count),
+                       pathOf(begunEmpty_.firstPrim), *points.emptyTime, *points.time));
+    }
+    if (valueless_.count > 0) {
+      warn(fmt::format(
+          "left aside {} without a value, which `xformOpOrder` names, as USD does; the first "
+          "is {} of {}",
+          counted(valueless_.count, "transform"), valueless_.sentence, pathOf(valueless_.firstPrim)));
+    }
     if (moves_) warn(fmt::format("it moves; read as it is at its first sample, at time {}", firstTime_));
     std::size_t elsewhere = 0;
     std::uint32_t first = kNoUsdPrim;
@@ -436,6 +546,24 @@ class UsdGroomMaker {
     }
   }
 
+  void warnOfUnread() {
+    std::size_t named = 0;
+    for (const Unread& unread : unread_) {
+      named += unread.count;
+      warn(fmt::format("left out {}, {}{}: {}", counted(unread.count, "BasisCurves prim"),
+                       unread.count > 1 ? "the first " : "", pathOf(unread.firstPrim), unread.sentence));
+    }
+    if (unreadCount_ > named)
+      warn(fmt::format("left out {} more for other faults",
+                       counted(unreadCount_ - named, "BasisCurves prim")));
+    if (empty_.count > 0)
+      warn(fmt::format("left out {} without points, {}{}", counted(empty_.count, "BasisCurves prim"),
+                       empty_.count > 1 ? "the first " : "", pathOf(empty_.firstPrim)));
+    if (notFinite_.count > 0)
+      warn(fmt::format("left out {}, the first of {}: {}", counted(notFinite_.count, "curve"),
+                       pathOf(notFinite_.firstPrim), notFinite_.sentence));
+  }
+
   const UsdLayer& layer_;
   const GroomReading& reading_;
   const std::string& name_;
@@ -445,7 +573,14 @@ class UsdGroomMaker {
   std::map<std::string_view, std::size_t> types_;
   std::array<std::size_t, kLeftOutWords.size()> leftOut_{};
   std::size_t valuesLeft_ = 0;
-  std::size_t curves_ = 0, tooShort_ = 0, cubic_ = 0, loose_ = 0;
+  std::vector<Unread> unread_;                     // prims of curves, by what is wrong with them
+  std::size_t unreadCount_ = 0;                    // of all of these
+  std::map<std::uint32_t, std::string> unplaced_;  // what is wrong with a prim's transforms
+  Found empty_, begunEmpty_, deformed_;            // prims of curves
+  Found tooShort_;                                 // curves
+  Unread notFinite_;                               // curves
+  Unread valueless_;                               // transforms, of which the sentence is the first's name
+  std::size_t curves_ = 0, cubic_ = 0, loose_ = 0;
   bool guides_ = false, others_ = false, moves_ = false;
   double firstTime_ = 0;
   std::vector<Vec3d> points_, particles_;  // of a strand

@@ -34,6 +34,7 @@ struct UsdAttribute {
   UsdValue value{};                      // the first sample's, where it has samples
   bool isSampled = false;                // and it has more than one
   std::optional<double> time{};          // of the sample
+  std::optional<double> emptyTime{};     // of a sample before it that is empty (mayBeginEmpty)
   std::vector<UsdSamplePlace> places{};  // of all samples, where these are asked for in place of the value
   std::string_view type{}, interpolation{};  // "color3f[]", "uniform"; "" for none stated
   std::string_view drivenBy{};               // "a connection" or "a spline"; empty for neither
@@ -47,6 +48,7 @@ struct UsdPrim {
   UsdSpecifier specifier = UsdSpecifier::def;
   bool isActive = true;
   std::string_view composedBy;           // the first field that brings in other prims: "references" ...
+  std::string_view deformedBy{};         // the first property that isUsdDeformation() names
   std::vector<UsdAttribute> attributes;  // those that isKeptUsdAttribute() names
 };
 
@@ -73,6 +75,16 @@ inline bool isKeptUsdAttribute(std::string_view primType, std::string_view name,
   return primType == "BasisCurves" && (name == "points" || name == "curveVertexCounts" || name == "type" ||
                                        name == "basis" || name == "wrap");
 }
+
+/// Whether what a prim has under this name binds it, or what is below it, to a skeleton or to blend shapes.
+inline bool isUsdDeformation(std::string_view name) {
+  return name == "skel:skeleton" || name == "primvars:skel:jointIndices" ||
+         name == "primvars:skel:jointWeights" || name == "skel:blendShapes" ||
+         name == "skel:blendShapeTargets";
+}
+
+/// Whether its first samples count for nothing as long as they are empty: hair that is not there yet.
+inline bool mayBeginEmpty(std::string_view name) { return name == "points" || name == "curveVertexCounts"; }
 
 /// "/Head/Hair"; control characters are shown as \xNN.
 std::string usdPathOf(const UsdLayer& layer, std::uint32_t prim);

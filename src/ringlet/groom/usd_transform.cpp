@@ -96,11 +96,13 @@ Result<UsdTransform> transformOf(std::string_view kind, const std::vector<double
   return UsdTransform{{Vec3d{v.x, 0, 0}, Vec3d{0, v.y, 0}, Vec3d{0, 0, v.z}}, {}};
 }
 
-// An entry of the order.
-Result<UsdTransform> opOf(const UsdPrim& prim, std::string_view entry) {
+// An entry of the order; nothing where it has no value.
+Result<std::optional<UsdTransform>> opOf(const UsdPrim& prim, std::string_view entry) {
   const std::string shown = quoted(entry);
   const bool isInverse = entry.starts_with(kInvert);
   const std::string_view name = entry.substr(isInverse ? kInvert.size() : 0);
+  const auto found = std::ranges::find(prim.attributes, name, &UsdAttribute::name);
+  if (found == prim.attributes.end()) return std::optional<UsdTransform>();
   std::string_view kind = name.substr(std::min(name.starts_with(kPrefix) ? kPrefix.size() : 0, name.size()));
   kind = kind.substr(0, kind.find(':'));
   const std::size_t width = name.starts_with(kPrefix) ? widthOf(kind) : 0;
@@ -110,14 +112,12 @@ Result<UsdTransform> opOf(const UsdPrim& prim, std::string_view entry) {
                     "or transform after 'xformOp:'",
                     shown)};
   }
-  const auto found = std::ranges::find(prim.attributes, name, &UsdAttribute::name);
-  if (found == prim.attributes.end()) return Error{fmt::format("{} has no attribute of this name", shown)};
   if (!found->drivenBy.empty()) {
     return Error{
         fmt::format("{} is given by {}, which is not followed; expected numbers", shown, found->drivenBy)};
   }
   const std::vector<double>& numbers = found->value.numbers;
-  if (numbers.empty()) return UsdTransform{};  // no value: it changes nothing
+  if (numbers.empty()) return std::optional<UsdTransform>();
   if (numbers.size() != width)
     return Error{fmt::format("{} has {} numbers; expected {}", shown, numbers.size(), width)};
   for (double number : numbers) {
@@ -126,10 +126,10 @@ Result<UsdTransform> opOf(const UsdPrim& prim, std::string_view entry) {
   }
   auto transform = transformOf(kind, numbers);
   if (!transform) return Error{fmt::format("{}: {}", shown, transform.error().message)};
-  if (!isInverse) return transform;
+  if (!isInverse) return std::optional(*transform);
   const auto inverse = inverseOf(*transform);
   if (!inverse) return Error{fmt::format("{} has no inverse", shown)};
-  return *inverse;
+  return inverse;
 }
 
 }  // namespace
@@ -152,7 +152,11 @@ Result<UsdPlacement> usdPlacementOf(const UsdPrim& prim) {
     }
     const auto op = opOf(prim, entry);
     if (!op) return op.error();
-    placement.transform = op->then(placement.transform);
+    if (!*op) {
+      placement.valueless.push_back(quoted(entry));
+    } else {
+      placement.transform = (*op)->then(placement.transform);
+    }
   }
   return placement;
 }

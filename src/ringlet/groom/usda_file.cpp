@@ -262,24 +262,34 @@ class UsdaReader {
     return {};
   }
 
-  // { 1: value, 2: value }: the earliest is kept.
+  // { 1: value, 2: value }: the earliest is kept, of what may begin empty the earliest that is not.
   Status readSamples(UsdAttribute& attribute) {
     if (!accept('{')) return wanted("'{'");
+    const bool mayBeEmpty = mayBeginEmpty(attribute.name);
+    const auto isEmpty = [](const UsdValue& value) { return value.numbers.empty() && value.texts.empty(); };
     std::size_t count = 0;
     while (!accept('}')) {
       auto time = takeNumber();
       if (!time) return time.error();
       if (!std::isfinite(*time)) return wanted("a finite time");
       if (!accept(':')) return wanted("':'");
-      if (++count == 1 || *time < *attribute.time) {
-        attribute.time = *time;
-        if (Status read = readValue(attribute.value); !read) return read;
+      const bool isFirst = ++count == 1, keptIsEmpty = mayBeEmpty && isEmpty(attribute.value);
+      if (isFirst || *time < *attribute.time || keptIsEmpty) {
+        UsdValue value;
+        if (Status read = readValue(value); !read) return read;
+        const bool isNothing = mayBeEmpty && isEmpty(value);
+        if (isNothing) attribute.emptyTime = std::min(*time, attribute.emptyTime.value_or(*time));
+        if (isFirst || (isNothing == keptIsEmpty ? *time < *attribute.time : keptIsEmpty)) {
+          attribute.time = *time;
+          attribute.value = std::move(value);
+        }
       } else if (auto skipped = skipValue(); !skipped) {
         return skipped.error();
       }
       if (!accept(',') && peek() != '}') return wanted("',' or '}'");
     }
     attribute.isSampled = count > 1;
+    if (attribute.emptyTime && *attribute.emptyTime >= *attribute.time) attribute.emptyTime.reset();
     return {};
   }
 
@@ -439,7 +449,9 @@ class UsdaReader {
   Status readProperty(UsdPrim& prim) {
     constexpr std::array<std::string_view, 4> kQualities{"custom", "uniform", "varying", "config"};
     std::string_view type = takeName();
-    while (holds(kListEdits, type) || holds(kQualities, type)) type = takeName();
+    bool takesAway = false;  // "delete rel x"
+    for (; holds(kListEdits, type) || holds(kQualities, type); type = takeName())
+      takesAway |= type == "delete" || type == "reorder";
     if (type.empty()) return wanted("a property, a prim or '}'");
     const std::size_t typeAt = at_ - type.size();
     if (accept('[')) {
@@ -458,7 +470,10 @@ class UsdaReader {
       attribute->type = type;
     }
     if (accept('=')) {
-      if (Status read = readPropertyValue(attribute, part); !read) return read;
+      const auto isFilled = readPropertyValue(attribute, part);
+      if (!isFilled) return isFilled.error();
+      if (*isFilled && !takesAway && isUsdDeformation(name) && prim.deformedBy.empty())
+        prim.deformedBy = name;
     }
     if (peek() != '(') return {};
     if (attribute && isUsdValue(name)) return readInterpolation(*attribute);
@@ -479,16 +494,25 @@ class UsdaReader {
     });
   }
 
-  // Samples count more than the default, whichever stands first.
-  Status readPropertyValue(UsdAttribute* attribute, std::string_view part) {
-    if (attribute && part == "timeSamples") return readSamples(*attribute);
-    if (attribute && (part.empty() || part == "default") && !attribute->time)
-      return readValue(attribute->value);
+  // Samples count more than the default, whichever stands first. Says whether it holds something.
+  Result<bool> readPropertyValue(UsdAttribute* attribute, std::string_view part) {
+    Status read;
+    if (attribute && part == "timeSamples") {
+      read = readSamples(*attribute);
+    } else if (attribute && (part.empty() || part == "default") && !attribute->time) {
+      read = readValue(attribute->value);
+    } else {
+      return skipPropertyValue(attribute, part);
+    }
+    if (!read) return read.error();
+    return !attribute->value.numbers.empty() || !attribute->value.texts.empty();
+  }
+  Result<bool> skipPropertyValue(UsdAttribute* attribute, std::string_view part) {
     const auto isFilled = skipValue();
-    if (!isFilled) return isFilled.error();
+    if (!isFilled) return isFilled;
     if (attribute && *isFilled && part == "connect") attribute->drivenBy = "a connection";
     if (attribute && *isFilled && part == "spline") attribute->drivenBy = "a spline";
-    return {};
+    return isFilled;
   }
 
   Result<UsdAttribute*> attributeOf(UsdPrim& prim, std::string_view name) {

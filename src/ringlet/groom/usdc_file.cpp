@@ -35,6 +35,7 @@ enum class Field : std::uint8_t {
   standard,
   samples,
   connection,
+  targets,
   spline,
   interpolation,
   composing
@@ -50,6 +51,7 @@ constexpr std::pair<std::string_view, Field> kFields[] = {{"specifier", Field::s
                                                           {"interpolation", Field::interpolation},
                                                           {"timeSamples", Field::samples},
                                                           {"connectionPaths", Field::connection},
+                                                          {"targetPaths", Field::targets},
                                                           {"spline", Field::spline},
                                                           {"subLayers", Field::composing},
                                                           {"layerRelocates", Field::composing},
@@ -209,6 +211,11 @@ class CrateReader {
       for (auto child = std::ranges::lower_bound(children_, std::tuple(path, true, 0u), {}, &Child::key);
            child != children_.end() && child->parent == path && child->isProperty; ++child) {
         const std::string_view name = crate_.tokens()[child->token];
+        if (!isCounts && isUsdDeformation(name) && prim.deformedBy.empty()) {
+          const auto isFilled = holdsSomething(child->path);
+          if (!isFilled) return isFilled.error();
+          if (*isFilled) prim.deformedBy = name;
+        }
         if (!isKept(prim, name) || isCounts != (name == "curveVertexCounts")) continue;
         if (crate_.paths()[child->path].spec != static_cast<std::uint8_t>(SpecType::attribute)) continue;
         if (prim.attributes.size() == kMostUsdAttributes)
@@ -248,6 +255,19 @@ class CrateReader {
       }
       return {};
     });
+  }
+
+  // Of a relationship or an attribute of any type, whose values are not looked at.
+  Result<bool> holdsSomething(std::uint32_t path) const {
+    bool isFilled = false;
+    Status read = crate_.forEachField(path, [&](const NamedField& field) -> Status {
+      const Field meaning = meaningOf(field);
+      if (meaning == Field::targets || meaning == Field::standard || meaning == Field::samples)
+        isFilled |= values_.isFilled(field.rep);
+      return {};
+    });
+    if (!read) return read.error();
+    return isFilled;
   }
 
   bool isKept(const UsdPrim& prim, std::string_view name) const {

@@ -204,24 +204,33 @@ Status CrateValues::readSamples(Rep rep, std::uint64_t mostElements, bool keepsP
   const auto timeAt = [&](std::uint64_t i) {
     return readF64(crate_.bytes(), timesRep.payload() + 8 + 8 * i);
   };
-  const double time = timeAt(0);
-  if (!std::isfinite(time) || (count > 1 && !(timeAt(1) > time)))
+  if (!std::isfinite(timeAt(0)) || (count > 1 && !(timeAt(1) > timeAt(0))))
     return crate_.wrong(timesRep.payload(), "times that do not rise", "finite ones, in order");
 
   const auto values = placeAfter(*times + 8);
   if (!values) return values.error();
   if (readU64(crate_.bytes(), *values) != count || !crate_.has(*values, 8 + 8 * count))
     return crate_.ended(*values, fmt::format("{} samples", count));
-  attribute.time = time;
+  attribute.time = timeAt(0);
   attribute.isSampled = count > 1;
   if (keepsPlaces) {
     for (std::uint64_t i = 0; i < count; ++i)
       attribute.places.push_back({timeAt(i), readU64(crate_.bytes(), *values + 8 + 8 * i)});
     return {};
   }
-  auto value = valueOf({readU64(crate_.bytes(), *values + 8)}, mostElements);
-  if (!value) return value.error();
-  attribute.value = std::move(*value);
+  // Of what may begin empty the first that is not, else the first.
+  for (std::uint64_t i = 0; i < count; ++i) {
+    auto value = valueOf({readU64(crate_.bytes(), *values + 8 + 8 * i)}, mostElements);
+    if (!value) return value.error();
+    const bool isEmpty = value->numbers.empty() && value->texts.empty();
+    if (i > 0 && isEmpty) continue;
+    if (i > 0 && !(std::isfinite(timeAt(i)) && timeAt(i) > timeAt(0)))
+      return crate_.wrong(timesRep.payload(), "times that do not rise", "finite ones, in order");
+    if (i > 0) attribute.emptyTime = timeAt(0);
+    attribute.time = timeAt(i);
+    attribute.value = std::move(*value);
+    if (!isEmpty || !mayBeginEmpty(attribute.name)) break;
+  }
   return {};
 }
 

@@ -1,6 +1,8 @@
 // Implements measure/body_watch.h.
 #include "ringlet/measure/body_watch.h"
 
+#include <algorithm>
+
 #include "ringlet/base/assert.h"
 #include "ringlet/bodies/body_distance.h"
 
@@ -53,6 +55,8 @@ void BodyWatch::look(std::span<const Vec3f> positions, const HeadPose& head,
         }
         const double distance = distanceTo(bodies_[b], poses[b], head.position + place);
         clearance = {place, distance / kSteepest};
+        // Those within the clearance are not looked at.
+        numbers_.nearest = std::min(numbers_.nearest, distance - std::max(0., clearance.radius));
         if (distance >= 0) seen = kOutside;
         if (seen == kInside && distance >= -kOnSurface) seen = kOnIt;
         if (seen != kOutside || !(-distance > numbers_.deepest)) continue;

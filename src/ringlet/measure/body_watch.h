@@ -18,6 +18,7 @@ struct BodyNumbers {
   std::int64_t strand = -1, particle = -1;  // which it was, groom order; or -1
   std::int64_t frame = -1;                  // the look it was seen at, from 0
   std::size_t inside = 0;  // particles, times bodies, that have not yet been outside or on the surface
+  double nearest = 1e300;  // from a body; half of what it is at least, as what is far is hardly looked at [m]
 };
 
 class BodyWatch {

@@ -7,6 +7,8 @@
 
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/mend_groom.h"
+#include "ringlet/groom/root_ends.h"
+#include "ringlet/groom/stray_points.h"
 
 namespace ringlet {
 namespace {
@@ -50,6 +52,13 @@ std::vector<LikelyUnit> likelyUnits(double meanLength) {
   return likely;
 }
 
+char likelyUpOf(const Groom& groom) {
+  Vec3d way;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    way += Vec3d(groom.strand(s).back()) - Vec3d(groom.strand(s).front());
+  return upOf(way);
+}
+
 GroomInspection inspectGroom(const Groom& groom) {
   GroomInspection found;
   found.strandCount = groom.strandCount();
@@ -59,7 +68,6 @@ GroomInspection inspectGroom(const Groom& groom) {
 
   std::vector<double> counts, lengths, shares, turns, radii;
   std::vector<Vec3d> centres;
-  Vec3d way;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     std::vector<Vec3d> strand;
     Vec3d sum;
@@ -81,14 +89,15 @@ GroomInspection inspectGroom(const Groom& groom) {
     counts.push_back(static_cast<double>(strand.size()));
     lengths.push_back(whole);
     centres.push_back(sum / static_cast<double>(strand.size()));
-    way += strand.back() - strand.front();
     if (!(whole > 0)) {
       found.pointStrands.add(s);
       continue;
     }
     if (chord > kNoEdgeShare * whole) shares.push_back(whole / chord);
-    std::size_t none = 0, few = 0;
+    std::size_t none = 0, few = 0, many = 0;
+    const double longest = kLongEdge * medianEdge(groom.strand(s));
     for (const double edge : edges) {
+      many += edge > longest;
       if (edge <= kNoEdgeShare * whole) {
         ++none;
       } else if (edge < kShortEdgeShare * whole / static_cast<double>(edges.size())) {
@@ -97,6 +106,7 @@ GroomInspection inspectGroom(const Groom& groom) {
     }
     found.repeatedParticles.add(s, none);
     found.shortEdges.add(s, few);
+    found.longEdges.add(s, many);
     const CurlShape shape = measureCurl(strand);
     if (shape.turns > 0) {
       ++found.curledCount;
@@ -110,7 +120,7 @@ GroomInspection inspectGroom(const Groom& groom) {
   found.arcOverChord = middleOf(shares);
   found.turns = middleOf(turns);
   found.radius = middleOf(radii);
-  found.likelyUp = upOf(way);
+  found.likelyUp = likelyUpOf(groom);
   found.units = likelyUnits(found.length.mean);
 
   // Strays, against the middle of all strands.
@@ -130,9 +140,18 @@ GroomInspection inspectGroom(const Groom& groom) {
     if (lengths[s] > kStrayLength * found.length.median && found.length.median > 0) found.tooLong.add(s);
     if (distances[s] > kStrayDistance * near) found.farAway.add(s);
   }
-  const std::vector<bool> isDuplicate = duplicatesIn(groom);
+  const std::vector<bool> isDuplicate = duplicatesIn(groom), isReversed = findRootEnds(groom).isReversed;
+  const std::vector<bool> isShared = sharedPlaces(groom, isDuplicate), isStray = strayPoints(groom, isShared);
   for (std::size_t s = 0; s < isDuplicate.size(); ++s) {
     if (isDuplicate[s]) found.duplicates.add(s);
+    if (isReversed[s]) found.reversedStrands.add(s);
+    for (std::size_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i) {
+      if (isStray[i]) {
+        found.strayParticles.add(s);
+      } else if (isShared[i]) {
+        found.sharedParticles.add(s);
+      }
+    }
   }
   return found;
 }

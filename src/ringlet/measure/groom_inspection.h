@@ -29,6 +29,8 @@ inline constexpr double kShortestHair = 0.03, kLongestHair = 1;
 inline constexpr double kStrayLength = 20, kStrayDistance = 6;
 /// An edge shorter than this share of its strand's mean edge is mentioned.
 inline constexpr double kShortEdgeShare = 1e-3;
+/// And one that is longer than its strand's median by this factor.
+inline constexpr double kLongEdge = 6;
 
 /// What is wrong with a groom: how much of it, and one strand as an example.
 struct GroomFault {
@@ -52,13 +54,18 @@ struct GroomInspection {
   char likelyUp = 0;                      // 'Y' or 'Z', against which most strands hang; 0 where they do not
   GroomFault repeatedParticles;           // in the place of the one before
   GroomFault shortEdges;                  // those above not counted
+  GroomFault longEdges;                   // than the strand's median
+  GroomFault strayParticles;              // far off, where those of other strands are too (stray_points.h)
+  GroomFault sharedParticles;             // others in the very place of another strand's
+  GroomFault reversedStrands;             // that end on the head where others begin (root_ends.h)
   GroomFault pointStrands;                // all in one place
   GroomFault duplicates;                  // strands of the very particles of one before
   GroomFault tooShort, tooLong, farAway;  // strays
 
   bool isFaultless() const {
     for (const GroomFault* fault :
-         {&repeatedParticles, &shortEdges, &pointStrands, &duplicates, &tooShort, &tooLong, &farAway}) {
+         {&repeatedParticles, &shortEdges, &longEdges, &strayParticles, &sharedParticles, &reversedStrands,
+          &pointStrands, &duplicates, &tooShort, &tooLong, &farAway}) {
       if (fault->count > 0) return false;
     }
     return true;
@@ -69,6 +76,9 @@ struct GroomInspection {
 std::vector<LikelyUnit> likelyUnits(double meanLength);
 
 /// Of a groom as readers return it: two finite particles and more a strand. Cost: n log n.
+/// The axis against which the strands hang, all together: 'Y' or 'Z', 0 where they hang along neither.
+char likelyUpOf(const Groom& groom);
+
 GroomInspection inspectGroom(const Groom& groom);
 
 }  // namespace ringlet

@@ -3,16 +3,30 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace ringlet {
+
+namespace {
+
+constexpr double kClearShare = 0.8, kNear = 0.2;
+
+bool isAwayFrom(double value, double bound) { return std::abs(value - bound) > kNear * bound; }
+
+}  // namespace
 
 MaterialSuggestion suggestMaterial(const GroomInspection& groom, double metresPerUnit) {
   const double arcOverChord = groom.arcOverChord.median;
+  const double curled = static_cast<double>(groom.curledCount) /
+                        static_cast<double>(std::max<std::size_t>(1, groom.strandCount));
   if (2 * groom.curledCount < groom.strandCount) {
     return {
         arcOverChord > kWavyArcOverChord ? "wavy" : "straight",
         fmt::format("{} of {} strands are curled, and strands are {:.2f} times as long as the way from root "
                     "to tip",
-                    groom.curledCount, groom.strandCount, arcOverChord)};
+                    groom.curledCount, groom.strandCount, arcOverChord),
+        curled <= 1 - kClearShare && isAwayFrom(arcOverChord - 1, kWavyArcOverChord - 1)};
   }
   const double width = 2 * groom.radius.median * metresPerUnit;
   const char* preset = width < kCoilWidth || arcOverChord > kCoilArcOverChord ? "coil"
@@ -21,7 +35,9 @@ MaterialSuggestion suggestMaterial(const GroomInspection& groom, double metresPe
   return {preset,
           fmt::format("{} of {} strands are curled, with {:.1f} turns {:.1f} mm wide, and are {:.1f} "
                       "times as long as the way from root to tip",
-                      groom.curledCount, groom.strandCount, groom.turns.median, 1000 * width, arcOverChord)};
+                      groom.curledCount, groom.strandCount, groom.turns.median, 1000 * width, arcOverChord),
+          curled >= kClearShare && isAwayFrom(width, kCoilWidth) && isAwayFrom(width, kLooseCurlWidth) &&
+              isAwayFrom(arcOverChord, kCoilArcOverChord)};
 }
 
 }  // namespace ringlet

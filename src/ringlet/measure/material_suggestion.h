@@ -8,8 +8,10 @@
 namespace ringlet {
 
 struct MaterialSuggestion {
-  std::string preset;  // one of presetNames()
-  std::string reason;  // what was found, half a sentence: "98 of 98 strands are curled, 24 turns, ..."
+  std::string preset;    // one of presetNames()
+  std::string reason;    // what was found, half a sentence: "98 of 98 strands are curled, 24 turns, ..."
+  bool isClear = false;  // no other preset is near: four of five strands are of the kind, and no width or
+                         // length is within a fifth of what tells it from another
 };
 
 /// Widths of curls that tell the presets apart, of the median strand: as wide as a stick of chalk or more is

@@ -17,10 +17,13 @@ namespace {
 
 constexpr double kSmallBody = 0.05, kLargeBody = 20;  // as shares of the groom's size
 constexpr double kDeepRoots = 0.25;                   // of the body's size
+constexpr double kOnShare = 0.2,
+                 kClearShare = 0.1;    // of a strand's length: an end on a body; one that is further
+constexpr double kLeastClear = 0.005;  // at least [m]
 
 // The groom as it stands in the world.
 struct Stand {
-  std::vector<Vec3d> roots;
+  std::vector<Vec3d> roots, tips;
   double meanLength = 0, size = 0;  // of strands; across all particles [m]
 };
 
@@ -35,13 +38,13 @@ Stand standOf(const Groom& groom, const HeadPose& head) {
   }
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const auto strand = groom.strand(s);
-    for (std::size_t i = 1; i < strand.size(); ++i)
-      stand.meanLength += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
-    const Vec3d root = static_cast<Vec3d>(strand.front()) * groom.metresPerUnit;
-    stand.roots.push_back(head.position + rotate(head.rotation, root));
+    const auto placed = [&](Vec3f end) {
+      return head.position + rotate(head.rotation, Vec3d(end) * groom.metresPerUnit);
+    };
+    stand.roots.push_back(placed(strand.front()));
+    stand.tips.push_back(placed(strand.back()));
   }
-  stand.meanLength *=
-      groom.metresPerUnit / static_cast<double>(std::max<std::size_t>(1, groom.strandCount()));
+  stand.meanLength = meanLength(groom);
   stand.size = length(high - low) * groom.metresPerUnit;
   return stand;
 }
@@ -93,7 +96,64 @@ std::optional<std::string> doubtOfBody(const Body& body, const Stand& stand, con
   return std::nullopt;
 }
 
+// Of bodies that the head carries; nothing where it carries none.
+std::optional<std::string> doubtOfRootEnds(const Groom& groom, std::span<const Body> bodies,
+                                           const Stand& stand, const HeadPose& head) {
+  std::vector<EndDistances> ends(stand.roots.size(), {HUGE_VAL, HUGE_VAL});
+  std::string names;
+  for (const Body& body : bodies) {
+    if (body.motion || sizeOf(body) == 0) continue;
+    names += (names.empty() ? "" : ", ") + body.name;
+    const BodyPose pose = body.poseAt(0, head);
+    for (std::size_t s = 0; s < ends.size(); ++s) {
+      ends[s].first = std::min(ends[s].first, std::abs(distanceTo(body, pose, stand.roots[s])));
+      ends[s].last = std::min(ends[s].last, std::abs(distanceTo(body, pose, stand.tips[s])));
+    }
+  }
+  if (names.empty()) return std::nullopt;
+  auto doubt = checkRootEnds(ends, stand.meanLength, "the body " + names);
+  if (!doubt) return std::nullopt;
+  // Hair that lies on shoulders ends there, and begins on a head that may be no body.
+  const RootEnds byHead = findRootEnds(groom);
+  if (byHead.head && std::ranges::count(byHead.isReversed, true) == 0) return std::nullopt;
+  return doubt;
+}
+
 }  // namespace
+
+double meanLength(const Groom& groom) {
+  double sum = 0;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const auto strand = groom.strand(s);
+    for (std::size_t i = 1; i < strand.size(); ++i)
+      sum += length(static_cast<Vec3d>(strand[i] - strand[i - 1]));
+  }
+  return sum * groom.metresPerUnit / static_cast<double>(std::max<std::size_t>(1, groom.strandCount()));
+}
+
+std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, double meanLength,
+                                         const std::string& what) {
+  const double clear = std::max(kLeastClear, kClearShare * meanLength);
+  const std::vector<bool> isReversed = reversedBy(ends, std::max(kLeastClear, kOnShare * meanLength), clear);
+  const auto count = std::ranges::count(isReversed, true);
+  if (count == 0) return std::nullopt;
+  const auto first = std::ranges::find(isReversed, true) - isReversed.begin();
+  const bool isMost = 2 * static_cast<std::size_t>(count) > ends.size();
+  return fmt::format(
+      "{} of {} strands have their last point on {} and their first away from it (the first is strand {}): "
+      "they "
+      "seem to run from tip to root; root_end = \"{}\" of [groom] (--root-end {}) turns {} round, and so "
+      "does "
+      "`ringlet info --fix` with it",
+      count, ends.size(), what, first, isMost ? "last" : "head", isMost ? "last" : "head",
+      isMost ? "all" : "those that end on the head");
+}
+
+std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Body> bodies,
+                                         const HeadPose& head) {
+  const Stand stand = standOf(groom, head);
+  return stand.roots.empty() ? std::nullopt : doubtOfRootEnds(groom, bodies, stand, head);
+}
 
 std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body> bodies,
                                         const HeadPose& head) {

@@ -2,11 +2,13 @@
 // place otherwise shows as hair that behaves oddly.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/root_ends.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/scene/head_pose.h"
 
@@ -20,5 +22,17 @@ inline constexpr double kLeastMeanLength = 0.01, kMostMeanLength = 2;
 /// look at each particle, and at each root and body.
 std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body> bodies,
                                         const HeadPose& head);
+
+/// Of a groom's strands [m].
+double meanLength(const Groom& groom);
+
+/// A sentence about strands that run from tip to root, by the bodies that the head carries.
+std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Body> bodies,
+                                         const HeadPose& head);
+
+/// A sentence where strands end on what the others begin on, `what`, and begin off it: from how far both ends
+/// of each are from it [m]. `meanLength`: of the strands [m].
+std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, double meanLength,
+                                         const std::string& what);
 
 }  // namespace ringlet

@@ -219,6 +219,10 @@ std::string materialTableText(const Material& material, const MaterialDials& dia
 Result<LoadedMaterial> parseMaterial(std::string_view text, const std::string& name) {
   const auto file = parseToml(text, name, kWhat);
   if (!file) return file.error();
+  if (file->get("groom") || file->get("material")) {
+    return Error{fmt::format(
+        "{}: is a scene and no material file; what stands below its [material] can be one", name)};
+  }
   LoadedMaterial loaded;
   TomlProblems problems;
   readMaterialTable(*file, "", loaded, problems);

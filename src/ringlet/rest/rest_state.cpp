@@ -431,7 +431,8 @@ Result<RestState> buildRestState(const Groom& groom, const Material& material, c
   state.warnings = extremes.warnings(state.strands.size(), material, settings);
   state.materialWarningCount = state.warnings.size();
   for (const auto& warnings :
-       {roundingWarnings(survey->sizes, survey->tooFine), tooFineWarnings(survey->sizes, survey->tooFine),
+       {repeatWarnings(survey->sizes), roundingWarnings(survey->sizes, survey->tooFine),
+        tooFineWarnings(survey->sizes, survey->tooFine),
         tooQuickWarnings(survey->sizes, survey->tooQuick, survey->longestSteps, settings)})
     state.warnings.insert(state.warnings.end(), warnings.begin(), warnings.end());
   return state;

@@ -1,5 +1,6 @@
 // Implements rest/rigid_strands.h.
 #include "ringlet/rest/rigid_strands.h"
+#include "ringlet/groom/mend_groom.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@
 #include <cmath>
 
 #include "layout/strands.h"
+#include "ringlet/groom/mend_groom.h"
 #include "ringlet/rest/strand_constants.h"
 
 namespace ringlet {
@@ -58,6 +60,10 @@ StrandSize sizeOfStrand(std::span<const Vec3f> points) {
     const double edge = length(static_cast<Vec3d>(points[i]) - static_cast<Vec3d>(points[i - 1]));
     size.length += edge;
     shortest = std::min(shortest, edge);
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double edge = length(static_cast<Vec3d>(points[i]) - static_cast<Vec3d>(points[i - 1]));
+    size.repeatedCount += edge <= kNoEdgeShare * size.length ? 1 : 0;
   }
   size.meanEdge = size.length / static_cast<double>(std::max<std::size_t>(2, points.size()) - 1);
   size.shortestEdge = std::max(shortest, kShortestEdge * size.meanEdge);
@@ -128,6 +134,19 @@ std::vector<std::string> tooQuickWarnings(std::span<const StrandSize> sizes,
       sizes[worst].length, needed, mayBeTaken ? "; with so many all of them move" : "")};
 }
 
+std::vector<std::string> repeatWarnings(std::span<const StrandSize> sizes) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t s = 0; s < sizes.size(); ++s) {
+    if (count == 0) first = s;
+    if (sizes[s].length > 0) count += sizes[s].repeatedCount;
+  }
+  if (count == 0) return {};
+  return {
+      fmt::format("{} repeated particle{}, the first in strand {}: `ringlet info FILE --fix OUT` leaves "
+                  "them out",
+                  count, count == 1 ? "" : "s", first)};
+}
+
 std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,
                                           std::span<const std::uint32_t> tooFine) {
   const double away = medianOf(sizes, &StrandSize::distance), edge = medianOf(sizes, &StrandSize::meanEdge);
@@ -142,7 +161,8 @@ std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,
   double most = kNotableRounding;
   for (std::uint32_t s = 0; s < sizes.size(); ++s) {
     const double share = edgeRounding(sizes[s].distance) / sizes[s].shortestEdge;
-    if (!(share > kNotableRounding) || std::ranges::binary_search(tooFine, s)) continue;
+    if (!(share > kNotableRounding) || sizes[s].repeatedCount > 0) continue;
+    if (std::ranges::binary_search(tooFine, s)) continue;
     ++count;
     if (share > most) most = share, worst = s;
   }

@@ -27,6 +27,7 @@ struct StrandSize {
   double length = 0;
   double meanEdge = 0, shortestEdge = 0;  // the shortest as the stretch limit takes it (kShortestEdge)
   double distance = 0;                    // of its furthest particle from the origin
+  std::size_t repeatedCount = 0;          // particles in the place of the one before (kNoEdgeShare)
 };
 StrandSize sizeOfStrand(std::span<const Vec3f> points);
 
@@ -55,6 +56,8 @@ std::vector<std::string> tooFineWarnings(std::span<const StrandSize> sizes,
 std::vector<std::string> tooQuickWarnings(std::span<const StrandSize> sizes,
                                           std::span<const std::uint32_t> tooQuick,
                                           std::span<const double> longestSteps, const Settings& settings);
+/// The warning about particles in the place of the one before, of whose edges the next says nothing.
+std::vector<std::string> repeatWarnings(std::span<const StrandSize> sizes);
 /// The warning about a groom that is far from its origin compared with its edges; else about strands that are
 /// simulated although rounding is more than a hundredth of one of their edges.
 std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,

@@ -13,9 +13,12 @@
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/bodies/mesh_grid.h"
+#include "ringlet/bodies/triangle_tree.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/groom_doubts.h"
 #include "ringlet/measure/joint_check.h"
+#include "ringlet/measure/material_suggestion.h"
 #include "ringlet/measure/placement_check.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/motion/skinned_mesh.h"
@@ -133,6 +136,23 @@ Result<Motion> loadedMotion(const SceneFile& scene, const Settings& settings,
   return motion;
 }
 
+// By the mesh where roots are bound to it.
+std::optional<std::string> doubtOfRootEnds(const SkinnedMesh& mesh, const Groom& groom, const Motion& motion,
+                                           const HeadScalpChoice& binding, const std::string& name) {
+  const TriangleMesh ground{mesh.pointsAt(mesh.firstSeconds()), mesh.triangles()};
+  if (!checkMesh(ground) || groom.strandCount() == 0) return std::nullopt;  // the binding says what is wrong
+  const TriangleTree tree(ground);
+  const HeadPose head = motion.poseAt(binding.start);
+  const auto distanceTo = [&](Vec3f end) {
+    const Vec3d place = Vec3d(end) * groom.metresPerUnit;
+    return tree.nearest(head.position - binding.offset + rotate(head.rotation, place)).distance;
+  };
+  std::vector<EndDistances> ends;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s)
+    ends.push_back({distanceTo(groom.strand(s).front()), distanceTo(groom.strand(s).back())});
+  return checkRootEnds(ends, meanLength(groom), name);
+}
+
 // The scalp with the groom's roots bound to it. Where its file is the head's the two stand in one world, and
 // what the scalp leaves open is the head's.
 Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
@@ -156,15 +176,54 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
   std::vector<Vec3d> roots;
   for (std::size_t s = 0; s < groom.strandCount(); ++s)
     roots.push_back(Vec3d(groom.strand(s).front()) * groom.metresPerUnit);
-  auto scalp = HeadScalp::bind(
-      mesh, roots, loaded.motion,
-      {.start = scene.start, .farthest = scene.farthest, .offset = isHeads ? loaded.motion.start : Vec3d{}});
-  if (!scalp) return Error{fmt::format("the scalp {}: {}", name, scalp.error().message)};
+  const HeadScalpChoice binding{
+      .start = scene.start, .farthest = scene.farthest, .offset = isHeads ? loaded.motion.start : Vec3d{}};
+  const auto ends = doubtOfRootEnds(*mesh, groom, loaded.motion, binding, "the scalp " + name);
+  auto scalp = HeadScalp::bind(mesh, roots, loaded.motion, binding);
+  if (!scalp) {
+    return Error{fmt::format("the scalp {}: {}{}", name, scalp.error().message,
+                             ends ? fmt::format("; {}", *ends) : std::string())};
+  }
+  if (ends) loaded.warnings.push_back(*ends);
   return scalp;
+}
+
+// Of a file's groom: whether it runs from tip to root, or lies on its side. `statesUp`: the file does.
+void checkGroomFile(const SceneFile& scene, bool statesUp, LoadedScene& loaded) {
+  if (!scene.groom.generate.empty()) return;
+  auto ends = checkRootEnds(loaded.groom, loaded.bodies, loaded.motion.poseAt(0));
+  if (!ends && scene.scalp.file.empty()) ends = doubtOfRootEnds(loaded.groom);
+  if (ends) loaded.warnings.push_back(std::move(*ends));
+  const bool isTurned = scene.groom.rotateDegrees != Vec3d{};
+  if (statesUp || isTurned) return;
+  if (auto doubt = doubtOfUp(loaded.groom, scene.groom.up == "Z"))
+    loaded.warnings.push_back(std::move(*doubt));
+}
+
+// The preset that a file's groom looks like, where nobody chose a material.
+void notePreset(const SceneFile& scene, LoadedScene& loaded) {
+  const Material& material = scene.material.material;
+  if (!scene.groom.generate.empty() || scene.hasMaterial || !(material == Material{})) return;
+  const MaterialSuggestion suggestion =
+      suggestMaterial(inspectGroom(loaded.groom), loaded.groom.metresPerUnit);
+  const auto preset = materialPreset(suggestion.preset);
+  if (!suggestion.isClear || !preset || *preset == material) return;
+  loaded.notes.push_back(
+      fmt::format("this groom looks like {0}, and has the default material; preset = \"{0}\" of [material] "
+                  "(--material {0}) suits it better: {1}",
+                  suggestion.preset, suggestion.reason));
+}
+
+// A groom that is bound to the world and turned by a built-in motion turns about its own head.
+void turnAboutOwnHead(const SceneFile& scene, LoadedScene& loaded) {
+  const bool isBuiltIn = scene.motion.file.empty() && scene.motion.keys.empty();
+  if (!isBuiltIn || scene.groom.bind != "world" || scene.motion.start != Vec3d{}) return;
+  if (standsFarOff(loaded.groom)) loaded.motion.start = headMiddle(loaded.groom);
 }
 
 // Binds what is bound to the world, and says what seems to be of another unit, place or axis.
 void bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
+  turnAboutOwnHead(scene, loaded);
   const WorldBind bind = worldBindOf(scene);
   const bool followsJoint = !scene.motion.file.empty();
   const auto warn = [&](std::optional<std::string> doubt) {
@@ -178,6 +237,8 @@ void bindAndCheck(const SceneFile& scene, LoadedScene& loaded) {
   if (followsJoint) {
     const HeadPose head = loaded.motion.poseAt(bind.groom.value_or(0));
     warn(checkJointDistance(loaded.groom, head, bind.groom.has_value(), scene.motion.joint));
+  } else if (!bind.groom && !isPlaced) {
+    warn(doubtOfPivot(loaded.groom, loaded.motion));
   }
   for (std::string& doubt : checkPlacement(loaded.groom, loaded.bodies, loaded.motion.poseAt(0)))
     warn(std::move(doubt));
@@ -304,10 +365,11 @@ Status addHairMaps(const SceneFile& scene, LoadedScene& loaded) {
 Result<LoadedGroom> loadGroom(const SceneGroom& scene, bool keepsPrims) {
   LoadedGroom loaded;
   if (scene.generate.empty()) {
-    auto read = readGroom(scene.file, {.upIsZ = scene.up == "Z", .keepsPrims = keepsPrims});
+    auto read = readGroom(scene.file, readingOf(scene, keepsPrims));
     if (!read) return read.error();
     loaded = std::move(*read);
     if (scene.metresPerUnit) loaded.groom.metresPerUnit = *scene.metresPerUnit;
+    for (std::string& doubt : doubtsOfPlaces(loaded.groom)) loaded.warnings.push_back(std::move(doubt));
   } else {
     auto made = generatedGroom(scene);
     if (!made) return made.error();
@@ -383,6 +445,8 @@ Result<LoadedScene> loadScene(const SceneFile& scene, const LoadedGroom* known, 
   if (!bodies) return bodies.error();
   loaded.bodies = std::move(*bodies);
   bindAndCheck(scene, loaded);
+  checkGroomFile(scene, groom->statesUp, loaded);
+  notePreset(scene, loaded);
   if (Status added = addHairScalp(scene, loaded); !added) return added.error();
   if (!scene.timeKeys.empty()) {
     auto keys = SceneKeys::make(scene);

@@ -74,6 +74,7 @@ struct LoadedScene {
   int frameCount = 48;                  // where the file does not say: the length of keys, or this
   std::optional<SceneKeys> keys{};      // of numbers that change; settings and material are then the start's
   std::vector<std::string> warnings{};  // a sentence each
+  std::vector<std::string> notes{};     // likewise, of what is well and may be better
 };
 
 /// Reads all that the file names, and chooses the steps a frame where it leaves them open. `known`: its

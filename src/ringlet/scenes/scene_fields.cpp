@@ -23,6 +23,7 @@ constexpr NumberRange kSeed{0, 4294967295.0};
 constexpr NumberRange kShare{0, 1};
 constexpr NumberRange kSeconds{0, 3600};
 constexpr NumberRange kBindFrames{1, 1e6};
+constexpr NumberRange kPointsPerStrand{2, 1e6};
 constexpr const char* kGenerated = "curl, swatch, head";
 constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";
@@ -68,6 +69,19 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        &G::up,
        {},
        "Y, Z"},
+      {"root_end",
+       "",
+       "",
+       "Which end of each strand of the file is its root: its first point, its last, or of each the one on "
+       "the "
+       "head, a ball on which most strands have an end.",
+       &G::rootEnd,
+       {},
+       "first, last, head",
+       "file"},
+      {"points_per_strand", "", "none",
+       "Points of each strand, of a file that holds points and nothing else.", &G::pointsPerStrand,
+       kPointsPerStrand, "", "file"},
       {"scale",
        "1",
        "",

@@ -726,6 +726,20 @@ class SceneReader {
 
 bool isSceneFile(const std::filesystem::path& path) { return isMaterialFile(path); }
 
+namespace {
+
+// Keys of a material at the top, and none of a scene.
+bool isMaterialsTable(const toml::table& file) {
+  const std::vector<KnownKey> scenes = knownKeys(), materials = knownMaterialKeys("");
+  const auto hasOneOf = [&](const std::vector<KnownKey>& known) {
+    return std::ranges::any_of(known,
+                               [&](const KnownKey& one) { return one.table.empty() && file.get(one.key); });
+  };
+  return hasOneOf(materials) && !hasOneOf(scenes);
+}
+
+}  // namespace
+
 Result<SceneFile> parseScene(std::string_view text, const std::string& name,
                              const std::filesystem::path& folder, std::span<const SceneChange> changes,
                              SceneReach reach) {
@@ -734,6 +748,12 @@ Result<SceneFile> parseScene(std::string_view text, const std::string& name,
   for (const SceneChange& change : changes) {
     if (Status changed = applyChange(change, *file); !changed)
       return Error{fmt::format("{}: {}", name, changed.error().message)};
+  }
+  if (isMaterialsTable(*file)) {
+    return Error{
+        fmt::format("{0}: is a material file and no scene: it goes with a groom or a scene, as "
+                    "--material {0}, or as file of [material]",
+                    name)};
   }
   return SceneReader(name, folder, reach).read(*file);
 }

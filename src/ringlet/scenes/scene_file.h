@@ -56,6 +56,8 @@ struct SceneGroom {
 
   std::optional<double> metresPerUnit{};  // unset: the file's, where it states one, else centimetres
   std::string up = "Y";                   // or Z
+  std::string rootEnd = "first";          // of each strand of a file: or last, or head (groom/loaded_groom.h)
+  int pointsPerStrand = 0;                // of a file of points only; 0: of none
 
   // Into the head's frame, or the world: scaled, then turned, then moved.
   double scale = 1;

@@ -13,6 +13,7 @@
 #include "ringlet/base/whole_file.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/rest/material_presets.h"
+#include "ringlet/scenes/scene_parts.h"
 #include "ringlet/scenes/strand_values.h"
 
 namespace ringlet {
@@ -74,7 +75,7 @@ class GroomValues {
   Result<Runs> runsOf(const SceneMap& map) {
     if (!groom_) {
       if (scene_->file.empty()) return Error{"primvars and UVs are of USD grooms; this one is generated"};
-      auto read = readGroom(scene_->file, {.upIsZ = scene_->up == "Z", .keepsPrims = true});
+      auto read = readGroom(scene_->file, readingOf(*scene_, true));
       if (!read) return read.error();
       groom_.emplace(std::move(*read));
     }

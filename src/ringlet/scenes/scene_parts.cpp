@@ -58,6 +58,15 @@ SceneGroom groomOfStyle(const std::string& style) {
   return groom;
 }
 
+GroomReading readingOf(const SceneGroom& groom, bool keepsPrims) {
+  return {.upIsZ = groom.up == "Z",
+          .keepsPrims = keepsPrims,
+          .pointsPerStrand = static_cast<std::uint32_t>(groom.pointsPerStrand),
+          .rootEnd = groom.rootEnd == "last"   ? RootEnd::last
+                     : groom.rootEnd == "head" ? RootEnd::head
+                                               : RootEnd::first};
+}
+
 Result<std::shared_ptr<const ScalpSurface>> readScalp(const std::filesystem::path& path,
                                                       double metresPerUnit) {
   const auto mesh = readObjMesh(path, metresPerUnit);

@@ -8,6 +8,7 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/loaded_groom.h"
 #include "ringlet/groom/scalp_surface.h"
 #include "ringlet/groom/usd_matrix.h"
 #include "ringlet/scene/body.h"
@@ -25,6 +26,9 @@ Vec3d upOf(const SceneGroom& groom);
 
 /// What holds without keys: the defaults, or a style's; its own `style` is empty.
 SceneGroom groomOfStyle(const std::string& style);
+
+/// How the groom's file is to be read.
+GroomReading readingOf(const SceneGroom& groom, bool keepsPrims = false);
 
 /// A mesh that generated hair grows on. Errors: those of readObjMesh and, with the path, of makeMeshScalp.
 Result<std::shared_ptr<const ScalpSurface>> readScalp(const std::filesystem::path& path,

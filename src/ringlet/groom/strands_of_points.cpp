@@ -1,0 +1,23 @@
+// Implements groom/strands_of_points.h.
+#include "ringlet/groom/strands_of_points.h"
+
+#include <fmt/format.h>
+
+namespace ringlet {
+
+Result<LoadedGroom> strandsOfPoints(std::span<const Vec3f> points, std::uint32_t pointsPerStrand,
+                                    const std::string& name) {
+  if (pointsPerStrand < 2)
+    return Error{fmt::format("{}: {} points a strand; a strand needs two", name, pointsPerStrand)};
+  if (points.empty() || points.size() % pointsPerStrand != 0) {
+    return Error{fmt::format("{}: has {} points, which are no whole number of strands of {} points each",
+                             name, points.size(), pointsPerStrand)};
+  }
+  LoadedGroom loaded;
+  loaded.groom.points.assign(points.begin(), points.end());
+  for (std::size_t end = pointsPerStrand; end <= points.size(); end += pointsPerStrand)
+    loaded.groom.firstPoint.push_back(static_cast<std::uint32_t>(end));
+  return loaded;
+}
+
+}  // namespace ringlet

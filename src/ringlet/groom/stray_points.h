@@ -1,0 +1,26 @@
+// Particles that an exporter put where no hair is: at the origin, say, or in one place of all strands.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "ringlet/groom/groom.h"
+
+namespace ringlet {
+
+/// A particle in a place that several strands share, or at the origin, is a stray where every edge to it is
+/// longer than its strand's median by this factor. Real grooms have edges up to 3.6 times as long.
+inline constexpr double kStrayEdge = 4;
+
+/// For each particle whether another strand has one in the very same place. Strands that repeat one before
+/// count as that one. Cost: n log n in the particles.
+std::vector<bool> sharedPlaces(const Groom& groom, const std::vector<bool>& isDuplicate);
+
+/// For each particle whether it is such a stray. Two particles of a strand are none at least. `isShared`: as
+/// sharedPlaces says. Cost: linear in the particles.
+std::vector<bool> strayPoints(const Groom& groom, const std::vector<bool>& isShared);
+
+/// Of a strand's edges that have a length (kNoEdgeShare), the lower of two in the middle; 0 without any.
+double medianEdge(std::span<const Vec3f> strand);
+
+}  // namespace ringlet

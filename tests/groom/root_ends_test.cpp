@@ -1,0 +1,135 @@
+// groom/root_ends.h: strands that run from tip to root are told by the head, whatever number of them; heads
+// of every style have none.
+#include "ringlet/groom/root_ends.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "ringlet/groom/generate.h"
+#include "ringlet/groom/groom_file.h"
+#include "ringlet/groom/hair_styles.h"
+#include "tests/groom/groom_samples.h"
+#include "tests/support/test_support.h"
+
+namespace ringlet {
+namespace {
+
+using test::contains;
+
+// Hair of a ball of radius 9 units, `length` long: it lies on the ball, further out with every particle, and
+// hangs from where that is widest.
+Groom ballOfHair(std::size_t strands, double length) {
+  Groom groom;
+  for (std::size_t s = 0; s < strands; ++s) {
+    const double up = 1 - (static_cast<double>(s) + 0.5) / static_cast<double>(strands);
+    const double turn = static_cast<double>(s) * std::numbers::pi * (3 - std::sqrt(5.0));
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 12; ++i) {
+      const double way = length * i / 11, from = 9 * std::acos(up), widest = 9 * std::numbers::pi / 2;
+      const double angle = std::min(from + way, widest) / 9, radius = 9 + 0.25 * i;
+      const double below = std::max(from + way - widest, 0.0);
+      strand.push_back(
+          Vec3f(Vec3d{radius * std::sin(angle) * std::cos(turn), radius * std::cos(angle) - below,
+                      radius * std::sin(angle) * std::sin(turn)}));
+    }
+    groom.addStrand(strand);
+  }
+  return groom;
+}
+
+std::vector<bool> every(std::size_t step, std::size_t count) {
+  std::vector<bool> which(count);
+  for (std::size_t s = 0; s < count; s += step) which[s] = true;
+  return which;
+}
+
+TEST(RootEnds, AllOrSomeThatRunFromTipToRootAreFound) {
+  for (const std::size_t strands : {20u, 60u, 500u}) {
+    for (const double length : {6.0, 20.0, 60.0}) {
+      const Groom good = ballOfHair(strands, length);
+      const RootEnds none = findRootEnds(good);
+      ASSERT_TRUE(none.head);
+      EXPECT_NEAR(none.head->radius, 9, 0.2);
+      EXPECT_EQ(std::ranges::count(none.isReversed, true), 0) << strands << " " << length;
+      for (const std::size_t step : {1u, 2u, 3u, 7u}) {
+        Groom turned = good;
+        turnRound(every(step, strands), turned);
+        const RootEnds found = findRootEnds(turned);
+        EXPECT_EQ(found.isReversed, every(step, strands)) << strands << " " << length << " " << step;
+        turnRound(found.isReversed, turned);
+        EXPECT_TRUE(test::hasSameBits(turned, good));
+      }
+    }
+  }
+}
+
+TEST(RootEnds, AHeadOfEveryStyleHasNoneTurnedAndAllOnceItIs) {
+  for (const std::string_view style : {"short", "bob", "long", "layered", "fringe", "ringlets", "coils"}) {
+    const auto parameters = headOfStyle(std::string(style));
+    ASSERT_TRUE(parameters) << style;
+    auto head = makeHead(*parameters);
+    ASSERT_TRUE(head) << style;
+    const RootEnds good = findRootEnds(*head);
+    EXPECT_EQ(std::ranges::count(good.isReversed, true), 0) << style;
+    for (const std::size_t step : {1u, 2u, 10u}) {
+      Groom turned = *head;
+      turnRound(every(step, head->strandCount()), turned);
+      EXPECT_EQ(findRootEnds(turned).isReversed, every(step, head->strandCount())) << style << step;
+    }
+  }
+}
+
+TEST(RootEnds, WithoutAHeadNothingIsSaid) {
+  const auto swatch = makeSwatch({});
+  ASSERT_TRUE(swatch);
+  EXPECT_EQ(std::ranges::count(findRootEnds(*swatch).isReversed, true), 0);
+  const Groom few = ballOfHair(7, 20);
+  EXPECT_FALSE(findRootEnds(few).head);
+  EXPECT_TRUE(findRootEnds(Groom{}).isReversed.empty());
+}
+
+TEST(RootEnds, AFileIsReadFromTheEndThatIsAskedFor) {
+  const auto folder = test::scratchFolder("root_ends");
+  const Groom good = ballOfHair(60, 20);
+  Groom all = good, some = good;
+  turnRound(every(1, 60), all);
+  turnRound(every(3, 60), some);
+  for (const char* ending : {"obj", "hair", "ply"}) {
+    const std::string name = std::string("a.") + ending;
+    const struct {
+      const Groom* groom;
+      RootEnd end;
+      const char* says;
+    } kCases[] = {{&good, RootEnd::first, ""},
+                  {&good, RootEnd::head, ""},
+                  {&all, RootEnd::last, "60 of 60 strands are turned round"},
+                  {&all, RootEnd::head, "60 of 60 strands are turned round"},
+                  {&some, RootEnd::head, "20 of 60 strands are turned round"}};
+    for (const auto& one : kCases) {
+      ASSERT_TRUE(writeGroom(folder / name, *one.groom));
+      const auto loaded = readGroom(folder / name, {.rootEnd = one.end});
+      ASSERT_TRUE(loaded) << loaded.error().message;
+      EXPECT_TRUE(test::hasSameBits(loaded->groom, good)) << name << one.says;
+      ASSERT_EQ(loaded->warnings.size(), *one.says ? 1u : 0u) << name;
+      if (*one.says) {
+        EXPECT_TRUE(contains(loaded->warnings[0], one.says)) << loaded->warnings[0];
+      }
+    }
+  }
+  // Where no head is found, nothing is turned, and that is said.
+  const auto swatch = makeSwatch({});
+  ASSERT_TRUE(swatch && writeGroom(folder / "swatch.hair", *swatch));
+  const auto kept = readGroom(folder / "swatch.hair", {.rootEnd = RootEnd::head});
+  ASSERT_TRUE(kept);
+  EXPECT_TRUE(test::hasSameBits(kept->groom, *swatch));
+  ASSERT_EQ(kept->warnings.size(), 1u);
+  EXPECT_TRUE(contains(kept->warnings[0], "no ends on a ball")) << kept->warnings[0];
+}
+
+}  // namespace
+}  // namespace ringlet

@@ -1,0 +1,139 @@
+// groom/stray_points.h and what mends them: particles where no hair is, wherever on a strand, are found and
+// taken out; places that strands rightly share are not.
+#include "ringlet/groom/stray_points.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "ringlet/groom/generate.h"
+#include "ringlet/groom/mend_groom.h"
+#include "ringlet/measure/groom_inspection.h"
+#include "tests/groom/groom_samples.h"
+
+namespace ringlet {
+namespace {
+
+// Twenty strands of ten particles a unit apart, hanging beside each other, far from the origin.
+Groom goodGroom() {
+  Groom groom;
+  for (int s = 0; s < 20; ++s) {
+    std::vector<Vec3f> strand;
+    for (int i = 0; i < 10; ++i)
+      strand.push_back({30.f + static_cast<float>(s), 40.f - static_cast<float>(i), 5.f});
+    groom.addStrand(strand);
+  }
+  return groom;
+}
+
+// With `place` `count` times before particle `at` of every `step`th strand from `first` on.
+Groom with(Vec3f place, std::size_t at, std::size_t count, std::size_t first = 0, std::size_t step = 1) {
+  const Groom good = goodGroom();
+  Groom groom;
+  for (std::size_t s = 0; s < good.strandCount(); ++s) {
+    std::vector<Vec3f> strand(good.strand(s).begin(), good.strand(s).end());
+    if (s >= first && (s - first) % step == 0)
+      strand.insert(strand.begin() + static_cast<std::ptrdiff_t>(at), count, place);
+    groom.addStrand(strand);
+  }
+  return groom;
+}
+
+TEST(StrayPoints, AreFoundAtTheEndTheStartAndInTheMiddleAndTakenOut) {
+  for (const Vec3f place : {Vec3f{0, 0, 0}, Vec3f{-50, 3, 7}}) {
+    for (const std::size_t at : {0u, 4u, 10u}) {
+      for (const std::size_t count : {1u, 2u}) {
+        for (const std::size_t step : {1u, 3u}) {
+          const Groom bad = with(place, at, count, 2, step);
+          const std::size_t strands = (20 - 2 + step - 1) / step;
+          const GroomInspection found = inspectGroom(bad);
+          EXPECT_EQ(found.strayParticles.count, strands * count) << at << " " << count << " " << step;
+          EXPECT_EQ(found.strayParticles.firstStrand, 2u);
+          EXPECT_EQ(found.longEdges.count, strands * (at == 4 ? 2 : 1));
+          EXPECT_EQ(found.sharedParticles.count, 0u);
+          const MendedGroom mended = mendGroom(bad);
+          EXPECT_TRUE(test::hasSameBits(mended.groom, goodGroom())) << at << " " << count << " " << step;
+          EXPECT_EQ(mended.strayCount, strands * count);
+          EXPECT_EQ(mended.repeatedCount + mended.duplicateCount + mended.pointStrandCount, 0u);
+        }
+      }
+    }
+  }
+}
+
+TEST(StrayPoints, AtTheOriginOneStrandIsEnoughElsewhereItsEdgesAreCounted) {
+  const GroomInspection origin = inspectGroom(with({0, 0, 0}, 10, 1, 7, 100));
+  EXPECT_EQ(origin.strayParticles.count, 1u);
+  EXPECT_EQ(origin.strayParticles.firstStrand, 7u);
+  const GroomInspection alone = inspectGroom(with({-50, 3, 7}, 10, 1, 7, 100));
+  EXPECT_EQ(alone.strayParticles.count, 0u);
+  EXPECT_EQ(alone.longEdges.count, 1u);
+  EXPECT_EQ(alone.longEdges.firstStrand, 7u);
+  EXPECT_TRUE(
+      test::hasSameBits(mendGroom(with({-50, 3, 7}, 10, 1, 7, 100)).groom, with({-50, 3, 7}, 10, 1, 7, 100)));
+}
+
+TEST(StrayPoints, WhatStrandsRightlyShareStays) {
+  // A tuft from one root, which is at the origin too; strands that end in one place; a strand twice.
+  Groom tuft, knot = goodGroom();
+  for (int s = 0; s < 9; ++s)
+    tuft.addStrand(std::vector<Vec3f>{
+        {0, 0, 0}, {0.1f * static_cast<float>(s), -1, 0}, {0.2f * static_cast<float>(s), -2, 0}});
+  const GroomInspection found = inspectGroom(tuft);
+  EXPECT_EQ(found.strayParticles.count, 0u);
+  EXPECT_EQ(found.sharedParticles.count, 9u);
+  EXPECT_TRUE(test::hasSameBits(mendGroom(tuft).groom, tuft));
+  knot.addStrand(goodGroom().strand(3));
+  const GroomInspection twice = inspectGroom(knot);
+  EXPECT_EQ(twice.sharedParticles.count + twice.strayParticles.count, 0u);
+  EXPECT_EQ(twice.duplicates.count, 1u);
+}
+
+TEST(StrayPoints, TwoParticlesStayOfAStrand) {
+  Groom groom = goodGroom();
+  groom.addStrand(std::vector<Vec3f>{{0, 0, 0}, {30, 40, 5}});
+  groom.addStrand(std::vector<Vec3f>{{0, 0, 0}, {0, 0, 0}, {30, 40, 9}});
+  const MendedGroom mended = mendGroom(groom);
+  EXPECT_EQ(mended.groom.strandCount(), 22u);
+  EXPECT_EQ(mended.strayCount, 0u);
+}
+
+TEST(StrayPoints, GeneratedGroomsHaveNone) {
+  const auto curl = makeCurl({});
+  const auto swatch = makeSwatch({});
+  const auto head = makeHead({});
+  ASSERT_TRUE(curl && swatch && head);
+  for (const Groom& groom : {*curl, *swatch, *head}) {
+    const GroomInspection found = inspectGroom(groom);
+    EXPECT_EQ(found.strayParticles.count + found.sharedParticles.count + found.longEdges.count, 0u);
+  }
+}
+
+// Mending what is mended changes no bit, whatever was wrong.
+TEST(MendGroom, IsDoneAtOnce) {
+  std::vector<Groom> bad;
+  for (const std::size_t at : {0u, 5u, 10u}) {
+    bad.push_back(with({0, 0, 0}, at, 1));
+    bad.push_back(with({-50, 3, 7}, at, 2, 1, 4));
+  }
+  // Taking out strays makes strands repeat others, or leaves repeats side by side.
+  Groom chained = with({0, 0, 0}, 10, 1);
+  chained.addStrand(goodGroom().strand(0));
+  const Groom good = goodGroom();
+  std::vector<Vec3f> around(good.strand(1).begin(), good.strand(1).end());
+  around.insert(around.begin() + 5, {Vec3f{0, 0, 0}, around[4]});
+  chained.addStrand(around);
+  chained.addStrand(std::vector<Vec3f>{{0, 0, 0}, {1, 1, 1}, {1, 1, 1}, {0, 0, 0}});
+  bad.push_back(chained);
+  for (const Groom& groom : bad) {
+    const MendedGroom once = mendGroom(groom), again = mendGroom(once.groom);
+    EXPECT_FALSE(test::hasSameBits(once.groom, groom));
+    EXPECT_TRUE(test::hasSameBits(again.groom, once.groom));
+    EXPECT_EQ(again.strayCount + again.repeatedCount + again.duplicateCount + again.pointStrandCount, 0u);
+    EXPECT_EQ(inspectGroom(once.groom).strayParticles.count, 0u);
+  }
+}
+
+}  // namespace
+}  // namespace ringlet
