@@ -1,5 +1,5 @@
-// Sums of many integers, of which 32 bits have no room: of each term its upper 16 bits are added to `high`, the lower to
-// `low`, and the sum is 65536 high + low. Up to 65537 terms may be added between two carries: low is unsigned then.
+// Sums of many integers, of which 32 bits have no room: of each term its upper 16 bits are added to `high`, the lower
+// to `low`, and the sum is 65536 high + low. Up to 65537 terms may be added between two carries: low is unsigned then.
 #ifndef RINGLET_SPLIT_SUM
 #define RINGLET_SPLIT_SUM
 

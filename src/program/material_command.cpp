@@ -15,8 +15,8 @@
 
 #include "program/command_line.h"
 #include "program/exit_codes.h"
-#include "program/standard_output.h"
 #include "program/groom_options.h"
+#include "program/standard_output.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_inspection.h"
 #include "ringlet/measure/material_suggestion.h"

@@ -302,13 +302,14 @@ void addAttributes(py::class_<Owner>& owner) {
 template <class Owner>
 void addTable(py::module_& module, const char* name, const char* doc) {
   py::class_<Owner> table(module, name, doc);
-  table.def(py::init([](const py::kwargs& named) {
-              Owner made;
-              setTable(made, py::object(named), kTable<Owner>);
-              return made;
-            }),
-            "The default, but for these by name. TypeError for a name that there is not, ValueError for a "
-            "number out of its range.")
+  table
+      .def(py::init([](const py::kwargs& named) {
+             Owner made;
+             setTable(made, py::object(named), kTable<Owner>);
+             return made;
+           }),
+           "The default, but for these by name. TypeError for a name that there is not, ValueError for a "
+           "number out of its range.")
       .def(
           "__repr__",
           [name = std::string(name)](const Owner& self) {

@@ -34,7 +34,11 @@ const InputException kExceptions[] = {
     {"VolumeParameters.warmth", "a constant"},
     {"BodyRest.unused", "unused"},
     {"BodyPose.velocity[3]", "unused"},
+    {"RootPose.position[3]", "unused"},
     {"RootPose.velocity[3]", "unused"},
+    {"Sampled", "of hair that is divided: kernels/DividedHair"},
+    {"StepAir.wind[3]", "unused"},
+    {"WindWave.wave[3]", "unused"},
     {"WindWave.amplitude[3]", "unused"},
     {"FieldNodes[3]", "unused"},
 };

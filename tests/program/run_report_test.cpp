@@ -171,8 +171,8 @@ TEST(RunReport, TheTextHasTheSameNumbers) {
         "105 in the worst frame, momentum error 0.016; 106 pair tests, 107 rebuilds",
         "103 of 102 pairs of strands", "110 strands meet as a volume, with up to 1.1 of its range",
         "0.3750 of the radii beyond rest at the deepest, 12.5 in all", "recall 0.875", "crossings     108",
-        "deepest 62.5 mm (strand 4 particle 5, frame 7)", "9 particles began inside",
-        "note          a note", "off by at most 0.244 mm"})
+        "deepest 62.5 mm (strand 4 particle 5, frame 7)", "9 particles began inside", "note          a note",
+        "off by at most 0.244 mm"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " is missing in:\n" << text;
 }
 

@@ -1,6 +1,7 @@
 // Implements support/kernel_spy.h.
 #include "tests/support/kernel_spy.h"
 
+#include <cstring>
 #include <utility>
 
 #include "ringlet/base/assert.h"
@@ -26,6 +27,7 @@ struct KernelSpy::State {
 
   std::map<VkShaderModule, std::vector<std::uint32_t>> modules;
   std::map<VkPipeline, std::vector<std::uint32_t>> pipelines;
+  std::map<VkDeviceMemory, VkDeviceSize> sizes;
   std::map<VkDeviceMemory, std::byte*> mapped;
   std::map<VkBuffer, Bound> buffers;
   std::map<VkDescriptorSet, std::map<std::uint32_t, VkDescriptorBufferInfo>> sets;
@@ -56,14 +58,24 @@ struct SpyCalls {
       spy().pipelines[pipelines[k]] = spy().modules.at(infos[k].stage.module);
     return result;
   }
+  static VkResult allocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                 const VkAllocationCallbacks* with, VkDeviceMemory* memory) {
+    const VkResult result = spy().real.vkAllocateMemory(device, info, with, memory);
+    if (result == VK_SUCCESS) spy().sizes[*memory] = info->allocationSize;
+    return result;
+  }
+  // Emptied: what another buffer left there is no input.
   static VkResult mapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize bytes,
                             VkMemoryMapFlags flags, void** address) {
     const VkResult result = spy().real.vkMapMemory(device, memory, offset, bytes, flags, address);
-    if (result == VK_SUCCESS) spy().mapped[memory] = static_cast<std::byte*>(*address) - offset;
+    if (result != VK_SUCCESS) return result;
+    std::byte* const first = spy().mapped[memory] = static_cast<std::byte*>(*address) - offset;
+    std::memset(first, 0, spy().sizes.at(memory));
     return result;
   }
   static void freeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* with) {
     spy().mapped.erase(memory);
+    spy().sizes.erase(memory);
     spy().real.vkFreeMemory(device, memory, with);
   }
   static VkResult bindBufferMemory(VkDevice device, VkBuffer buffer, VkDeviceMemory memory,
@@ -160,6 +172,7 @@ KernelSpy::KernelSpy(gpu::Device& device) : self_(std::make_unique<State>()) {
   self_->real = table;
   table.vkCreateShaderModule = SpyCalls::createShaderModule;
   table.vkCreateComputePipelines = SpyCalls::createComputePipelines;
+  table.vkAllocateMemory = SpyCalls::allocateMemory;
   table.vkMapMemory = SpyCalls::mapMemory;
   table.vkFreeMemory = SpyCalls::freeMemory;
   table.vkBindBufferMemory = SpyCalls::bindBufferMemory;

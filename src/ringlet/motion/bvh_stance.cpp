@@ -43,7 +43,7 @@ double median(std::vector<double> values) {
 // The joints of a person, by their names and by how they hang together.
 struct Person {
   std::size_t head = 0, hips = 0;
-  bool hasTrunk = false;  // a head, and hips further to the root
+  bool hasTrunk = false;                       // a head, and hips further to the root
   std::vector<std::size_t> parts;              // trunk, head and legs
   std::vector<std::size_t> headTops;           // the head and all that it carries
   std::vector<std::vector<std::size_t>> legs;  // from the hips, without them, to each end

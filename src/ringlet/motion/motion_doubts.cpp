@@ -17,7 +17,8 @@ constexpr double kLeastUnit = 1e-6, kMostUnit = 1000;     // that scenes and opt
 constexpr double kMostPerson = 3, kLeastPerson = 0.3;     // tall [m]
 constexpr double kMostHead = 10;                          // of a head above what carries it, a stage too [m]
 constexpr double kLeastFigure = 0.15, kLeastTrunk = 0.3;  // of a head above what carries it [m]
-constexpr int kFullFigure = 3;                            // bones from which on a figure may be called small
+constexpr int kTrunk = 2;       // bones from which on a figure has a trunk, which stands or lies
+constexpr int kFullFigure = 3;  // bones from which on a figure may be called small
 constexpr double kPlacement = 4, kFirstPlacement = 30;  // steps so many times longer than all below are none
 constexpr std::size_t kLooks = 100;                     // at an animation
 constexpr double kSeldom = 0.2, kMostly = 0.8;          // shares of them
@@ -225,7 +226,7 @@ std::vector<std::string> doubtsOf(const GltfFile& file, std::size_t node, const 
   const Affine map{turn.x * unit, turn.y * unit, turn.z * unit, {}};
   const Figure figure = figureOf(file, node, animation, map);
   const bool isLone = figure.bones == 0;
-  const FileAxis along = isLone || statesUp ? FileAxis::plusY : trunkAxis(figure);
+  const FileAxis along = figure.bones < kTrunk || statesUp ? FileAxis::plusY : trunkAxis(figure);
   const Vec3d up = directionOf(along);
   double height = heightAlong(isLone ? figure.heads : figure.rise, up);
   if (!file.nodes[figure.foot].parent) {
