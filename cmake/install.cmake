@@ -21,6 +21,9 @@ file(RELATIVE_PATH pkgconfig_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 # Who links a static library also links what that one needs; a program in C, what every C++ program has.
 set(cxx_libraries ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
 list(FILTER cxx_libraries INCLUDE REGEX "^(stdc\\+\\+|c\\+\\+)$")
+if(NOT BUILD_SHARED_LIBS)  # A project in C alone has CMake link by the C compiler.
+  target_link_libraries(ringlet_core INTERFACE $<LINK_ONLY:$<INSTALL_INTERFACE:$<$<LINK_LANGUAGE:C>:${cxx_libraries};m>>>)
+endif()
 list(TRANSFORM cxx_libraries PREPEND "-l")
 list(JOIN cxx_libraries " " cxx_libraries)
 set(core_requires)

@@ -10,3 +10,10 @@ function(ringlet_install_only_if_built what file target)
     return()
   endif()" ${component})
 endfunction()
+
+# Without the core of the library nothing is of use: then nothing is installed.
+function(ringlet_install_only_with_core)
+  install(CODE "if(NOT EXISTS \"$<TARGET_FILE:ringlet_core>\")
+    message(FATAL_ERROR \"There is nothing to install: ringlet::core is not built (cmake --build FOLDER)\")
+  endif()")
+endfunction()

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "python/arrays.h"
+#include "python/words.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/generate.h"
@@ -87,11 +88,9 @@ GroomHandle readGroomFile(const std::filesystem::path& path, std::optional<doubl
                           const std::string& up) {
   const GroomReading reading = readingOf(pointsPerStrand, rootEnd, up);
   LoadedGroom loaded = withoutGil([&] {
-    LoadedGroom read = valueOf(readGroom(path, reading));
-    for (std::string& doubt : doubtsOfPlaces(read.groom)) read.warnings.push_back(std::move(doubt));
-    if (auto doubt = doubtOfRootEnds(read.groom)) read.warnings.push_back(std::move(*doubt));
-    if (auto doubt = read.statesUp ? std::nullopt : doubtOfUp(read.groom, reading.upIsZ))
-      read.warnings.push_back(std::move(*doubt));
+    LoadedGroom read = valueOf(inWords(kGroomWords, readGroom(path, reading)));
+    for (std::string& doubt : doubtsOf(read, reading)) read.warnings.push_back(std::move(doubt));
+    read.warnings = inWords(kGroomWords, std::move(read.warnings));
     return read;
   });
   if (metresPerUnit) loaded.groom.metresPerUnit = *metresPerUnit;

@@ -11,6 +11,7 @@
 #include "python/grooms.h"
 #include "python/materials.h"
 #include "python/poses.h"
+#include "python/words.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/measure/crossings.h"
@@ -345,7 +346,7 @@ void addMeasures(py::module_& module) {
         const HeadPose pose = head.is_none() ? HeadPose{} : poseOf(head, "head");
         std::vector<std::string> doubts = checkPlacement(groom.groom(), carried, pose);
         if (auto ends = checkRootEnds(groom.groom(), carried, pose)) doubts.push_back(std::move(*ends));
-        return doubts;
+        return inWords(kGroomWords, std::move(doubts));
       },
       py::arg("groom"), py::arg("bodies") = py::tuple(), py::arg("head") = py::none(),
       "Whether the groom and the bodies that the head carries have the sizes and places of hair and a head, "

@@ -11,6 +11,7 @@
 
 #include "python/arrays.h"
 #include "python/poses.h"
+#include "python/words.h"
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scene/outside_numbers.h"
@@ -186,8 +187,10 @@ MotionObject loadMotion(const std::filesystem::path& path, const std::string& jo
     throw py::value_error(unknownName("up axis of a file", fileUp, namesIn(kFileAxisNames)));
   MotionObject loaded;
   withoutGil([&] {
-    loaded.motion = valueOf(readMotionFile({path, joint, metresPerUnit, skipFrames, animation, axis, {}},
-                                           up == "Z", loaded.warnings));
+    loaded.motion = valueOf(
+        inWords(kMotionWords, readMotionFile({path, joint, metresPerUnit, skipFrames, animation, axis, {}},
+                                             up == "Z", loaded.warnings)));
+    loaded.warnings = inWords(kMotionWords, std::move(loaded.warnings));
   });
   return loaded;
 }

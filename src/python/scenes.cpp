@@ -16,6 +16,7 @@
 #include "python/hair.h"
 #include "python/materials.h"
 #include "python/poses.h"
+#include "python/words.h"
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/builtin_scene.h"
 #include "ringlet/scenes/load_scene.h"
@@ -31,6 +32,7 @@ struct SceneObject {
 };
 
 SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded) {
+  loaded.warnings = sentencesBy(inSceneWords, std::move(loaded.warnings));
   auto groom = std::make_shared<GroomObject>(LoadedGroom{std::move(loaded.groom), {}});
   loaded.groom = {};
   return {std::move(name), std::move(summary), std::move(groom), std::move(loaded)};
@@ -38,16 +40,23 @@ SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded) {
 
 SceneReach reachOf(bool isConfined) { return isConfined ? SceneReach::ownFolder : SceneReach::anywhere; }
 
+// A file of a scene and all that it names.
+template <class T>
+T sceneValueOf(Result<T> result) {
+  if (!result) throw Failure({inSceneWords(result.error().message), result.error().fault});
+  return std::move(*result);
+}
+
 SceneObject loadFile(const std::filesystem::path& path, bool isConfined) {
   return withoutGil([&] {
-    const SceneFile file = valueOf(readScene(path, {}, reachOf(isConfined)));
-    return sceneOf(path.stem().string(), "", valueOf(loadScene(file)));
+    const SceneFile file = sceneValueOf(readScene(path, {}, reachOf(isConfined)));
+    return sceneOf(path.stem().string(), "", sceneValueOf(loadScene(file)));
   });
 }
 SceneObject parseText(const std::string& text, const std::filesystem::path& folder, bool isConfined) {
   return withoutGil([&] {
-    const SceneFile file = valueOf(parseScene(text, "the scene", folder, {}, reachOf(isConfined)));
-    return sceneOf("text", "", valueOf(loadScene(file)));
+    const SceneFile file = sceneValueOf(parseScene(text, "the scene", folder, {}, reachOf(isConfined)));
+    return sceneOf("text", "", sceneValueOf(loadScene(file)));
   });
 }
 
@@ -210,12 +219,13 @@ void addScenes(py::module_& module) {
   py::class_<SceneObject>(module, "Scene",
                           "All that a run starts from: groom, material, settings, motion, bodies. Constant.")
       .def_static(
-          "load", &loadFile, py::arg("path"), py::kw_only(), py::arg("confined") = false,
+          "load", &loadFile, py::arg("path"), py::kw_only(), py::arg("confined").noconvert() = false,
           "Reads a scene file (TOML) and all that it names: the groom, a motion by .bvh or glTF, meshes. "
           "confined: for a file of a stranger's, which may then name files in or below its own folder only. "
           "ringlet.Error with file and line for what is wrong.")
       .def_static("parse", &parseText, py::arg("text"), py::arg("folder") = "", py::kw_only(),
-                  py::arg("confined") = false, "The same from text; its paths are relative to folder.")
+                  py::arg("confined").noconvert() = false,
+                  "The same from text; its paths are relative to folder.")
       .def_static(
           "builtin",
           [](const std::string& name, std::optional<int> particles, std::optional<int> strands,

@@ -238,11 +238,11 @@ TEST(AdoptedDevice, AHostIsToldWhatItCannotRecord) {
       const Status tooMany = step(posesOf(0, most + 1)), whileJumping = step(jump);
       EXPECT_FALSE(tooMany);
       EXPECT_FALSE(whileJumping);
-      EXPECT_NE(tooMany.error().message.find("call frameIsOver"), std::string::npos);
-      EXPECT_NE(whileJumping.error().message.find("call frameIsOver"), std::string::npos);
+      EXPECT_NE(tooMany.error().message.find("say that the frame is over"), std::string::npos);
+      EXPECT_NE(whileJumping.error().message.find("say that the frame is over"), std::string::npos);
       const auto early = hair.positions();
       ASSERT_FALSE(early);
-      EXPECT_NE(early.error().message.find("call frameIsOver"), std::string::npos);
+      EXPECT_NE(early.error().message.find("say that the frame is over"), std::string::npos);
       for (const Host::Work& work : works) host.wait(work);
       works.clear();
       for (int frame = 1; frame <= most; ++frame) ASSERT_TRUE(hair.frameIsOver());

@@ -13,6 +13,7 @@
 #include "ringlet/run/scene_run.h"
 #include "tests/kernels/c_handles.h"
 #include "tests/support/parity.h"
+#include "tests/support/scene_path_cases.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet::test {
@@ -84,6 +85,40 @@ TEST(CFilesOnly, AGroomsUnitAndAxisAreTheFilesOrTheHosts) {
   ASSERT_EQ(upZ.read(path, &reading), RINGLET_OK);
   EXPECT_EQ(upZ.groom.metres_per_unit, 0.02);
   EXPECT_EQ(upZ.points(3), (std::vector<float>{0, 0, 0, 1, 0, -1, 0, 2, -2}));
+}
+
+// Points and nothing else, of strands that grow towards their first point.
+TEST(CFilesOnly, AHostSaysWhatAGroomsFileDoesNot) {
+  const fs::path folder = scratchFolder("c_groom_readings");
+  const std::string path =
+      written(folder / "g.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nend_header\n0 -3 0\n0 -1 0\n5 -3 0\n5 -1 0\n");
+  ringlet_groom_reading reading = RINGLET_INIT(ringlet_groom_reading);
+  LoadedCGroom none;
+  EXPECT_EQ(none.read(path, &reading), RINGLET_ERROR) << "it holds no strands";
+  EXPECT_NE(std::string(ringlet_error_message()).find("say how many: points_per_strand"), std::string::npos)
+      << ringlet_error_message();
+  reading.points_per_strand = 2;
+  LoadedCGroom first;
+  ASSERT_EQ(first.read(path, &reading), RINGLET_OK) << ringlet_error_message();
+  EXPECT_EQ(first.groom.strand_count, 2u);
+  EXPECT_EQ(first.points(2), (std::vector<float>{0, -3, 0, 0, -1, 0}));
+  reading.root_end = RINGLET_ROOT_LAST;
+  LoadedCGroom last;
+  ASSERT_EQ(last.read(path, &reading), RINGLET_OK) << ringlet_error_message();
+  EXPECT_EQ(last.points(2), (std::vector<float>{0, -1, 0, 0, -3, 0}));
+  for (const std::uint32_t wrong : {1u, 1'000'001u, ~0u}) {
+    reading.points_per_strand = wrong;
+    expectInvalid(none.read(path, &reading), "points_per_strand");
+  }
+  reading.points_per_strand = 3;
+  EXPECT_EQ(none.read(path, &reading), RINGLET_ERROR) << "4 points are no strands of 3";
+  reading.points_per_strand = 2;
+  for (const int wrong : {-1, 3, 1000}) {
+    std::memcpy(&reading.root_end, &wrong, sizeof wrong);
+    expectInvalid(none.read(path, &reading), "root_end");
+  }
 }
 
 TEST(CFilesOnly, MaterialsAreThoseOfTheLibrary) {
@@ -258,6 +293,39 @@ TEST(CFilesOnly, ASceneIsChangedAndConfinedAsItIsRead) {
   ringlet_scene_release(scene);
 }
 
+// Every key that is a path, in a file and in text; what lies inside may be wrong, but is not refused for its
+// place.
+TEST(CFilesOnly, AConfinedSceneNamesNothingOutsideItsFolder) {
+  const fs::path around = scratchFolder("c_confined"), folder = around / "scene";
+  fs::create_directories(folder / "below");
+  const std::string material = written(around / "m.toml", "line_density = 1e-5\n");
+  fs::copy_file(around / "m.toml", folder / "below/m.toml");
+  fs::create_symlink("../m.toml", folder / "link.toml");
+  const auto messageOf = [&](const std::string& text, bool isConfined, bool isFile) {
+    ringlet_scene_reading reading = RINGLET_INIT(ringlet_scene_reading);
+    reading.is_confined = isConfined;
+    ringlet_scene* scene = nullptr;
+    const ringlet_result result =
+        isFile ? ringlet_scene_read(written(folder / "scene.toml", text).c_str(), &reading, &scene)
+               : ringlet_scene_parse(text.c_str(), folder.c_str(), &reading, &scene);
+    ringlet_scene_release(scene);
+    return result == RINGLET_OK ? std::string() : std::string(ringlet_error_message());
+  };
+  for (const PathCase& c : pathCases()) {
+    for (const bool isFile : {true, false}) {
+      SCOPED_TRACE(c.key + (isFile ? " in a file" : " in text"));
+      for (const std::string& outside : {std::string("../m.toml"), material,
+                                         std::string("below/../../m.toml"), std::string("link.toml")}) {
+        const std::string refused = messageOf(withPath(c, outside), true, isFile);
+        EXPECT_NE(refused.find(c.key), std::string::npos) << outside << ": " << refused;
+        EXPECT_NE(refused.find("confined"), std::string::npos) << outside << ": " << refused;
+        EXPECT_EQ(messageOf(withPath(c, outside), false, isFile).find("confined"), std::string::npos);
+      }
+      EXPECT_EQ(messageOf(withPath(c, "below/m.toml"), true, isFile).find("confined"), std::string::npos);
+    }
+  }
+}
+
 // The file of C++'s writer, byte by byte, whether positions or hair are added; and its frames are read.
 TEST_F(CFiles, AnimationsAreThoseOfTheLibrary) {
   const fs::path folder = scratchFolder("c_animations");
@@ -345,6 +413,21 @@ TEST(CFilesOnly, WarningsAreSaid) {
   ASSERT_EQ(read.read(groom, &reading), RINGLET_OK) << ringlet_error_message();
   ASSERT_EQ(warnings.size(), 1u);
   warnings.clear();
+  // A groom that lies on its side where Y is up, and hangs where Z is: it seems wrong.
+  const std::string lying =
+      written(folder / "l.obj", "v 0 0 0\nv 0 0 -20\nv 1 0 0\nv 1 0 -20\nl 1 2\nl 3 4\n");
+  for (const int upIsZ : {0, 1}) {
+    reading.up_is_z = upIsZ;
+    LoadedCGroom side;
+    ASSERT_EQ(side.read(lying, &reading), RINGLET_OK) << ringlet_error_message();
+    ASSERT_EQ(warnings.size(), upIsZ ? 0u : 1u);
+    if (!upIsZ) {
+      EXPECT_NE(warnings[0].find("hang along -Z"), std::string::npos) << warnings[0];
+      EXPECT_NE(warnings[0].find("takes up_is_z = 1"), std::string::npos) << warnings[0];
+      EXPECT_EQ(warnings[0].find("--"), std::string::npos) << warnings[0];
+    }
+    warnings.clear();
+  }
   ringlet_scene_reading sceneReading = RINGLET_INIT(ringlet_scene_reading);
   sceneReading.warn = keepWarning, sceneReading.user = &warnings;
   ringlet_scene* scene = nullptr;

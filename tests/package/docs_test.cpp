@@ -97,6 +97,35 @@ TEST(Docs, ShowTheProgramsThatTestsBuild) {
   }
 }
 
+// Without spaces, and without check(...) around calls of C, which has no overloads to leave it out of.
+std::string squeezed(std::string text, bool isC) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\n'; });
+  return isC ? std::regex_replace(text, std::regex("check\\((ringlet_.*?\\))\\);"), "$1;") : text;
+}
+
+// Each line of code in the table is one of the programs', which tests run.
+TEST(Docs, TheLibrarysTableIsRun) {
+  const std::string library = textOf("docs/library.md");
+  const std::string cpp = squeezed(textOf("tests/package/installed/table.cpp"), false);
+  const std::string c = squeezed(textOf("tests/package/installed/table.c"), true);
+  const std::size_t begin = library.find("| I want to | C++ | C |");
+  ASSERT_NE(begin, std::string::npos);
+  std::istringstream table(library.substr(begin, library.find("\n\n", begin) - begin));
+  const std::regex span("`([^`]*)`"), comment(" // .*");
+  std::size_t count = 0;
+  for (std::string row; std::getline(table, row);) {
+    for (std::sregex_iterator at(row.begin(), row.end(), span), end; at != end; ++at, ++count) {
+      const std::string line = std::regex_replace((*at)[1].str(), comment, "");
+      const bool isC =
+          row.find(" | ") < row.rfind(" | ") && static_cast<std::size_t>(at->position()) > row.rfind(" | ");
+      std::string wanted = squeezed(line, isC);
+      if (!wanted.empty() && wanted.back() == ';') wanted.pop_back();
+      EXPECT_NE((isC ? c : cpp).find(wanted), std::string::npos) << line;
+    }
+  }
+  EXPECT_GT(count, 40u);
+}
+
 TEST(Docs, NameFunctionsOfCThatThereAre) {
   const std::string headers = textOf("src/ringlet/c/ringlet.h") + textOf("src/ringlet/c/ringlet_io.h");
   const std::regex name("\\bringlet_[a-z_0-9]+\\b");

@@ -42,6 +42,28 @@ for compiler in g++ clang++; do
 done
 [ $compilers -gt 0 ] || fail "no compiler"
 
+# The lines of the table in docs/library.md, with files of the names that stand there; and a project in C alone.
+mkdir "$work/table"
+cp "$work/cpp.usdc" "$work/table/hair.usdc"
+cp "$work/curl.hair" "$work/table"
+cd "$work/table"
+printf 'preset = "coil"\n[dials]\nhold = 2\n' > curls.toml
+printf '[groom]\nfile = "curl.hair"\n[motion]\nkind = "shake"\npre_roll = 0.05\n[simulation]\nframes = 2\n[[body]]\nshape = "sphere"\nradius = 0.01\nposition = [0, 1, 0]\n' > scene.toml
+printf 'v 0 90 0\nv 10 90 0\nv 0 100 0\nv 0 90 10\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' > head.obj
+printf 'HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Zrotation\nJOINT Head\n{\nOFFSET 0 150 0\nCHANNELS 1 Zrotation\nEnd Site\n{\nOFFSET 0 20 0\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.04\n0 0\n1 0\n' > walk.bvh
+cd "$work"
+cc=$(command -v gcc || command -v clang)
+cmake -S "$here/installed_c" -B "$work/c_alone" -G "$generator" -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS="-Wall -Wextra -Werror" \
+  -DCMAKE_PREFIX_PATH="$prefix" > "$work/c_alone.txt" && cmake --build "$work/c_alone" >> "$work/c_alone.txt" ||
+  { cat "$work/c_alone.txt"; fail "a project in C alone"; }
+(cd "$work" && "$work/c_alone/plain_c" && "$work/c_alone/film_in_c" curl.hair c_alone.usda) || fail "a program of a project in C alone"
+cmp "$work/c_alone.usda" "$work/cpp.usda" || fail "a project in C alone writes another animation"
+for program in "$work"/*/table_in_cpp "$work"/*/table_in_c; do
+  rm -f "$work"/table/hair.ply "$work"/table/hair.rgc
+  (cd "$work/table" && "$program") || fail "the table of library.md: $program"
+  [ -s "$work/table/hair.ply" ] && [ -s "$work/table/hair.rgc" ] || fail "$program leaves no files"
+done
+
 # A component that is not installed is asked for in vain.
 cat > "$work/CMakeLists.txt" << 'END'
 cmake_minimum_required(VERSION 3.25)
@@ -87,6 +109,7 @@ if [ "$kind" = static ] && [ -e "$build/python" ] && [ -x "$build/ringlet" ]; th
   cmake -S "$work" -B "$work/core_only" -G "$generator" -DCMAKE_PREFIX_PATH="$work/lacking_io/prefix" > "$work/core_only.txt" 2>&1 ||
     fail "find_package does not find core without io: $(cat "$work/core_only.txt")"
   ! install_without core src/libringlet_core "nothing to install" || fail "an install of nothing succeeds"
+  [ ! -e "$work/lacking_core/prefix" ] || fail "an install of nothing leaves files: $(find "$work/lacking_core/prefix")"
   grep -q "There is nothing to install" "$work/lacking_core.txt" || fail "an install of nothing says: $(cat "$work/lacking_core.txt")"
 fi
 for module in "$prefix"/lib/python3*/*-packages; do

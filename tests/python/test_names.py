@@ -171,3 +171,32 @@ def test_they_can_be_copied_by_pythons_own_means():
         hash(settings)
     assert copy.copy(settings) == settings and copy.deepcopy(settings) == settings
     assert copy.deepcopy(ringlet.Material(bend_stiffness=3)).bend_stiffness == 3
+
+
+# What tells how to mend a file says it in Python's own words, not as options of the command.
+def test_warnings_name_arguments_of_python(tmp_path):
+    (tmp_path / "lying.obj").write_text("v 0 0 0\nv 0 0 -20\nv 1 0 0\nv 1 0 -20\nl 1 2\nl 3 4\n")
+    (warning,) = ringlet.read_groom(tmp_path / "lying.obj").warnings
+    assert 'takes up="Z"' in warning
+    assert ringlet.read_groom(tmp_path / "lying.obj", up="Z").warnings == []
+    (tmp_path / "points.ply").write_text("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                                         "property float z\nend_header\n0 0 0\n0 -9 0\n")
+    with pytest.raises(ringlet.Error, match="say how many: points_per_strand") as refused:
+        ringlet.read_groom(tmp_path / "points.ply")
+    (tmp_path / "turned.usda").write_text(
+        '#usda 1.0\n(\n    upAxis = "Z"\n)\ndef BasisCurves "h"\n{\n    int[] curveVertexCounts = [2]\n'
+        '    point3f[] points = [(0, 0, 0), (0, 0, -9)]\n    uniform token type = "linear"\n}\n')
+    turned = ringlet.read_groom(tmp_path / "turned.usda").warnings
+    assert any('up="Z" keeps its axes' in sentence for sentence in turned)
+    tiny = ringlet.make_curl(metres_per_unit=1e-5)
+    placed = ringlet.check_placement(tiny.with_points(tiny.points / 1000))
+    assert any("metres_per_unit" in sentence for sentence in placed)
+    (tmp_path / "small.bvh").write_text(
+        "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Zrotation\nJOINT Head\n{\nOFFSET 0 9 0\nCHANNELS 1 Zrotation\n"
+        "End Site\n{\nOFFSET 0 1 0\n}\n}\n}\nMOTION\nFrames: 2\nFrame Time: 1\n0 0\n1 0\n")
+    motion = ringlet.Motion.load(tmp_path / "small.bvh", metres_per_unit=1).warnings
+    assert any("metres_per_unit=" in sentence for sentence in motion)
+    scene = ringlet.Scene.parse('[groom]\nfile = "lying.obj"\n', tmp_path).warnings
+    assert any('takes up = "Z" of [groom]' in sentence for sentence in scene)
+    for sentence in [warning, str(refused.value), *turned, *placed, *motion, *scene]:
+        assert "--" not in sentence.replace("`ringlet info FILE --fix OUT`", "").replace("`ringlet info --fix`", "")

@@ -193,3 +193,69 @@ def test_a_broken_scene_is_told_with_file_and_line(tmp_path):
     with pytest.raises(ringlet.Error, match="missing.obj") as error:
         ringlet.Scene.load(tmp_path / "scene.toml")
     assert error.value.fault == "input"
+
+
+# Every key that is a path, in a scene of its own.
+GROOM = '[groom]\nfile = "groom.obj"\n'
+PATHS = {
+    "groom.file": '[groom]\nfile = "PATH"\n',
+    "groom.scalp": '[groom]\ngenerate = "head"\nscalp = "PATH"\n',
+    "motion.file": GROOM + '[motion]\nfile = "PATH"\n',
+    "scalp.file": GROOM + '[scalp]\nfile = "PATH"\n',
+    "goal.file": GROOM + '[goal]\nfile = "PATH"\n',
+    "body.file": GROOM + '[[body]]\nshape = "mesh"\nfile = "PATH"\n',
+    "camera.file": GROOM + '[[camera]]\nname = "c"\nfile = "PATH"\n',
+    "field.file": GROOM + '[[field]]\nkind = "grid"\nstrength = 1\nfile = "PATH"\n',
+    "map.file": GROOM + '[[map]]\nnumber = "bend_stiffness"\nfile = "PATH"\n',
+    "map.texture": GROOM + '[[map]]\nnumber = "bend_stiffness"\ntexture = "PATH"\n',
+    "output.hair_scalp_file": GROOM + '[output]\nhairs = 9\nhair_scalp_file = "PATH"\n',
+    "output.folder": GROOM + '[output]\nfolder = "PATH"\n',
+    "material.file": GROOM + '[material]\nfile = "PATH"\n',
+}
+
+
+def test_every_key_that_is_a_path_is_tried(program):
+    keys = program("scene", "--keys")["keys"]
+    assert sorted(f"{key['table']}.{key['key']}" for key in keys if key["type"] == "path") == sorted(PATHS)
+
+
+@pytest.mark.parametrize("key", PATHS)
+def test_a_confined_scene_names_nothing_outside_its_folder(tmp_path, key):
+    folder = tmp_path / "scene"
+    (folder / "below").mkdir(parents=True)
+    for path in (tmp_path / "m.toml", folder / "below/m.toml"):
+        path.write_text("line_density = 1e-5\n")
+    (folder / "groom.obj").write_text("v 0 0 0\nv 0 -1 0\nl 1 2\n")
+    (folder / "link.toml").symlink_to("../m.toml")
+
+    def refusal(path, **confined):
+        text = PATHS[key].replace("PATH", str(path))
+        (folder / "scene.toml").write_text(text)
+        sentences = []
+        for read in (lambda: ringlet.Scene.load(folder / "scene.toml", **confined),
+                     lambda: ringlet.Scene.parse(text, folder, **confined)):
+            try:
+                read()
+                sentences.append("")
+            except ringlet.Error as error:
+                assert error.fault == "input"
+                sentences.append(str(error))
+        return sentences
+
+    for outside in ("../m.toml", tmp_path / "m.toml", "below/../../m.toml", "link.toml", "/etc/passwd"):
+        for sentence in refusal(outside, confined=True):
+            assert key in sentence and "to which it is confined" in sentence
+        for sentence in refusal(outside) + refusal(outside, confined=False):
+            assert "confined" not in sentence
+    for sentence in refusal("below/m.toml", confined=True):  # wrong perhaps, and in its place
+        assert "confined" not in sentence
+
+
+def test_a_confined_scene_runs_as_it_is(tmp_path, device):
+    (tmp_path / "groom.obj").write_text("v 0 0 0\nv 0 -1 0\nv 0 -2 0\nl 1 2 3\n")
+    (tmp_path / "scene.toml").write_text(GROOM + '[simulation]\nframes = 2\nsteps_per_frame = 4\n')
+    hairs = [ringlet.Scene.load(tmp_path / "scene.toml", confined=confined).run(device=device) for confined in (False, True)]
+    assert np.array_equal(hairs[0].positions(), hairs[1].positions())
+    for wrong in ("yes", None, 1, 2.5):
+        with pytest.raises(TypeError):
+            ringlet.Scene.load(tmp_path / "scene.toml", confined=wrong)

@@ -1,7 +1,6 @@
 // Implements c/ringlet.h: what acts on hair from outside, forces, goals and fields.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -13,15 +12,11 @@
 namespace ringlet::c {
 namespace {
 
-// x, y, z of each; false where one is not finite.
-bool takeVectors(const float* xyz, std::uint64_t count, std::vector<Vec3f>& vectors) {
-  vectors.resize(count);
-  for (Vec3f& v : vectors) {
-    v = {xyz[0], xyz[1], xyz[2]};
-    xyz += 3;
-    if (!std::isfinite(v.x + v.y + v.z)) return false;
-  }
-  return true;
+// x, y, z of each.
+std::vector<Vec3f> takeVectors(const float* xyz, std::uint64_t count) {
+  std::vector<Vec3f> vectors(xyz ? count : 0);
+  for (Vec3f& v : vectors) v = {xyz[0], xyz[1], xyz[2]}, xyz += 3;
+  return vectors;
 }
 
 // 0 stands for the default.
@@ -49,8 +44,7 @@ Outcome takeField(const ringlet_field& from, std::uint32_t index, ForceField& fi
       return Outcome::invalid(fmt::format("{} has more nodes than 32 bits count", field.name));
   }
   grid.cell = orElse(from.cell, grid.cell);
-  if (!takeVectors(from.velocities, count, grid.velocities))
-    return Outcome::invalid(fmt::format("{} has a velocity that is not finite", field.name));
+  grid.velocities = takeVectors(from.velocities, count);
   field.grid = std::make_shared<const VelocityGrid>(std::move(grid));
   return {};
 }
@@ -81,9 +75,7 @@ ringlet_result ringlet_hair_set_forces(ringlet_hair* hair, const float* xyz, uin
     if (Outcome outcome = checkBuiltFor(hair->builtFor.forces, "forces from outside", "has_forces");
         !outcome.isFine())
       return outcome;
-    std::vector<Vec3f> forces;
-    if (!takeVectors(xyz, particle_count, forces)) return Outcome::invalid("a force is not finite");
-    return hair->simulation.setForces(forces);
+    return hair->simulation.setForces(takeVectors(xyz, particle_count));
   });
 }
 
@@ -98,10 +90,8 @@ ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* g
     if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
     if (Outcome outcome = checkBuiltFor(hair->builtFor.goals, "goals", "has_goals"); !outcome.isFine())
       return outcome;
-    std::vector<Vec3f> places, before;
-    if (!takeVectors(from.places, from.particle_count, places) ||
-        (from.from && !takeVectors(from.from, from.particle_count, before)))
-      return Outcome::invalid("a place is not finite");
+    const std::vector<Vec3f> places = takeVectors(from.places, from.particle_count);
+    const std::vector<Vec3f> before = takeVectors(from.from, from.particle_count);
     const std::vector<float> strengths(from.strengths, from.strengths + from.particle_count);
     return hair->simulation.setGoals(places, strengths,
                                      from.undamped != 0 ? 0 : orElse(from.damping_ratio, 1), before);

@@ -3,16 +3,44 @@
 
 #include <cmath>
 
+#include "ringlet/base/host_words.h"
 #include "ringlet/bodies/mesh_file.h"
 #include "ringlet/c/io_handles.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/measure/groom_doubts.h"
 #include "ringlet/rest/material_file.h"
 #include "ringlet/rest/material_parameters.h"
 
 namespace ringlet::c {
 namespace {
 
+static_assert(int(RootEnd::first) == RINGLET_ROOT_FIRST && int(RootEnd::last) == RINGLET_ROOT_LAST &&
+              int(RootEnd::head) == RINGLET_ROOT_ON_HEAD);
+
 constexpr NumberRange kUnit{1e-6, 1000};  // [m]
+
+// What ringlet_groom_reading has.
+constexpr HostWord kWords[] = {
+    {"unit", "metres_per_unit", "metres_per_unit = {}"},
+    {"up", "up_is_z", "up_is_z = 1", "Z"},
+    {"up", "up_is_z", "up_is_z = 0"},
+    {"root-end", "root_end", "root_end = RINGLET_ROOT_LAST", "last"},
+    {"root-end", "root_end", "root_end = RINGLET_ROOT_ON_HEAD"},
+    {"points-per-strand", "points_per_strand", "points_per_strand = {}"},
+};
+
+constexpr std::uint32_t kMostPointsPerStrand = 1'000'000;
+
+// Whether the host says of a groom what can be.
+Outcome checkReading(const ringlet_groom_reading& reading) {
+  if (reading.points_per_strand == 1 || reading.points_per_strand > kMostPointsPerStrand)
+    return Outcome::invalid(fmt::format("points_per_strand is {}; it takes 2 to {}, or 0",
+                                        reading.points_per_strand, kMostPointsPerStrand));
+  if (reading.root_end < RINGLET_ROOT_FIRST || reading.root_end > RINGLET_ROOT_ON_HEAD)
+    return Outcome::invalid(
+        fmt::format("root_end is {}; it takes one of ringlet_root_end", static_cast<int>(reading.root_end)));
+  return {};
+}
 
 Outcome checkUnit(double metresPerUnit) {
   if (kUnit.contains(metresPerUnit)) return {};
@@ -49,13 +77,19 @@ ringlet_result ringlet_groom_read(const char* path, const ringlet_groom_reading*
     if (how.metres_per_unit != 0) {
       if (Outcome wrong = checkUnit(how.metres_per_unit); !wrong.isFine()) return wrong;
     }
-    auto loaded = readGroom(path, {.upIsZ = how.up_is_z != 0});
-    if (!loaded) return loaded.error();
+    if (Outcome wrong = checkReading(how); !wrong.isFine()) return wrong;
+    const GroomReading wanted{.upIsZ = how.up_is_z != 0,
+                              .pointsPerStrand = how.points_per_strand,
+                              .rootEnd = static_cast<RootEnd>(how.root_end)};
+    auto loaded = readGroom(path, wanted);
+    if (!loaded) return Error{inHostWords(loaded.error().message, kWords), loaded.error().fault};
+    for (std::string& doubt : doubtsOf(*loaded, wanted)) loaded->warnings.push_back(std::move(doubt));
     if (how.metres_per_unit != 0) {
       loaded->groom.metresPerUnit = how.metres_per_unit;
     } else if (!loaded->statesUnit) {
       loaded->groom.metresPerUnit = 0.01;
     }
+    for (std::string& sentence : loaded->warnings) sentence = inHostWords(sentence, kWords);
     warnOf(loaded->warnings, how.warn, how.user);
     *groom = new ringlet_loaded_groom{ShownGroom(std::move(loaded->groom))};
     return {};

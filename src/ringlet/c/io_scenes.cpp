@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "ringlet/base/host_words.h"
 #include "ringlet/c/io_handles.h"
 #include "ringlet/c/poses.h"
 #include "ringlet/run/scene_run.h"
@@ -27,10 +28,13 @@ SceneReach reachOf(const ringlet_scene_reading& reading) {
   return reading.is_confined ? SceneReach::ownFolder : SceneReach::anywhere;
 }
 
+Error inSceneWords(const Error& error) { return {ringlet::inSceneWords(error.message), error.fault}; }
+
 Outcome make(const Result<SceneFile>& file, const ringlet_scene_reading& reading, ringlet_scene** scene) {
-  if (!file) return file.error();
+  if (!file) return inSceneWords(file.error());
   auto loaded = loadScene(*file);
-  if (!loaded) return loaded.error();
+  if (!loaded) return inSceneWords(loaded.error());
+  for (std::string& sentence : loaded->warnings) sentence = ringlet::inSceneWords(sentence);
   warnOf(loaded->warnings, reading.warn, reading.user);
   auto shared = std::make_shared<const LoadedScene>(std::move(*loaded));
   *scene = new ringlet_scene{shared, ShownGroom(shared->groom)};

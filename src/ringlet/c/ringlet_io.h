@@ -24,12 +24,21 @@ typedef void (*ringlet_warn)(const char* sentence, void* user);
 
 /* Grooms. */
 
+/* Which of a strand's two ends in the file is its root. */
+typedef enum ringlet_root_end {
+  RINGLET_ROOT_FIRST = 0,
+  RINGLET_ROOT_LAST = 1,
+  RINGLET_ROOT_ON_HEAD = 2 /* the one on a ball on which most strands have an end */
+} ringlet_root_end;
+
 typedef struct ringlet_groom_reading {
   size_t struct_size;
   double metres_per_unit; /* the unit of the points; 0: the file's, where it states one, else 0.01 */
   int up_is_z;            /* 1 if Z is up in the host: a file that states another axis is turned */
-  ringlet_warn warn;      /* what is odd about the file; may be NULL */
+  ringlet_warn warn;      /* what is odd about the file, or seems wrong with the groom; may be NULL */
   void* user;
+  uint32_t points_per_strand; /* of a file that holds points and nothing else; 0: it is refused */
+  ringlet_root_end root_end;  /* strands whose root is the last point are turned round */
 } ringlet_groom_reading;
 
 /* Reads .hair, .obj, .tfx, .ply, .data, .bin, .usda, .usdc, .usd and .usdz. `reading` may be NULL. Only USD

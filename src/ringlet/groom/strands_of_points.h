@@ -13,8 +13,7 @@ namespace ringlet {
 /// What to do with such a file, as the end of a sentence.
 inline constexpr const char* kSayPointsPerStrand =
     "where all strands have as many points, say how many: --points-per-strand N (points_per_strand of "
-    "[groom] "
-    "and in Python)";
+    "[groom])";
 
 /// Cuts the points, in their order, into strands of `pointsPerStrand`, 2 or more. Errors: a number that does
 /// not divide theirs; no points. `name` is the file's.

@@ -127,6 +127,14 @@ std::optional<std::string> doubtOfUp(const Groom& groom, bool upIsZ) {
       likely, up);
 }
 
+std::vector<std::string> doubtsOf(const LoadedGroom& loaded, const GroomReading& reading) {
+  std::vector<std::string> doubts = doubtsOfPlaces(loaded.groom);
+  if (auto doubt = doubtOfRootEnds(loaded.groom)) doubts.push_back(std::move(*doubt));
+  if (loaded.statesUp) return doubts;
+  if (auto doubt = doubtOfUp(loaded.groom, reading.upIsZ)) doubts.push_back(std::move(*doubt));
+  return doubts;
+}
+
 Vec3d headMiddle(const Groom& groom) {
   const std::vector<Vec3d> roots = rootsOf(groom);
   if (const auto head = headUnder(roots)) return head->middle;

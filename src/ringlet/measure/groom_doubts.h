@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ringlet/groom/groom.h"
+#include "ringlet/groom/loaded_groom.h"
 #include "ringlet/scene/motion.h"
 
 namespace ringlet {
@@ -21,6 +22,9 @@ std::optional<std::string> doubtOfRootEnds(const Groom& groom);
 /// A groom whose strands hang along another axis than the one that is up, Y or Z, and whose roots, where they
 /// lie on a ball, do not say otherwise.
 std::optional<std::string> doubtOfUp(const Groom& groom, bool upIsZ);
+
+/// All of these of a groom that was read so.
+std::vector<std::string> doubtsOf(const LoadedGroom& loaded, const GroomReading& reading);
 
 /// Where a groom's own head is, as far as one can tell: the middle of the ball that its roots lie on, else of
 /// the roots [m]. Not empty.

@@ -351,8 +351,8 @@ std::vector<std::string> unusualNumbers(const Material& material, const Material
 
 std::string rangeText(const NumberRange& range, const char* unit) {
   const std::string_view name = unit;
-  return fmt::format("from {} to {}{}{}", range.low, range.high, name == "1" ? "" : " ",
-                     name == "1" ? "" : name);
+  const bool isNone = name.empty() || name == "1";
+  return fmt::format("from {} to {}{}{}", range.low, range.high, isNone ? "" : " ", isNone ? "" : name);
 }
 
 }  // namespace ringlet

@@ -266,7 +266,7 @@ Status checkGroom(const Groom& groom) {
                              std::numeric_limits<std::uint32_t>::max())};
   }
   if (!(groom.metresPerUnit > 0) || !std::isfinite(groom.metresPerUnit)) {
-    return Error{fmt::format("metresPerUnit is {}; it must be a positive number", groom.metresPerUnit)};
+    return Error{fmt::format("the groom's unit is {} m; it must be a positive number", groom.metresPerUnit)};
   }
   return {};
 }

@@ -752,7 +752,7 @@ Result<SceneFile> parseScene(std::string_view text, const std::string& name,
   if (isMaterialsTable(*file)) {
     return Error{
         fmt::format("{0}: is a material file and no scene: it goes with a groom or a scene, as "
-                    "--material {0}, or as file of [material]",
+                    "file = \"{0}\" of [material] (--material {0})",
                     name)};
   }
   return SceneReader(name, folder, reach).read(*file);

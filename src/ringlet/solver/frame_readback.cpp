@@ -20,7 +20,7 @@ gpu::KernelDescription describe() {
   gpu::KernelDescription description;
   description.name = "frame_positions";
   description.spirv = k_frame_positions_plain;
-  description.remedy = "take another device, or keep positions on the device (InitialState::readsBack)";
+  description.remedy = "take another device, or keep positions on the device";
   description.pushConstantBytes = sizeof(layout::FrameParameters);
   description.constants = {{layout::kSpecGroupSize, kGroupSize}};
   description.groupSize = kGroupSize;

@@ -393,13 +393,14 @@ std::vector<std::string> ContactReport::warnings() const {
     sentences.push_back(fmt::format(
         "hair that meets as a volume was held back {} times, at most by a factor of {:.3g}: it moved faster "
         "than {} m/s beside the head, or farther than twice its length. Look for jumps in the motion of the "
-        "head and the roots, or use --contacts explicit",
+        "head and the roots, or have contacts by pairs (contacts.method explicit)",
         volumeCut, volumeLargest, kVolumeMostSpeed));
   }
   if (volumeCoarsest > 1) {
     sentences.push_back(fmt::format(
         "hair that meets as a volume extended over more cells than there is room for, so that cells became "
-        "{:.3g} times as large and hair was coupled over as much more. Use a larger --volume-cell, or look "
+        "{:.3g} times as large and hair was coupled over as much more. Use a larger contacts.volume_cell, or "
+        "look "
         "for hair that is far away",
         volumeCoarsest));
   }

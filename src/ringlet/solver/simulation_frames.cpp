@@ -306,7 +306,8 @@ Status Simulation::Implementation::finishFrames(std::uint64_t end) {
   for (; finished < end; ++finished) {
     const std::size_t slot = finished % kFramesInFlight;
     if (slots[slot].isHosts)
-      return Error{"a frame of this hair is in a host's commands: call frameIsOver once they are done"};
+      return Error{
+          "a frame of this hair is in a host's commands: say that the frame is over once they are done"};
     if (Status status = runToEnd(slot); !status) {
       lostFrame = status.error();
       return status;

@@ -42,7 +42,7 @@ gpu::KernelDescription describeVolumeKernel(VolumeKernel which, bool texels, boo
   gpu::KernelDescription description;
   description.name = compiled.name;
   description.spirv = compiled.spirv;
-  description.remedy = "take another device, or contacts by pairs (--contacts explicit)";
+  description.remedy = "take another device, or contacts by pairs (contacts.method explicit)";
   description.pushConstantBytes = sizeof(layout::VolumeParameters);
   description.constants = {{layout::kSpecGroupSize, kVolumeGroupSize},
                            {layout::kSpecTexels, texels ? 1u : 0u},

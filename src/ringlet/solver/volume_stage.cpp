@@ -86,7 +86,7 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   if (groupsOf(count) > device.properties().maxGroupCount) {
     return Error{
         fmt::format("{} particles that meet as a volume are more than the {} this device takes at once; "
-                    "use --contacts off, or a smaller groom",
+                    "switch contacts off, or take a smaller groom",
                     count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
   }
   const std::uint64_t cellWords = 2 * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 2 * count;
