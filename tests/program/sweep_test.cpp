@@ -195,7 +195,11 @@ TEST_F(Sweep, ARunIsNotKeptWhereABufferChanged) {
   const float place = 0.03f;  // in place of 0.05, 12 bytes before the end
   std::memcpy(&bytes[bytes.size() - 12], &place, sizeof place);
   std::ofstream(folder_ / "m.bin", std::ios::binary) << bytes;
-  ASSERT_EQ(onCpu(vary).exitCode, 0);
+  const auto other = onCpu(vary);
+  EXPECT_EQ(other.exitCode, 4);
+  EXPECT_NE(other.err.find("m.bin"), std::string::npos) << other.err;
+  EXPECT_EQ(hashIn("run-0001"), hash);
+  ASSERT_EQ(onCpu(vary, {"--overwrite"}).exitCode, 0);
   EXPECT_EQ(states(), (States{"finished", "finished"}));
   EXPECT_NE(hashIn("run-0001"), hash);
 }

@@ -45,7 +45,8 @@ class Tune : public testing::Test {
   }
 
   json simulate(std::vector<std::string> arguments = {}) {
-    arguments.insert(arguments.begin(), {"simulate", "groom.obj", "--frames", "1", "--json", "-o", "out"});
+    arguments.insert(arguments.begin(),
+                     {"simulate", "groom.obj", "--frames", "1", "--overwrite", "--json", "-o", "out"});
     const auto result = runProgram(folder_, arguments);
     EXPECT_EQ(result.exitCode, 0) << result.err;
     err_ = test::withoutCompileNotes(result.err);

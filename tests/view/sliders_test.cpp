@@ -180,6 +180,8 @@ TEST(SavedScene, FindsItsFiles) {
         &scene.output.hairScalpFile, &scene.cameras[0].file, &scene.fields[0].file, &scene.maps[0].file,
         &scene.maps[1].texture, &scene.bodies[0].file, &scene.bodies[1].file, &scene.bodies[0].motion->file})
     name(*path);
+  scene.motion.kind.clear();
+  scene.goal.on = true;
   scene.bodies[1].motion->file = "/elsewhere/../library/m.bvh";
   const auto saved = folder / "show" / "views" / "saved.toml";
   ASSERT_TRUE(saveScene(scene, editsOf(scene), 0, saved));
