@@ -12,7 +12,8 @@
 //           lie.
 //   height  the median over the frames in which the person stands: the trunk along the up axis, and the
 //           person's extent along it 0.85 to 1.15 times the straightened length. Where there is none
-//           (sitting, lying): the straightened length itself, the trunk's and that of the legs' bones.
+//           (sitting, lying): the straightened length itself, the trunk's and that of the legs' bones. Where
+//           a person with legs ends at the joint of its head, an eighth of what is below it is added.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +38,8 @@ struct BvhStance {
   bool hasTrunk = false;             // hips and a head apart from them
   bool hasLegs = false;
   bool everStands = false;
-  double height = 0;  // in the file's unit; 0 for a skeleton of one point
+  double height = 0;     // in the file's unit; 0 for a skeleton of one point
+  double addedHead = 0;  // of it, what is not in the file
 };
 
 /// Of the frames from a first one on, which must be there; `stated`: the up axis, where it is known; `head`:
