@@ -134,6 +134,19 @@ TEST(BvhStance, WhoLiesIsNotTakenForAnotherAxisUnsaid) {
   }
 }
 
+// Who lies first and stands later is upright when it stands, whatever axis it lay along.
+TEST(BvhStance, WhoGetsUpStandsAlongTheUpAxis) {
+  for (const Convention& convention : conventions()) {
+    SCOPED_TRACE(convention.name);
+    const auto file = parseBvh(bvhOf(convention, Posture::getsUp));
+    ASSERT_TRUE(file) << file.error().message;
+    const BvhStance stance = stanceOf(*file, convention.hasTPose ? 1 : 0, {}, file->find(headOf(convention)));
+    EXPECT_EQ(nameOf(stance.up), convention.up == 'y' ? "-Y" : std::string(1, convention.up));
+    EXPECT_NEAR(stance.height / convention.unitsPerMetre, kPersonTall, 0.05 * kPersonTall);
+    EXPECT_TRUE(stance.everStands);
+  }
+}
+
 TEST(BvhStance, AStatedAxisIsTakenUnasked) {
   for (const char* name : {"Y", "Z", "X", "-Y", "-Z", "-X"}) {
     const auto axis = fileAxisNamed(name);

@@ -20,7 +20,7 @@
 namespace ringlet::test {
 
 /// What the person does.
-enum class Posture { walks, armsUp, sits, lies, jumps, kicks, turnsHead };
+enum class Posture { walks, armsUp, sits, lies, getsUp, jumps, kicks, turnsHead };
 
 /// Of the axes of joints.
 enum class BoneAxes {
@@ -86,6 +86,11 @@ inline PersonPose personPose(const std::vector<SampleJoint>& joints, Posture pos
       pose.hips.y = 0.5;
       break;
     case Posture::lies:
+      whole = turnAbout({1, 0, 0}, -90);
+      pose.hips = {0, 0.12, -0.3};
+      break;
+    case Posture::getsUp:  // in the middle
+      if (frame >= kPersonFrames / 2) break;
       whole = turnAbout({1, 0, 0}, -90);
       pose.hips = {0, 0.12, -0.3};
       break;

@@ -230,13 +230,14 @@ class Looks {
     const double low = medianOf([&](const Look& look) { return rangeOf(look, axis)[0]; });
     return std::abs(low) <= kOnFloor * straightened();
   }
-  // All of the person is a little above an axis' 0.
-  bool liesOnFloorOf(FileAxis axis) const {
+  // All of the person is a little above an axis' 0; `along`: while its trunk lies along that.
+  bool liesOnFloorOf(FileAxis axis, std::optional<FileAxis> along = {}) const {
     const double size = straightened();
-    const double low = medianOf([&](const Look& look) { return rangeOf(look, axis)[0]; });
-    const double high = medianOf([&](const Look& look) { return rangeOf(look, axis)[1]; });
-    const double hips =
-        medianOf([&](const Look& look) { return dot(look.places[person_.hips], directionOf(axis)); });
+    const auto isAsked = [&](const Look& look) { return !along || nearestFileAxis(look.trunk) == along; };
+    const double low = medianOf([&](const Look& look) { return rangeOf(look, axis)[0]; }, isAsked);
+    const double high = medianOf([&](const Look& look) { return rangeOf(look, axis)[1]; }, isAsked);
+    const double hips = medianOf(
+        [&](const Look& look) { return dot(look.places[person_.hips], directionOf(axis)); }, isAsked);
     return low >= -kThinnest * size && high <= kLyingHigh * size && hips > kThinnest * size &&
            hips < kThickest * size;
   }
@@ -283,8 +284,12 @@ class Looks {
     return {std::min(low, along), std::max(high, along)};
   }
   double medianOf(const auto& number) const {
+    return medianOf(number, [](const Look&) { return true; });
+  }
+  double medianOf(const auto& number, const auto& isAsked) const {
     std::vector<double> values;
-    for (const Look& look : looks_) values.push_back(number(look));
+    for (const Look& look : looks_)
+      if (isAsked(look)) values.push_back(number(look));
     return median(std::move(values));
   }
 
@@ -294,12 +299,26 @@ class Looks {
   double addedHead_ = 0;        // above its joint, along the trunk
 };
 
+// Of who lies and stands: the axis of standing, on whose floor it lies else; `axis` where none is.
+FileAxis axisOfStanding(const Looks& looks, FileAxis axis) {
+  for (int k = 0; k < 6; ++k) {
+    const auto other = static_cast<FileAxis>(k);
+    if (other != axis && looks.share(other) >= kOften && looks.share(axis) >= kOften &&
+        looks.liesOnFloorOf(other, axis) && !looks.liesOnFloorOf(axis, other))
+      axis = other;
+  }
+  return axis;
+}
+
 // The axis, as the header says.
 void seeUp(const Looks& looks, std::optional<FileAxis> atRest, BvhStance& stance) {
   using Sight = BvhStance::Sight;
   const auto see = [&](Sight sight, FileAxis up) { stance.sight = sight, stance.up = up; };
   const FileAxis usual = atRest.value_or(FileAxis::plusY), along = looks.most();
   stance.along = along;
+  const FileAxis often = looks.share(usual) >= kOften ? usual : along;
+  if (const FileAxis standing = axisOfStanding(looks, often); standing != often)
+    return see(standing == FileAxis::plusY ? Sight::upright : Sight::taken, standing);
   if (looks.share(usual) >= kOften) return see(Sight::upright, usual);
   if (looks.share(along) < kMostly) return see(Sight::unseen, FileAxis::plusY);
   if (along == FileAxis::plusY && looks.isOnFloorOf(along)) return see(Sight::upright, along);

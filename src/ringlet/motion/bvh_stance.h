@@ -6,7 +6,8 @@
 // left out, which may be raised. Of up to 200 frames:
 //
 //   up      the axis along which the trunk lies in most frames. Y, or the axis along which the skeleton
-//           stands at zero angles, is up where a fifth of the frames say so: people lie down and get up.
+//           stands at zero angles, is up where a fifth of the frames say so: people lie down and get up. Not
+//           so where these frames lie on the floor of another axis that a fifth of the frames say is up.
 //           Where none does, the person lies, or another axis is up. That other axis is taken where the feet
 //           are at its 0, as on a floor, or where nothing stands at zero angles; else the person is taken to
 //           lie.
