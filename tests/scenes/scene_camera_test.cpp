@@ -7,6 +7,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "ringlet/motion/affine.h"
+#include "ringlet/motion/file_axis.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
