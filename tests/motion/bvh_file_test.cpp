@@ -84,7 +84,7 @@ TEST(BvhFile, SaysWhatIsWrongAndWhere) {
       {"HIERARCHY\nROOT a\n{\nOFFSET 0 x 0", "line 4: a number of an offset"},
       {skeleton("3 Zrotation Wrotation Yrotation", kStill), "line 9: a channel"},
       {skeleton("7 Zrotation Xrotation Yrotation", kStill), "a joint has 0 to 6 channels, not 7"},
-      {skeleton(turns, "Frames: 0\nFrame Time: 0.04\n"), "1 to 1e8 frames, not 0"},
+      {skeleton(turns, "Frames: 0\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0\n"), "not 0; the number there"},
       {skeleton(turns, "Frames: 1\nFrame Time: 0\n"), "must be above 0"},
       {skeleton(turns, "Frames: 2\nFrame Time: 0.04\n1 2 3 0 0 0 0 0 0\n1 2 3\n"),
        "line 26: frame 2 has 3 of its 9 numbers; the file states 2 frames and holds 1 and a part of one"},

@@ -1,5 +1,5 @@
-// motion/bvh_stance.h, and what readMotionFile makes of it: persons of fifteen kinds of files stand upright
-// and at their height, whatever unit, axis and axes of bones a file has, and whatever the person does.
+// motion/bvh_stance.h, and what readMotionFile makes of it: persons of many kinds of files stand upright and
+// at their height, whatever unit, axis and axes of bones a file has, and whatever the person does.
 #include "ringlet/motion/bvh_stance.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ Loaded loaded(const Convention& convention, Posture posture, bool upIsZ, MotionF
   const auto path = scratchFolder("bvh_stance") / "person.bvh";
   std::ofstream(path) << bvhOf(convention, posture);
   choice.path = path;
-  if (convention.names == std::string("biped")) choice.joint = "Bip01 Head";
+  choice.joint = headOf(convention);
   choice.skippedFrames = convention.hasTPose ? 1 : 0;
   std::vector<std::string> warnings;
   const auto motion = readMotionFile(choice, upIsZ, warnings);
@@ -67,6 +67,10 @@ TEST(BvhStance, PersonsOfAllKindsOfFilesStandUpright) {
         const Quatd first = person.poses[0].rotation;
         double most = 0;
         for (const HeadPose& pose : person.poses) {
+          // Hair stands upright on joints that are upright in the file, or were before its root was turned.
+          if (convention.axes != BoneAxes::alongX) {
+            EXPECT_GT(dot(rotate(pose.rotation, up), up), 0.999);
+          }
           const Quatd turn = pose.rotation * first.conjugate();
           EXPECT_GT(dot(rotate(turn, up), up), 0.999);
           most = std::max(most, length(Vec3d{turn.x, turn.y, turn.z}));
@@ -99,7 +103,8 @@ TEST(BvhStance, TheHeightIsOfThePersonWhateverItDoes) {
       SCOPED_TRACE(fmt::format("{} {}", convention.name, name));
       const auto file = parseBvh(bvhOf(convention, posture));
       ASSERT_TRUE(file) << file.error().message;
-      const BvhStance stance = stanceOf(*file, convention.hasTPose ? 1 : 0, {});
+      const BvhStance stance =
+          stanceOf(*file, convention.hasTPose ? 1 : 0, {}, file->find(headOf(convention)));
       EXPECT_NEAR(stance.height / convention.unitsPerMetre, kPersonTall, 0.05 * kPersonTall);
       const bool stands = posture != Posture::sits && posture != Posture::lies;
       if (posture != Posture::lies) {
@@ -126,6 +131,19 @@ TEST(BvhStance, WhoLiesIsNotTakenForAnotherAxisUnsaid) {
     const Loaded other =
         loaded(convention, Posture::lies, false, {.path = {}, .metresPerUnit = {}, .up = FileAxis::minusZ});
     EXPECT_NEAR(middle(other, 1), -middle(person, 2), 0.05) << other.warnings;
+  }
+}
+
+// Who lies first and stands later is upright when it stands, whatever axis it lay along.
+TEST(BvhStance, WhoGetsUpStandsAlongTheUpAxis) {
+  for (const Convention& convention : conventions()) {
+    SCOPED_TRACE(convention.name);
+    const auto file = parseBvh(bvhOf(convention, Posture::getsUp));
+    ASSERT_TRUE(file) << file.error().message;
+    const BvhStance stance = stanceOf(*file, convention.hasTPose ? 1 : 0, {}, file->find(headOf(convention)));
+    EXPECT_EQ(nameOf(stance.up), convention.up == 'y' ? "-Y" : std::string(1, convention.up));
+    EXPECT_NEAR(stance.height / convention.unitsPerMetre, kPersonTall, 0.05 * kPersonTall);
+    EXPECT_TRUE(stance.everStands);
   }
 }
 
@@ -204,6 +222,24 @@ TEST(BvhStance, SkeletonsWithoutAPersonHaveAUnit) {
     EXPECT_NE(warnings[0].find(c.said), std::string::npos) << warnings[0];
     EXPECT_EQ(warnings[0].find(" 0 units"), std::string::npos) << warnings[0];
   }
+}
+
+// A file of one frame is a pose: what it states and holds is said, and what was skipped.
+TEST(BvhStance, AMotionNeedsTwoFrames) {
+  const auto path = scratchFolder("bvh_stance_frames") / "person.bvh";
+  const auto errorOf = [&](int held, int excess, int skipped) {
+    Convention convention = conventions()[1];
+    convention.excessFrames = excess;
+    std::ofstream(path) << bvhOf(convention, Posture::turnsHead, held);
+    std::vector<std::string> warnings;
+    const auto motion = readMotionFile({.path = path, .skippedFrames = skipped}, false, warnings);
+    EXPECT_FALSE(motion);
+    return motion ? "" : motion.error().message.substr(path.string().size());
+  };
+  EXPECT_EQ(errorOf(1, 0, 0), " has one frame; a motion needs two frames");
+  EXPECT_EQ(errorOf(1, 4, 0), " has one frame (it states 1 and holds 5); a motion needs two frames");
+  EXPECT_EQ(errorOf(3, 0, 2),
+            " has 3 frames, and the first 2 are skipped (--skip-frames); a motion needs two frames");
 }
 
 // Without a name that says so, the head is what the hair follows; other joints of the file go with it.

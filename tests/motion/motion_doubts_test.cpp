@@ -7,6 +7,7 @@
 
 #include <array>
 #include <fstream>
+#include <numbers>
 
 #include "ringlet/motion/motion_file.h"
 #include "tests/motion/gltf_samples.h"
@@ -108,6 +109,28 @@ TEST(MotionDoubts, PersonsAreNot) {
   }
   EXPECT_EQ(warningsOf({.form = Form::underRoot, .scale = 0.01}), "")
       << "centimetres under a scale that mends them";
+}
+
+// The head's own axes may be those of the file, or have Y along the neck: hair stands upright on either.
+TEST(MotionDoubts, HairStandsOnHeadsOfAFileWithAnotherUpAxis) {
+  for (const bool areTurned : {false, true}) {
+    for (const bool upIsZ : {false, true}) {
+      GltfBuilder file = gltfOf({.up = 2});
+      if (areTurned) {
+        const Quatd turn = fromRotationVector(Vec3d{std::numbers::pi / 2, 0, 0});
+        file.root["nodes"][0]["rotation"] = {turn.x, turn.y, turn.z, turn.w};
+      }
+      const auto path = scratchFolder("motion_doubts_axes") / "m.gltf";
+      std::ofstream(path) << file.text();
+      std::vector<std::string> warnings;
+      const auto motion = readMotionFile({.path = path, .up = FileAxis::plusZ}, upIsZ, warnings);
+      ASSERT_TRUE(motion) << motion.error().message;
+      const Vec3d up = upIsZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
+      const HeadPose pose = motion->poseAt(0);
+      EXPECT_NEAR(dot(pose.position, up), 1.6, 1e-6);
+      EXPECT_GT(dot(rotate(pose.rotation, up), up), 0.9999);
+    }
+  }
 }
 
 TEST(MotionDoubts, AnotherAxisThanGltfsIsNamed) {

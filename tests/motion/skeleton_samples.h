@@ -1,9 +1,10 @@
-// A person of 1.8 m as BVH texts, after the public descriptions of what exporters write: units, up axes,
-// names, orders of angles, axes of bones, where positions are.
+// A person of 1.8 m as BVH texts: what it does, and in which unit, up axis, order of angles, axes of bones
+// and places of positions a file says so. Which joints it has: skeleton_hierarchies.h.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -14,11 +15,12 @@
 
 #include "ringlet/base/vec3.h"
 #include "ringlet/motion/affine.h"
+#include "tests/motion/skeleton_hierarchies.h"
 
 namespace ringlet::test {
 
 /// What the person does.
-enum class Posture { walks, armsUp, sits, lies, jumps, kicks, turnsHead };
+enum class Posture { walks, armsUp, sits, lies, getsUp, jumps, kicks, turnsHead };
 
 /// Of the axes of joints.
 enum class BoneAxes {
@@ -37,67 +39,12 @@ struct Convention {
   bool hasAllPositions = false;  // in every joint
   bool hasOffsets = true;        // false: all 0, so that only positions place joints
   bool hasReference = false;     // a root at the origin that does not move
-  bool hasTPose = false;         // first
-  int excessFrames = 0;          // beyond those stated
+  bool hasReferenceChannels = true;
+  bool hasTPose = false;  // first
+  int excessFrames = 0;   // beyond those stated
 };
 
-inline constexpr double kPersonTall = 1.8, kPersonHead = 1.6;  // of the top, and the joint [m]
 inline constexpr int kPersonFrames = 48;
-
-struct SampleJoint {
-  std::string name;
-  int parent;
-  Vec3d place;  // standing with arms to the sides, Y up, looking along Z [m]
-};
-
-// In the order of the file; names by convention.
-inline std::vector<SampleJoint> personJoints(const std::string& names) {
-  using Names = std::array<const char*, 15>;
-  static const std::map<std::string, Names> all{
-      {"plain", Names{"Hips", "Spine", "Chest", "Neck", "Head", "HeadTop", "LeftCollar", "LeftUpArm",
-                      "LeftLowArm", "LeftHand", "LeftUpLeg", "LeftLowLeg", "LeftFoot", "LeftToe", "Right"}},
-      {"mixamo",
-       Names{"mixamorig:Hips", "mixamorig:Spine", "mixamorig:Spine1", "mixamorig:Neck", "mixamorig:Head",
-             "mixamorig:HeadTop_End", "mixamorig:LeftShoulder", "mixamorig:LeftArm", "mixamorig:LeftForeArm",
-             "mixamorig:LeftHand", "mixamorig:LeftUpLeg", "mixamorig:LeftLeg", "mixamorig:LeftFoot",
-             "mixamorig:LeftToeBase", "mixamorig:Right"}},
-      {"biped",
-       Names{"Bip01 Pelvis", "Bip01 Spine", "Bip01 Spine1", "Bip01 Neck", "Bip01 Head", "Bip01 HeadNub",
-             "Bip01 L Clavicle", "Bip01 L UpperArm", "Bip01 L Forearm", "Bip01 L Hand", "Bip01 L Thigh",
-             "Bip01 L Calf", "Bip01 L Foot", "Bip01 L Toe0", "Bip01 R"}},
-      {"blender", Names{"hips", "spine", "chest", "neck", "head", "head_end", "shoulder.L", "upper_arm.L",
-                        "forearm.L", "hand.L", "thigh.L", "shin.L", "foot.L", "toe.L", "right"}}};
-  const Names& n = all.at(names);
-  std::vector<SampleJoint> joints{{n[0], -1, {0, 0.95, 0}}, {n[1], 0, {0, 1.07, 0}}, {n[2], 1, {0, 1.30, 0}},
-                                  {n[3], 2, {0, 1.50, 0}},  {n[4], 3, {0, 1.60, 0}}, {n[5], 4, {0, 1.80, 0}}};
-  const std::array<Vec3d, 8> side{{{0.05, 1.45, 0},
-                                   {0.18, 1.45, 0},
-                                   {0.48, 1.45, 0},
-                                   {0.74, 1.45, 0},
-                                   {0.10, 0.90, 0},
-                                   {0.10, 0.48, 0},
-                                   {0.10, 0.08, 0},
-                                   {0.10, 0, 0.14}}};
-  for (const double sign : {1.0, -1.0}) {
-    const int first = static_cast<int>(joints.size());
-    for (int k = 0; k < 8; ++k) {
-      const Vec3d at = side[static_cast<std::size_t>(k)];
-      const int parent = k == 0 ? 2 : k == 4 ? 0 : first + k - 1;
-      const std::string name = n[static_cast<std::size_t>(6 + k)];
-      joints.push_back({sign > 0 ? name : fmt::format("{} {}", n[14], k), parent, {sign * at.x, at.y, at.z}});
-    }
-  }
-  // The other side by names that say as much.
-  for (std::size_t k = 14; k < joints.size(); ++k) {
-    std::string name = joints[k - 8].name;
-    const auto replace = [&](const std::string& left, const std::string& right) {
-      if (const auto at = name.find(left); at != std::string::npos) name.replace(at, left.size(), right);
-    };
-    replace("Left", "Right"), replace(" L ", " R "), replace(".L", ".R");
-    joints[k].name = name;
-  }
-  return joints;
-}
 
 inline Quatd turnAbout(Vec3d axis, double degrees) {
   return fromRotationVector(axis * (degrees * std::numbers::pi / 180));
@@ -115,16 +62,15 @@ struct PersonPose {
 inline PersonPose personPose(const std::vector<SampleJoint>& joints, Posture posture, int frame) {
   const double swing = std::sin(2 * std::numbers::pi * frame / 24);
   PersonPose pose{std::vector<Quatd>(joints.size()), joints[0].place};
-  // Local turns of: left and right upper arm, left and right thigh and shin.
-  std::map<std::size_t, Quatd> own;
+  std::map<Role, Quatd> own;  // turns among the parent's
   const auto arms = [&](double down) {
-    own[7] = turnAbout({0, 0, 1}, -down), own[15] = turnAbout({0, 0, 1}, down);
+    own[Role::leftArm] = turnAbout({0, 0, 1}, -down), own[Role::rightArm] = turnAbout({0, 0, 1}, down);
   };
   const auto thighs = [&](double left, double right) {
-    own[10] = turnAbout({1, 0, 0}, -left), own[18] = turnAbout({1, 0, 0}, -right);
+    own[Role::leftThigh] = turnAbout({1, 0, 0}, -left), own[Role::rightThigh] = turnAbout({1, 0, 0}, -right);
   };
   arms(75);
-  own[4] = turnAbout({0, 1, 0}, headTurn(frame));
+  own[Role::head] = turnAbout({0, 1, 0}, headTurn(frame));
   Quatd whole;
   switch (posture) {
     case Posture::walks:
@@ -136,10 +82,15 @@ inline PersonPose personPose(const std::vector<SampleJoint>& joints, Posture pos
       break;
     case Posture::sits:
       thighs(90, 90);
-      own[11] = turnAbout({1, 0, 0}, 90), own[19] = turnAbout({1, 0, 0}, 90);
+      own[Role::leftShin] = own[Role::rightShin] = turnAbout({1, 0, 0}, 90);
       pose.hips.y = 0.5;
       break;
     case Posture::lies:
+      whole = turnAbout({1, 0, 0}, -90);
+      pose.hips = {0, 0.12, -0.3};
+      break;
+    case Posture::getsUp:  // in the middle
+      if (frame >= kPersonFrames / 2) break;
       whole = turnAbout({1, 0, 0}, -90);
       pose.hips = {0, 0.12, -0.3};
       break;
@@ -153,8 +104,10 @@ inline PersonPose personPose(const std::vector<SampleJoint>& joints, Posture pos
       break;
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (j > 0 && joints[j].parent < 0) continue;  // stays with the root
     const Quatd before = j == 0 ? whole : pose.turns[static_cast<std::size_t>(joints[j].parent)];
-    pose.turns[j] = own.contains(j) ? before * own[j] : before;
+    const auto turn = joints[j].role == Role::other ? own.end() : own.find(joints[j].role);
+    pose.turns[j] = turn == own.end() ? before : before * turn->second;
   }
   return pose;
 }
@@ -211,6 +164,7 @@ inline std::string bvhOf(const Convention& convention, Posture posture, int fram
   const auto parentOf = [&](std::size_t j) { return static_cast<std::size_t>(joints[j].parent); };
   const auto offsetOf = [&](std::size_t j) {
     if (j == 0) return Vec3d{};
+    if (joints[j].parent < 0) return rotate(world, joints[j].place) * scale;
     return rotate(axes[parentOf(j)].conjugate(), rotate(world, joints[j].place - joints[parentOf(j)].place)) *
            scale;
   };
@@ -221,7 +175,8 @@ inline std::string bvhOf(const Convention& convention, Posture posture, int fram
 
   std::string text = "HIERARCHY\n";
   if (convention.hasReference)
-    text += fmt::format("ROOT Reference\n{{\nOFFSET 0 0 0\nCHANNELS 6 {} {}\n", positions, angles);
+    text += fmt::format("ROOT Reference\n{{\nOFFSET 0 0 0\nCHANNELS {}\n",
+                        convention.hasReferenceChannels ? "6 " + positions + " " + angles : "0");
   std::vector<std::size_t> order;  // of the numbers of a frame
   const std::function<void(std::size_t)> write = [&](std::size_t j) {
     order.push_back(j);
@@ -239,19 +194,20 @@ inline std::string bvhOf(const Convention& convention, Posture posture, int fram
     if (isEnd) text += "End Site\n{\nOFFSET 0 0 0\n}\n";
     text += "}\n";
   };
-  write(0);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    if (joints[j].parent < 0) write(j);
   if (convention.hasReference) text += "}\n";
   text += fmt::format("MOTION\nFrames: {}\nFrame Time: 0.0416667\n", frames);
 
   for (int frame = 0; frame < frames + convention.excessFrames; ++frame) {
     PersonPose pose = personPose(joints, posture, frame);
     if (frame == 0 && convention.hasTPose) pose = {std::vector<Quatd>(joints.size()), joints[0].place};
-    if (convention.hasReference) text += "0 0 0 0 0 0 ";
+    if (convention.hasReference && convention.hasReferenceChannels) text += "0 0 0 0 0 0 ";
     std::string line;
     for (const std::size_t j : order) {
       // G = W M W^-1 B: moved in the world, from the standing axes; then among the parent's.
       const auto global = [&](std::size_t k) { return world * pose.turns[k] * world.conjugate() * axes[k]; };
-      const Quatd local = j == 0 ? global(0) : global(parentOf(j)).conjugate() * global(j);
+      const Quatd local = joints[j].parent < 0 ? global(j) : global(parentOf(j)).conjugate() * global(j);
       if (j == 0 || convention.hasAllPositions)
         line += numbers(j == 0 ? rotate(world, pose.hips) * scale : offsetOf(j)) + " ";
       const auto degrees = anglesOf(normalized(local), convention.order);
@@ -262,7 +218,13 @@ inline std::string bvhOf(const Convention& convention, Posture posture, int fram
   return text;
 }
 
-/// Fifteen kinds of files.
+/// The head's joint.
+inline std::string headOf(const Convention& convention) {
+  const auto joints = personJoints(convention.names);
+  return std::ranges::find(joints, Role::head, &SampleJoint::role)->name;
+}
+
+/// Kinds of files.
 inline const std::vector<Convention>& conventions() {
   static const std::vector<Convention> all{
       {.name = "inches over 0.45, a T-pose first",
@@ -289,7 +251,66 @@ inline const std::vector<Convention>& conventions() {
        .up = 'Z',
        .axes = BoneAxes::yUp},
       {.name = "centimetres, X up", .up = 'X', .names = "mixamo"},
-      {.name = "metres, Y down as cameras see", .unitsPerMetre = 1, .up = 'y', .axes = BoneAxes::yUp}};
+      {.name = "metres, Y down as cameras see", .unitsPerMetre = 1, .up = 'y', .axes = BoneAxes::yUp},
+      {.name = "CMU, inches over 0.45, a T-pose first",
+       .unitsPerMetre = 0.45 / 0.0254,
+       .order = "ZYX",
+       .names = "cmu",
+       .hasTPose = true},
+      {.name = "CMU, inches", .unitsPerMetre = 1 / 0.0254, .order = "ZXY", .names = "cmu"},
+      {.name = "Xsens, centimetres", .order = "YXZ", .names = "xsens"},
+      {.name = "Xsens, metres, Z up", .unitsPerMetre = 1, .up = 'Z', .order = "YXZ", .names = "xsens"},
+      {.name = "Perception Neuron, positions, a frame more than stated",
+       .order = "YXZ",
+       .names = "neuron",
+       .hasAllPositions = true,
+       .excessFrames = 1},
+      {.name = "Perception Neuron, inches, positions only",
+       .unitsPerMetre = 1 / 0.0254,
+       .order = "YXZ",
+       .names = "neuron",
+       .hasAllPositions = true,
+       .hasOffsets = false},
+      {.name = "Unreal, centimetres, bones along X, Z up",
+       .up = 'Z',
+       .axes = BoneAxes::alongX,
+       .order = "XYZ",
+       .names = "unreal",
+       .hasReference = true},
+      {.name = "Unreal, inches, bones along X",
+       .unitsPerMetre = 1 / 0.0254,
+       .axes = BoneAxes::alongX,
+       .order = "XYZ",
+       .names = "unreal",
+       .hasReference = true},
+      {.name = "Daz, centimetres", .order = "YZX", .names = "daz"},
+      {.name = "Daz, inches, made Y up, the root turned to Z up",
+       .unitsPerMetre = 1 / 0.0254,
+       .up = 'Z',
+       .axes = BoneAxes::yUp,
+       .order = "XYZ",
+       .names = "daz"},
+      {.name = "Poser, 2.62 m", .unitsPerMetre = 1 / 2.62, .names = "poser"},
+      {.name = "Poser, inches", .unitsPerMetre = 1 / 0.0254, .names = "poser"},
+      {.name = "Rigify, metres, Z up, a root without channels",
+       .unitsPerMetre = 1,
+       .up = 'Z',
+       .order = "XYZ",
+       .names = "rigify",
+       .hasReference = true,
+       .hasReferenceChannels = false},
+      {.name = "Rigify, centimetres, Y up", .order = "XYZ", .names = "rigify"},
+      {.name = "SMPL, metres, a root that stays",
+       .unitsPerMetre = 1,
+       .order = "ZYX",
+       .names = "smpl",
+       .hasReference = true},
+      {.name = "SMPL, metres, Y down as cameras see",
+       .unitsPerMetre = 1,
+       .up = 'y',
+       .axes = BoneAxes::yUp,
+       .order = "ZYX",
+       .names = "smpl"}};
   return all;
 }
 

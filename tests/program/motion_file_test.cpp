@@ -147,7 +147,7 @@ TEST(MotionFile, MistakesAreOneSentence) {
   for (const Case& c : {
            Case{{"--motion", "walk.BVH", "--joint", "Haed"}, 1, "walk.BVH has no joint Haed; "},
            Case{{"--motion", "walk.BVH", "--joint", "LeftWrist"}, 1, "it has Hips, rig:Head"},
-           Case{{"--motion", "walk.BVH", "--skip-frames", "13"}, 1, "too few are left"},
+           Case{{"--motion", "walk.BVH", "--skip-frames", "13"}, 1, "and the first 13 are skipped"},
            Case{{"--motion", "walk.BVH", "--amplitude", "1"}, 2, "a motion from a file has its own"},
            Case{{"--motion", "walk.BVH", "--motion-unit", "0"}, 2, "must be a number from"},
            Case{{"--motion", "nod", "--joint", "Head"},

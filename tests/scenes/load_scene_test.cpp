@@ -4,11 +4,18 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "ringlet/bodies/body_distance.h"
 #include "ringlet/rest/rest_state.h"
+#include "tests/motion/gltf_samples.h"
+#include "tests/support/test_support.h"
 
 namespace ringlet {
 namespace {
@@ -94,6 +101,61 @@ TEST(LoadScene, BodiesAndWhatMovesThemAreThere) {
   EXPECT_EQ(scene.motion.start, (Vec3d{1, 2, 3}));
   EXPECT_EQ(scene.rootShifts, (std::vector<Vec3d>{{0.1, 0, 0}}));
   EXPECT_FALSE(scene.scalp);
+}
+
+// A glTF file has Y up: its body stands in a scene that is Z up, too.
+TEST(LoadScene, GltfBodiesStandWhateverIsUp) {
+  const auto folder = test::scratchFolder("load_scene_gltf_body");
+  std::vector<double> points;  // a post of 0.4 m along Y, 0.1 m thick, from its foot
+  for (const double y : {0.0, 0.4})
+    for (const double z : {-0.05, 0.05})
+      for (const double x : {-0.05, 0.05}) points.insert(points.end(), {x, y, z});
+  test::GltfBuilder file;
+  const std::vector<std::uint16_t> triangles{0, 1, 3, 0, 3, 2, 4, 7, 5, 4, 6, 7, 0, 5, 1, 0, 4, 5,
+                                             2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+  file.root["meshes"] = {{{"primitives",
+                           {{{"attributes", {{"POSITION", file.floats(points, "VEC3")}}},
+                             {"indices", file.accessor(triangles, "SCALAR", 5123)}}}}}};
+  file.node({{"name", "post"}, {"mesh", 0}});
+  std::ofstream(folder / "post.gltf") << file.text();
+  for (const bool upIsZ : {false, true}) {
+    const auto scene =
+        parseScene(fmt::format("{}up = \"{}\"\n[[body]]\nshape = \"mesh\"\nfile = \"post.gltf\"\n", kCurl,
+                               upIsZ ? "Z" : "Y"),
+                   "the scene", folder);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto made = loadScene(*scene);
+    ASSERT_TRUE(made) << made.error().message;
+    const Vec3d up = upIsZ ? Vec3d{0, 0, 1} : Vec3d{0, 1, 0};
+    EXPECT_LT(distanceTo(made->bodies[0], up * 0.3), -0.02);
+    EXPECT_GT(distanceTo(made->bodies[0], up * -0.1), 0.05);
+  }
+}
+
+// What a body, a scalp or the head cannot be read from is said with what it can, and is the input's fault.
+TEST(LoadScene, FilesOfOtherKindsAreToldWhatIsRead) {
+  const auto folder = test::scratchFolder("load_scene_kinds");
+  std::ofstream(folder / "walk.fbx") << "Kaydara FBX Binary  ";
+  const std::string gltf = ".gltf, .glb";
+  for (const auto& [text, expected] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"[motion]\nfile = \"walk.fbx\"\n", ".bvh, " + gltf},
+           {"[[body]]\nshape = \"sphere\"\nmoves = { file = \"walk.fbx\" }\n", ".bvh, " + gltf},
+           {"[[body]]\nshape = \"mesh\"\nfile = \"walk.fbx\"\n", ".obj, " + gltf},
+           {"[scalp]\nfile = \"walk.fbx\"\n", gltf}}) {
+    SCOPED_TRACE(text);
+    const auto scene = parseScene(kCurl + text, "the scene", folder);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto made = loadScene(*scene);
+    ASSERT_FALSE(made);
+    EXPECT_NE(made.error().message.find(expected), std::string::npos) << made.error().message;
+  }
+  for (const char* table : {"[motion]\nfile = ", "[[body]]\nshape = \"mesh\"\nfile = ", "[scalp]\nfile = "}) {
+    const auto scene = parseScene(kCurl + table + std::string("\"none.glb\"\n"), "the scene", folder);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto made = loadScene(*scene);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().fault, Fault::input) << made.error().message;
+  }
 }
 
 TEST(LoadScene, AFileThatIsNotThereIsNamed) {

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "ringlet/motion/affine.h"
+#include "ringlet/motion/file_axis.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
 
@@ -92,6 +94,24 @@ TEST_F(SceneCameras, GoWithTheHeadOrAJoint) {
           .viewAt(0.5, {});
   expectNear(onCrane.eye, {std::sqrt(0.5), 2, -std::sqrt(0.5)});
   expectNear(onCrane.target, {0, 2, 0});
+}
+
+// A camera looks along its own -Z in files of another up axis too.
+TEST_F(SceneCameras, OfFilesWithAnotherUpAxisLookTheSameWay) {
+  const std::string up[] = {"Z", "X", "-Y"};
+  for (const std::string& axis : up) {
+    for (const bool upIsZ : {false, true}) {
+      const FileAxis file = *fileAxisNamed(axis);
+      const CameraView plain = loaded("motion.file = 'crane.gltf'\n", "Shot").viewAt(0.25, {});
+      const CameraView view = loaded(std::string(upIsZ ? "groom.up = 'Z'\n" : "") +
+                                         "motion.file = 'crane.gltf'\nmotion.up = '" + axis + "'\n",
+                                     "Shot")
+                                  .viewAt(0.25, {});
+      const Affine turn = turnUp(file, upIsZ);
+      expectNear(view.eye, turn(plain.eye));
+      expectNear(wayOf(view), turn(wayOf(plain)));
+    }
+  }
 }
 
 TEST_F(SceneCameras, OfGltfFilesAreWhereTheirNodeIs) {

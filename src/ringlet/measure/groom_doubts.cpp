@@ -51,6 +51,18 @@ double nearestRoot(const Groom& groom) {
   return nearest;
 }
 
+// Whether a built-in motion turns the groom about an axis that goes through it, as a spin does one that
+// stands above the origin.
+bool standsOnAxis(const Groom& groom, const Motion& motion) {
+  const MotionKind kind = motion.kind;
+  if (kind != MotionKind::nod && kind != MotionKind::spin && kind != MotionKind::turn &&
+      kind != MotionKind::whip)
+    return false;
+  return std::ranges::any_of(rootsOf(groom), [&](Vec3d root) {
+    return length(root - motion.axis * dot(root, motion.axis)) <= std::max(kFarRoots, sizeOf(groom));
+  });
+}
+
 bool turns(const Motion& motion) {
   if (motion.keyframes) {
     const auto& poses = motion.keyframes->poses;
@@ -146,7 +158,7 @@ bool standsFarOff(const Groom& groom) {
 }
 
 std::optional<std::string> doubtOfPivot(const Groom& groom, const Motion& motion) {
-  if (!turns(motion) || !standsFarOff(groom)) return std::nullopt;
+  if (!turns(motion) || !standsFarOff(groom) || standsOnAxis(groom, motion)) return std::nullopt;
   const Vec3d middle = headMiddle(groom);
   const std::string place = fmt::format("{:.3g}, {:.3g}, {:.3g}", middle.x, middle.y, middle.z);
   const std::string far =

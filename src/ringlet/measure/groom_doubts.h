@@ -33,7 +33,8 @@ Vec3d headMiddle(const Groom& groom);
 /// Whether no root is nearer to the origin than half a metre and the groom's own size.
 bool standsFarOff(const Groom& groom);
 
-/// A groom that stands far from where the motion turns it: about the origin, or as keys say.
+/// A groom that stands far from where the motion turns it: about the origin, an axis through that, or as keys
+/// say.
 std::optional<std::string> doubtOfPivot(const Groom& groom, const Motion& motion);
 
 }  // namespace ringlet

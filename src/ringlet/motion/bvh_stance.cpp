@@ -17,6 +17,9 @@ constexpr std::size_t kMostLooks = 200;              // at frames
 constexpr double kOften = 0.2, kMostly = 0.5;        // shares of the looks
 constexpr double kUpright = 0.8;                     // cosine of a standing trunk's angle to the up axis
 constexpr double kShortest = 0.85, kTallest = 1.15;  // of who stands, as shares of the straightened length
+constexpr double kHeadAbove = 1.0 / 9, kLeastAbove = 0.05;  // of the height: the head above its joint; where
+                                                            // less is, the file leaves it out
+constexpr double kLongBone = 0.5;                           // of a leg, as a share of its longest bone
 constexpr double kFootOfLeg = 0.08;  // at most, of a leg: how far the ankle is above the floor
 constexpr double kOnFloor = 0.1;     // of the height: how near to 0 feet on a floor are
 constexpr double kThinnest = 0.02, kThickest = 0.3,
@@ -120,27 +123,29 @@ Person personOf(const BvhFile& file, std::optional<std::size_t> otherHead) {
   return person;
 }
 
-// From the hips down a leg as if it were straight: down to where it begins, thigh and shin, which are its two
-// longest bones, and what of the foot is below the ankle.
+// Where of a leg the foot begins: at the joint that is called so, else where the last long bone ends. A thigh
+// or a shin may be of several bones.
+std::size_t ankleOf(const BvhFile& file, const std::vector<std::size_t>& leg,
+                    const std::vector<double>& bones) {
+  for (std::size_t k = 0; k < leg.size(); ++k)
+    if (holdsAny(file.joints[leg[k]].name, {"foot", "ankle"})) return k;
+  const double longest = *std::ranges::max_element(bones);
+  std::size_t ankle = 0;
+  for (std::size_t k = 1; k < leg.size(); ++k)
+    if (bones[k] > 0 && bones[k] >= kLongBone * longest) ankle = k;
+  return ankle;
+}
+
+// From the hips down a leg as if it were straight: down to where it begins, its bones, and what of the foot
+// is below the ankle.
 double straightLeg(const BvhFile& file, const std::vector<std::size_t>& leg, const std::vector<Vec3d>& places,
                    Vec3d hips, Vec3d trunk) {
-  std::vector<double> bones;
+  std::vector<double> bones{0};  // that end at each joint
   for (std::size_t k = 1; k < leg.size(); ++k)
     bones.push_back(length(places[leg[k]] - places[file.joints[leg[k]].parent]));
-  double straight = std::max(0.0, -dot(places[leg.front()] - hips, trunk));
-  std::vector<double> sorted = bones;
-  std::ranges::sort(sorted, std::greater{});
-  const double shin = sorted.size() > 1 ? sorted[1] : 0;
-  int longCount = 0;
-  double foot = 0;
-  for (const double bone : bones) {
-    if (longCount < 2) {
-      straight += bone;
-    } else {
-      foot += bone;
-    }
-    if (bone > 0 && bone >= shin) ++longCount;
-  }
+  const std::size_t ankle = ankleOf(file, leg, bones);
+  double straight = std::max(0.0, -dot(places[leg.front()] - hips, trunk)), foot = 0;
+  for (std::size_t k = 1; k < leg.size(); ++k) (k <= ankle ? straight : foot) += bones[k];
   return straight + std::min(foot, kFootOfLeg * straight);
 }
 
@@ -149,6 +154,7 @@ struct Look {
   std::vector<Vec3d> places;
   Vec3d trunk;  // from the hips to the head
   double straightened = 0;
+  double aboveHead = 0;  // of it, what the joint of the head carries
 
   // The least and the most along an axis of some joints.
   std::array<double, 2> range(const std::vector<std::size_t>& joints, Vec3d axis) const {
@@ -162,7 +168,7 @@ struct Look {
 };
 
 Look lookAt(const BvhFile& file, const Person& person, std::vector<Vec3d> places) {
-  Look look{std::move(places), {}, 0};
+  Look look{std::move(places), {}, 0, 0};
   if (!person.hasTrunk) return look;
   const Vec3d hips = look.places[person.hips];
   look.trunk = look.places[person.head] - hips;
@@ -172,6 +178,7 @@ Look lookAt(const BvhFile& file, const Person& person, std::vector<Vec3d> places
   for (const auto& joints : person.legs)
     leg = std::max(leg, straightLeg(file, joints, look.places, hips, along));
   look.straightened = top + leg;
+  look.aboveHead = top - length(look.trunk);
   return look;
 }
 
@@ -207,6 +214,7 @@ class Looks {
     for (const Look& look : looks_) {
       if (const auto axis = nearestFileAxis(look.trunk)) ++votes_[static_cast<std::size_t>(*axis)];
     }
+    if (!person.legs.empty()) addHead();
   }
 
   double share(FileAxis axis) const {
@@ -216,18 +224,20 @@ class Looks {
   double straightened() const {
     return medianOf([](const Look& look) { return look.straightened; });
   }
+  double addedHead() const { return addedHead_; }
   // The lowest of the person along an axis is at its 0.
   bool isOnFloorOf(FileAxis axis) const {
     const double low = medianOf([&](const Look& look) { return rangeOf(look, axis)[0]; });
     return std::abs(low) <= kOnFloor * straightened();
   }
-  // All of the person is a little above an axis' 0.
-  bool liesOnFloorOf(FileAxis axis) const {
+  // All of the person is a little above an axis' 0; `along`: while its trunk lies along that.
+  bool liesOnFloorOf(FileAxis axis, std::optional<FileAxis> along = {}) const {
     const double size = straightened();
-    const double low = medianOf([&](const Look& look) { return rangeOf(look, axis)[0]; });
-    const double high = medianOf([&](const Look& look) { return rangeOf(look, axis)[1]; });
-    const double hips =
-        medianOf([&](const Look& look) { return dot(look.places[person_.hips], directionOf(axis)); });
+    const auto isAsked = [&](const Look& look) { return !along || nearestFileAxis(look.trunk) == along; };
+    const double low = medianOf([&](const Look& look) { return rangeOf(look, axis)[0]; }, isAsked);
+    const double high = medianOf([&](const Look& look) { return rangeOf(look, axis)[1]; }, isAsked);
+    const double hips = medianOf(
+        [&](const Look& look) { return dot(look.places[person_.hips], directionOf(axis)); }, isAsked);
     return low >= -kThinnest * size && high <= kLyingHigh * size && hips > kThinnest * size &&
            hips < kThickest * size;
   }
@@ -259,19 +269,46 @@ class Looks {
   }
 
  private:
+  // Many skeletons end at the joint of the head, or at its eyes.
+  void addHead() {
+    const double size = straightened();
+    const double above = medianOf([](const Look& look) { return look.aboveHead; });
+    if (above >= kLeastAbove * size) return;
+    addedHead_ = (size - above) * kHeadAbove / (1 - kHeadAbove);
+    for (Look& look : looks_) look.straightened += addedHead_ - look.aboveHead;
+  }
   std::array<double, 2> rangeOf(const Look& look, FileAxis axis) const {
-    return look.range(person_.parts, directionOf(axis));
+    auto [low, high] = look.range(person_.parts, directionOf(axis));
+    const Vec3d top = look.places[person_.head] + normalizedOr(look.trunk, Vec3d{}) * addedHead_;
+    const double along = dot(top, directionOf(axis));
+    return {std::min(low, along), std::max(high, along)};
   }
   double medianOf(const auto& number) const {
+    return medianOf(number, [](const Look&) { return true; });
+  }
+  double medianOf(const auto& number, const auto& isAsked) const {
     std::vector<double> values;
-    for (const Look& look : looks_) values.push_back(number(look));
+    for (const Look& look : looks_)
+      if (isAsked(look)) values.push_back(number(look));
     return median(std::move(values));
   }
 
   const Person& person_;
   std::vector<Look> looks_;
   std::array<int, 6> votes_{};  // by FileAxis
+  double addedHead_ = 0;        // above its joint, along the trunk
 };
+
+// Of who lies and stands: the axis of standing, on whose floor it lies else; `axis` where none is.
+FileAxis axisOfStanding(const Looks& looks, FileAxis axis) {
+  for (int k = 0; k < 6; ++k) {
+    const auto other = static_cast<FileAxis>(k);
+    if (other != axis && looks.share(other) >= kOften && looks.share(axis) >= kOften &&
+        looks.liesOnFloorOf(other, axis) && !looks.liesOnFloorOf(axis, other))
+      axis = other;
+  }
+  return axis;
+}
 
 // The axis, as the header says.
 void seeUp(const Looks& looks, std::optional<FileAxis> atRest, BvhStance& stance) {
@@ -279,6 +316,9 @@ void seeUp(const Looks& looks, std::optional<FileAxis> atRest, BvhStance& stance
   const auto see = [&](Sight sight, FileAxis up) { stance.sight = sight, stance.up = up; };
   const FileAxis usual = atRest.value_or(FileAxis::plusY), along = looks.most();
   stance.along = along;
+  const FileAxis often = looks.share(usual) >= kOften ? usual : along;
+  if (const FileAxis standing = axisOfStanding(looks, often); standing != often)
+    return see(standing == FileAxis::plusY ? Sight::upright : Sight::taken, standing);
   if (looks.share(usual) >= kOften) return see(Sight::upright, usual);
   if (looks.share(along) < kMostly) return see(Sight::unseen, FileAxis::plusY);
   if (along == FileAxis::plusY && looks.isOnFloorOf(along)) return see(Sight::upright, along);
@@ -310,6 +350,7 @@ BvhStance stanceOf(const BvhFile& file, std::size_t firstFrame, std::optional<Fi
     const auto standing = looks.standingHeight(stance.up);
     stance.everStands = standing.has_value();
     stance.height = standing.value_or(straightened);
+    stance.addedHead = looks.addedHead();
   } else {
     stance.height = looks.extent(stance.up, file.joints.size());
   }

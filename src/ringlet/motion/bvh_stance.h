@@ -6,13 +6,15 @@
 // left out, which may be raised. Of up to 200 frames:
 //
 //   up      the axis along which the trunk lies in most frames. Y, or the axis along which the skeleton
-//           stands at zero angles, is up where a fifth of the frames say so: people lie down and get up.
+//           stands at zero angles, is up where a fifth of the frames say so: people lie down and get up. Not
+//           so where these frames lie on the floor of another axis that a fifth of the frames say is up.
 //           Where none does, the person lies, or another axis is up. That other axis is taken where the feet
 //           are at its 0, as on a floor, or where nothing stands at zero angles; else the person is taken to
 //           lie.
 //   height  the median over the frames in which the person stands: the trunk along the up axis, and the
 //           person's extent along it 0.85 to 1.15 times the straightened length. Where there is none
-//           (sitting, lying): the straightened length itself, the trunk's and that of the legs' bones.
+//           (sitting, lying): the straightened length itself, the trunk's and that of the legs' bones. Where
+//           a person with legs ends at the joint of its head, an eighth of what is below it is added.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +39,8 @@ struct BvhStance {
   bool hasTrunk = false;             // hips and a head apart from them
   bool hasLegs = false;
   bool everStands = false;
-  double height = 0;  // in the file's unit; 0 for a skeleton of one point
+  double height = 0;     // in the file's unit; 0 for a skeleton of one point
+  double addedHead = 0;  // of it, what is not in the file
 };
 
 /// Of the frames from a first one on, which must be there; `stated`: the up axis, where it is known; `head`:

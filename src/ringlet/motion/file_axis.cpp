@@ -8,7 +8,8 @@
 namespace ringlet {
 namespace {
 
-constexpr double kNear = 0.8;  // cosine of the angle to an axis that a direction is taken for
+constexpr double kNear = 0.8;     // cosine of the angle to an axis that a direction is taken for
+constexpr double kUpright = 0.5;  // mean cosine of a head's angle to the up axis
 
 // In the order of FileAxis.
 constexpr std::array<std::string_view, 6> kNames{"X", "Y", "Z", "-X", "-Y", "-Z"};
@@ -53,9 +54,21 @@ Affine turnUp(FileAxis file, bool upIsZ) {
   return {lifted(toY[0]), lifted(toY[1]), lifted(toY[2]), {}};
 }
 
-HeadPose turned(const Affine& turn, const HeadPose& pose) {
-  const Quatd rotation = rotationOf(turn.x, turn.y, turn.z);
-  return {turn(pose.position), normalized(rotation * pose.rotation * rotation.conjugate()), pose.shift};
+FileAxis jointUpOf(std::span<const HeadPose> poses, FileAxis file) {
+  const Vec3d up = directionOf(file), usual = directionOf(FileAxis::plusY);
+  double own = 0, other = 0;
+  for (const HeadPose& pose : poses) {
+    own += dot(rotate(pose.rotation, up), up);
+    other += dot(rotate(pose.rotation, usual), up);
+  }
+  const double enough = kUpright * static_cast<double>(poses.size());
+  return own < enough && other >= enough ? FileAxis::plusY : file;
+}
+
+Quatd turnedRotation(FileAxis file, FileAxis jointUp, bool upIsZ, Quatd rotation) {
+  const auto asRotation = [](const Affine& turn) { return rotationOf(turn.x, turn.y, turn.z); };
+  return normalized(asRotation(turnUp(file, upIsZ)) * rotation *
+                    asRotation(turnUp(jointUp, upIsZ)).conjugate());
 }
 
 }  // namespace ringlet

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "ringlet/base/vec3.h"
@@ -27,7 +28,12 @@ std::optional<FileAxis> nearestFileAxis(Vec3d direction);
 /// the file's up is not X.
 Affine turnUp(FileAxis file, bool upIsZ);
 
-/// The pose in the turned world, of something whose axes are turned with it.
-HeadPose turned(const Affine& turn, const HeadPose& pose);
+/// Which axis of a head's joint is up on average, in poses of the file's world: the file's own; or Y, where
+/// that one is not and Y is, as in files that were made Y up and turned as a whole. Of no poses the file's.
+FileAxis jointUpOf(std::span<const HeadPose> poses, FileAxis file);
+
+/// The rotation of a joint in the world that `turnUp(file, upIsZ)` makes: that of a groom which has its up
+/// axis where the joint has `jointUp`.
+Quatd turnedRotation(FileAxis file, FileAxis jointUp, bool upIsZ, Quatd rotation);
 
 }  // namespace ringlet

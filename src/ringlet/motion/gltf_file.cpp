@@ -205,7 +205,7 @@ Result<Keyframes> GltfFile::motionOf(std::size_t node, const GltfAnimation* anim
   }
   Keyframes motion;
   if (gaps > 0) motion.secondsPerKey = step;
-  const Affine turn = turnUp(placement.up, placement.upIsZ);
+  const Affine turn = turnUp(placement.jointUp.value_or(placement.up), placement.upIsZ);
   const Quatd lift = rotationOf(turn.x, turn.y, turn.z);
   for (std::size_t k = 0; k <= static_cast<std::size_t>(gaps); ++k) {
     const double t = start + step * static_cast<double>(k);

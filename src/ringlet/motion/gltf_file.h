@@ -84,9 +84,10 @@ struct GltfCamera {
 
 /// How a file's world lies in ours.
 struct GltfPlacement {
-  double metresPerUnit = 1;       // glTF is in metres
-  bool upIsZ = false;             // of ours
-  FileAxis up = FileAxis::plusY;  // of the file, which glTF says
+  double metresPerUnit = 1;           // glTF is in metres
+  bool upIsZ = false;                 // of ours
+  FileAxis up = FileAxis::plusY;      // of the file, which glTF says
+  std::optional<FileAxis> jointUp{};  // of a node's own axes, that is a groom's up; unset: as `up`
   /// Applied to the file's world.
   Affine map() const;
 };

@@ -49,9 +49,13 @@ void doubtUnit(const BvhStance& stance, const std::string& name, std::vector<std
   const char* how = stance.hasTrunk && !stance.everStands
                         ? "straightened, since it stands in none of its frames,"
                         : "as it stands in its frames,";
+  const std::string head =
+      stance.addedHead > 0
+          ? fmt::format(", {:.4g} of them for the head, of which it has the joint only,", stance.addedHead)
+          : std::string();
   doubts.push_back(fmt::format(
-      "{} names no unit; {} its skeleton of {:.4g} units is taken to be {} m tall, a unit {:.4g} m", name,
-      how, stance.height, kTall, unit));
+      "{} names no unit; {} its skeleton of {:.4g} units{} is taken to be {} m tall, a unit {:.4g} m", name,
+      how, stance.height, head, kTall, unit));
 }
 
 void doubtStatedUnit(const BvhStance& stance, double unit, const std::string& name,

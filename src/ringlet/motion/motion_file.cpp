@@ -33,8 +33,12 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, bool upIsZ,
   if (!joint) return noSuchJoint(name, "joint", choice.joint, file->names());
   const auto skipped = static_cast<std::size_t>(choice.skippedFrames);
   if (skipped + 2 > file->frameCount()) {
-    return Error{fmt::format("{} has {} frames; without the first {} too few are left to move along", name,
-                             file->frameCount(), skipped)};
+    const std::size_t stated = file->statedFrameCount, found = file->foundFrameCount;
+    return Error{fmt::format(
+        "{} has {}{}{}; a motion needs two frames", name,
+        file->frameCount() == 1 ? "one frame" : fmt::format("{} frames", file->frameCount()),
+        stated == found ? "" : fmt::format(" (it states {} and holds {})", stated, found),
+        skipped == 0 ? "" : fmt::format(", and the first {} are skipped (--skip-frames)", skipped))};
   }
   const auto head = choice.headJoint.empty() ? joint : file->find(choice.headJoint);
   const BvhStance stance = stanceOf(*file, skipped, choice.up, head);
@@ -48,10 +52,12 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, bool upIsZ,
                         name, fastest.key + skipped + 1, choice.joint, fastest.speed),
             warnings);
   }
-  const FileAxis groomUp = upIsZ ? FileAxis::plusZ : FileAxis::plusY;
-  if (stance.up != groomUp) {
+  const FileAxis jointUp =
+      jointUpOf(!head || head == joint ? keys.poses : file->motionOf(*head, 1, skipped).poses, stance.up);
+  if (stance.up != (upIsZ ? FileAxis::plusZ : FileAxis::plusY) || jointUp != stance.up) {
     const Affine turn = turnUp(stance.up, upIsZ);
-    for (HeadPose& pose : keys.poses) pose = turned(turn, pose);
+    for (HeadPose& pose : keys.poses)
+      pose = {turn(pose.position), turnedRotation(stance.up, jointUp, upIsZ, pose.rotation), pose.shift};
   }
   return keys;
 }
@@ -74,9 +80,14 @@ Result<Keyframes> readGltfKeys(const MotionFileChoice& choice, bool upIsZ,
     warnings.push_back(fmt::format("{}: nothing in its animation {} moves {}; it stands still", name,
                                    (*animation)->name, choice.joint));
   }
-  const GltfPlacement placement{.metresPerUnit = choice.metresPerUnit.value_or(1),
-                                .upIsZ = upIsZ,
-                                .up = choice.up.value_or(FileAxis::plusY)};
+  GltfPlacement placement{.metresPerUnit = choice.metresPerUnit.value_or(1),
+                          .upIsZ = upIsZ,
+                          .up = choice.up.value_or(FileAxis::plusY)};
+  if (placement.up != FileAxis::plusY) {
+    const auto head = choice.headJoint.empty() ? node : file->find(choice.headJoint);
+    const auto asItIs = file->motionOf(head.value_or(*node), *animation, {}, {});
+    if (asItIs) placement.jointUp = jointUpOf(asItIs->poses, placement.up);
+  }
   auto keys = file->motionOf(*node, *animation, placement, {});
   if (!keys) return Error{fmt::format("{}: {}", name, keys.error().message)};
   if (keys->poses.size() < 2)

@@ -34,9 +34,10 @@
 namespace ringlet {
 namespace {
 
-// Of a glTF file the only mesh, where it is at the first key; it does not bend.
-Result<TriangleMesh> readGltfMesh(const SceneBody& scene, std::vector<std::string>& warnings) {
-  auto read = readSkinnedMesh(scene.file, {.placement = {.metresPerUnit = scene.metresPerUnit.value_or(1)}});
+// Of a glTF file, which has Y up, the only mesh, where it is at the first key; it does not bend.
+Result<TriangleMesh> readGltfMesh(const SceneBody& scene, bool upIsZ, std::vector<std::string>& warnings) {
+  auto read = readSkinnedMesh(
+      scene.file, {.placement = {.metresPerUnit = scene.metresPerUnit.value_or(1), .upIsZ = upIsZ}});
   if (!read) return read.error();
   for (const std::string& warning : read->warnings())
     warnings.push_back(fmt::format("{}: {}", scene.file.string(), warning));
@@ -44,6 +45,11 @@ Result<TriangleMesh> readGltfMesh(const SceneBody& scene, std::vector<std::strin
   if (Status checked = checkMesh(mesh); !checked)
     return Error{fmt::format("{}: {}", scene.file.string(), checked.error().message)};
   return mesh;
+}
+
+bool isCalledObj(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  return ending == ".obj" || ending == ".OBJ";
 }
 
 // The triangles of a body of shape mesh, read or made, in its own axes [m].
@@ -56,8 +62,12 @@ Result<TriangleMesh> meshOf(const SceneBody& scene, const SceneGroom& groom, dou
     mesh = makeHeadMesh(head);
   } else {
     const bool isGltf = motionFileKind(scene.file.string()) == MotionFileKind::gltf;
-    auto read = isGltf ? readGltfMesh(scene, warnings)
+    auto read = isGltf ? readGltfMesh(scene, groom.up == "Z", warnings)
                        : readObjMesh(scene.file, scene.metresPerUnit.value_or(metresPerUnit));
+    if (!read && !isGltf && !isCalledObj(scene.file)) {
+      return Error{read.error().message + "; bodies are read from .obj, .gltf, .glb and .vrm files",
+                   read.error().fault};
+    }
     if (!read) return read.error();
     mesh = std::move(*read);
   }
@@ -167,7 +177,12 @@ Result<HeadScalp> loadedScalp(const SceneFile& file, LoadedScene& loaded) {
   choice.placement.upIsZ = file.groom.up == "Z";
   if (isHeads) choice.placement.up = fileAxisNamed(head.up).value_or(FileAxis::plusY);
   auto read = readSkinnedMesh(scene.file, choice);
-  if (!read) return Error{fmt::format("the scalp: {}", read.error().message)};
+  if (!read) {
+    const bool isGltf = motionFileKind(name) == MotionFileKind::gltf;
+    return Error{fmt::format("the scalp: {}{}", read.error().message,
+                             isGltf ? "" : "; scalps are read from .gltf, .glb and .vrm files"),
+                 read.error().fault};
+  }
   const auto mesh = std::make_shared<const SkinnedMesh>(std::move(*read));
   for (const std::string& warning : mesh->warnings())
     loaded.warnings.push_back(fmt::format("{}: {}", name, warning));
@@ -393,7 +408,9 @@ Result<std::vector<Body>> loadBodies(const SceneFile& scene, double metresPerUni
     Status loaded = loadMotion(stated, scene, body, warnings);
     if (loaded && stated.shape == "mesh")
       loaded = loadMeshBody(stated, scene.groom, metresPerUnit, body, warnings);
-    if (!loaded) return Error{fmt::format("the body {}: {}", body.name, loaded.error().message)};
+    if (!loaded) {
+      return Error{fmt::format("the body {}: {}", body.name, loaded.error().message), loaded.error().fault};
+    }
     bodies.push_back(std::move(body));
   }
   return bodies;

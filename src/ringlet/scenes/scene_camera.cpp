@@ -57,7 +57,8 @@ Result<LoadedCamera> cameraOfGltf(const SceneFile& scene, const std::filesystem:
       nodes[*which], *animation,
       {.metresPerUnit = isHeads ? scene.motion.metresPerUnit.value_or(1) : 1,
        .upIsZ = upIsZ,
-       .up = isHeads ? fileAxisNamed(scene.motion.up).value_or(FileAxis::plusY) : FileAxis::plusY},
+       .up = isHeads ? fileAxisNamed(scene.motion.up).value_or(FileAxis::plusY) : FileAxis::plusY,
+       .jointUp = FileAxis::plusY},  // cameras look along -Z, whatever the file's up axis
       {});
   if (!keys) return Error{fmt::format("{}: {}", path.string(), keys.error().message)};
   LoadedCamera camera{.name = name,
@@ -84,7 +85,9 @@ Result<LoadedCamera> cameraAtPlace(const SceneFile& scene, const SceneCamera& st
   MotionFileChoice choice = motionFileOf(head);
   choice.joint = stated.joint;
   auto motion = readMotionFile(choice, scene.groom.up == "Z", warnings);
-  if (!motion) return Error{fmt::format("the camera {}: {}", stated.name, motion.error().message)};
+  if (!motion) {
+    return Error{fmt::format("the camera {}: {}", stated.name, motion.error().message), motion.error().fault};
+  }
   motion->start = head.start;
   camera.motion = std::move(*motion);
   return camera;
