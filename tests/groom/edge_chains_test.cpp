@@ -58,6 +58,13 @@ TEST(EdgeChains, MostEdgesDecideTheDirection) {
   EXPECT_EQ(chains[0].points, (Points{0, 1, 2, 3}));
   EXPECT_FALSE(chains[0].isOneDirection);
   EXPECT_EQ(chains[1].points, (Points{4, 5, 6}));  // a tie: as the first listed edge runs
+
+  // Whichever way that is from the end which the file names first.
+  const auto [ties, none] = joinEdges(listed({{1, 0}, {1, 2}, {3, 4}, {5, 4}, {7, 6}, {7, 8}}), 9);
+  ASSERT_EQ(ties.size(), 3u);
+  EXPECT_EQ(ties[0].points, (Points{2, 1, 0}));
+  EXPECT_EQ(ties[1].points, (Points{3, 4, 5}));
+  EXPECT_EQ(ties[2].points, (Points{8, 7, 6}));
 }
 
 TEST(EdgeChains, LeavesOutBranchesAndLoopsWithTheLineOfTheFirst) {

@@ -1,5 +1,6 @@
 // What cannot be read beside what can, in every format: the good strands are read, the others left out with a
 // count and the place of the first.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -503,6 +504,62 @@ TEST(UsdSamples, TheFirstThatIsNotEmptyCountsWithAWarning) {
   std::string sampled = text;
   sampled.replace(at, end - at, "point3f[] points.timeSamples = { 1: [], 2: [] }");
   EXPECT_FALSE(read("a.usda", sampled));
+}
+
+// --- What a prim says of its curves.
+
+constexpr std::size_t kCurves = 4;
+
+// Numbers of each curve, `width` of them, and those of the curves but one.
+std::vector<double> numbersBut(std::size_t bad, std::size_t width) {
+  std::vector<double> numbers;
+  for (std::size_t c = 0; c < kCurves; ++c) {
+    for (std::size_t i = 0; i < width && c != bad; ++i) numbers.push_back(static_cast<double>(10 * c + i));
+  }
+  return numbers;
+}
+std::string ofEach(const char* type, const char* name, std::size_t width) {
+  std::string text;
+  for (std::size_t c = 0; c < kCurves; ++c) {
+    const char* form = width == 1 ? "{}" : width == 2 ? "({}, {})" : "({}, {}, {})";
+    text += (c > 0 ? ", " : "") + fmt::format(fmt::runtime(form), 10 * c, 10 * c + 1, 10 * c + 2);
+  }
+  return fmt::format("{}[] primvars:{} = [{}] (interpolation = \"uniform\")\n", type, name, text);
+}
+
+// Values of each curve stay those of the strands, whichever curve is left out and whatever a value is made
+// of.
+TEST(LeftOut, ValuesOfCurvesAreThoseOfTheStrandsThatStay) {
+  for (std::size_t bad = 0; bad < 2 * kCurves; ++bad) {
+    const std::size_t out = bad % kCurves;
+    const bool isShort = bad < kCurves;  // else it has a point that is none
+    std::string counts, points, names;
+    std::vector<std::string> kept;
+    for (std::size_t c = 0; c < kCurves; ++c) {
+      const char* comma = c > 0 ? ", " : "";
+      counts += fmt::format("{}{}", comma, c == out && isShort ? 1 : 2);
+      points += fmt::format("{}({}, 0, 0)", comma, c);
+      if (c != out || !isShort) points += fmt::format(", ({}, {}, 0)", c, c == out ? "nan" : "1");
+      names += fmt::format("{}\"name {}\"", comma, c);
+      if (c != out) kept.push_back(fmt::format("name {}", c));
+    }
+    const auto loaded =
+        read("values.usda",
+             fmt::format("#usda 1.0\ndef BasisCurves \"Hair\" {{\nuniform token type = \"linear\"\n"
+                         "int[] curveVertexCounts = [{}]\npoint3f[] points = [{}]\n{}{}{}"
+                         "string[] primvars:name = [{}] (interpolation = \"uniform\")\n}}\n",
+                         counts, points, ofEach("int", "id", 1), ofEach("texCoord2f", "st", 2),
+                         ofEach("color3f", "displayColor", 3), names),
+             {.keepsPrims = true});
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_EQ(loaded->groom.strandCount(), kCurves - 1) << bad;
+    ASSERT_EQ(loaded->prims.size(), 1u);
+    const auto& values = loaded->prims[0].values;
+    ASSERT_EQ(values.size(), 4u);
+    for (std::size_t width = 1; width <= 3; ++width)
+      EXPECT_EQ(values[width - 1].numbers, numbersBut(out, width)) << values[width - 1].name << " " << bad;
+    EXPECT_EQ(values[3].texts, kept) << bad;
+  }
 }
 
 }  // namespace

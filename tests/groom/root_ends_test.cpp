@@ -84,6 +84,19 @@ TEST(RootEnds, AHeadOfEveryStyleHasNoneTurnedAndAllOnceItIs) {
   }
 }
 
+// By hand: on what roots stand on up to 1, clear of it 2 further out.
+TEST(RootEnds, OnlyAnEndThatIsClearOfTheHeadIsATip) {
+  const std::vector<EndDistances> strands{{0, 9},     {9, 0},   {0.5, 0},    {2.9, 1}, {3.1, 1},
+                                          {2.1, 0.2}, {0, 2.1}, {2.2, 0.19}, {9, 1},   {1, 1}};
+  EXPECT_EQ(reversedBy(strands, 1, 2),
+            (std::vector<bool>{false, true, false, false, true, false, false, true, true, false}));
+  // Of none it is said where more than one of five strands has no end there.
+  std::vector<EndDistances> others{{9, 0}, {9, 0}, {9, 0}, {9, 0}, {9, 1.1}};
+  EXPECT_EQ(reversedBy(others, 1, 2), (std::vector<bool>{true, true, true, true, false}));
+  others[3] = {9, 1.1};
+  EXPECT_EQ(reversedBy(others, 1, 2), std::vector<bool>(5, false));
+}
+
 TEST(RootEnds, WithoutAHeadNothingIsSaid) {
   const auto swatch = makeSwatch({});
   ASSERT_TRUE(swatch);

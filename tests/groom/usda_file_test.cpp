@@ -225,6 +225,13 @@ TEST(UsdaFile, ComposesTransformsFromTheLastToTheFirst) {
           "double3 xformOp:translate = (10, 0, 0) uniform token[] xformOpOrder = [\"xformOp:translate\"]",
           reset),
       {2, 4, 6});
+  // Nor do those before it in its own order, where a file has some.
+  expectNear(
+      tipBelow(
+          "double3 xformOp:translate = (10, 0, 0) uniform token[] xformOpOrder = [\"xformOp:translate\"]",
+          "float3 xformOp:scale = (2, 2, 2) double xformOp:translateY = 5 uniform token[] xformOpOrder = "
+          "[\"xformOp:translateY\", \"!resetXformStack!\", \"xformOp:scale\"]"),
+      {2, 4, 6});
   // Inverses: of a matrix that scales and moves.
   expectNear(
       tipBelow("matrix4d xformOp:transform = ((2,0,0,0),(0,4,0,0),(0,0,1,0),(1,2,3,1)) uniform token[] "

@@ -116,8 +116,9 @@ inline std::span<const std::byte> bytesOf(const std::string& text) {
 
 /// A strip along X from 0 to 2, 0.2 wide along Z, of `pieces` pieces, on two bones: one at the origin, one at
 /// X = 1 that turns about Z by a quarter in a second. A point at x follows the second by x / 2.
-/// `jointType` 5121 or 5123, `weightType` 5121, 5123 or 5126.
-inline GltfBuilder bendingStrip(int pieces, int jointType, int weightType) {
+/// `jointType` 5121 or 5123, `weightType` 5121, 5123 or 5126; `sum`: of a point's weights, as the file has
+/// them.
+inline GltfBuilder bendingStrip(int pieces, int jointType, int weightType, double sum = 1) {
   GltfBuilder file;
   const int first = file.node({{"name", "bone0"}, {"children", {1}}});
   const int second = file.node({{"name", "bone1"}, {"translation", {1, 0, 0}}});
@@ -128,7 +129,7 @@ inline GltfBuilder bendingStrip(int pieces, int jointType, int weightType) {
     for (double z : {-0.1, 0.1}) {
       const double x = 2.0 * k / pieces;
       points.insert(points.end(), {x, 0, z});
-      weights.insert(weights.end(), {x / 2, 1 - x / 2, 0, 0});
+      weights.insert(weights.end(), {sum * x / 2, sum * (1 - x / 2), 0, 0});
       joints.insert(joints.end(), {1, 0, 0, 0});
     }
     const auto p = static_cast<std::uint16_t>(2 * k);

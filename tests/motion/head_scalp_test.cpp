@@ -114,5 +114,24 @@ TEST(HeadScalp, StaysAsItWasWhileTheHeadIsCut) {
   }
 }
 
+// Of weights only their ratios count: exporters write sums that are not 1.
+TEST(SkinnedMesh, WeightsAreShares) {
+  for (const double sum : {1.0, 0.5, 0.997, 3.0}) {
+    for (const int type : {5126, 5123, 5121}) {
+      if (type != 5126 && sum > 1) continue;  // which these cannot hold
+      const auto mesh = meshOf(fileOf(bendingStrip(8, 5121, type, sum)));
+      const double rounding = type == 5126 ? 1e-6 : type == 5123 ? 2e-4 : 0.02;
+      for (const double t : {0.0, 0.4, 1.0}) {
+        const std::vector<Vec3d> rest = mesh->pointsAt(0), now = mesh->pointsAt(t);
+        for (std::size_t p = 0; p < rest.size(); ++p) {
+          const Vec3d made{static_cast<double>(p / 2) / 4, 0, p % 2 == 0 ? -0.1 : 0.1};
+          EXPECT_LT(length(rest[p] - made), rounding) << sum << " " << type;
+          EXPECT_LT(length(now[p] - bentPoint(made, t)), rounding) << sum << " " << type << " at " << t;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ringlet::test

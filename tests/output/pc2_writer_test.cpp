@@ -71,6 +71,8 @@ TEST(Pc2Writer, IsGoneOnWithToTheSameBytes) {
   };
   for (int from = 1; from <= 3; ++from) {
     ASSERT_TRUE(write(0, 3));
+    ASSERT_TRUE(write(from, from));
+    expectFrames(test::readText(partial), from);  // it says no more than it still has
     ASSERT_TRUE(write(from, 4));
     expectFrames(test::readText(path), 4);
     fs::remove(path);

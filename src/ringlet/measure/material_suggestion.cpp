@@ -18,15 +18,17 @@ bool isAwayFrom(double value, double bound) { return std::abs(value - bound) > k
 
 MaterialSuggestion suggestMaterial(const GroomInspection& groom, double metresPerUnit) {
   const double arcOverChord = groom.arcOverChord.median;
-  const double curled = static_cast<double>(groom.curledCount) /
-                        static_cast<double>(std::max<std::size_t>(1, groom.strandCount));
+  const auto shareOf = [&](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, groom.strandCount));
+  };
   if (2 * groom.curledCount < groom.strandCount) {
     return {
         arcOverChord > kWavyArcOverChord ? "wavy" : "straight",
         fmt::format("{} of {} strands are curled, and strands are {:.2f} times as long as the way from root "
                     "to tip",
                     groom.curledCount, groom.strandCount, arcOverChord),
-        curled <= 1 - kClearShare && isAwayFrom(arcOverChord - 1, kWavyArcOverChord - 1)};
+        shareOf(groom.strandCount - groom.curledCount) >= kClearShare &&
+            isAwayFrom(arcOverChord - 1, kWavyArcOverChord - 1)};
   }
   const double width = 2 * groom.radius.median * metresPerUnit;
   const char* preset = width < kCoilWidth || arcOverChord > kCoilArcOverChord ? "coil"
@@ -36,8 +38,8 @@ MaterialSuggestion suggestMaterial(const GroomInspection& groom, double metresPe
           fmt::format("{} of {} strands are curled, with {:.1f} turns {:.1f} mm wide, and are {:.1f} "
                       "times as long as the way from root to tip",
                       groom.curledCount, groom.strandCount, groom.turns.median, 1000 * width, arcOverChord),
-          curled >= kClearShare && isAwayFrom(width, kCoilWidth) && isAwayFrom(width, kLooseCurlWidth) &&
-              isAwayFrom(arcOverChord, kCoilArcOverChord)};
+          shareOf(groom.curledCount) >= kClearShare && isAwayFrom(width, kCoilWidth) &&
+              isAwayFrom(width, kLooseCurlWidth) && isAwayFrom(arcOverChord, kCoilArcOverChord)};
 }
 
 }  // namespace ringlet
