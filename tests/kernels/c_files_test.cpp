@@ -318,10 +318,11 @@ TEST(CFilesOnly, AConfinedSceneNamesNothingOutsideItsFolder) {
                                          std::string("below/../../m.toml"), std::string("link.toml")}) {
         const std::string refused = messageOf(withPath(c, outside), true, isFile);
         EXPECT_NE(refused.find(c.key), std::string::npos) << outside << ": " << refused;
-        EXPECT_NE(refused.find("confined"), std::string::npos) << outside << ": " << refused;
-        EXPECT_EQ(messageOf(withPath(c, outside), false, isFile).find("confined"), std::string::npos);
+        EXPECT_NE(refused.find("it is confined"), std::string::npos) << outside << ": " << refused;
+        EXPECT_EQ(messageOf(withPath(c, outside), false, isFile).find("it is confined"), std::string::npos);
       }
-      EXPECT_EQ(messageOf(withPath(c, "below/m.toml"), true, isFile).find("confined"), std::string::npos);
+      EXPECT_EQ(messageOf(withPath(c, "below/m.toml"), true, isFile).find("it is confined"),
+                std::string::npos);
     }
   }
 }
