@@ -95,10 +95,10 @@ GroomInspection inspectGroom(const Groom& groom) {
     }
     if (chord > kNoEdgeShare * whole) shares.push_back(whole / chord);
     std::size_t none = 0, few = 0, many = 0;
-    const double longest = kLongEdge * medianEdge(groom.strand(s));
+    const double longest = kLongEdge * medianEdge(groom.strand(s)), nothing = noEdgeLength(groom.strand(s));
     for (const double edge : edges) {
       many += edge > longest;
-      if (edge <= kNoEdgeShare * whole) {
+      if (edge <= nothing) {
         ++none;
       } else if (edge < kShortEdgeShare * whole / static_cast<double>(edges.size())) {
         ++few;
