@@ -85,6 +85,7 @@ TEST(StrayPoints, NumbersThatStandForNoPlaceAreTakenOutAndNothingElse) {
           const GroomInspection found = inspectGroom(bad);
           EXPECT_EQ(found.strayParticles.count, strands) << number << " " << at << " " << step;
           EXPECT_EQ(found.repeatedParticles.count, 0u) << number << " " << at << " " << step;
+          EXPECT_EQ(found.likelyUp, 'Y') << number << " " << at << " " << step;
           EXPECT_EQ(found.longEdges.count, strands * (at == 4 ? 2 : 1)) << number << " " << at << " " << step;
           const MendedGroom mended = mendGroom(bad);
           EXPECT_TRUE(test::hasSameBits(mended.groom, goodGroom())) << number << " " << at << " " << step;

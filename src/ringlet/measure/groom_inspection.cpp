@@ -53,9 +53,9 @@ std::vector<LikelyUnit> likelyUnits(double meanLength) {
 }
 
 char likelyUpOf(const Groom& groom) {
+  const StrandEnds ends = strandEnds(groom);
   Vec3d way;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    way += Vec3d(groom.strand(s).back()) - Vec3d(groom.strand(s).front());
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) way += ends.last[s] - ends.first[s];
   return upOf(way);
 }
 
