@@ -65,15 +65,6 @@ std::optional<std::vector<std::string>> rangeOf(std::string_view text) {
   return values;
 }
 
-// So that a scene can be read from anywhere.
-void makeAbsolute(SceneFile& scene) {
-  forEachFileOf(scene, [](fs::path& path) {
-    std::error_code code;
-    const fs::path whole = fs::absolute(path, code);
-    if (!code) path = whole.lexically_normal();
-  });
-}
-
 std::string changesText(std::span<const SceneChange> changes) {
   std::vector<std::string> texts;
   for (const SceneChange& change : changes) texts.push_back(fmt::format("{} = {}", change.key, change.value));
@@ -132,7 +123,7 @@ Result<std::vector<SweepRun>> planRuns(const fs::path& scene, std::span<const Sw
     }
     run.scene = std::move(*read);
     run.scene.output.folder.clear();
-    makeAbsolute(run.scene);
+    makePathsAbsolute(run.scene);
     runs.push_back(std::move(run));
     // As a counter: the last axis first.
     isDone = true;

@@ -73,7 +73,7 @@ struct Typed {
   bool paused = false, json = false;
 };
 
-// A scene, or a groom as one. Its paths are absolute, so that it can be saved anywhere.
+// A scene, or a groom as one.
 Result<SceneFile> sceneOf(const Typed& typed) {
   std::vector<SceneChange> changes;
   if (typed.metresPerUnit) changes.push_back({"groom.unit", fmt::format("{}", *typed.metresPerUnit)});
@@ -85,9 +85,8 @@ Result<SceneFile> sceneOf(const Typed& typed) {
     const std::size_t equals = change.find('=');
     changes.push_back({change.substr(0, equals), change.substr(equals + 1)});
   }
-  std::error_code code;  // a path that cannot be made absolute stays as it is
-  std::filesystem::path input = std::filesystem::absolute(typed.input, code);
-  if (code) input = typed.input;
+  const std::filesystem::path& input = typed.input;
+  std::error_code code;
   if (isSceneFile(input)) return readScene(input, changes, typed.reach);
   if (std::filesystem::is_directory(input, code))
     return Error{fmt::format("{}: is a folder; expected the file of a scene (.toml) or of a groom ({})",

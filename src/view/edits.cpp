@@ -9,6 +9,7 @@
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_parts.h"
+#include "ringlet/scenes/scene_paths.h"
 
 namespace ringlet::view {
 
@@ -46,7 +47,8 @@ Result<HairNumbers> numbersOf(const SceneFile& scene, const Groom& groom) {
 Status saveScene(const SceneFile& scene, const Edits& edits, std::size_t material,
                  const std::filesystem::path& path) {
   SceneFile saved = sceneWith(scene, edits, material);
-  std::error_code code;  // a path that cannot be made absolute is written as it is
+  makePathsAbsolute(saved);
+  std::error_code code;  // of a folder that cannot be made absolute, the scene's paths stay so
   const auto folder = std::filesystem::absolute(path, code).parent_path();
   const std::string text = sceneText(saved, folder, "# Saved by `ringlet view`.\n");
   return writeWholeFile(path, std::as_bytes(std::span(text)));

@@ -156,7 +156,7 @@ TEST_F(LiveBodies, ChangeThroughC) {
   const Groom groom = randomGroom({31, 5, 64}, 3);
   const auto asset = HairAsset::build(device(), groom, {}, {}, {}, BodyUse::some);
   Simulation expected = *Simulation::create(*asset, {.bodies = sets()[1]});
-  ringlet_asset handle{*asset, &gpu(), true, false};
+  ringlet_asset handle{*asset, device(), {.bodies = true}};
   ringlet_body sphere = RINGLET_INIT(ringlet_body);
   sphere.radius = 0.03, sphere.friction = Body{}.friction;
   sphere.pose = {{0.01, -0.04, 0}, {0, 0, 0, 1}};

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -152,6 +154,40 @@ TEST(SavedScene, GivesTheSameNumbersBack) {
   for (const auto& [name, slider] : all) EXPECT_EQ(slider.get(found, 0), slider.get(edits, 1)) << name;
   EXPECT_EQ(read->groom.generate, "curl");
   EXPECT_FALSE(saveScene(scene, edits, 0, folder / "none" / "saved.toml"));
+}
+
+// Every file that a scene names is found from where the saved scene is, and after both were moved; one that
+// shares nothing but the root with it stays where it is.
+TEST(SavedScene, FindsItsFiles) {
+  const auto folder = test::scratchFolder("view_travels");
+  std::filesystem::create_directories(folder / "show" / "files");
+  std::filesystem::create_directories(folder / "show" / "views");
+  SceneFile scene;
+  scene.bodies.resize(2);
+  for (SceneBody& body : scene.bodies) body.motion.emplace();
+  scene.cameras.resize(1);
+  scene.fields.resize(1);
+  scene.maps.resize(2);
+  // As a scene in the folder "shots" and as a command line in "show" have them.
+  int count = 0;
+  const auto name = [&](std::filesystem::path& path) {
+    const std::string file = std::to_string(++count) + ".bin";
+    std::ofstream(folder / "show" / "files" / file) << count;
+    path = folder / "show" / "shots" / ".." / "files" / file;
+  };
+  for (std::filesystem::path* path :
+       {&scene.groom.file, &scene.groom.scalp, &scene.motion.file, &scene.scalp.file, &scene.goalFile,
+        &scene.output.hairScalpFile, &scene.cameras[0].file, &scene.fields[0].file, &scene.maps[0].file,
+        &scene.maps[1].texture, &scene.bodies[0].file, &scene.bodies[1].file, &scene.bodies[0].motion->file})
+    name(*path);
+  scene.bodies[1].motion->file = "/elsewhere/../library/m.bvh";
+  const auto saved = folder / "show" / "views" / "saved.toml";
+  ASSERT_TRUE(saveScene(scene, editsOf(scene), 0, saved));
+  const std::string text = test::readText(saved);
+  EXPECT_NE(text.find("\"/library/m.bvh\""), std::string::npos) << text;
+  EXPECT_EQ(text.find(folder.string()), std::string::npos) << text;
+  for (int file = 1; file <= count; ++file)
+    EXPECT_NE(text.find("\"../files/" + std::to_string(file) + ".bin\""), std::string::npos) << file << text;
 }
 
 }  // namespace

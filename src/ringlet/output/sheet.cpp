@@ -26,7 +26,7 @@ constexpr double kMargin = 0.07;          // share of a panel left free on each 
 constexpr double kYaw = 35, kPitch = 12;  // where the camera stands: degrees to the side, degrees up
 constexpr double kDistance = 5;  // of the camera, in sizes of what it sees: a long lens, little distortion
 constexpr double kFollowBelow =
-    0.3;  // the camera goes along if hair would else be drawn below this share of its size
+    0.5;  // the camera goes along if hair would else be drawn below this share of its size
 constexpr double kFarLight = 0.38;   // brightness of the farthest strand, the nearest being 1
 constexpr double kFullDepth = 0.6;   // depth, in sizes of the hair, over which it falls that far
 constexpr float kExposure = 1.55f;   // so that the brightest strands are just below white

@@ -26,4 +26,7 @@ void forEachFileOf(Scene& scene, const Visit& visit) {
   for (auto& map : scene.maps) named(map.file, map.texture);
 }
 
+/// So that the scene can be read and written from anywhere. One that cannot be made absolute stays as it is.
+void makePathsAbsolute(SceneFile& scene);
+
 }  // namespace ringlet

@@ -41,10 +41,16 @@ std::string valueText(const std::optional<T>& value) {
   return value ? valueText(*value) : "";
 }
 
+// Relative to the scene's folder, so that both can be moved together; but of what shares nothing but the root
+// with it, which is likely to stay where it is.
 std::string pathText(const std::filesystem::path& path, const std::filesystem::path& folder) {
-  const auto relative = path.lexically_relative(folder);
-  const bool isBelow = !relative.empty() && *relative.begin() != "..";
-  return valueText(isBelow ? relative : path);
+  const auto normal = path.lexically_normal(), base = folder.lexically_normal();
+  const auto relative = normal.lexically_relative(base);
+  if (folder.empty() || relative.empty()) return valueText(path);
+  const auto first = [](const std::filesystem::path& of) { return *of.relative_path().begin(); };
+  const bool isNear =
+      *relative.begin() != ".." || (!base.relative_path().empty() && first(normal) == first(base));
+  return valueText(isNear ? relative : normal);
 }
 
 // A default for a person: 0.01 rather than 0.01.0, Y rather than "Y".

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Runs what has threads, and what reads and writes files, under sanitizers: scripts/sanitize.sh [PRESET...], sanitize
+# (addresses, undefined behaviour) and threads (data races); both without a name. Builds each preset first, without its
+# tests of kernels: an hour on two cores. Exit status 0: nothing found.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+presets=("$@")
+[ ${#presets[@]} -gt 0 ] || presets=(sanitize threads)
+targets=(ringlet_program base_tests output_tests view_tests ringlet_python)
+work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
+
+# lavapipe and the compiler in it are not instrumented, leak as they are unloaded, and hand over by atomics of their own.
+export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 RINGLET_REQUIRE_GPU=1
+cat > "$work/races.txt" <<'END'
+called_from_lib:libvulkan_lvp
+called_from_lib:libLLVM
+END
+export TSAN_OPTIONS="suppressions=$work/races.txt ignore_noninstrumented_modules=1 second_deadlock_stack=1"
+
+# Of a scene with contacts, a body, wind that turns, keys, a goal and every output; on both backends, cut and gone on with,
+# on two devices and as a sweep of two runs at a time.
+write_scene() {
+  "$ringlet" make head --strands 60 --particles 24 -o head.obj
+  cat > scene.toml <<'END'
+[groom]
+file = "head.obj"
+[motion]
+kind = "shake"
+[simulation]
+frames = 24
+steps_per_frame = 4
+[contacts]
+on = true
+radius = 0.004
+[air]
+on = true
+wind = [1, 0, 2]
+gust = 0.5
+[goal]
+strength = 0.1
+[[body]]
+name = "head"
+shape = "sphere"
+radius = 0.08
+END
+}
+program_runs() {
+  local all=(--cache float32 --also hair.usdc,hair.pc2 --checkpoint 4 --overwrite --quiet)
+  "$ringlet" simulate scene.toml "${all[@]}" -o gpu
+  "$ringlet" simulate scene.toml "${all[@]}" --backend reference --frames 6 -o reference
+  "$ringlet" simulate scene.toml "${all[@]}" --devices 0,0 --contacts explicit -o two
+  "$ringlet" simulate scene.toml --clips 5 --usd-values velocities --sheet rendered --overwrite --quiet -o clips
+  "$ringlet" sweep scene.toml --vary material.dials.hold=1,2 --vary simulation.frames=6 --jobs 2 --quiet -o sweep
+  "$ringlet" render gpu/hair.rgc --frames 1:3 --size 320x180 --quiet -o pictures
+  "$ringlet" convert gpu/hair.usdc hair.rgc --overwrite
+  "$ringlet" measure head.obj gpu > measure.txt
+}
+killed_run() {
+  "$ringlet" simulate scene.toml --frames 400 --checkpoint 2 --resume --overwrite --quiet -o killed & local pid=$!
+  sleep 20
+  kill -TERM $pid
+  wait $pid || [ $? = 130 ]
+}
+
+for preset in "${presets[@]}"; do
+  cmake --preset "$preset" > /dev/null
+  cmake --build --preset "$preset" --target "${targets[@]}"
+  ringlet=$PWD/build/$preset/ringlet
+  mkdir "$work/$preset"
+  (cd "$work/$preset" && write_scene && program_runs && killed_run)
+  ctest --preset "$preset" -R '^(base|output|view/S)' --no-tests=error
+  # Python itself is not instrumented: the sanitizer has to be there before it.
+  runtime=$([ "$preset" = threads ] && echo libtsan.so || echo libasan.so)
+  for file in hair lifetimes animations; do
+    LD_PRELOAD=$(g++ -print-file-name=$runtime) PYTHONPATH=$PWD/build/$preset/python \
+      python3 tests/python/run_pytest.py tests/python/test_$file.py ringlet
+  done
+  echo "$preset: nothing found"
+done
