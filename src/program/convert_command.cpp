@@ -292,13 +292,15 @@ Status runGroomConvert(const Typed& typed) {
   auto loaded = readGroom(typed.input, readingOf(typed.reading, typed.up == "Z"));
   if (!loaded) return loaded.error();
   if (typed.metresPerUnit) loaded->groom.metresPerUnit = *typed.metresPerUnit;
-  for (std::string& lost : lostIn(typed.output, loaded->groom.metresPerUnit, typed.up == "Z"))
-    loaded->warnings.push_back(std::move(lost));
   for (const std::string& warning : loaded->warnings) say("ringlet convert: warning: {}\n", warning);
   const auto hair = fullHairOf(typed, loaded->groom, loaded->groom.metresPerUnit);
   if (!hair) return hair.error();
   const Groom& groom = *hair ? (*hair)->groom() : loaded->groom;
   if (Status written = writeGroom(typed.output, groom); !written) return written;
+  for (std::string& lost : lostIn(typed.output, loaded->groom.metresPerUnit, typed.up == "Z")) {
+    say("ringlet convert: warning: {}\n", lost);
+    loaded->warnings.push_back(std::move(lost));
+  }
   std::error_code code;
   const std::uint64_t bytes = std::filesystem::file_size(typed.output, code);
   if (typed.json) {

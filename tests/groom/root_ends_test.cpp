@@ -14,6 +14,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/groom/hair_styles.h"
 #include "tests/groom/groom_samples.h"
+#include "tests/groom/style_samples.h"
 #include "tests/support/test_support.h"
 
 namespace ringlet {
@@ -69,8 +70,8 @@ TEST(RootEnds, AllOrSomeThatRunFromTipToRootAreFound) {
 }
 
 TEST(RootEnds, AHeadOfEveryStyleHasNoneTurnedAndAllOnceItIs) {
-  for (const std::string_view style : {"short", "bob", "long", "layered", "fringe", "ringlets", "coils"}) {
-    const auto parameters = headOfStyle(std::string(style));
+  for (const std::string& style : test::styleNames()) {
+    const auto parameters = headOfStyle(style);
     ASSERT_TRUE(parameters) << style;
     auto head = makeHead(*parameters);
     ASSERT_TRUE(head) << style;
@@ -95,6 +96,57 @@ TEST(RootEnds, OnlyAnEndThatIsClearOfTheHeadIsATip) {
   EXPECT_EQ(reversedBy(others, 1, 2), (std::vector<bool>{true, true, true, true, false}));
   others[3] = {9, 1.1};
   EXPECT_EQ(reversedBy(others, 1, 2), std::vector<bool>(5, false));
+}
+
+// Heads of people are no balls, and hair may grow on a small part of them: tips are then more even than
+// roots.
+TEST(RootEnds, AGoodHeadThatIsNoBallHasNoneTurned) {
+  const Vec3d kShapes[] = {{1, 1, 1}, {0.82, 1, 1.06}, {0.75, 1.1, 0.95}, {1, 0.9, 1.15}};
+  for (const std::string& style : test::styleNames()) {
+    for (const int strands : {12, 40, 120}) {
+      for (const bool isCap : {false, true}) {
+        HeadParameters parameters = *headOfStyle(style);
+        parameters.strandCount = strands;
+        if (isCap) parameters.browElevation = 1.1, parameters.napeElevation = 0.6;
+        const auto head = makeHead(parameters);
+        ASSERT_TRUE(head) << style;
+        for (const Vec3d& shape : kShapes) {
+          Groom egg = *head;
+          for (Vec3f& p : egg.points) p = Vec3f(Vec3d{p.x * shape.x, p.y * shape.y, p.z * shape.z});
+          EXPECT_EQ(std::ranges::count(findRootEnds(egg).isReversed, true), 0)
+              << style << " " << strands << " " << isCap << " " << shape.x;
+        }
+      }
+    }
+  }
+}
+
+TEST(RootEnds, OfEightStrandsAndMoreAnyThatAreTurnedAreFound) {
+  for (const std::size_t strands : {8u, 12u, 19u, 33u}) {
+    for (const double length : {6.0, 20.0}) {
+      for (const std::size_t step : {2u, 3u, 5u}) {
+        Groom turned = ballOfHair(strands, length);
+        turnRound(every(step, strands), turned);
+        EXPECT_EQ(findRootEnds(turned).isReversed, every(step, strands)) << strands << " " << length << step;
+      }
+    }
+  }
+}
+
+// Not the origin that an exporter wrote there.
+TEST(RootEnds, AStrandBeginsAtItsFirstParticleThatIsNoStray) {
+  for (const bool isFirst : {true, false}) {
+    Groom strays;
+    const Groom good = ballOfHair(60, 20);
+    for (std::size_t s = 0; s < good.strandCount(); ++s) {
+      std::vector<Vec3f> strand(good.strand(s).begin(), good.strand(s).end());
+      strand.insert(isFirst ? strand.begin() : strand.end(), 2, Vec3f{0, 0, 0});
+      strays.addStrand(strand);
+    }
+    EXPECT_EQ(std::ranges::count(findRootEnds(strays).isReversed, true), 0) << isFirst;
+    turnRound(every(1, 60), strays);
+    EXPECT_EQ(std::ranges::count(findRootEnds(strays).isReversed, true), 60) << isFirst;
+  }
 }
 
 TEST(RootEnds, WithoutAHeadNothingIsSaid) {

@@ -42,6 +42,15 @@ std::string objOf() {
   return text;
 }
 
+std::string usdOf() {
+  std::string points;
+  for (const Vec3f p : twelvePoints())
+    points += (points.empty() ? "(" : ", (") + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " +
+              std::to_string(p.z) + ")";
+  return "#usda 1.0\ndef BasisCurves \"Hair\" { uniform token type = \"linear\" point3f[] points = [" +
+         points + "] }\n";
+}
+
 struct Sample {
   const char *name, *what;
   std::string bytes;
@@ -52,7 +61,8 @@ std::vector<Sample> samples() {
           {"text.ply", "ply text", plyOf(true)},
           {"a.ply", "ply binary", plyOf(false)},
           {"empty.ply", "ply with elements of nothing",
-           plyOf(true, "element face 0\nproperty list uchar int i\n")}};
+           plyOf(true, "element face 0\nproperty list uchar int i\n")},
+          {"a.usda", "usd", usdOf()}};
 }
 
 TEST(StrandsOfPoints, AreCutWhereTheNumberIsSaidAndTheRefusalNamesTheOption) {

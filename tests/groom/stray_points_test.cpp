@@ -74,6 +74,44 @@ TEST(StrayPoints, AtTheOriginOneStrandIsEnoughElsewhereItsEdgesAreCounted) {
       test::hasSameBits(mendGroom(with({-50, 3, 7}, 10, 1, 7, 100)).groom, with({-50, 3, 7}, 10, 1, 7, 100)));
 }
 
+// Numbers that stand for no place, in all strands or in one: what is left is what was good.
+TEST(StrayPoints, NumbersThatStandForNoPlaceAreTakenOutAndNothingElse) {
+  for (const float number : {99999.f, 1e10f, -1e6f, 3.4e38f}) {
+    for (const Vec3f place : {Vec3f{number, number, number}, Vec3f{0, number, 0}}) {
+      for (const std::size_t at : {0u, 4u, 10u}) {
+        for (const std::size_t step : {1u, 3u, 100u}) {
+          const Groom bad = with(place, at, 1, 0, step);
+          const std::size_t strands = (20 + step - 1) / step;
+          const GroomInspection found = inspectGroom(bad);
+          EXPECT_EQ(found.strayParticles.count, strands) << number << " " << at << " " << step;
+          EXPECT_EQ(found.repeatedParticles.count, 0u) << number << " " << at << " " << step;
+          EXPECT_EQ(found.likelyUp, 'Y') << number << " " << at << " " << step;
+          EXPECT_EQ(found.longEdges.count, strands * (at == 4 ? 2 : 1)) << number << " " << at << " " << step;
+          const MendedGroom mended = mendGroom(bad);
+          EXPECT_TRUE(test::hasSameBits(mended.groom, goodGroom())) << number << " " << at << " " << step;
+          EXPECT_EQ(mended.strayCount, strands);
+        }
+      }
+    }
+  }
+}
+
+// Every particle twice, a hair's breadth apart, as files have them: no edge is far, and both tips stay.
+TEST(StrayPoints, PairsOfParticlesAreNone) {
+  Groom pairs;
+  for (std::size_t s = 0; s < 20; ++s) {
+    std::vector<Vec3f> strand;
+    for (const Vec3f p : goodGroom().strand(s)) {
+      strand.push_back(p);
+      if (s % 2 == 0 || strand.size() > 1) strand.push_back({p.x + 2e-4f, p.y, p.z});
+    }
+    pairs.addStrand(strand);
+  }
+  pairs.addStrand(std::vector<Vec3f>{{30, 40, 5}, {30.0002f, 40, 5}, {31, 40, 5}});
+  EXPECT_EQ(inspectGroom(pairs).strayParticles.count, 0u);
+  EXPECT_EQ(mendGroom(pairs).strayCount, 0u);
+}
+
 TEST(StrayPoints, WhatStrandsRightlyShareStays) {
   // A tuft from one root, which is at the origin too; strands that end in one place; a strand twice.
   Groom tuft, knot = goodGroom();

@@ -29,6 +29,40 @@ std::string doubtsOf(const Groom& groom, std::vector<Body> bodies, const HeadPos
   return all;
 }
 
+// Of the option that is advised: one that turns strands round, of a groom with a head and of one without.
+TEST(PlacementCheck, NoOptionIsAdvisedThatWouldTurnNothing) {
+  SwatchParameters grid;
+  grid.columnCount = grid.rowCount = 5;
+  Groom swatch = *makeSwatch(grid);
+  std::vector<EndDistances> ends(25, {0, 0.25});
+  EXPECT_FALSE(checkRootEnds(swatch, ends, "a board"));
+  for (std::size_t s = 0; s < 25; s += 3) ends[s] = {0.25, 0};
+  const auto some = checkRootEnds(swatch, ends, "a board");
+  ASSERT_TRUE(some);
+  EXPECT_NE(some->find("9 of 25 strands have their last point on a board"), std::string::npos) << *some;
+  EXPECT_NE(some->find("no option tells them from the others"), std::string::npos) << *some;
+  EXPECT_EQ(some->find("--root-end"), std::string::npos) << *some;
+  for (EndDistances& of : ends) of = {0.25, 0};
+  const auto all = checkRootEnds(swatch, ends, "a board");
+  ASSERT_TRUE(all);
+  EXPECT_NE(all->find("25 of 25"), std::string::npos) << *all;
+  EXPECT_NE(all->find("--root-end last) turns all round"), std::string::npos) << *all;
+
+  Groom turned = head();
+  std::vector<bool> third(40);
+  ends.assign(40, {0, 0.2});
+  for (std::size_t s = 0; s < 40; s += 3) {
+    third[s] = true;
+    ends[s] = {0.2, 0};
+  }
+  turnRound(third, turned);
+  const auto byHead = checkRootEnds(turned, ends, "the scalp");
+  ASSERT_TRUE(byHead);
+  EXPECT_NE(byHead->find("14 of 40"), std::string::npos) << *byHead;
+  EXPECT_NE(byHead->find("--root-end head) turns those that end on the head round"), std::string::npos)
+      << *byHead;
+}
+
 TEST(PlacementCheck, AHeadWithItsBodyFits) {
   const HeadPose away{{30, 1, -4}, fromRotationVector(Vec3d{0, 2, 0.5})};
   EXPECT_EQ(doubtsOf(head(), {ball(0.09)}), "");

@@ -19,6 +19,7 @@
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/scenes/load_scene.h"
 #include "tests/groom/groom_samples.h"
+#include "tests/groom/style_samples.h"
 #include "tests/program/run_program.h"
 #include "tests/support/test_support.h"
 
@@ -173,6 +174,27 @@ TEST_F(GroomFaults, AScenesBodyOrHeadSaysThatStrandsRunFromTipToRoot) {
   EXPECT_TRUE(hasSameBits(turned->groom, hairOfAHead()));
 }
 
+// Of few strands too, and what is advised works.
+TEST_F(GroomFaults, EightStrandsAreCountedAndTurnedByABody) {
+  const Groom good = hairOfAHead(8);
+  for (const std::size_t step : {1u, 2u, 3u, 8u}) {
+    write("bad.obj", changed(good, [&](std::size_t s, auto& strand) {
+            if (s % step == 0) std::ranges::reverse(strand);
+          }));
+    const std::string end = step == 1 ? "last" : "head";
+    for (const char* body : {kHeadBody, kBallBody}) {
+      const std::string warned = warningsOf("bad.obj", "", body);
+      const std::string count = fmt::format("{} of 8 strands", (8 + step - 1) / step);
+      EXPECT_TRUE(contains(warned, count.c_str()) && contains(warned, ("--root-end " + end + ")").c_str()))
+          << step << ": " << warned;
+    }
+    const auto turned =
+        readGroom(folder_ / "bad.obj", {.rootEnd = step == 1 ? RootEnd::last : RootEnd::head});
+    ASSERT_TRUE(turned);
+    EXPECT_TRUE(hasSameBits(turned->groom, good)) << step;
+  }
+}
+
 TEST_F(GroomFaults, HairThatEndsOnShouldersRunsTheRightWay) {
   // Its tips lie on a body, and its roots, 20 cm higher, on a head that is none.
   const Groom longHair = changed(hairOfAHead(), [](std::size_t, auto& strand) {
@@ -193,7 +215,8 @@ TEST_F(GroomFaults, HairThatEndsOnShouldersRunsTheRightWay) {
 
 TEST_F(GroomFaults, StraysAreCountedWarnedOfAndMendedWhereverTheyAre) {
   write("good.obj", hairOfAHead());
-  for (const Vec3f place : {Vec3f{0, 0, 0}, Vec3f{80, -30, 5}}) {
+  for (const Vec3f place :
+       {Vec3f{0, 0, 0}, Vec3f{80, -30, 5}, Vec3f{99999, 99999, 99999}, Vec3f{0, 1e10f, 0}}) {
     for (const std::size_t at : {0u, 5u, 12u}) {
       write("bad.obj", withPlace(place, at, 1, 2));
       const json found = info({"bad.obj"})["faults"];
@@ -282,7 +305,7 @@ TEST_F(GroomFaults, WhatFixWritesIsReadAgainAndIsFixed) {
 // --- No false alarms.
 
 TEST_F(GroomFaults, GeneratedHeadsOfEveryStyleAreRight) {
-  for (const char* style : {"short", "bob", "long", "layered", "fringe", "ringlets", "coils"}) {
+  for (const std::string& style : styleNames()) {
     const auto parameters = headOfStyle(style);
     ASSERT_TRUE(parameters) << style;
     const auto groom = makeHead(*parameters);
@@ -354,6 +377,14 @@ TEST_F(GroomFaults, WhatAFileCannotHoldIsSaidWhenItIsWritten) {
       }
     }
   }
+}
+
+TEST_F(GroomFaults, WhatIsNotWrittenLosesNothing) {
+  write("groom.obj", hairOfAHead(4));
+  const ProgramResult refused = runProgram(folder_, {"convert", "groom.obj", "--unit", "1", "out.usda"});
+  EXPECT_NE(refused.exitCode, 0);
+  EXPECT_TRUE(contains(refused.err, "cannot write a groom")) << refused.err;
+  EXPECT_FALSE(contains(refused.err, "does not hold")) << refused.err;
 }
 
 TEST_F(GroomFaults, FramesOfAnAnimationLoseItsUnitToo) {

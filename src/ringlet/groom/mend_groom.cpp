@@ -12,15 +12,9 @@
 namespace ringlet {
 namespace {
 
-double lengthOf(std::span<const Vec3f> strand) {
-  double sum = 0;
-  for (std::size_t i = 1; i < strand.size(); ++i) sum += length(Vec3d(strand[i]) - Vec3d(strand[i - 1]));
-  return sum;
-}
-
 // Each particle away from the one kept before it; the tip stays, in place of one too near to it.
 std::vector<Vec3f> withoutRepeats(std::span<const Vec3f> strand) {
-  const double nothing = kNoEdgeShare * lengthOf(strand);
+  const double nothing = noEdgeLength(strand);
   std::vector<Vec3f> kept{strand.front()};
   for (const Vec3f p : strand.subspan(1)) {
     if (length(Vec3d(p) - Vec3d(kept.back())) > nothing) kept.push_back(p);
@@ -75,6 +69,10 @@ bool mendOnce(MendedGroom& mended) {
 }
 
 }  // namespace
+
+double noEdgeLength(std::span<const Vec3f> strand) {
+  return kNoEdgeShare * static_cast<double>(strand.size()) * upperEdge(strand);
+}
 
 std::vector<bool> duplicatesIn(const Groom& groom) {
   const auto compare = [&](std::size_t a, std::size_t b) {

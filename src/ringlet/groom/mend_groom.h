@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include "ringlet/groom/groom.h"
 
@@ -11,12 +13,16 @@ namespace ringlet {
 /// hold 6e-6 beside 4e-2, and float32 has seven digits.
 inline constexpr double kNoEdgeShare = 1e-6;
 
+/// Up to this length an edge of the strand counts as none. The strand is taken to have edges as long as its
+/// upperEdge() (stray_points.h), so that a particle at 1e10 does not make all others none.
+double noEdgeLength(std::span<const Vec3f> strand);
+
 struct MendedGroom {
   Groom groom;
   std::size_t repeatedCount = 0;     // particles in the place of the one before them, taken out
   std::size_t pointStrandCount = 0;  // strands all in one place, dropped
   std::size_t duplicateCount = 0;    // strands of the very particles of one before, dropped
-  std::size_t strayCount = 0;  // particles far off in a place of several strands, taken out (stray_points.h)
+  std::size_t strayCount = 0;        // particles far off where no hair is, taken out (stray_points.h)
 };
 
 /// Takes out strays, merges, drops, until there is nothing more to mend, and, with a `particleCount` of 2 or

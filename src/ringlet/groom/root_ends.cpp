@@ -6,110 +6,151 @@
 #include <optional>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/groom/seeded_random.h"
+#include "ringlet/groom/mend_groom.h"
+#include "ringlet/groom/stray_points.h"
 
 namespace ringlet {
 namespace {
 
 constexpr std::size_t kLeastStrands = 8;  // of fewer a ball goes through nearly any ends
 constexpr std::size_t kLeastForOutliers = 20;
-constexpr double kLeastOn = 0.8;      // share of strands with an end where roots stand
-constexpr double kCounted = 0.7;      // of the ends, the nearest; others may be of strands turned round
-constexpr int kFits = 8;              // each without the farthest of the one before
-constexpr double kMostUneven = 0.06;  // of ends from a head's ball, rms over its radius
+constexpr double kLeastOn = 0.8;     // share of strands with an end where roots stand
+constexpr double kCounted = 0.7;     // of the ends, the nearest; others may be of strands turned round
+constexpr int kFits = 8;             // each without the farthest of the one before
+constexpr double kMostUneven = 0.1;  // of ends from a head's ball, rms over its radius
 constexpr double kNearRms = 3, kNear = 0.03;  // of the ball: so many rms, and this share of its radius
+// Hair is around a head and not in it: deeper than this share of the radius are at most so many particles, of
+// a sample. It tells the head from a ball that goes through tips.
+constexpr double kDeep = 0.2, kMostDeep = 0.02;
+constexpr std::size_t kMostSampled = 4000;
 // Hair spreads out from a head: where its first and its last ends are on balls, the head is the smaller. Not
 // one smaller than this share of the other, a knot into which hair is gathered, nor one that is less even.
 constexpr double kLeastOfOther = 0.4, kAsEven = 0.01;
-// A ball through one end of each strand, whichever: so many tries, each through the ends of a few strands,
-// then through the nearer end of most; of a groom a sample. It counts where it is very even, and twice as
-// even as the ball through first or last ends: with a choice of two, ends lie near some ball or other.
-constexpr int kTries = 64, kTurns = 12;
-constexpr std::size_t kPicked = 6, kMostSampled = 200;
-constexpr double kNearer = 0.9, kVeryEven = 0.01, kMoreEven = 0.5;
-
-struct HeadOfEnds {
-  Ball ball;
-  bool isFound = false;
-};
+// Where first ends are on none, any other ball is so much more even than the one that fits them best: they
+// may be on a small patch of a head.
+constexpr double kMoreEven = 0.5;
+// A ball through one end of each strand, whichever: from every choice of ends of a few strands, then through
+// the nearer end of most; of a groom a sample. It counts where it is very even, and more so than the ball
+// through first or last ends: with a choice of two, ends lie near some ball or other, of few strands even
+// more.
+constexpr std::size_t kChosen = 6, kSets = 3, kMostTried = 200;
+constexpr int kTurns = 12;
+constexpr double kNearer = 0.9, kVeryEven = 0.01, kVeryEvenOfFew = 0.003;
 
 double unevenness(const Ball& ball) { return ball.rms / ball.radius; }
 
-// Through most of them, if these lie on a ball.
-HeadOfEnds headOf(const std::vector<Vec3d>& ends) {
-  HeadOfEnds head;
-  if (ends.size() < kLeastStrands) return head;
-  std::vector<Vec3d> counted = ends;
-  head.ball = ballThrough(counted);
-  if (ends.size() >= kLeastForOutliers) {
-    const auto keep = static_cast<std::ptrdiff_t>(kCounted * static_cast<double>(ends.size()));
-    std::vector<Vec3d> order = ends;
-    for (int fit = 0; fit < kFits && head.ball.radius > 0; ++fit) {
-      std::ranges::nth_element(order, order.begin() + keep, {},
-                               [&](Vec3d p) { return head.ball.distanceTo(p); });
-      counted.assign(order.begin(), order.begin() + keep);
-      head.ball = ballThrough(counted);
+// Evenly spread, at most so many.
+std::vector<Vec3d> sampleOf(std::span<const Vec3f> points, std::size_t most) {
+  std::vector<Vec3d> sample;
+  const std::size_t step = (points.size() + most - 1) / most;
+  for (std::size_t i = 0; i < points.size(); i += step) sample.emplace_back(points[i]);
+  return sample;
+}
+
+class HeadFinder {
+ public:
+  HeadFinder(const StrandEnds& ends, std::span<const Vec3f> particles)
+      : ends_(ends), particles_(sampleOf(particles, kMostSampled)) {}
+
+  // On which most strands have their first ends, or their last, or either.
+  std::optional<Ball> find() const {
+    const Found first = throughMost(ends_.first), last = throughMost(ends_.last);
+    std::optional<Ball> head;
+    if (first.isHead) {
+      head = first.ball;
+      const bool isSmaller =
+          last.ball.radius < head->radius && last.ball.radius > kLeastOfOther * head->radius;
+      if (last.isHead && isSmaller && unevenness(last.ball) < unevenness(*head) + kAsEven) head = last.ball;
+    } else if (last.isHead && isMoreEven(last.ball, first.ball)) {
+      head = last.ball;
     }
+    const auto either = headOfEither();
+    if (!either || !isMoreEven(*either, head.value_or(first.ball))) return head;
+    return !head || either->radius < (1 + kVeryEven) * head->radius ? either : head;
   }
-  head.isFound = isHead(head.ball, counted, kMostUneven);
-  return head;
-}
 
-// From a guess: through the nearer ends of most strands, again and again.
-std::optional<Ball> settled(Ball ball, std::span<const Vec3d> firsts, std::span<const Vec3d> lasts) {
-  std::vector<Vec3d> ends(firsts.size());
-  const auto keep = static_cast<std::ptrdiff_t>(kNearer * static_cast<double>(ends.size()));
-  for (int turn = 0; turn < kTurns; ++turn) {
-    if (!(ball.radius > 0)) return std::nullopt;
-    for (std::size_t s = 0; s < firsts.size(); ++s)
-      ends[s] = ball.distanceTo(firsts[s]) < ball.distanceTo(lasts[s]) ? firsts[s] : lasts[s];
-    std::ranges::nth_element(ends, ends.begin() + keep, {}, [&](Vec3d p) { return ball.distanceTo(p); });
-    ball = ballThrough(std::span(ends).first(static_cast<std::size_t>(keep)));
-  }
-  const bool isOne = isHead(ball, std::span(ends).first(static_cast<std::size_t>(keep)), kVeryEven);
-  return isOne ? std::optional(ball) : std::nullopt;
-}
+ private:
+  struct Found {
+    Ball ball;
+    bool isHead = false;
+  };
 
-// The smallest that goes through an end of nearly every strand, first or last, but for knots.
-std::optional<Ball> headOfEither(const std::vector<Vec3d>& firsts, const std::vector<Vec3d>& lasts) {
-  if (firsts.size() < kLeastForOutliers) return std::nullopt;
-  std::vector<Vec3d> someFirsts, someLasts;
-  const std::size_t step = (firsts.size() + kMostSampled - 1) / kMostSampled;
-  for (std::size_t s = 0; s < firsts.size(); s += step) {
-    someFirsts.push_back(firsts[s]);
-    someLasts.push_back(lasts[s]);
+  static bool isMoreEven(const Ball& ball, const Ball& other) {
+    return !(other.radius > 0) || unevenness(ball) < kMoreEven * unevenness(other);
   }
-  SeededRandom random(1, 0);
-  std::vector<Ball> balls;
-  for (int attempt = 0; attempt < kTries; ++attempt) {
-    std::vector<Vec3d> picked;
-    for (std::size_t k = 0; k < kPicked; ++k) {
-      const auto s = static_cast<std::size_t>(random.uniform() * static_cast<double>(someFirsts.size()));
-      picked.push_back(random.uniform() < 0.5 ? someFirsts[s] : someLasts[s]);
+
+  bool hasHairAround(const Ball& ball) const {
+    const auto deep = std::ranges::count_if(
+        particles_, [&](Vec3d p) { return length(p - ball.middle) < (1 - kDeep) * ball.radius; });
+    return static_cast<double>(deep) <= kMostDeep * static_cast<double>(particles_.size());
+  }
+
+  // The ball through most of them, and whether it is a head.
+  Found throughMost(const std::vector<Vec3d>& ends) const {
+    if (ends.size() < kLeastStrands) return {};
+    std::vector<Vec3d> counted = ends;
+    Ball ball = ballThrough(counted);
+    if (ends.size() >= kLeastForOutliers) {
+      const auto keep = static_cast<std::ptrdiff_t>(kCounted * static_cast<double>(ends.size()));
+      std::vector<Vec3d> order = ends;
+      for (int fit = 0; fit < kFits && ball.radius > 0; ++fit) {
+        std::ranges::nth_element(order, order.begin() + keep, {},
+                                 [&](Vec3d p) { return ball.distanceTo(p); });
+        counted.assign(order.begin(), order.begin() + keep);
+        ball = ballThrough(counted);
+      }
     }
-    if (const auto ball = settled(ballThrough(picked), someFirsts, someLasts)) balls.push_back(*ball);
+    return {ball, isHead(ball, counted, kMostUneven) && hasHairAround(ball)};
   }
-  if (balls.empty()) return std::nullopt;
-  const double largest = std::ranges::max(balls, {}, &Ball::radius).radius;
-  std::erase_if(balls, [&](const Ball& ball) { return ball.radius < kLeastOfOther * largest; });
-  return std::ranges::min(balls, {}, &Ball::radius);
-}
 
-// On which most strands have their first ends, or their last, or either.
-std::optional<Ball> headOf(const std::vector<Vec3d>& firsts, const std::vector<Vec3d>& lasts) {
-  const HeadOfEnds byFirsts = headOf(firsts), byLasts = headOf(lasts);
-  std::optional<Ball> head;
-  if (byFirsts.isFound) head = byFirsts.ball;
-  if (byLasts.isFound) {
-    const Ball &first = byFirsts.ball, &last = byLasts.ball;
-    const bool isSmaller = last.radius < first.radius && last.radius > kLeastOfOther * first.radius;
-    if (!head || (isSmaller && unevenness(last) < unevenness(first) + kAsEven)) head = last;
+  // From a guess: through the nearer ends of most strands, again and again.
+  std::optional<Ball> settled(Ball ball, const StrandEnds& some) const {
+    std::vector<Vec3d> nearer(some.first.size());
+    const auto keep = static_cast<std::size_t>(kNearer * static_cast<double>(nearer.size()));
+    const auto counted = std::span(nearer).first(keep);
+    for (int turn = 0; turn < kTurns; ++turn) {
+      if (!(ball.radius > 0)) return std::nullopt;
+      for (std::size_t s = 0; s < nearer.size(); ++s)
+        nearer[s] =
+            ball.distanceTo(some.first[s]) < ball.distanceTo(some.last[s]) ? some.first[s] : some.last[s];
+      std::ranges::nth_element(nearer, nearer.begin() + static_cast<std::ptrdiff_t>(keep), {},
+                               [&](Vec3d p) { return ball.distanceTo(p); });
+      ball = ballThrough(counted);
+    }
+    const double most = nearer.size() < kLeastForOutliers ? kVeryEvenOfFew : kVeryEven;
+    return isHead(ball, counted, most) && hasHairAround(ball) ? std::optional(ball) : std::nullopt;
   }
-  const auto either = headOfEither(firsts, lasts);
-  if (!either) return head;
-  const bool isNoLarger = !head || either->radius < (1 + kVeryEven) * head->radius;
-  return isNoLarger && (!head || unevenness(*either) < kMoreEven * unevenness(*head)) ? either : head;
-}
+
+  // The smallest that goes through an end of nearly every strand, first or last, but for knots.
+  std::optional<Ball> headOfEither() const {
+    const std::size_t strands = ends_.first.size();
+    if (strands < kLeastStrands) return std::nullopt;
+    StrandEnds some;
+    const std::size_t step = (strands + kMostTried - 1) / kMostTried;
+    for (std::size_t s = 0; s < strands; s += step) {
+      some.first.push_back(ends_.first[s]);
+      some.last.push_back(ends_.last[s]);
+    }
+    std::vector<Ball> balls;
+    for (std::size_t set = 0; set < kSets; ++set) {
+      for (std::size_t choice = 0; choice < (std::size_t{1} << kChosen); ++choice) {
+        std::vector<Vec3d> chosen;
+        for (std::size_t k = 0; k < kChosen; ++k) {
+          const std::size_t s = (set + k * some.first.size() / kChosen) % some.first.size();
+          chosen.push_back((choice >> k) & 1 ? some.last[s] : some.first[s]);
+        }
+        if (const auto ball = settled(ballThrough(chosen), some)) balls.push_back(*ball);
+      }
+    }
+    if (balls.empty()) return std::nullopt;
+    const double largest = std::ranges::max(balls, {}, &Ball::radius).radius;
+    std::erase_if(balls, [&](const Ball& ball) { return ball.radius < kLeastOfOther * largest; });
+    return std::ranges::min(balls, {}, &Ball::radius);
+  }
+
+  const StrandEnds& ends_;
+  std::vector<Vec3d> particles_;
+};
 
 }  // namespace
 
@@ -123,19 +164,28 @@ std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, d
   return isReversed;
 }
 
+StrandEnds strandEnds(const Groom& groom) {
+  const std::vector<bool> isStray = strayPoints(groom, sharedPlaces(groom, duplicatesIn(groom)));
+  StrandEnds ends;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    std::size_t first = groom.firstPoint[s], last = groom.firstPoint[s + 1] - 1;  // two are no strays
+    while (isStray[first]) ++first;
+    while (isStray[last]) --last;
+    ends.first.emplace_back(groom.points[first]);
+    ends.last.emplace_back(groom.points[last]);
+  }
+  return ends;
+}
+
 RootEnds findRootEnds(const Groom& groom) {
   RootEnds found;
   found.isReversed.assign(groom.strandCount(), false);
-  std::vector<Vec3d> firsts, lasts;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    firsts.emplace_back(groom.strand(s).front());
-    lasts.emplace_back(groom.strand(s).back());
-  }
-  found.head = headOf(firsts, lasts);
+  const StrandEnds ends = strandEnds(groom);
+  found.head = HeadFinder(ends, groom.points).find();
   if (!found.head) return found;
   std::vector<EndDistances> distances;
   for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    distances.push_back({found.head->distanceTo(firsts[s]), found.head->distanceTo(lasts[s])});
+    distances.push_back({found.head->distanceTo(ends.first[s]), found.head->distanceTo(ends.last[s])});
   const double on = kNearRms * found.head->rms + kNear * found.head->radius;
   found.isReversed = reversedBy(distances, on, 2 * on);
   return found;

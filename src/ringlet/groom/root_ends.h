@@ -20,14 +20,21 @@ struct EndDistances {
 /// and further by `clear`. None where fewer than four of five strands have an end on it: roots are elsewhere.
 std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, double clear);
 
+/// Of each strand the first and the last particle that is no stray (stray_points.h).
+struct StrandEnds {
+  std::vector<Vec3d> first{}, last{};  // [unit]
+};
+StrandEnds strandEnds(const Groom& groom);
+
 struct RootEnds {
   std::optional<Ball> head{};      // [unit]
   std::vector<bool> isReversed{};  // of each strand; where there is no head, none is
 };
 
 /// Of a groom as readers return it. There is a head where eight strands and more have their first ends, or
-/// their last, on one ball, but for three of ten, or twenty and more have either end very evenly on one; of
-/// several such balls it is the smallest. Cost: n log n in the strands.
+/// their last, or very evenly either, on one ball around which hair is and not in it; of twenty and more
+/// three of ten may have none there. Of several such balls it is the smallest. Cost: n log n in the
+/// particles.
 RootEnds findRootEnds(const Groom& groom);
 
 /// Turns these strands round: their last particle is the first. As many as the groom has.

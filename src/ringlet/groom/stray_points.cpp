@@ -2,6 +2,7 @@
 #include "ringlet/groom/stray_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
@@ -13,6 +14,20 @@ namespace ringlet {
 namespace {
 
 double edgeOf(Vec3f a, Vec3f b) { return length(Vec3d(b) - Vec3d(a)); }
+
+std::vector<double> edgesOf(std::span<const Vec3f> strand) {
+  std::vector<double> edges;
+  for (std::size_t i = 1; i < strand.size(); ++i) edges.push_back(edgeOf(strand[i - 1], strand[i]));
+  return edges;
+}
+
+// The one that stands `share` of `all` up from the shortest, the lower of two; 0 without any.
+double inOrder(std::vector<double>& edges, std::size_t share, std::size_t all) {
+  if (edges.empty()) return 0;
+  const auto found = edges.begin() + static_cast<std::ptrdiff_t>((edges.size() - 1) * share / all);
+  std::ranges::nth_element(edges, found);
+  return *found;
+}
 
 // Particles of a strand that follow each other in one place.
 struct Stop {
@@ -31,17 +46,16 @@ std::vector<Stop> stopsOf(std::span<const Vec3f> strand) {
 }  // namespace
 
 double medianEdge(std::span<const Vec3f> strand) {
-  std::vector<double> edges;
-  double whole = 0;
-  for (std::size_t i = 1; i < strand.size(); ++i) {
-    edges.push_back(edgeOf(strand[i - 1], strand[i]));
-    whole += edges.back();
-  }
-  std::erase_if(edges, [&](double edge) { return edge <= kNoEdgeShare * whole; });
-  if (edges.empty()) return 0;
-  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>((edges.size() - 1) / 2);
-  std::ranges::nth_element(edges, middle);
-  return *middle;
+  std::vector<double> edges = edgesOf(strand);
+  const double nothing = noEdgeLength(strand);
+  std::erase_if(edges, [&](double edge) { return edge <= nothing; });
+  return inOrder(edges, 1, 2);
+}
+
+double upperEdge(std::span<const Vec3f> strand) {
+  std::vector<double> edges = edgesOf(strand);
+  std::erase(edges, 0.0);
+  return inOrder(edges, 3, 4);
 }
 
 std::vector<bool> sharedPlaces(const Groom& groom, const std::vector<bool>& isDuplicate) {
@@ -76,12 +90,13 @@ std::vector<bool> strayPoints(const Groom& groom, const std::vector<bool>& isSha
       return isShared[groom.firstPoint[s] + i] || strand[i] == Vec3f{0, 0, 0};
     };
     std::size_t left = strand.size();
-    double longest = -1;  // looked up once a strand needs it
     const std::vector<Stop> stops = stopsOf(strand);
+    const double far = kStrayEdge * medianEdge(strand);
+    const double anywhere = stops.size() > 3 ? kFarEdge * upperEdge(strand) : HUGE_VAL;
     for (std::size_t k = 0; k < stops.size() && stops.size() > 2; ++k) {
       const auto [first, count] = stops[k];
-      if (!mayBe(first) || left < count + 2) continue;
-      if (longest < 0) longest = kStrayEdge * medianEdge(strand);
+      if (left < count + 2) continue;
+      const double longest = mayBe(first) ? far : anywhere;
       const bool isFarBefore = k == 0 || edgeOf(strand[first - 1], strand[first]) > longest;
       const bool isFarAfter = k + 1 == stops.size() || edgeOf(strand[first], strand[first + count]) > longest;
       if (!isFarBefore || !isFarAfter) continue;

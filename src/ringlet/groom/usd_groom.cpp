@@ -319,11 +319,12 @@ class UsdGroomMaker {
                              counts.numbers.empty() ? std::string("; ") + kSayPointsPerStrand : "")};
   }
   // Of a prim without, where all curves are said to have as many.
-  void addCounts(std::size_t pointCount, UsdValue& counts) const {
+  Status addCounts(std::size_t pointCount, UsdValue& counts) {
     const std::size_t each = reading_.pointsPerStrand;
-    if (each == 0) return;
+    if (each == 0) return {};
+    if (Status whole = checkWholeStrands(pointCount, reading_.pointsPerStrand); !whole) return whole;
     counts.numbers.assign(pointCount / each, static_cast<double>(each));
-    if (pointCount % each != 0) counts.numbers.push_back(static_cast<double>(each));
+    return {};
   }
 
   // Fails only where the groom becomes too large: what is wrong with one prim leaves it out.
@@ -342,8 +343,10 @@ class UsdGroomMaker {
     const UsdAttribute* countsFound = find(layer_.prims[index], "curveVertexCounts");
     const UsdValue& points = (pointsFound ? pointsFound : &none)->value;
     UsdValue counts = (countsFound ? countsFound : &none)->value;
-    if (counts.numbers.empty() && points.width == 3) addCounts(points.numbers.size() / 3, counts);
-    if (Status fits = checkCounts(points, counts); !fits) {
+    Status fits;
+    if (counts.numbers.empty() && points.width == 3) fits = addCounts(points.numbers.size() / 3, counts);
+    if (fits) fits = checkCounts(points, counts);
+    if (!fits) {
       leaveOut(index, fits.error().message);
       return {};
     }

@@ -94,9 +94,9 @@ std::vector<std::string> doubtsOfPlaces(const Groom& groom) {
   std::vector<std::string> doubts;
   if (strays.count > 0) {
     doubts.push_back(fmt::format(
-        "{} particle{} far off in a place that several strands share, or at the origin, as "
-        "exporters write what they cannot place (the first in strand {}); `ringlet info FILE --fix "
-        "OUT` takes such particles out",
+        "{} particle{} far off where no hair is (at the origin, in a place that several strands share, or a "
+        "hundred edges away), as exporters write what they cannot place (the first in strand {}); "
+        "`ringlet info FILE --fix OUT` takes such particles out",
         strays.count, strays.count == 1 ? " stands" : "s stand", strays.firstStrand));
   }
   if (longEdges.count > 0) {

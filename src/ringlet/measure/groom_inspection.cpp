@@ -53,9 +53,9 @@ std::vector<LikelyUnit> likelyUnits(double meanLength) {
 }
 
 char likelyUpOf(const Groom& groom) {
+  const StrandEnds ends = strandEnds(groom);
   Vec3d way;
-  for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    way += Vec3d(groom.strand(s).back()) - Vec3d(groom.strand(s).front());
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) way += ends.last[s] - ends.first[s];
   return upOf(way);
 }
 
@@ -95,10 +95,10 @@ GroomInspection inspectGroom(const Groom& groom) {
     }
     if (chord > kNoEdgeShare * whole) shares.push_back(whole / chord);
     std::size_t none = 0, few = 0, many = 0;
-    const double longest = kLongEdge * medianEdge(groom.strand(s));
+    const double longest = kLongEdge * medianEdge(groom.strand(s)), nothing = noEdgeLength(groom.strand(s));
     for (const double edge : edges) {
       many += edge > longest;
-      if (edge <= kNoEdgeShare * whole) {
+      if (edge <= nothing) {
         ++none;
       } else if (edge < kShortEdgeShare * whole / static_cast<double>(edges.size())) {
         ++few;

@@ -55,9 +55,9 @@ struct GroomInspection {
   GroomFault repeatedParticles;           // in the place of the one before
   GroomFault shortEdges;                  // those above not counted
   GroomFault longEdges;                   // than the strand's median
-  GroomFault strayParticles;              // far off, where those of other strands are too (stray_points.h)
+  GroomFault strayParticles;              // far off where no hair is (stray_points.h)
   GroomFault sharedParticles;             // others in the very place of another strand's
-  GroomFault reversedStrands;             // that end on the head where others begin (root_ends.h)
+  GroomFault reversedStrands;             // that end on the head and begin away from it (root_ends.h)
   GroomFault pointStrands;                // all in one place
   GroomFault duplicates;                  // strands of the very particles of one before
   GroomFault tooShort, tooLong, farAway;  // strays

@@ -23,7 +23,7 @@ constexpr double kLeastClear = 0.005;  // at least [m]
 
 // The groom as it stands in the world.
 struct Stand {
-  std::vector<Vec3d> roots, tips;
+  std::vector<Vec3d> roots;
   double meanLength = 0, size = 0;  // of strands; across all particles [m]
 };
 
@@ -37,12 +37,8 @@ Stand standOf(const Groom& groom, const HeadPose& head) {
             std::max<double>(high.z, point.z)};
   }
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    const auto strand = groom.strand(s);
-    const auto placed = [&](Vec3f end) {
-      return head.position + rotate(head.rotation, Vec3d(end) * groom.metresPerUnit);
-    };
-    stand.roots.push_back(placed(strand.front()));
-    stand.tips.push_back(placed(strand.back()));
+    const Vec3d root = Vec3d(groom.strand(s).front()) * groom.metresPerUnit;
+    stand.roots.push_back(head.position + rotate(head.rotation, root));
   }
   stand.meanLength = meanLength(groom);
   stand.size = length(high - low) * groom.metresPerUnit;
@@ -96,27 +92,33 @@ std::optional<std::string> doubtOfBody(const Body& body, const Stand& stand, con
   return std::nullopt;
 }
 
-// Of bodies that the head carries; nothing where it carries none.
-std::optional<std::string> doubtOfRootEnds(const Groom& groom, std::span<const Body> bodies,
-                                           const Stand& stand, const HeadPose& head) {
-  std::vector<EndDistances> ends(stand.roots.size(), {HUGE_VAL, HUGE_VAL});
-  std::string names;
-  for (const Body& body : bodies) {
-    if (body.motion || sizeOf(body) == 0) continue;
-    names += (names.empty() ? "" : ", ") + body.name;
-    const BodyPose pose = body.poseAt(0, head);
-    for (std::size_t s = 0; s < ends.size(); ++s) {
-      ends[s].first = std::min(ends[s].first, std::abs(distanceTo(body, pose, stand.roots[s])));
-      ends[s].last = std::min(ends[s].last, std::abs(distanceTo(body, pose, stand.tips[s])));
-    }
-  }
-  if (names.empty()) return std::nullopt;
-  auto doubt = checkRootEnds(ends, stand.meanLength, "the body " + names);
-  if (!doubt) return std::nullopt;
-  // Hair that lies on shoulders ends there, and begins on a head that may be no body.
-  const RootEnds byHead = findRootEnds(groom);
-  if (byHead.head && std::ranges::count(byHead.isReversed, true) == 0) return std::nullopt;
-  return doubt;
+// Which option turns these strands round, as the end of a sentence.
+std::string turnsRound(const RootEnds& byHead, std::size_t count) {
+  const auto turned = static_cast<std::size_t>(std::ranges::count(byHead.isReversed, true));
+  const bool isMost = 2 * count > byHead.isReversed.size();
+  const bool headTells = turned > 0 && turned < byHead.isReversed.size();
+  if (!headTells && !isMost)
+    return "no option tells them from the others, whose roots are on no ball; turn them round where they "
+           "were made";
+  const char* end = headTells ? "head" : "last";
+  return fmt::format(
+      "root_end = \"{0}\" of [groom] (--root-end {0}) turns {1} round, and so does `ringlet info "
+      "--fix` with it",
+      end, headTells ? "those that end on the head" : "all");
+}
+
+std::optional<std::string> doubtOfRootEnds(const Groom& groom, const RootEnds& byHead,
+                                           std::span<const EndDistances> ends, const std::string& what) {
+  const double on = std::max(kLeastClear, kOnShare * meanLength(groom));
+  const double clear = std::max(kLeastClear, kClearShare * meanLength(groom));
+  if (std::ranges::count(reversedBy(ends, on, clear), true) == 0) return std::nullopt;
+  const std::vector<bool> isReversed = reversedBy(ends, on, kLeastClear);
+  const auto count = static_cast<std::size_t>(std::ranges::count(isReversed, true));
+  const auto first = std::ranges::find(isReversed, true) - isReversed.begin();
+  return fmt::format(
+      "{} of {} strands have their last point on {} and their first away from it (the first is strand {}): "
+      "they seem to run from tip to root; {}",
+      count, ends.size(), what, first, turnsRound(byHead, count));
 }
 
 }  // namespace
@@ -131,28 +133,34 @@ double meanLength(const Groom& groom) {
   return sum * groom.metresPerUnit / static_cast<double>(std::max<std::size_t>(1, groom.strandCount()));
 }
 
-std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, double meanLength,
+std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const EndDistances> ends,
                                          const std::string& what) {
-  const double clear = std::max(kLeastClear, kClearShare * meanLength);
-  const std::vector<bool> isReversed = reversedBy(ends, std::max(kLeastClear, kOnShare * meanLength), clear);
-  const auto count = std::ranges::count(isReversed, true);
-  if (count == 0) return std::nullopt;
-  const auto first = std::ranges::find(isReversed, true) - isReversed.begin();
-  const bool isMost = 2 * static_cast<std::size_t>(count) > ends.size();
-  return fmt::format(
-      "{} of {} strands have their last point on {} and their first away from it (the first is strand {}): "
-      "they "
-      "seem to run from tip to root; root_end = \"{}\" of [groom] (--root-end {}) turns {} round, and so "
-      "does "
-      "`ringlet info --fix` with it",
-      count, ends.size(), what, first, isMost ? "last" : "head", isMost ? "last" : "head",
-      isMost ? "all" : "those that end on the head");
+  return doubtOfRootEnds(groom, findRootEnds(groom), ends, what);
 }
 
 std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Body> bodies,
                                          const HeadPose& head) {
-  const Stand stand = standOf(groom, head);
-  return stand.roots.empty() ? std::nullopt : doubtOfRootEnds(groom, bodies, stand, head);
+  const StrandEnds ends = strandEnds(groom);
+  std::vector<EndDistances> distances(ends.first.size(), {HUGE_VAL, HUGE_VAL});
+  std::string names;
+  for (const Body& body : bodies) {
+    if (body.motion || sizeOf(body) == 0) continue;  // the head does not carry it
+    names += (names.empty() ? "" : ", ") + body.name;
+    const BodyPose pose = body.poseAt(0, head);
+    const auto from = [&](Vec3d end) {
+      const Vec3d place = head.position + rotate(head.rotation, end * groom.metresPerUnit);
+      return std::abs(distanceTo(body, pose, place));
+    };
+    for (std::size_t s = 0; s < distances.size(); ++s) {
+      distances[s].first = std::min(distances[s].first, from(ends.first[s]));
+      distances[s].last = std::min(distances[s].last, from(ends.last[s]));
+    }
+  }
+  if (names.empty() || distances.empty()) return std::nullopt;
+  // Hair that lies on shoulders ends there, and begins on a head that may be no body.
+  const RootEnds byHead = findRootEnds(groom);
+  if (byHead.head && std::ranges::count(byHead.isReversed, true) == 0) return std::nullopt;
+  return doubtOfRootEnds(groom, byHead, distances, "the body " + names);
 }
 
 std::vector<std::string> checkPlacement(const Groom& groom, std::span<const Body> bodies,

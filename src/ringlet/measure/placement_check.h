@@ -30,9 +30,9 @@ double meanLength(const Groom& groom);
 std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const Body> bodies,
                                          const HeadPose& head);
 
-/// A sentence where strands end on what the others begin on, `what`, and begin off it: from how far both ends
-/// of each are from it [m]. `meanLength`: of the strands [m].
-std::optional<std::string> checkRootEnds(std::span<const EndDistances> ends, double meanLength,
+/// A sentence where strands of the groom end on what roots belong on, `what`, and begin off it: from how far
+/// both ends of each (strandEnds) are from it [m].
+std::optional<std::string> checkRootEnds(const Groom& groom, std::span<const EndDistances> ends,
                                          const std::string& what);
 
 }  // namespace ringlet

@@ -61,9 +61,10 @@ StrandSize sizeOfStrand(std::span<const Vec3f> points) {
     size.length += edge;
     shortest = std::min(shortest, edge);
   }
+  const double nothing = noEdgeLength(points);
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double edge = length(static_cast<Vec3d>(points[i]) - static_cast<Vec3d>(points[i - 1]));
-    size.repeatedCount += edge <= kNoEdgeShare * size.length ? 1 : 0;
+    size.repeatedCount += edge <= nothing ? 1 : 0;
   }
   size.meanEdge = size.length / static_cast<double>(std::max<std::size_t>(2, points.size()) - 1);
   size.shortestEdge = std::max(shortest, kShortestEdge * size.meanEdge);

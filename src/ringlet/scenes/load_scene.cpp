@@ -153,14 +153,15 @@ std::optional<std::string> doubtOfRootEnds(const SkinnedMesh& mesh, const Groom&
   if (!checkMesh(ground) || groom.strandCount() == 0) return std::nullopt;  // the binding says what is wrong
   const TriangleTree tree(ground);
   const HeadPose head = motion.poseAt(binding.start);
-  const auto distanceTo = [&](Vec3f end) {
-    const Vec3d place = Vec3d(end) * groom.metresPerUnit;
+  const auto distanceTo = [&](Vec3d end) {
+    const Vec3d place = end * groom.metresPerUnit;
     return tree.nearest(head.position - binding.offset + rotate(head.rotation, place)).distance;
   };
-  std::vector<EndDistances> ends;
+  const StrandEnds ends = strandEnds(groom);
+  std::vector<EndDistances> distances;
   for (std::size_t s = 0; s < groom.strandCount(); ++s)
-    ends.push_back({distanceTo(groom.strand(s).front()), distanceTo(groom.strand(s).back())});
-  return checkRootEnds(ends, meanLength(groom), name);
+    distances.push_back({distanceTo(ends.first[s]), distanceTo(ends.last[s])});
+  return checkRootEnds(groom, distances, name);
 }
 
 // The scalp with the groom's roots bound to it. Where its file is the head's the two stand in one world, and
