@@ -244,7 +244,8 @@ TEST_F(Tune, OtherDevicesDriversAndKernelsAreLeftAside) {
     EXPECT_EQ(run["warnings"], json::array());
     EXPECT_NE(err_.find("was tuned with another driver or ringlet"), std::string::npos) << err_;
   }
-  const auto quiet = runProgram(folder_, {"simulate", "groom.obj", "--frames", "1", "--quiet", "-o", "out"});
+  const auto quiet =
+      runProgram(folder_, {"simulate", "groom.obj", "--frames", "1", "--quiet", "--overwrite", "-o", "out"});
   EXPECT_EQ(quiet.err, "");
 
   // They stay beside what is measured here, and old figures of this device go.

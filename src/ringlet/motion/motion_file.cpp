@@ -38,7 +38,9 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, bool upIsZ,
         "{} has {}{}{}; a motion needs two frames", name,
         file->frameCount() == 1 ? "one frame" : fmt::format("{} frames", file->frameCount()),
         stated == found ? "" : fmt::format(" (it states {} and holds {})", stated, found),
-        skipped == 0 ? "" : fmt::format(", and the first {} are skipped (--skip-frames)", skipped))};
+        skipped == 0 ? ""
+                     : fmt::format(", and the first {} are skipped (--skip-frames, skip_frames of [motion])",
+                                   skipped))};
   }
   const auto head = choice.headJoint.empty() ? joint : file->find(choice.headJoint);
   const BvhStance stance = stanceOf(*file, skipped, choice.up, head);
