@@ -25,9 +25,10 @@ struct Person {
   int up = 1;         // the file's axis: 1 Y, 2 Z
   double scale = 1;   // of the root, as exporters mend units
   double head = 1.6;  // above the floor [m]
+  double way = 0.1;   // that the head goes to the side [m]
 };
 
-// A head that goes 10 cm to the side in a second.
+// A head that goes to the side in a second.
 GltfBuilder gltfOf(const Person& person) {
   GltfBuilder file;
   const double units = person.unitsPerMetre / person.scale;
@@ -53,7 +54,7 @@ GltfBuilder gltfOf(const Person& person) {
     }
   }
   std::vector<double> values;
-  for (const double side : {0.0, 0.1}) {
+  for (const double side : {0.0, person.way}) {
     const auto place = along(first, side);
     values.insert(values.end(), place.begin(), place.end());
   }
@@ -91,6 +92,20 @@ TEST(MotionDoubts, HeadsInOtherUnitsAreDoubted) {
       EXPECT_EQ(warningsOf({.form = form, .unitsPerMetre = unit.perMetre},
                            {.path = {}, .metresPerUnit = 1 / unit.perMetre}),
                 "");
+    }
+  }
+}
+
+// The first bone of a chain says little of the others: a head may be on its neck's very end.
+TEST(MotionDoubts, AHeadNearItsNeckStandsOnAllOfTheChain) {
+  for (const Form form : {Form::chain, Form::underRoot}) {
+    for (const double head : {1.52, 1.51, 1.58}) {
+      const std::string said = warningsOf({.form = form, .unitsPerMetre = 100, .head = head, .way = 0.002});
+      EXPECT_NE(
+          said.find(fmt::format("the node Head stands {:.3g} m above the root of the file", 100 * head)),
+          std::string::npos)
+          << head << said;
+      EXPECT_EQ(warningsOf({.form = form, .head = head, .way = 0.002}), "") << head;
     }
   }
 }

@@ -80,6 +80,14 @@ TEST_F(Confined, ResultsStayBelowTheScene) {
   EXPECT_EQ(refused.exitCode, 5);
   EXPECT_NE(refused.err.find("parts/hair_clips is a symbolic link"), std::string::npos) << refused.err;
   EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
+  // Further down too.
+  fs::remove(folder_ / "scene/parts/hair_clips");
+  fs::create_directories(folder_ / "scene/parts/hair_clips/older");
+  fs::create_directory_symlink("../../../../elsewhere", folder_ / "scene/parts/hair_clips/older/link");
+  const auto deeper = runProgram(folder_, clips);
+  EXPECT_EQ(deeper.exitCode, 5);
+  EXPECT_NE(deeper.err.find("hair_clips/older/link is a symbolic link"), std::string::npos) << deeper.err;
+  EXPECT_TRUE(fs::is_empty(folder_ / "elsewhere"));
   // What is typed is the user's.
   std::vector<std::string> typed = simulate;
   typed.insert(typed.end(), {"-o", "mine", "--motion", "still"});

@@ -94,6 +94,16 @@ TEST_F(Folders, NoFileIsReplacedUnasked) {
     EXPECT_NE(refused.err.find(name), std::string::npos) << refused.err;
     EXPECT_TRUE(files() == (std::map<std::string, std::string>{{name, kSecret}})) << name;
   }
+  // A link under such a name is there too, wherever it leads: to nothing, as when another disk is away.
+  for (const std::string& name : names) {
+    fs::remove_all(folder_ / "out");
+    fs::create_directory(folder_ / "out");
+    fs::create_symlink("../away/" + name, folder_ / "out" / name);
+    const auto refused = simulate({});
+    EXPECT_EQ(refused.exitCode, 5) << name;
+    EXPECT_NE(refused.err.find(name), std::string::npos) << refused.err;
+    EXPECT_TRUE(fs::is_symlink(folder_ / "out" / name)) << name;
+  }
   // What a run does not write is nobody's concern.
   fs::remove_all(folder_ / "out");
   fs::create_directory(folder_ / "out");
@@ -151,8 +161,9 @@ TEST_F(Folders, WhatAKilledRunLeavesIsClearedAway) {
 TEST(WholeFile, KnowsItsTemporaries) {
   EXPECT_EQ(fileOfTemporary("a/last.obj.18a3f-0.partial"), fs::path("a/last.obj"));
   EXPECT_EQ(fileOfTemporary("hair.usda.cuts.csv.1-ff.partial"), fs::path("hair.usda.cuts.csv"));
-  for (const char* other : {"hair.usda.partial", "hair.usda", "x.18a3f-0", "x.18a3f-.partial", "x.-0.partial",
-                            "x.18g-0.partial", "x.18-0g.partial", ".partial", ""})
+  for (const char* other :
+       {"hair.usda.partial", "hair.usda", "x.18a3f-0", "x.18a3f-.partial", "x.-0.partial", "x.18g-0.partial",
+        "x.18-0g.partial", "x.18g0.partial", "x.18_0.partial", ".partial", ""})
     EXPECT_FALSE(fileOfTemporary(other)) << other;
 }
 

@@ -2,17 +2,19 @@
 // command's is tests/python/test_scenes.py.
 #include "ringlet/scenes/load_scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "ringlet/bodies/body_distance.h"
+#include "ringlet/bodies/head_mesh.h"
 #include "ringlet/rest/rest_state.h"
 #include "tests/motion/gltf_samples.h"
 #include "tests/support/test_support.h"
@@ -163,6 +165,30 @@ TEST(LoadScene, AFileThatIsNotThereIsNamed) {
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().fault, Fault::input);
   EXPECT_NE(made.error().message.find("folder/missing.obj"), std::string::npos) << made.error().message;
+}
+
+// A mesh that hairs grow on, on a head that is turned and elsewhere when the run begins: with the head it is
+// seen as it was made; in the world it stays where it is.
+TEST(LoadScene, HairsGrowOnTheMeshAsTheHeadSeesIt) {
+  const TriangleMesh made = makeHeadMesh();
+  const Quatd turn = fromRotationVector(Vec3d{0, 0.5 * std::numbers::pi, 0});
+  const Vec3d away{0.2, 1.5, -0.1};
+  for (const bool isWorlds : {false, true}) {
+    const LoadedScene scene = loaded(
+        "[motion]\n[[motion.key]]\ntime = 0\nposition = [0.2, 1.5, -0.1]\nrotate_degrees = [0, 90, 0]\n"
+        "[[motion.key]]\ntime = 1\nposition = [0.2, 1.5, -0.1]\nrotate_degrees = [0, 90, 0]\n"
+        "[output]\nhairs = 9\nhair_scalp = \"skull\"\n[[body]]\nname = \"skull\"\nshape = \"mesh\"\n"
+        "generate = \"head\"\n" +
+        std::string(isWorlds ? "bind = \"world\"\n" : ""));
+    ASSERT_TRUE(scene.hairs.scalp);
+    ASSERT_EQ(scene.hairs.scalp->points.size(), made.points.size());
+    double farthest = 0;
+    for (std::size_t i = 0; i < made.points.size(); ++i) {
+      const Vec3d seen = isWorlds ? rotate(turn.conjugate(), made.points[i] - away) : made.points[i];
+      farthest = std::max(farthest, length(scene.hairs.scalp->points[i] - seen));
+    }
+    EXPECT_LT(farthest, 1e-6) << isWorlds;
+  }
 }
 
 }  // namespace

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
+#include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_text.h"
+#include "tests/support/gpu_test.h"
 
 namespace ringlet {
 namespace {
@@ -78,6 +82,42 @@ TEST(SceneCuts, WhatIsWrongIsSaid) {
   says("[[cut]]\nstrands = \"bun\"\n", "cut.strands");
   says("[[cut]]\nat = 1.5\n", "cut.at");
   says("[[cut]]\n[simulation]\nintegrator = \"paper\"\n", "hair is cut with the integrator jacobi only");
+}
+
+class SceneCutsRun : public test::GpuTest {
+ protected:
+  // Of a scene from its first frame, its own cuts or, once at the start, those.
+  std::vector<Vec3f> after(int frames, LoadedScene scene, const std::vector<StrandCut>* cuts = nullptr) {
+    if (cuts) scene.cuts.clear();
+    const auto asset = buildAsset(device(), scene);
+    EXPECT_TRUE(asset) << asset.error().message;
+    const SceneStart start(scene);
+    auto hair = Simulation::create(*asset, start.state(scene));
+    EXPECT_TRUE(hair) << hair.error().message;
+    if (cuts) {
+      EXPECT_TRUE(hair->cut(*cuts));
+    }
+    for (int frame = -preRollFrames(scene); frame < frames; ++frame)
+      EXPECT_TRUE(stepScene(scene, *hair, frame));
+    const auto positions = hair->positions();
+    EXPECT_TRUE(positions);
+    return *positions;
+  }
+};
+
+// A cut of long ago is made with the first frame there is, that of a pre-roll too.
+TEST_F(SceneCutsRun, WhatWasCutBeforeIsCutAtTheStart) {
+  for (const char* motion : {"", "[motion]\nkind = \"still\"\npre_roll = 0.1\n"}) {
+    const auto scene = parseScene(kGroom + motion + "[[cut]]\ntime = -9\nat = 0.5\nstrands = \"1\"\n", "s");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto loaded = loadScene(*scene);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_EQ(loaded->cuts.size(), 1u);
+    const std::vector<StrandCut> none;
+    const auto positions = after(2, *loaded);
+    EXPECT_EQ(positions, after(2, *loaded, &loaded->cuts[0].cuts)) << motion;
+    EXPECT_NE(positions, after(2, *loaded, &none)) << motion;
+  }
 }
 
 }  // namespace

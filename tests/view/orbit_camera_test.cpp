@@ -84,5 +84,18 @@ TEST(OrbitCamera, TheNearestSolidIsHit) {
   EXPECT_FALSE(hitBy({{0, 0, 2}, {0, 0, 1}}, solids, places)) << "behind the eye";
 }
 
+// A ball 0.3 m along its solid's X axis, which points along -Z once the solid is turned.
+TEST(OrbitCamera, SolidsAreHitWhereTheyAreTurned) {
+  TriangleMesh ball = makeIcosphere(8);
+  for (Vec3d& p : ball.points) p = p * 0.1 + Vec3d{0.3, 0, 0};
+  const std::vector<SolidMesh> solids{solidMeshOf(ball)};
+  const std::vector<SolidPlace> places{{{0, 1, 0}, fromRotationVector(Vec3d{0, std::numbers::pi / 2, 0})}};
+  const auto hit = hitBy({{2, 1, -0.3}, {-1, 0, 0}}, solids, places);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(length(hit->place - Vec3d{0.1, 1, -0.3}), 0, 0.002);
+  for (const Vec3d elsewhere : {Vec3d{2, 1, 0.3}, Vec3d{2, 1, 0}, Vec3d{2, 0, -0.3}})
+    EXPECT_FALSE(hitBy({elsewhere, {-1, 0, 0}}, solids, places));
+}
+
 }  // namespace
 }  // namespace ringlet::view
