@@ -68,7 +68,7 @@ RootEnd rootEndOf(const std::string& name) {
   if (name == "first") return RootEnd::first;
   if (name == "last") return RootEnd::last;
   if (name == "head") return RootEnd::head;
-  throw py::value_error(unknownName("root end", name, {"first", "last", "head"}));
+  throw py::value_error(unknownName("root_end", name, {"first", "last", "head"}));
 }
 
 GroomReading readingOf(std::optional<std::int64_t> pointsPerStrand, const std::string& rootEnd,

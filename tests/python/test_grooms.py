@@ -172,7 +172,7 @@ def test_read_groom_says_what_seems_wrong(tmp_path):
     (strays,) = warnings([np.append(strand, np.zeros((1, 3)), 0) for strand in strands])
     assert "60 particles stand far off" in strays
     (sideways,) = warnings([strand[:, [0, 2, 1]] * [1, -1, 1] for strand in strands])
-    assert "--up Z" in sideways
+    assert 'takes up="Z"' in sideways
 
 
 def test_placement_tells_tips_from_roots():
@@ -180,4 +180,10 @@ def test_placement_tells_tips_from_roots():
     skin = ringlet.Body.sphere(0.09, name="skin")
     turned = ringlet.Groom(np.concatenate([head.strand(s)[::-1] for s in range(60)]), counts=head.counts)
     assert ringlet.check_placement(head, [skin]) == []
-    assert any("60 of 60" in doubt and "the body skin" in doubt for doubt in ringlet.check_placement(turned, [skin]))
+    # A tip counts as away from the skin from a tenth of the mean length on, and 5 mm; all roots are on it.
+    lengths = [np.linalg.norm(np.diff(head.strand(s), axis=0), axis=1).sum() for s in range(60)]
+    tips = np.float32([head.strand(s)[-1] for s in range(60)]) * np.float32(head.metres_per_unit)
+    away = (skin.distances(tips) > max(0.005, 0.1 * np.mean(lengths) * head.metres_per_unit)).sum()
+    assert 40 < away < 60
+    (doubt,) = ringlet.check_placement(turned, [skin])
+    assert f"{away} of 60 strands have their last point on the body skin" in doubt and 'root_end="last"' in doubt
