@@ -204,7 +204,8 @@ TEST_F(GroomFaults, HairThatEndsOnShouldersRunsTheRightWay) {
   });
   write("long.obj", longHair);
   const std::string shoulders =
-      "[[body]]\nshape = \"capsule\"\nradius = 0.12\nlength = 0.3\nposition = [0, -0.32, 0]\nrotate = [0, 0, "
+      "[[body]]\nshape = \"capsule\"\nradius = 0.12\nlength = 0.3\nposition = [0, -0.32, 0]\nrotate_degrees "
+      "= [0, 0, "
       "90]\n";
   EXPECT_FALSE(contains(warningsOf("long.obj", "", shoulders), "tip to root"))
       << warningsOf("long.obj", "", shoulders);
@@ -221,9 +222,11 @@ TEST_F(GroomFaults, StraysAreCountedWarnedOfAndMendedWhereverTheyAre) {
       const json found = info({"bad.obj"})["faults"];
       EXPECT_EQ(found["stray_particles"]["count"], 30) << at;
       EXPECT_EQ(found["stray_particles"]["first_strand"], 1);
-      EXPECT_EQ(found["long_edges"]["first_strand"], 1);
+      if (length(place) > 20) {
+        EXPECT_EQ(found["long_edges"]["first_strand"], 1) << at;
+      }
       // Where it stands in the scene does not matter: the file's origin is meant.
-      for (const char* keys : {"", "move = [0.3, 0, 0]"}) {
+      for (const char* keys : {"", "offset = [0.3, 0, 0]"}) {
         const std::string warned = warningsOf("bad.obj", keys);
         EXPECT_TRUE(contains(warned, "30 particles stand far off") && contains(warned, "first in strand 1") &&
                     contains(warned, "info FILE --fix"))
