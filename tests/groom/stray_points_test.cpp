@@ -107,7 +107,7 @@ TEST(StrayPoints, PairsOfParticlesAreNone) {
     }
     pairs.addStrand(strand);
   }
-  pairs.addStrand(std::vector<Vec3f>{{30, 40, 5}, {30.0002f, 40, 5}, {31, 40, 5}});
+  pairs.addStrand(std::vector<Vec3f>{{30, 50, 5}, {30.0002f, 50, 5}, {31, 50, 5}});
   EXPECT_EQ(inspectGroom(pairs).strayParticles.count, 0u);
   EXPECT_EQ(mendGroom(pairs).strayCount, 0u);
 }

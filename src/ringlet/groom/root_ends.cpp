@@ -14,20 +14,17 @@ namespace {
 
 constexpr std::size_t kLeastStrands = 8;  // of fewer a ball goes through nearly any ends
 constexpr std::size_t kLeastForOutliers = 20;
-constexpr double kLeastOn = 0.8;     // share of strands with an end where roots stand
-constexpr double kCounted = 0.7;     // of the ends, the nearest; others may be of strands turned round
-constexpr int kFits = 8;             // each without the farthest of the one before
-constexpr double kMostUneven = 0.1;  // of ends from a head's ball, rms over its radius
+constexpr double kLeastOn = 0.8;      // share of strands with an end where roots stand
+constexpr double kCounted = 0.7;      // of the ends, the nearest; others may be of strands turned round
+constexpr int kFits = 8;              // each without the farthest of the one before
+constexpr double kMostUneven = 0.06;  // of ends from a head's ball, rms over its radius
 constexpr double kNearRms = 3, kNear = 0.03;  // of the ball: so many rms, and this share of its radius
-// Hair is around a head and not in it: deeper than this share of the radius are at most so many particles, of
-// a sample. It tells the head from a ball that goes through tips.
-constexpr double kDeep = 0.2, kMostDeep = 0.02;
-constexpr std::size_t kMostSampled = 4000;
+constexpr std::size_t kMostSampled = 4000;    // of particles
 // Hair spreads out from a head: where its first and its last ends are on balls, the head is the smaller. Not
 // one smaller than this share of the other, a knot into which hair is gathered, nor one that is less even.
 constexpr double kLeastOfOther = 0.4, kAsEven = 0.01;
-// Where first ends are on none, any other ball is so much more even than the one that fits them best: they
-// may be on a small patch of a head.
+// Where first ends are on none, any other ball is so much more even than the one that fits them best, if hair
+// is around that: they may be on a small patch of a head.
 constexpr double kMoreEven = 0.5;
 // A ball through one end of each strand, whichever: from every choice of ends of a few strands, then through
 // the nearer end of most; of a groom a sample. It counts where it is very even, and more so than the ball
@@ -75,14 +72,15 @@ class HeadFinder {
     bool isHead = false;
   };
 
-  static bool isMoreEven(const Ball& ball, const Ball& other) {
-    return !(other.radius > 0) || unevenness(ball) < kMoreEven * unevenness(other);
+  bool isMoreEven(const Ball& ball, const Ball& other) const {
+    return !(other.radius > 0 && hasHairAround(other)) || unevenness(ball) < kMoreEven * unevenness(other);
   }
 
+  // Rather than in it, which tells the head from a ball that goes through tips.
   bool hasHairAround(const Ball& ball) const {
-    const auto deep = std::ranges::count_if(
-        particles_, [&](Vec3d p) { return length(p - ball.middle) < (1 - kDeep) * ball.radius; });
-    return static_cast<double>(deep) <= kMostDeep * static_cast<double>(particles_.size());
+    double sum = 0;
+    for (const Vec3d& p : particles_) sum += length(p - ball.middle) - ball.radius;
+    return sum > 0;
   }
 
   // The ball through most of them, and whether it is a head.

@@ -32,7 +32,7 @@ struct RootEnds {
 };
 
 /// Of a groom as readers return it. There is a head where eight strands and more have their first ends, or
-/// their last, or very evenly either, on one ball around which hair is and not in it; of twenty and more
+/// their last, or very evenly either, on one ball that hair is around rather than in; of twenty and more
 /// three of ten may have none there. Of several such balls it is the smallest. Cost: n log n in the
 /// particles.
 RootEnds findRootEnds(const Groom& groom);
