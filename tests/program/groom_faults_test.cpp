@@ -418,7 +418,7 @@ TEST_F(GroomFaults, AGroomOnItsSideIsWarnedOf) {
     EXPECT_TRUE(contains(warned, "hang along -Z, and Y is up") && contains(warned, "--up Z")) << warned;
   EXPECT_TRUE(contains(warningsOf("y.obj", "up = \"Z\""), "--up Y"));
   // Turned by hand, or combed back on a head that stands: nothing.
-  EXPECT_FALSE(contains(warningsOf("z.obj", "rotate = [-90, 0, 0]"), "is up"));
+  EXPECT_FALSE(contains(warningsOf("z.obj", "rotate_degrees = [-90, 0, 0]"), "is up"));
   write("back.obj", changed(hairOfAHead(), [](std::size_t, auto& strand) {
           const Vec3f root = strand.front();
           for (std::size_t i = 0; i < strand.size(); ++i)
@@ -454,7 +454,7 @@ TEST_F(GroomFaults, AGroomThatStandsOnFeetTurnsAboutItsOwnHeadWhereThatIsAsked) 
   // Keys that turn say their own place.
   const std::string keys =
       "[[motion.key]]\ntime = 0\nposition = [0, 0, 0]\n[[motion.key]]\ntime = 1\nposition = [0, 0, "
-      "0]\nrotate = [30, 0, 0]\n";
+      "0]\nrotate_degrees = [30, 0, 0]\n";
   EXPECT_TRUE(contains(warningsOf("far.obj", "", keys), "start = [")) << warningsOf("far.obj", "", keys);
   EXPECT_FALSE(
       contains(warningsOf("far.obj", "bind = \"world\"", "[motion]\nstart = [0, 1.6, 0]\n" + keys), "turn"));
@@ -521,7 +521,7 @@ TEST_F(GroomFaults, FoldersMaterialsAndScenesAreCalledThat) {
       {{"simulate", "folder.toml", "-o", "out"}, "folder.toml: is a folder"},
       {{"info", "folder"}, "folder: is a folder"},
       {{"view", "folder"}, "folder: is a folder"},
-      {{"measure", "folder", "groom.obj"}, "folder: is a folder"},
+      {{"measure", "folder", "groom.obj"}, "name the groom first"},
       {{"material", "--suggest", "folder"}, "folder: is a folder"},
       {{"simulate", "material.toml", "-o", "out"}, "material.toml: is a material file and no scene"},
       {{"simulate", "dials.toml", "-o", "out"}, "dials.toml: is a material file and no scene"},
