@@ -525,7 +525,7 @@ TEST_F(GroomFaults, FoldersMaterialsAndScenesAreCalledThat) {
       {{"simulate", "folder.toml", "-o", "out"}, "folder.toml: is a folder"},
       {{"info", "folder"}, "folder: is a folder"},
       {{"view", "folder"}, "folder: is a folder"},
-      {{"measure", "folder", "groom.obj"}, "folder: is a folder"},
+      {{"measure", "folder", "groom.obj"}, "name the groom first"},
       {{"material", "--suggest", "folder"}, "folder: is a folder"},
       {{"simulate", "material.toml", "-o", "out"}, "material.toml: is a material file and no scene"},
       {{"simulate", "dials.toml", "-o", "out"}, "dials.toml: is a material file and no scene"},
