@@ -179,7 +179,7 @@ TEST_F(Sweep, FinishedRunsAreKeptAndOthersAreRun) {
 TEST_F(Sweep, ARunIsNotKeptWhereABufferChanged) {
   test::GltfBuilder gltf;
   const int head = gltf.node({{"name", "Head"}});
-  gltf.channel(0, head, "translation", "LINEAR", {0, 0.125}, {0, 0, 0, 0.05, 0, 0});
+  gltf.channel(0, head, "translation", "LINEAR", {0, 0.0625, 0.125}, {0, 0, 0, 0.05, 0, 0, 0, 0, 0});
   std::ofstream(folder_ / "m.gltf") << gltf.textBeside("m.bin");
   std::string bytes = gltf.bytes();
   std::ofstream(folder_ / "m.bin", std::ios::binary) << bytes;
@@ -192,8 +192,8 @@ TEST_F(Sweep, ARunIsNotKeptWhereABufferChanged) {
   const std::string hash = hashIn("run-0001");
   ASSERT_EQ(onCpu(vary).exitCode, 0);
   EXPECT_EQ(states(), (States{"kept", "kept"}));
-  const float place = 0.03f;  // in place of 0.05, 12 bytes before the end
-  std::memcpy(&bytes[bytes.size() - 12], &place, sizeof place);
+  const float place = 0.03f;  // in place of 0.05, two points of 12 bytes before the end
+  std::memcpy(&bytes[bytes.size() - 24], &place, sizeof place);
   std::ofstream(folder_ / "m.bin", std::ios::binary) << bytes;
   const auto other = onCpu(vary);
   EXPECT_EQ(other.exitCode, 4);
