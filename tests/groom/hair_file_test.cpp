@@ -215,13 +215,20 @@ TEST(HairFile, RefusesSegmentsThatDoNotAddUp) {
   expectError(HairBytes{.segments = {65535, 65535, 65535}}, {"at byte 128", "65535 segments", "strand 0"});
 }
 
-TEST(HairFile, RefusesPointsThatAreNotFinite) {
+TEST(HairFile, LeavesOutStrandsWithPointsThatAreNotFinite) {
   for (float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                     -std::numeric_limits<float>::infinity()}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       HairBytes hair;
       hair.points[3 * 4 + axis] = bad;  // the last point of the second strand
-      expectError(hair, {"at byte 182", "strand 1, point 2", "finite"});
+      const Result<LoadedGroom> loaded = read(hair);
+      ASSERT_TRUE(loaded) << loaded.error().message;
+      EXPECT_EQ(loaded->groom.firstPoint, (std::vector<std::uint32_t>{0, 2, 6}));
+      ASSERT_EQ(loaded->warnings.size(), 1u);
+      for (const char* part : {"left out 1 of 3 strands", "at byte 182", "strand 1, point 2", "finite"})
+        EXPECT_TRUE(contains(loaded->warnings[0], part)) << loaded->warnings[0];
+      for (std::size_t point : {1, 5}) hair.points[3 * point + axis] = bad;
+      expectError(hair, {"strand 0, point 1", "finite"});
     }
   }
 }

@@ -98,10 +98,11 @@ TEST(StrayPoints, NumbersThatStandForNoPlaceAreTakenOutAndNothingElse) {
 
 // Every particle twice, a hair's breadth apart, as files have them: no edge is far, and both tips stay.
 TEST(StrayPoints, PairsOfParticlesAreNone) {
+  const Groom good = goodGroom();
   Groom pairs;
   for (std::size_t s = 0; s < 20; ++s) {
     std::vector<Vec3f> strand;
-    for (const Vec3f p : goodGroom().strand(s)) {
+    for (const Vec3f p : good.strand(s)) {
       strand.push_back(p);
       if (s % 2 == 0 || strand.size() > 1) strand.push_back({p.x + 2e-4f, p.y, p.z});
     }
