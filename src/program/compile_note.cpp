@@ -14,8 +14,8 @@ void CompileNote::begin(std::size_t kernelCount) {
   const auto watch = [this, kernelCount] {
     std::unique_lock lock(mutex_);
     if (changed_.wait_for(lock, std::chrono::seconds(1), [this] { return isDone_; })) return;
-    say("ringlet: making {} kernel{} ready for {}; what its driver has not kept is compiled ...\n",
-        kernelCount, kernelCount == 1 ? "" : "s", device_);
+    say("ringlet: compiling {} kernel{} for {}, but for what its driver has kept ...\n", kernelCount,
+        kernelCount == 1 ? "" : "s", device_);
     hasSpoken_ = true;
   };
   try {
@@ -35,7 +35,7 @@ void CompileNote::end() {
   watcher_.join();
   if (!hasSpoken_) return;
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start_;
-  say("ringlet: ready in {:.1f} s\n", seconds.count());
+  say("ringlet: compiled in {:.1f} s\n", seconds.count());
 }
 
 }  // namespace ringlet::program
