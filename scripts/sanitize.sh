@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 presets=("$@")
 [ ${#presets[@]} -gt 0 ] || presets=(sanitize threads)
-targets=(ringlet_program base_tests output_tests view_tests ringlet_python)
+targets=(ringlet_program base_tests output_tests view_tests ringlet_python ringlet_python_stubs)
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
 
 # lavapipe and the compiler in it are not instrumented, leak as they are unloaded, and hand over by atomics of their own.
@@ -68,12 +68,6 @@ for preset in "${presets[@]}"; do
   ringlet=$PWD/build/$preset/ringlet
   mkdir "$work/$preset"
   (cd "$work/$preset" && write_scene && program_runs && killed_run)
-  ctest --preset "$preset" -R '^(base|output|view/S)' --no-tests=error
-  # Python itself is not instrumented: the sanitizer has to be there before it.
-  runtime=$([ "$preset" = threads ] && echo libtsan.so || echo libasan.so)
-  for file in hair lifetimes animations; do
-    LD_PRELOAD=$(g++ -print-file-name=$runtime) PYTHONPATH=$PWD/build/$preset/python \
-      python3 tests/python/run_pytest.py tests/python/test_$file.py ringlet
-  done
+  ctest --preset "$preset" -R '^(base|output|view/S|python/(hair|lifetimes|animations)$)' --no-tests=error
   echo "$preset: nothing found"
 done
