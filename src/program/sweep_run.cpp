@@ -247,12 +247,12 @@ class Sweep {
     auto opened = device();
     if (!opened) return opened.error();
     options.opened = std::move(*opened);
-    auto facts = factsOf(run);
-    if (!facts) return facts.error();
     const auto groom = groomOf(run.scene.groom, needsOrigin(run.scene.output));
     if (!groom) return groom.error();
     auto scene = loadScene(run.scene, groom->loaded.get(), groom->geometry);
     if (!scene) return scene.error();
+    auto facts = factsOf(run);
+    if (!facts) return facts.error();
     if (Status chosen = chooseOrigin(*groom->loaded, options); !chosen) return chosen.error();
     if (Status prepared = prepareFolder(run, options); !prepared) return prepared;
     options.leftovers = Leftovers::overwrite;

@@ -248,7 +248,8 @@ TEST(BvhStance, AMotionNeedsTwoFrames) {
   EXPECT_EQ(errorOf(1, 0, 0), " has one frame; a motion needs two frames");
   EXPECT_EQ(errorOf(1, 4, 0), " has one frame (it states 1 and holds 5); a motion needs two frames");
   EXPECT_EQ(errorOf(3, 0, 2),
-            " has 3 frames, and the first 2 are skipped (--skip-frames); a motion needs two frames");
+            " has 3 frames, and the first 2 are skipped (--skip-frames, skip_frames of [motion]); a motion "
+            "needs two frames");
 }
 
 // Without a name that says so, the head is what the hair follows; other joints of the file go with it.

@@ -126,7 +126,7 @@ TEST(BodyProgram, MistakesNameTheBody) {
       << "[groom]\nfile = 'groom.obj'\n[[body]]\nname = 'anvil'\nshape = 'mesh'\nfile = 'none.gltf'\n";
   const auto result =
       runProgram(folder, {"simulate", "scene.toml", "--overwrite", "-o", "out", "--backend", "reference"});
-  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.exitCode, 4);
   EXPECT_NE(result.err.find("anvil"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("none.gltf"), std::string::npos) << result.err;
 }

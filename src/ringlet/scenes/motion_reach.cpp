@@ -11,7 +11,7 @@
 namespace ringlet {
 namespace {
 
-constexpr int kFewFrames = 10;  // one cut in so many frames is a cut
+constexpr int kFewFrames = 10;  // one cut in so many frames in which the head moves is a cut
 
 // `what` follows the file.
 std::optional<std::string> endsEarly(const SceneMotion& stated, const Motion& motion, const std::string& what,
@@ -28,15 +28,21 @@ std::optional<std::string> endsEarly(const SceneMotion& stated, const Motion& mo
       stated.file.string(), seconds, frames, frameCount, frameCount - frames, what);
 }
 
-int jumpsOf(const Motion& head, const Settings& settings, int frameCount) {
-  int jumps = 0;
+struct Steps {
+  int moves = 0, jumps = 0;  // frames
+};
+
+Steps stepsOf(const Motion& head, const Settings& settings, int frameCount) {
+  Steps steps;
   Vec3d before = head.poseAt(0).position;
   for (int f = 1; f <= frameCount; ++f) {
     const Vec3d now = head.poseAt(f / settings.framesPerSecond).position;
-    jumps += settings.jumps(length(now - before)) ? 1 : 0;
+    const double step = length(now - before);
+    steps.moves += step > 0 ? 1 : 0;
+    steps.jumps += settings.jumps(step) ? 1 : 0;
     before = now;
   }
-  return jumps;
+  return steps;
 }
 
 std::string sizeOf(const SceneMotion& stated) {
@@ -47,9 +53,9 @@ std::string sizeOf(const SceneMotion& stated) {
 
 std::optional<std::string> onlyJumps(const SceneMotion& stated, const Motion& head, const Settings& settings,
                                      int frameCount) {
-  const int jumps = jumpsOf(head, settings, frameCount);
+  const auto [moves, jumps] = stepsOf(head, settings, frameCount);
   const bool isCut = jumps == 1 && frameCount > 1;
-  if (jumps == 0 || isCut || jumps * kFewFrames < frameCount) return std::nullopt;
+  if (jumps == 0 || isCut || jumps * kFewFrames < moves) return std::nullopt;
   return fmt::format(
       "in {} of {} frames the head moves farther than {} m, which counts as a teleport: hair is carried "
       "along and "
