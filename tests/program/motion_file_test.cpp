@@ -248,7 +248,7 @@ TEST(MotionFile, FilesOfOtherKindsAreNamed) {
   const std::string expected = ".bvh, .gltf, .glb or .vrm";
   const std::string scene = "[groom]\nfile = 'groom.obj'\n[simulation]\nframes = 2\n";
   for (const char* file : {"walk.fbx", "walk.FBX", "walk.abc", "walk.usd", "walk.usda", "walk.bhv",
-                           "walk.gtlf", "walk.glb.txt", "walk", "sub/walk.fbx", "shots.fbx", "groom.obj"}) {
+                           "walk.gtlf", "walk.glb.txt", "stroll", "sub/walk.fbx", "shots.fbx", "groom.obj"}) {
     for (const bool isThere : {false, true}) {
       const bool isFolder = file == std::string("shots.fbx"), isGroom = file == std::string("groom.obj");
       if (!isThere && (isFolder || isGroom)) continue;
@@ -272,7 +272,7 @@ TEST(MotionFile, FilesOfOtherKindsAreNamed) {
         EXPECT_NE(result.exitCode, 0);
         EXPECT_NE(result.err.find(file), std::string::npos) << result.err;
         EXPECT_EQ(result.err.find("there is no") != std::string::npos, !isThere) << result.err;
-        const bool isWord = file == std::string("walk") && !isThere && command[0] == "simulate";
+        const bool isWord = file == std::string("stroll") && !isThere && command[0] == "simulate";
         if (!isWord || command[1] != "groom.obj") {
           EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
         }
