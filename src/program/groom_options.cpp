@@ -25,7 +25,7 @@ void addPointsOption(CLI::App& command, GroomChoice& choice, const std::string& 
   CLI::Option* points = command
                             .add_option("--points-per-strand", choice.pointsPerStrand,
                                         "Points of each strand, of a file that holds points and nothing else")
-                            ->check(wholeBetween(2, 1'000'000))
+                            ->check(wholeBetween(2, kMostPointsPerStrand))
                             ->type_name("N");
   if (!group.empty()) points->group(group);
 }

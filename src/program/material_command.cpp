@@ -173,7 +173,7 @@ Result<std::string> suggested(const Typed& typed) {
   if (!groom) return groom.error();
   if (typed.metresPerUnit) groom->groom.metresPerUnit = *typed.metresPerUnit;
   for (const std::string& warning : groom->warnings) say("ringlet material: warning: {}\n", warning);
-  const auto suggestion = suggestMaterial(inspectGroom(groom->groom), groom->groom.metresPerUnit);
+  const auto suggestion = suggestMaterial(inspectShape(groom->groom), groom->groom.metresPerUnit);
   say("ringlet material: {} looks like {}: {}\n", typed.groom.string(), suggestion.preset, suggestion.reason);
   return suggestion.preset;
 }

@@ -26,8 +26,6 @@
 namespace ringlet::python {
 namespace {
 
-constexpr std::int64_t kMostPointsPerStrand = 1'000'000;
-
 GroomHandle handleOf(Groom groom) { return std::make_shared<GroomObject>(LoadedGroom{std::move(groom), {}}); }
 
 // Strands by where each begins, or by how many particles each has.
@@ -64,22 +62,17 @@ GroomHandle makeGroom(const py::object& points, const py::object& firstPoint, co
   return handleOf(std::move(groom));
 }
 
-RootEnd rootEndOf(const std::string& name) {
-  if (name == "first") return RootEnd::first;
-  if (name == "last") return RootEnd::last;
-  if (name == "head") return RootEnd::head;
-  throw py::value_error(unknownName("root_end", name, {"first", "last", "head"}));
-}
-
 GroomReading readingOf(std::optional<std::int64_t> pointsPerStrand, const std::string& rootEnd,
                        const std::string& up) {
   if (pointsPerStrand && (*pointsPerStrand < 2 || *pointsPerStrand > kMostPointsPerStrand))
     throw py::value_error(fmt::format("points_per_strand must be from 2 to {}, got {}", kMostPointsPerStrand,
                                       *pointsPerStrand));
+  const auto end = rootEndOf(rootEnd);
+  if (!end) throw py::value_error(unknownName("root_end", rootEnd, {"first", "last", "head"}));
   if (up != "Y" && up != "Z") throw py::value_error(unknownName("up axis", up, {"Y", "Z"}));
   return {.upIsZ = up == "Z",
           .pointsPerStrand = static_cast<std::uint32_t>(pointsPerStrand.value_or(0)),
-          .rootEnd = rootEndOf(rootEnd)};
+          .rootEnd = *end};
 }
 
 // What seems wrong with it is among its warnings, as in a scene's.
@@ -89,11 +82,11 @@ GroomHandle readGroomFile(const std::filesystem::path& path, std::optional<doubl
   const GroomReading reading = readingOf(pointsPerStrand, rootEnd, up);
   LoadedGroom loaded = withoutGil([&] {
     LoadedGroom read = valueOf(inWords(kGroomWords, readGroom(path, reading)));
+    if (metresPerUnit) read.groom.metresPerUnit = *metresPerUnit;
     for (std::string& doubt : doubtsOf(read, reading)) read.warnings.push_back(std::move(doubt));
     read.warnings = inWords(kGroomWords, std::move(read.warnings));
     return read;
   });
-  if (metresPerUnit) loaded.groom.metresPerUnit = *metresPerUnit;
   return std::make_shared<GroomObject>(std::move(loaded));
 }
 

@@ -86,7 +86,6 @@ HeadPose headAtEnd(const HairObject::Frame& frame) {
   return std::get<std::vector<HeadPose>>(frame.head).back();
 }
 
-constexpr int kMostFrame = 1'000'000;
 void demandFrame(int frame) {
   if (frame < -kMostFrame || frame > kMostFrame)
     throw py::value_error(fmt::format("frame is from {} to {}, got {}", -kMostFrame, kMostFrame, frame));

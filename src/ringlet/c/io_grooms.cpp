@@ -29,8 +29,6 @@ constexpr HostWord kWords[] = {
     {"points-per-strand", "points_per_strand", "points_per_strand = {}"},
 };
 
-constexpr std::uint32_t kMostPointsPerStrand = 1'000'000;
-
 // Whether the host says of a groom what can be.
 Outcome checkReading(const ringlet_groom_reading& reading) {
   if (reading.points_per_strand == 1 || reading.points_per_strand > kMostPointsPerStrand)
@@ -83,12 +81,8 @@ ringlet_result ringlet_groom_read(const char* path, const ringlet_groom_reading*
                               .rootEnd = static_cast<RootEnd>(how.root_end)};
     auto loaded = readGroom(path, wanted);
     if (!loaded) return Error{inHostWords(loaded.error().message, kWords), loaded.error().fault};
+    if (how.metres_per_unit != 0) loaded->groom.metresPerUnit = how.metres_per_unit;
     for (std::string& doubt : doubtsOf(*loaded, wanted)) loaded->warnings.push_back(std::move(doubt));
-    if (how.metres_per_unit != 0) {
-      loaded->groom.metresPerUnit = how.metres_per_unit;
-    } else if (!loaded->statesUnit) {
-      loaded->groom.metresPerUnit = 0.01;
-    }
     for (std::string& sentence : loaded->warnings) sentence = inHostWords(sentence, kWords);
     warnOf(loaded->warnings, how.warn, how.user);
     *groom = new ringlet_loaded_groom{ShownGroom(std::move(loaded->groom))};

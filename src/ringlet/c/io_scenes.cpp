@@ -50,7 +50,6 @@ void show(const std::vector<Pose>& poses, ringlet_pose* to) {
   }
 }
 
-constexpr std::int32_t kMostFrame = 1'000'000;
 Outcome checkFrame(std::int32_t frame) {
   if (frame >= -kMostFrame && frame <= kMostFrame) return {};
   return Outcome::invalid(fmt::format("frame is {}; it takes {} to {}", frame, -kMostFrame, kMostFrame));

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ringlet/groom/groom.h"
@@ -16,6 +18,17 @@ enum class RootEnd : std::uint8_t {
   last,
   head  // the one that is nearer to the head, a ball on which most strands have an end (root_ends.h)
 };
+
+/// "first", "last" or "head"; none of another word.
+constexpr std::optional<RootEnd> rootEndOf(std::string_view name) {
+  if (name == "first") return RootEnd::first;
+  if (name == "last") return RootEnd::last;
+  if (name == "head") return RootEnd::head;
+  return std::nullopt;
+}
+
+/// GroomReading::pointsPerStrand is no larger.
+inline constexpr std::uint32_t kMostPointsPerStrand = 1'000'000;
 
 /// How a groom is wanted.
 struct GroomReading {

@@ -46,7 +46,7 @@ bool mendOnce(MendedGroom& mended) {
   mended.groom = {};
   mended.groom.metresPerUnit = groom.metresPerUnit;
   const std::vector<bool> isDuplicate = duplicatesIn(groom);
-  const std::vector<bool> isStray = strayPoints(groom, sharedPlaces(groom, isDuplicate));
+  const std::vector<bool> isStray = strayPoints(groom);
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     if (isDuplicate[s]) {
       ++mended.duplicateCount;

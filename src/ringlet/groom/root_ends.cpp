@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "ringlet/base/assert.h"
-#include "ringlet/groom/mend_groom.h"
 #include "ringlet/groom/stray_points.h"
 
 namespace ringlet {
@@ -163,7 +162,7 @@ std::vector<bool> reversedBy(std::span<const EndDistances> strands, double on, d
 }
 
 StrandEnds strandEnds(const Groom& groom) {
-  const std::vector<bool> isStray = strayPoints(groom, sharedPlaces(groom, duplicatesIn(groom)));
+  const std::vector<bool> isStray = strayPoints(groom);
   StrandEnds ends;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     std::size_t first = groom.firstPoint[s], last = groom.firstPoint[s + 1] - 1;  // two are no strays

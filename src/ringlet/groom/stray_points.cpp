@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "ringlet/base/assert.h"
@@ -42,6 +42,72 @@ std::vector<Stop> stopsOf(std::span<const Vec3f> strand) {
   }
   return stops;
 }
+
+// A stop whose edges are all longer than kStrayEdge allows (isFar) or kFarEdge (isFarOff).
+struct Suspect {
+  std::size_t strand = 0;
+  Stop stop;
+  bool isFar = false, isFarOff = false;
+};
+
+std::vector<Suspect> suspectsIn(const Groom& groom) {
+  std::vector<Suspect> suspects;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const std::span<const Vec3f> strand = groom.strand(s);
+    const std::vector<Stop> stops = stopsOf(strand);
+    if (stops.size() < 3) continue;
+    const double far = kStrayEdge * medianEdge(strand);
+    const double farOff = stops.size() > 3 ? kFarEdge * upperEdge(strand) : HUGE_VAL;
+    for (std::size_t k = 0; k < stops.size(); ++k) {
+      const auto [first, count] = stops[k];
+      const double before = k == 0 ? HUGE_VAL : edgeOf(strand[first - 1], strand[first]);
+      const double after = k + 1 == stops.size() ? HUGE_VAL : edgeOf(strand[first], strand[first + count]);
+      const double shorter = std::min(before, after);
+      if (shorter > std::min(far, farOff)) suspects.push_back({s, stops[k], shorter > far, shorter > farOff});
+    }
+  }
+  return suspects;
+}
+
+auto keyOf(Vec3f place) { return std::tuple(place.x, place.y, place.z); }
+
+// Which of the suspects' places another strand has, too. Strands that repeat one before count as that one.
+class SharedAmong {
+ public:
+  SharedAmong(const Groom& groom, std::span<const Suspect> suspects) {
+    for (const Suspect& suspect : suspects)
+      if (suspect.isFar) places_.push_back(groom.strand(suspect.strand)[suspect.stop.first]);
+    if (places_.empty()) return;
+    std::ranges::sort(places_, {}, keyOf);
+    places_.erase(std::ranges::unique(places_).begin(), places_.end());
+    isDuplicate_ = duplicatesIn(groom);
+    isShared_.assign(places_.size(), false);
+    std::vector<std::size_t> owner(places_.size(), groom.strandCount());
+    for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+      for (std::size_t i = 0; !isDuplicate_[s] && i < groom.strand(s).size(); ++i) {
+        const auto place = find(groom.strand(s)[i]);
+        if (!place) continue;
+        if (owner[*place] == groom.strandCount()) owner[*place] = s;
+        if (owner[*place] != s) isShared_[*place] = true;
+      }
+    }
+  }
+
+  bool contains(Vec3f place, std::size_t strand) const {
+    const auto found = find(place);
+    return found && !isDuplicate_[strand] && isShared_[*found];
+  }
+
+ private:
+  std::optional<std::size_t> find(Vec3f place) const {
+    const auto at = std::ranges::lower_bound(places_, keyOf(place), {}, keyOf);
+    if (at == places_.end() || !(*at == place)) return std::nullopt;
+    return static_cast<std::size_t>(at - places_.begin());
+  }
+
+  std::vector<Vec3f> places_;  // in order
+  std::vector<bool> isShared_, isDuplicate_;
+};
 
 }  // namespace
 
@@ -81,28 +147,19 @@ std::vector<bool> sharedPlaces(const Groom& groom, const std::vector<bool>& isDu
   return isShared;
 }
 
-std::vector<bool> strayPoints(const Groom& groom, const std::vector<bool>& isShared) {
-  RINGLET_ASSERT(isShared.size() == groom.points.size(), "a word for every particle");
+std::vector<bool> strayPoints(const Groom& groom) {
   std::vector<bool> isStray(groom.points.size(), false);
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    const std::span<const Vec3f> strand = groom.strand(s);
-    const auto mayBe = [&](std::size_t i) {
-      return isShared[groom.firstPoint[s] + i] || strand[i] == Vec3f{0, 0, 0};
-    };
-    std::size_t left = strand.size();
-    const std::vector<Stop> stops = stopsOf(strand);
-    const double far = kStrayEdge * medianEdge(strand);
-    const double anywhere = stops.size() > 3 ? kFarEdge * upperEdge(strand) : HUGE_VAL;
-    for (std::size_t k = 0; k < stops.size() && stops.size() > 2; ++k) {
-      const auto [first, count] = stops[k];
-      if (left < count + 2) continue;
-      const double longest = mayBe(first) ? far : anywhere;
-      const bool isFarBefore = k == 0 || edgeOf(strand[first - 1], strand[first]) > longest;
-      const bool isFarAfter = k + 1 == stops.size() || edgeOf(strand[first], strand[first + count]) > longest;
-      if (!isFarBefore || !isFarAfter) continue;
-      left -= count;
-      for (std::size_t i = first; i < first + count; ++i) isStray[groom.firstPoint[s] + i] = true;
-    }
+  const std::vector<Suspect> suspects = suspectsIn(groom);
+  const SharedAmong shared(groom, suspects);
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < suspects.size(); ++k) {
+    const auto& [strand, stop, isFar, isFarOff] = suspects[k];
+    if (k == 0 || suspects[k - 1].strand != strand) left = groom.strand(strand).size();
+    const Vec3f place = groom.strand(strand)[stop.first];
+    const bool isNoPlace = isFar && (place == Vec3f{0, 0, 0} || shared.contains(place, strand));
+    if (left < stop.count + 2 || !(isNoPlace || isFarOff)) continue;
+    left -= stop.count;
+    for (std::size_t i = 0; i < stop.count; ++i) isStray[groom.firstPoint[strand] + stop.first + i] = true;
   }
   return isStray;
 }

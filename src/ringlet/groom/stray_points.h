@@ -19,9 +19,9 @@ inline constexpr double kFarEdge = 100;
 /// count as that one. Cost: n log n in the particles.
 std::vector<bool> sharedPlaces(const Groom& groom, const std::vector<bool>& isDuplicate);
 
-/// For each particle whether it is such a stray. Two particles of a strand are none at least. `isShared`: as
-/// sharedPlaces says. Cost: linear in the particles.
-std::vector<bool> strayPoints(const Groom& groom, const std::vector<bool>& isShared);
+/// For each particle whether it is such a stray. Two particles of a strand are none at least. Cost: linear in
+/// the particles, times the logarithm of the strays.
+std::vector<bool> strayPoints(const Groom& groom);
 
 /// Of a strand's edges that have a length (kNoEdgeShare), the lower of two in the middle; 0 without any.
 double medianEdge(std::span<const Vec3f> strand);

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "ringlet/groom/ball.h"
-#include "ringlet/groom/mend_groom.h"
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/groom/stray_points.h"
 #include "ringlet/measure/groom_inspection.h"
@@ -79,7 +78,7 @@ bool turns(const Motion& motion) {
 }  // namespace
 
 std::vector<std::string> doubtsOfPlaces(const Groom& groom) {
-  const std::vector<bool> isStray = strayPoints(groom, sharedPlaces(groom, duplicatesIn(groom)));
+  const std::vector<bool> isStray = strayPoints(groom);
   GroomFault strays, longEdges;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const auto strand = groom.strand(s);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "ringlet/groom/curl_shape.h"
 #include "ringlet/groom/mend_groom.h"
@@ -33,6 +34,92 @@ char upOf(Vec3d way) {
   return isZ ? 'Z' : 'Y';
 }
 
+double lengthOf(std::span<const Vec3f> strand) {
+  double whole = 0;
+  for (std::size_t i = 1; i < strand.size(); ++i) whole += length(Vec3d(strand[i]) - Vec3d(strand[i - 1]));
+  return whole;
+}
+
+Vec3d centreOf(std::span<const Vec3f> strand) {
+  Vec3d sum;
+  for (const Vec3f& point : strand) sum += Vec3d(point);
+  return sum / static_cast<double>(strand.size());
+}
+
+void findBox(const Groom& groom, Vec3d& low, Vec3d& high) {
+  low = high = Vec3d(groom.points.front());
+  for (const Vec3f& point : groom.points) {
+    const Vec3d p(point);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+}
+
+// Of the edges of each strand, and strands without any.
+void findEdgeFaults(const Groom& groom, std::span<const double> lengths, GroomInspection& found) {
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const std::span<const Vec3f> strand = groom.strand(s);
+    if (!(lengths[s] > 0)) {
+      found.pointStrands.add(s);
+      continue;
+    }
+    const double longest = kLongEdge * medianEdge(strand), nothing = noEdgeLength(strand);
+    const double shortest = kShortEdgeShare * lengths[s] / static_cast<double>(strand.size() - 1);
+    for (std::size_t i = 1; i < strand.size(); ++i) {
+      const double edge = length(Vec3d(strand[i]) - Vec3d(strand[i - 1]));
+      found.longEdges.add(s, edge > longest);
+      found.repeatedParticles.add(s, edge <= nothing);
+      found.shortEdges.add(s, edge > nothing && edge < shortest);
+    }
+  }
+}
+
+// Strands unlike the middle of all.
+void findStrayStrands(const Groom& groom, std::span<const double> lengths, GroomInspection& found) {
+  std::vector<Vec3d> centres;
+  std::array<std::vector<double>, 3> places;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    const Vec3d centre = centreOf(groom.strand(s));
+    centres.push_back(centre);
+    places[0].push_back(centre.x);
+    places[1].push_back(centre.y);
+    places[2].push_back(centre.z);
+  }
+  const Vec3d middle{medianOf(places[0]), medianOf(places[1]), medianOf(places[2])};
+  std::vector<double> distances;
+  for (const Vec3d& centre : centres) distances.push_back(length(centre - middle));
+  // A groom of one strand, or all in a row, is not away from itself: its own length counts as near.
+  const double near = std::max(middleOf(distances).median, found.length.median);
+  for (std::size_t s = 0; s < lengths.size(); ++s) {
+    if (lengths[s] > 0 && lengths[s] * kStrayLength < found.length.median) found.tooShort.add(s);
+    if (lengths[s] > kStrayLength * found.length.median && found.length.median > 0) found.tooLong.add(s);
+    if (distances[s] > kStrayDistance * near) found.farAway.add(s);
+  }
+}
+
+// Particles and strands in places where others are or where none is, and strands that run from tip to root.
+void findPlaceFaults(const Groom& groom, GroomInspection& found) {
+  const std::vector<bool> isDuplicate = duplicatesIn(groom), isReversed = findRootEnds(groom).isReversed;
+  const std::vector<bool> isShared = sharedPlaces(groom, isDuplicate), isStray = strayPoints(groom);
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    if (isDuplicate[s]) found.duplicates.add(s);
+    if (isReversed[s]) found.reversedStrands.add(s);
+    for (std::size_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i) {
+      if (isStray[i]) {
+        found.strayParticles.add(s);
+      } else if (isShared[i]) {
+        found.sharedParticles.add(s);
+      }
+    }
+  }
+}
+
+std::vector<double> lengthsOf(const Groom& groom) {
+  std::vector<double> lengths;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) lengths.push_back(lengthOf(groom.strand(s)));
+  return lengths;
+}
+
 }  // namespace
 
 Middle middleOf(std::vector<double> values) {
@@ -59,54 +146,20 @@ char likelyUpOf(const Groom& groom) {
   return upOf(way);
 }
 
-GroomInspection inspectGroom(const Groom& groom) {
-  GroomInspection found;
+GroomShape inspectShape(const Groom& groom) {
+  GroomShape found;
   found.strandCount = groom.strandCount();
   found.particleCount = groom.points.size();
   if (groom.points.empty()) return found;
-  found.low = found.high = Vec3d(groom.points.front());
-
-  std::vector<double> counts, lengths, shares, turns, radii;
-  std::vector<Vec3d> centres;
+  findBox(groom, found.low, found.high);
+  const std::vector<double> lengths = lengthsOf(groom);
+  std::vector<double> counts, shares, turns, radii;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    std::vector<Vec3d> strand;
-    Vec3d sum;
-    for (const Vec3f p : groom.strand(s)) {
-      strand.push_back(Vec3d(p));
-      sum += strand.back();
-      found.low = {std::min(found.low.x, strand.back().x), std::min(found.low.y, strand.back().y),
-                   std::min(found.low.z, strand.back().z)};
-      found.high = {std::max(found.high.x, strand.back().x), std::max(found.high.y, strand.back().y),
-                    std::max(found.high.z, strand.back().z)};
-    }
-    std::vector<double> edges;
-    double whole = 0;
-    for (std::size_t i = 1; i < strand.size(); ++i) {
-      edges.push_back(length(strand[i] - strand[i - 1]));
-      whole += edges.back();
-    }
-    const double chord = length(strand.back() - strand.front());
+    const std::vector<Vec3d> strand(groom.strand(s).begin(), groom.strand(s).end());
     counts.push_back(static_cast<double>(strand.size()));
-    lengths.push_back(whole);
-    centres.push_back(sum / static_cast<double>(strand.size()));
-    if (!(whole > 0)) {
-      found.pointStrands.add(s);
-      continue;
-    }
-    if (chord > kNoEdgeShare * whole) shares.push_back(whole / chord);
-    std::size_t none = 0, few = 0, many = 0;
-    const double longest = kLongEdge * medianEdge(groom.strand(s)), nothing = noEdgeLength(groom.strand(s));
-    for (const double edge : edges) {
-      many += edge > longest;
-      if (edge <= nothing) {
-        ++none;
-      } else if (edge < kShortEdgeShare * whole / static_cast<double>(edges.size())) {
-        ++few;
-      }
-    }
-    found.repeatedParticles.add(s, none);
-    found.shortEdges.add(s, few);
-    found.longEdges.add(s, many);
+    if (!(lengths[s] > 0)) continue;
+    const double chord = length(strand.back() - strand.front());
+    if (chord > kNoEdgeShare * lengths[s]) shares.push_back(lengths[s] / chord);
     const CurlShape shape = measureCurl(strand);
     if (shape.turns > 0) {
       ++found.curledCount;
@@ -114,7 +167,6 @@ GroomInspection inspectGroom(const Groom& groom) {
       radii.push_back(shape.radius);
     }
   }
-
   found.particles = middleOf(counts);
   found.length = middleOf(lengths);
   found.arcOverChord = middleOf(shares);
@@ -122,37 +174,17 @@ GroomInspection inspectGroom(const Groom& groom) {
   found.radius = middleOf(radii);
   found.likelyUp = likelyUpOf(groom);
   found.units = likelyUnits(found.length.mean);
+  return found;
+}
 
-  // Strays, against the middle of all strands.
-  std::array<std::vector<double>, 3> places;
-  for (const Vec3d& centre : centres) {
-    places[0].push_back(centre.x);
-    places[1].push_back(centre.y);
-    places[2].push_back(centre.z);
-  }
-  const Vec3d middle{medianOf(places[0]), medianOf(places[1]), medianOf(places[2])};
-  std::vector<double> distances;
-  for (const Vec3d& centre : centres) distances.push_back(length(centre - middle));
-  // A groom of one strand, or all in a row, is not away from itself: its own length counts as near.
-  const double near = std::max(middleOf(distances).median, found.length.median);
-  for (std::size_t s = 0; s < lengths.size(); ++s) {
-    if (lengths[s] > 0 && lengths[s] * kStrayLength < found.length.median) found.tooShort.add(s);
-    if (lengths[s] > kStrayLength * found.length.median && found.length.median > 0) found.tooLong.add(s);
-    if (distances[s] > kStrayDistance * near) found.farAway.add(s);
-  }
-  const std::vector<bool> isDuplicate = duplicatesIn(groom), isReversed = findRootEnds(groom).isReversed;
-  const std::vector<bool> isShared = sharedPlaces(groom, isDuplicate), isStray = strayPoints(groom, isShared);
-  for (std::size_t s = 0; s < isDuplicate.size(); ++s) {
-    if (isDuplicate[s]) found.duplicates.add(s);
-    if (isReversed[s]) found.reversedStrands.add(s);
-    for (std::size_t i = groom.firstPoint[s]; i < groom.firstPoint[s + 1]; ++i) {
-      if (isStray[i]) {
-        found.strayParticles.add(s);
-      } else if (isShared[i]) {
-        found.sharedParticles.add(s);
-      }
-    }
-  }
+GroomInspection inspectGroom(const Groom& groom) {
+  GroomInspection found;
+  static_cast<GroomShape&>(found) = inspectShape(groom);
+  if (groom.points.empty()) return found;
+  const std::vector<double> lengths = lengthsOf(groom);
+  findEdgeFaults(groom, lengths, found);
+  findStrayStrands(groom, lengths, found);
+  findPlaceFaults(groom, found);
   return found;
 }
 

@@ -42,16 +42,21 @@ struct GroomFault {
   }
 };
 
-struct GroomInspection {
+/// Sizes and curl of a groom.
+struct GroomShape {
   std::size_t strandCount = 0, particleCount = 0;
-  Middle particles;                       // of a strand
-  Middle length;                          // of a strand, along its edges [unit]
-  Middle arcOverChord;                    // of strands whose ends are apart
-  std::size_t curledCount = 0;            // by measureCurl
-  Middle turns, radius;                   // of the curled [1, unit]
-  Vec3d low, high;                        // the box around all particles [unit]
-  std::vector<LikelyUnit> units;          // metre, centimetre, millimetre, inch: those that fit a head's hair
-  char likelyUp = 0;                      // 'Y' or 'Z', against which most strands hang; 0 where they do not
+  Middle particles;               // of a strand
+  Middle length;                  // of a strand, along its edges [unit]
+  Middle arcOverChord;            // of strands whose ends are apart
+  std::size_t curledCount = 0;    // by measureCurl
+  Middle turns, radius;           // of the curled [1, unit]
+  Vec3d low, high;                // the box around all particles [unit]
+  std::vector<LikelyUnit> units;  // metre, centimetre, millimetre, inch: those that fit a head's hair
+  char likelyUp = 0;              // likelyUpOf
+};
+
+/// And its faults.
+struct GroomInspection : GroomShape {
   GroomFault repeatedParticles;           // in the place of the one before
   GroomFault shortEdges;                  // those above not counted
   GroomFault longEdges;                   // than the strand's median
@@ -75,10 +80,14 @@ struct GroomInspection {
 /// Metre, centimetre, millimetre, inch: those in which strands of this mean length [unit] would fit a head.
 std::vector<LikelyUnit> likelyUnits(double meanLength);
 
-/// Of a groom as readers return it: two finite particles and more a strand. Cost: n log n.
-/// The axis against which the strands hang, all together: 'Y' or 'Z', 0 where they hang along neither.
+/// Of a groom as readers return it (two finite particles and more a strand), as all below. The axis against
+/// which the strands hang, all together: 'Y' or 'Z', 0 where they hang along neither. Cost: linear.
 char likelyUpOf(const Groom& groom);
 
+/// Cost: n log n in the strands, and measureCurl of each.
+GroomShape inspectShape(const Groom& groom);
+
+/// Cost: that of inspectShape, and n log n in the particles.
 GroomInspection inspectGroom(const Groom& groom);
 
 }  // namespace ringlet

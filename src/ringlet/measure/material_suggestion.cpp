@@ -16,7 +16,7 @@ bool isAwayFrom(double value, double bound) { return std::abs(value - bound) > k
 
 }  // namespace
 
-MaterialSuggestion suggestMaterial(const GroomInspection& groom, double metresPerUnit) {
+MaterialSuggestion suggestMaterial(const GroomShape& groom, double metresPerUnit) {
   const double arcOverChord = groom.arcOverChord.median;
   const auto shareOf = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, groom.strandCount));

@@ -21,6 +21,6 @@ inline constexpr double kLooseCurlWidth = 0.025, kCoilWidth = 0.012, kCoilArcOve
 /// Strands without a curl that are longer than this many times their chord are wavy [1].
 inline constexpr double kWavyArcOverChord = 1.1;
 
-MaterialSuggestion suggestMaterial(const GroomInspection& groom, double metresPerUnit);
+MaterialSuggestion suggestMaterial(const GroomShape& groom, double metresPerUnit);
 
 }  // namespace ringlet

@@ -26,6 +26,9 @@ struct SceneFrame {
   std::vector<BodyPose> bodies{}, roots{};  // [step][body], [step][strand]; none: the head carries them
 };
 
+/// A host's frame is from -kMostFrame to kMostFrame.
+inline constexpr int kMostFrame = 1'000'000;
+
 /// Frame 0 is the first; those of the pre-roll are before it.
 SceneFrame frameOf(const LoadedScene& scene, int frame);
 /// Frames before the first one, in which hair comes to rest or to speed.

@@ -38,7 +38,7 @@ std::vector<std::string> idleDials(const MaterialDials& dials, const Material& m
       sentences.emplace_back(
           "the dial curl_keep changes nothing: the material has no core spring "
           "(core_stiffness is 0)");
-    } else if (inspectGroom(groom).curledCount == 0) {
+    } else if (inspectShape(groom).curledCount == 0) {
       sentences.emplace_back("the dial curl_keep changes next to nothing: no strand of the groom is curled");
     }
   }

@@ -12,7 +12,7 @@
 namespace ringlet {
 
 /// A sentence for each dial that is turned and changes nothing. material: the dials worked in. seconds: of
-/// the run [s]. Cost: that of inspectGroom where curlKeep is turned.
+/// the run [s]. Cost: that of inspectShape where curlKeep is turned.
 std::vector<std::string> idleDials(const MaterialDials& dials, const Material& material, const Groom& groom,
                                    const Settings& settings, const Motion& motion, double seconds);
 

@@ -221,7 +221,7 @@ void notePreset(const SceneFile& scene, LoadedScene& loaded) {
   const Material& material = scene.material.material;
   if (!scene.groom.generate.empty() || scene.hasMaterial || !(material == Material{})) return;
   const MaterialSuggestion suggestion =
-      suggestMaterial(inspectGroom(loaded.groom), loaded.groom.metresPerUnit);
+      suggestMaterial(inspectShape(loaded.groom), loaded.groom.metresPerUnit);
   const auto preset = materialPreset(suggestion.preset);
   if (!suggestion.isClear || !preset || *preset == material) return;
   loaded.notes.push_back(

@@ -6,6 +6,7 @@
 
 #include "ringlet/base/assert.h"
 #include "ringlet/groom/hair_styles.h"
+#include "ringlet/groom/loaded_groom.h"
 #include "ringlet/motion/file_axis.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/scene/body_forms.h"
@@ -23,7 +24,7 @@ constexpr NumberRange kSeed{0, 4294967295.0};
 constexpr NumberRange kShare{0, 1};
 constexpr NumberRange kSeconds{0, 3600};
 constexpr NumberRange kBindFrames{1, 1e6};
-constexpr NumberRange kPointsPerStrand{2, 1e6};
+constexpr NumberRange kPointsPerStrand{2, kMostPointsPerStrand};
 constexpr const char* kGenerated = "curl, swatch, head";
 constexpr const char* kVarying = "swatch, head";
 constexpr const char* kToAndFro = "shake, nod, walk, jump";

@@ -62,9 +62,7 @@ GroomReading readingOf(const SceneGroom& groom, bool keepsPrims) {
   return {.upIsZ = groom.up == "Z",
           .keepsPrims = keepsPrims,
           .pointsPerStrand = static_cast<std::uint32_t>(groom.pointsPerStrand),
-          .rootEnd = groom.rootEnd == "last"   ? RootEnd::last
-                     : groom.rootEnd == "head" ? RootEnd::head
-                                               : RootEnd::first};
+          .rootEnd = rootEndOf(groom.rootEnd).value_or(RootEnd::first)};
 }
 
 Result<std::shared_ptr<const ScalpSurface>> readScalp(const std::filesystem::path& path,
