@@ -82,14 +82,13 @@ one_of() {
 # Half of the signals cannot be caught.
 signals=(KILL TERM KILL INT KILL HUP)
 break_job() { # JOB KILLS
-  local k pid status ended=0 signal
-  SECONDS=0
+  local k pid status ended=0 signal began=$EPOCHREALTIME most
   ("$1") > whole.txt 2>&1 || { echo "FAILED, $1 without a break: $(cat whole.txt)"; exit 1; }
-  local most=$((SECONDS + 1))
+  most=$(awk -v from="$began" -v to="$EPOCHREALTIME" 'BEGIN { print to - from }')
   mv out "whole_$1"
   for ((k = 0; k < $2; )); do
     "$1" > killed.txt 2>&1 & pid=$!
-    sleep "$(awk -v r=$RANDOM -v most=$most 'BEGIN { print 0.05 + most * r / 32768 }')"
+    sleep "$(awk -v r=$RANDOM -v most=$most 'BEGIN { print most * r / 32768 }')"
     signal=${signals[RANDOM % ${#signals[@]}]}
     if kill -s "$signal" "$(one_of $pid)" 2> /dev/null; then k=$((k + 1)); fi
     status=0
