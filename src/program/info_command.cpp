@@ -138,8 +138,9 @@ nlohmann::ordered_json infoJson(const Typed& typed, const LoadedGroom& loaded, c
   json["turns"] = jsonOf(found.turns);
   json["radius_mm"] = jsonOf(found.radius, 1000 * unit);
   json["arc_over_chord"] = jsonOf(found.arcOverChord);
-  json["box"] = {
-      {"low", jsonOf(found.low)}, {"high", jsonOf(found.high)}, {"size", jsonOf(found.high - found.low)}};
+  json["box"] = {{"low", jsonOf(found.box.low)},
+                 {"high", jsonOf(found.box.high)},
+                 {"size", jsonOf(found.box.high - found.box.low)}};
   json["metres_per_unit"] = unit;
   json["unit_from"] = unitFrom(typed, loaded);
   json["likely_units"] = nlohmann::json::array();
@@ -210,12 +211,12 @@ void printInfo(const Typed& typed, const LoadedGroom& loaded, const GroomInspect
   }
   print("\n  arc           {:.4g} to {:.4g} times the chord, median {:.4g}\n", found.arcOverChord.min,
         found.arcOverChord.max, found.arcOverChord.median);
-  const Vec3d size = found.high - found.low;
+  const Vec3d size = found.box.high - found.box.low;
   print(
       "  box           ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) units, {:.4g} x {:.4g} x "
       "{:.4g}\n",
-      found.low.x, found.low.y, found.low.z, found.high.x, found.high.y, found.high.z, size.x, size.y,
-      size.z);
+      found.box.low.x, found.box.low.y, found.box.low.z, found.box.high.x, found.box.high.y, found.box.high.z,
+      size.x, size.y, size.z);
   if (found.isFaultless()) print("  faults        none\n");
   for (const Row& row : kFaults) {
     const GroomFault& fault = found.*row.fault;

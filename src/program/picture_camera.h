@@ -5,8 +5,8 @@
 #include <optional>
 #include <span>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/bodies/bounds.h"
 #include "ringlet/render/camera.h"
 #include "ringlet/scene/motion.h"
 #include "ringlet/scenes/scene_camera.h"

@@ -40,8 +40,8 @@ TEST(GroomInspection, MeasuresStrands) {
   EXPECT_NEAR(found.length.mean, 67.0 / 4, 1e-5);
   EXPECT_NEAR(found.arcOverChord.max, 7.0 / 5, 1e-6);
   EXPECT_NEAR(found.arcOverChord.min, 1, 1e-6);
-  EXPECT_EQ(found.low, (Vec3d{0, -20, 0}));
-  EXPECT_EQ(found.high, (Vec3d{4, 0, 5}));
+  EXPECT_EQ(found.box.low, (Vec3d{0, -20, 0}));
+  EXPECT_EQ(found.box.high, (Vec3d{4, 0, 5}));
   EXPECT_EQ(found.curledCount, 0u);
   EXPECT_TRUE(found.isFaultless());
 }

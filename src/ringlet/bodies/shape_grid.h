@@ -3,8 +3,8 @@
 
 #include <functional>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/bodies/bounds.h"
 #include "ringlet/scene/distance_grid.h"
 
 namespace ringlet {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -59,15 +58,9 @@ Status checkMesh(const TriangleMesh& mesh) {
 }
 
 Bounds boundsOf(const TriangleMesh& mesh) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Bounds bounds{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  Bounds bounds = Bounds::none();
   for (const auto& triangle : mesh.triangles) {
-    for (std::uint32_t index : triangle) {
-      const Vec3d p = mesh.points[index];
-      bounds.low = {std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y), std::min(bounds.low.z, p.z)};
-      bounds.high = {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y),
-                     std::max(bounds.high.z, p.z)};
-    }
+    for (std::uint32_t index : triangle) bounds.add(mesh.points[index]);
   }
   return bounds;
 }

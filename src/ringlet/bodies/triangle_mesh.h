@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/bodies/bounds.h"
 
 namespace ringlet {
 

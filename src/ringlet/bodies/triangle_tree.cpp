@@ -60,24 +60,20 @@ std::uint32_t TriangleTree::grow(std::uint32_t first, std::uint32_t count) {
   Branch branch;
   branch.first = first;
   branch.count = count;
-  branch.bounds = {entries_[first].corners[0], entries_[first].corners[0]};
-  Bounds middles{middleOf(entries_[first].corners), middleOf(entries_[first].corners)};
-  auto include = [](Bounds& box, Vec3d p) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  };
+  branch.bounds = Bounds::none();
+  Bounds middles = Bounds::none();
   double area = 0;
   Vec3d weighted{};
   for (std::uint32_t i = first; i < first + count; ++i) {
     const Corners& corners = entries_[i].corners;
-    for (Vec3d corner : corners) include(branch.bounds, corner);
-    include(middles, middleOf(corners));
+    for (Vec3d corner : corners) branch.bounds.add(corner);
+    middles.add(middleOf(corners));
     const Vec3d half = cross(corners[1] - corners[0], corners[2] - corners[0]) / 2;
     branch.areas += half;
     weighted += middleOf(corners) * length(half);
     area += length(half);
   }
-  branch.middle = area > 0 ? weighted / area : (branch.bounds.low + branch.bounds.high) / 2;
+  branch.middle = area > 0 ? weighted / area : branch.bounds.middle();
   for (std::uint32_t i = first; i < first + count; ++i) {
     for (Vec3d corner : entries_[i].corners)
       branch.reach = std::max(branch.reach, length(corner - branch.middle));

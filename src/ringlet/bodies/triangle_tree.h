@@ -13,8 +13,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/bodies/bounds.h"
 #include "ringlet/bodies/triangle_mesh.h"
 
 namespace ringlet {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ringlet/base/assert.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/box_pairs.h"
 
 namespace ringlet {
@@ -101,12 +102,10 @@ std::uint64_t crossingsOf(const MovingEdge& p, const MovingEdge& q) {
 }
 
 Box sweptBox(const MovingEdge& edge) {
-  Vec3d low = edge.root[0], high = low;
-  for (Vec3d p : {edge.root[1], edge.root[0] + edge.along[0], edge.root[1] + edge.along[1]}) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return {(low + high) * 0.5, (high - low) * 0.5};
+  Bounds box = Bounds::none();
+  for (Vec3d p : {edge.root[0], edge.root[1], edge.root[0] + edge.along[0], edge.root[1] + edge.along[1]})
+    box.add(p);
+  return {box.middle(), (box.high - box.low) * 0.5};
 }
 
 }  // namespace

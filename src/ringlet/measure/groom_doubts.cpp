@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/groom/ball.h"
 #include "ringlet/groom/root_ends.h"
 #include "ringlet/groom/stray_points.h"
@@ -33,16 +34,7 @@ Vec3d meanOf(std::span<const Vec3d> points) {
 }
 
 // Across all particles [m].
-double sizeOf(const Groom& groom) {
-  Vec3d low = Vec3d(groom.points.front()), high = low;
-  for (const Vec3f& point : groom.points) {
-    low = {std::min<double>(low.x, point.x), std::min<double>(low.y, point.y),
-           std::min<double>(low.z, point.z)};
-    high = {std::max<double>(high.x, point.x), std::max<double>(high.y, point.y),
-            std::max<double>(high.z, point.z)};
-  }
-  return length(high - low) * groom.metresPerUnit;
-}
+double sizeOf(const Groom& groom) { return boundsOf(groom.points).diagonal() * groom.metresPerUnit; }
 
 double nearestRoot(const Groom& groom) {
   double nearest = HUGE_VAL;

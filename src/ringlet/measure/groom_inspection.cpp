@@ -46,15 +46,6 @@ Vec3d centreOf(std::span<const Vec3f> strand) {
   return sum / static_cast<double>(strand.size());
 }
 
-void findBox(const Groom& groom, Vec3d& low, Vec3d& high) {
-  low = high = Vec3d(groom.points.front());
-  for (const Vec3f& point : groom.points) {
-    const Vec3d p(point);
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-}
-
 // Of the edges of each strand, and strands without any.
 void findEdgeFaults(const Groom& groom, std::span<const double> lengths, GroomInspection& found) {
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
@@ -151,7 +142,7 @@ GroomShape inspectShape(const Groom& groom) {
   found.strandCount = groom.strandCount();
   found.particleCount = groom.points.size();
   if (groom.points.empty()) return found;
-  findBox(groom, found.low, found.high);
+  found.box = boundsOf(groom.points);
   const std::vector<double> lengths = lengthsOf(groom);
   std::vector<double> counts, shares, turns, radii;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {

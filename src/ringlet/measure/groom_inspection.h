@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "ringlet/base/vec3.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/groom/groom.h"
 
 namespace ringlet {
@@ -50,7 +50,7 @@ struct GroomShape {
   Middle arcOverChord;            // of strands whose ends are apart
   std::size_t curledCount = 0;    // by measureCurl
   Middle turns, radius;           // of the curled [1, unit]
-  Vec3d low, high;                // the box around all particles [unit]
+  Bounds box;                     // around all particles [unit]
   std::vector<LikelyUnit> units;  // metre, centimetre, millimetre, inch: those that fit a head's hair
   char likelyUp = 0;              // likelyUpOf
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/measure/length_text.h"
 
 namespace ringlet {
@@ -56,14 +57,7 @@ std::optional<std::string> checkJointDistance(const Groom& groom, const HeadPose
   double nearest = HUGE_VAL;
   for (std::size_t s = 0; s < groom.strandCount(); ++s)
     nearest = std::min(nearest, length(Vec3d(groom.strand(s).front()) * groom.metresPerUnit));
-  Vec3d low = Vec3d(groom.points.front()), high = low;
-  for (const Vec3f& point : groom.points) {
-    low = {std::min<double>(low.x, point.x), std::min<double>(low.y, point.y),
-           std::min<double>(low.z, point.z)};
-    high = {std::max<double>(high.x, point.x), std::max<double>(high.y, point.y),
-            std::max<double>(high.z, point.z)};
-  }
-  const double size = length(high - low) * groom.metresPerUnit;
+  const double size = boundsOf(groom.points).diagonal() * groom.metresPerUnit;
   if (nearest <= std::max(kFarJoint, size)) return std::nullopt;
   const std::string far =
       fmt::format("no root is nearer to the joint {} than {}, further than the groom's own size of {}; ",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/bodies/body_distance.h"
 #include "ringlet/measure/groom_inspection.h"
 #include "ringlet/measure/length_text.h"
@@ -29,19 +30,12 @@ struct Stand {
 
 Stand standOf(const Groom& groom, const HeadPose& head) {
   Stand stand;
-  Vec3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  for (const Vec3f& point : groom.points) {
-    low = {std::min<double>(low.x, point.x), std::min<double>(low.y, point.y),
-           std::min<double>(low.z, point.z)};
-    high = {std::max<double>(high.x, point.x), std::max<double>(high.y, point.y),
-            std::max<double>(high.z, point.z)};
-  }
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const Vec3d root = Vec3d(groom.strand(s).front()) * groom.metresPerUnit;
     stand.roots.push_back(head.position + rotate(head.rotation, root));
   }
   stand.meanLength = meanLength(groom);
-  stand.size = length(high - low) * groom.metresPerUnit;
+  stand.size = boundsOf(groom.points).diagonal() * groom.metresPerUnit;
   return stand;
 }
 

@@ -16,6 +16,7 @@
 #include <thread>
 #include <utility>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/in_parallel.h"
 
 namespace ringlet {
@@ -51,15 +52,10 @@ Axes cameraAxes(UpAxis upAxis) {
   return {right, cross(back, right), back};
 }
 
-struct Box {
-  Vec3d low = Vec3d{1, 1, 1} * std::numeric_limits<double>::infinity(), high = -low;
-  void add(Vec3d p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  Vec3d centre() const { return (low + high) / 2.0; }
-  double size() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z, 1e-12}); }
-};
+double sizeOf(const Bounds& box) {
+  const Vec3d size = box.high - box.low;
+  return std::max({size.x, size.y, size.z, 1e-12});
+}
 
 // A box of camera coordinates drawn into a panel: pixel = middle + scale (p - centre) / (1 - depth /
 // distance).
@@ -77,12 +73,12 @@ struct View {
 
 // The view in which all of the points, given in camera coordinates, fill a panel of the grid.
 View fit(std::span<const std::vector<Vec3d>> frames, const PanelGrid& grid) {
-  Box box;
+  Bounds box = Bounds::none();
   for (const auto& points : frames) {
     for (Vec3d p : points) box.add(p);
   }
   View view{static_cast<double>(grid.width) * kSuper, static_cast<double>(grid.height - grid.footer) * kSuper,
-            box.centre(), kDistance * box.size(), std::numeric_limits<double>::infinity()};
+            box.middle(), kDistance * sizeOf(box), std::numeric_limits<double>::infinity()};
   const double halfWidth = (0.5 - kMargin) * view.width, halfHeight = (0.5 - kMargin) * view.height;
   for (const auto& points : frames) {
     for (Vec3d q : points) {
@@ -279,9 +275,9 @@ std::vector<Vec3d> solidPoints(const Panel& panel, std::size_t s, const Axes& ax
 // The hair's points, and what of solids is in their box, grown by a share of its size.
 std::vector<Vec3d> shownPoints(const Panel& panel, const std::vector<Vec3d>& hair, const Axes& axes) {
   std::vector<Vec3d> shown = hair;
-  Box box;
+  Bounds box = Bounds::none();
   for (Vec3d p : hair) box.add(p);
-  const Vec3d room = Vec3d{1, 1, 1} * (kNearSolid * box.size());
+  const Vec3d room = Vec3d{1, 1, 1} * (kNearSolid * sizeOf(box));
   const Vec3d low = box.low - room, high = box.high + room;
   for (std::size_t s = 0; s < panel.solids.size(); ++s) {
     for (Vec3d p : solidPoints(panel, s, axes)) {
@@ -350,9 +346,9 @@ void drawSolids(const Panel& panel, const View& view, const Axes& axes, Canvas& 
 
 void drawStrands(const Panel& panel, std::span<const Vec3d> points, const View& view, Canvas& canvas) {
   const auto firstPoint = panel.firstPoint;
-  Box box;
+  Bounds box = Bounds::none();
   for (Vec3d p : points) box.add(p - view.centre);
-  const double depth = std::max(box.high.z - box.low.z, kFullDepth * box.size());
+  const double depth = std::max(box.high.z - box.low.z, kFullDepth * sizeOf(box));
   const double radius = radiusOf(firstPoint.size() - 1);
   for (std::size_t strand = 0; strand + 1 < firstPoint.size(); ++strand) {
     const Shade colour = strandColour(strand);

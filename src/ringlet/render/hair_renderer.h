@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/bodies/bounds.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/command_list.h"
 #include "ringlet/gpu/kernel.h"

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "layout/strands.h"
+#include "ringlet/base/bounds.h"
 #include "ringlet/rest/density_grid.h"
 
 namespace ringlet {
@@ -31,18 +31,16 @@ std::uint32_t volumeStride(const RestState& rest, const layout::StrandRest& stra
 // Cells of the box that all strands can reach.
 std::uint64_t reachableCells(const RestState& rest, const VolumeStrands& volume, double cell) {
   constexpr double kLongest = 1.1;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3d low{kInfinity, kInfinity, kInfinity}, high = low * -1.0;
+  Bounds box = Bounds::none();
   for (std::size_t s = 0; s < rest.strands.size(); ++s) {
     if (!volume.isIn[s]) continue;
     const layout::StrandRest& strand = rest.strands[s];
     const double reach = kLongest * arcLength(rest, strand);
     const Vec3d root = static_cast<Vec3d>(rest.points[strand.firstParticle]);
-    low = {std::min(low.x, root.x - reach), std::min(low.y, root.y - reach), std::min(low.z, root.z - reach)};
-    high = {std::max(high.x, root.x + reach), std::max(high.y, root.y + reach),
-            std::max(high.z, root.z + reach)};
+    box.add(root - Vec3d{reach, reach, reach});
+    box.add(root + Vec3d{reach, reach, reach});
   }
-  const Vec3d size = (high - low) / cell + Vec3d{3, 3, 3};
+  const Vec3d size = (box.high - box.low) / cell + Vec3d{3, 3, 3};
   const double cells = size.x * size.y * size.z;
   return cells < 1e18 ? static_cast<std::uint64_t>(cells) : std::uint64_t{1} << 60;
 }

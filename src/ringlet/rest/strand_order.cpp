@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "ringlet/base/bounds.h"
+
 namespace ringlet {
 namespace {
 
@@ -54,11 +56,9 @@ Vec3d meanOf(std::span<const Vec3f> points) {
 std::vector<std::uint64_t> placesOnCurve(const Groom& groom) {
   std::vector<Vec3d> means;
   for (std::size_t s = 0; s < groom.strandCount(); ++s) means.push_back(meanOf(groom.strand(s)));
-  Vec3d low = means.empty() ? Vec3d{} : means[0], high = low;
-  for (Vec3d m : means) {
-    low = {std::min(low.x, m.x), std::min(low.y, m.y), std::min(low.z, m.z)};
-    high = {std::max(high.x, m.x), std::max(high.y, m.y), std::max(high.z, m.z)};
-  }
+  Bounds box = Bounds::none();
+  for (Vec3d m : means) box.add(m);
+  const auto& [low, high] = box;
   const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   const double most = (1 << kCurveBits) - 1;
   const auto cell = [&](double above) {

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <mutex>
 #include <numeric>
 #include <span>
 #include <utility>
 
+#include "ringlet/base/bounds.h"
 #include "ringlet/rest/sphere_cells.h"
 
 namespace ringlet {
@@ -66,16 +66,13 @@ struct SizeOfCells {
 };
 
 std::vector<SizeOfCells> sortBySize(std::vector<Sphere> spheres, double enlargement) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Vec3d low{kInfinity, kInfinity, kInfinity}, high = -low;
+  Bounds box = Bounds::none();
   float largest = 0;
   for (const Sphere& sphere : spheres) {
-    const auto c = static_cast<Vec3d>(sphere.centre);
-    low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-    high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
+    box.add(static_cast<Vec3d>(sphere.centre));
     largest = std::max(largest, sphere.radius);
   }
-  const Vec3d extent = high - low;
+  const Vec3d extent = box.high - box.low;
   const double smallestCell = std::max({extent.x, extent.y, extent.z}) / kMostCells;
   const auto cellFor = [&](float radius) {
     return std::max(2 * enlargement * radius * kCellMargin, smallestCell);
@@ -85,7 +82,7 @@ std::vector<SizeOfCells> sortBySize(std::vector<Sphere> spheres, double enlargem
     const auto own = std::partition(spheres.begin(), spheres.end(),
                                     [&](const Sphere& sphere) { return cellFor(sphere.radius) <= cell / 2; });
     if (own != spheres.end())
-      sizes.push_back({{{own, spheres.end()}, low, cell}, {{spheres.begin(), own}, low, cell}});
+      sizes.push_back({{{own, spheres.end()}, box.low, cell}, {{spheres.begin(), own}, box.low, cell}});
     spheres.erase(own, spheres.end());
   }
   return sizes;

@@ -1,0 +1,37 @@
+// Bounds: a box parallel to the axes, from corner to corner.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "ringlet/base/vec3.h"
+
+namespace ringlet {
+
+struct Bounds {
+  Vec3d low, high;
+
+  /// About nothing yet: the first point that is added is both corners.
+  static constexpr Bounds none() {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  }
+  void add(Vec3d p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  Vec3d middle() const { return (low + high) / 2.0; }
+  double diagonal() const { return length(high - low); }
+
+  bool operator==(const Bounds&) const = default;
+};
+
+/// About all of the points; none() without any.
+inline Bounds boundsOf(std::span<const Vec3f> points) {
+  Bounds bounds = Bounds::none();
+  for (const Vec3f& point : points) bounds.add(static_cast<Vec3d>(point));
+  return bounds;
+}
+
+}  // namespace ringlet
