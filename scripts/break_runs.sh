@@ -8,7 +8,7 @@ set -m # else what runs beside would ignore SIGINT
 cd "$(dirname "$0")/.."
 kills=${1:-200} disks=${2:-50} devices=${3:-20}
 ringlet=$PWD/build/ci/ringlet layers=$PWD/build/ci/tests/layers
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export LC_ALL=C OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 work=$(mktemp -d) && trap 'rm -rf "$work"' EXIT
 cd "$work"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <tuple>
 
 #include "ringlet/base/assert.h"
@@ -71,43 +70,43 @@ std::vector<Suspect> suspectsIn(const Groom& groom) {
 
 auto keyOf(Vec3f place) { return std::tuple(place.x, place.y, place.z); }
 
-// Which of the suspects' places another strand has, too. Strands that repeat one before count as that one.
-class SharedAmong {
- public:
-  SharedAmong(const Groom& groom, std::span<const Suspect> suspects) {
-    for (const Suspect& suspect : suspects)
-      if (suspect.isFar) places_.push_back(groom.strand(suspect.strand)[suspect.stop.first]);
-    if (places_.empty()) return;
-    std::ranges::sort(places_, {}, keyOf);
-    places_.erase(std::ranges::unique(places_).begin(), places_.end());
-    isDuplicate_ = duplicatesIn(groom);
-    isShared_.assign(places_.size(), false);
-    std::vector<std::size_t> owner(places_.size(), groom.strandCount());
-    for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-      for (std::size_t i = 0; !isDuplicate_[s] && i < groom.strand(s).size(); ++i) {
-        const auto place = find(groom.strand(s)[i]);
-        if (!place) continue;
-        if (owner[*place] == groom.strandCount()) owner[*place] = s;
-        if (owner[*place] != s) isShared_[*place] = true;
-      }
+// sharedPlaces of those particles in whose places `counts` is true.
+template <class Counts>
+std::vector<bool> sharedPlacesWhere(const Groom& groom, const std::vector<bool>& isDuplicate,
+                                    const Counts& counts) {
+  RINGLET_ASSERT(isDuplicate.size() == groom.strandCount(), "a word for every strand");
+  struct Place {
+    Vec3f at;
+    std::uint32_t strand, particle;
+    auto key() const { return std::tuple(keyOf(at), strand); }
+  };
+  std::vector<Place> places;
+  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
+    for (std::uint32_t i = groom.firstPoint[s]; !isDuplicate[s] && i < groom.firstPoint[s + 1]; ++i) {
+      if (counts(groom.points[i])) places.push_back({groom.points[i], static_cast<std::uint32_t>(s), i});
     }
   }
-
-  bool contains(Vec3f place, std::size_t strand) const {
-    const auto found = find(place);
-    return found && !isDuplicate_[strand] && isShared_[*found];
+  std::ranges::sort(places, {}, &Place::key);
+  std::vector<bool> isShared(groom.points.size(), false);
+  for (std::size_t first = 0, end = 0; first < places.size(); first = end) {
+    while (end < places.size() && places[end].at == places[first].at) ++end;
+    if (places[first].strand == places[end - 1].strand) continue;
+    for (std::size_t i = first; i < end; ++i) isShared[places[i].particle] = true;
   }
+  return isShared;
+}
 
- private:
-  std::optional<std::size_t> find(Vec3f place) const {
-    const auto at = std::ranges::lower_bound(places_, keyOf(place), {}, keyOf);
-    if (at == places_.end() || !(*at == place)) return std::nullopt;
-    return static_cast<std::size_t>(at - places_.begin());
-  }
-
-  std::vector<Vec3f> places_;  // in order
-  std::vector<bool> isShared_, isDuplicate_;
-};
+// For each particle whether it is in a far suspect's place, and another strand has one there, too.
+std::vector<bool> sharedAmong(const Groom& groom, std::span<const Suspect> suspects) {
+  std::vector<Vec3f> places;
+  for (const Suspect& suspect : suspects)
+    if (suspect.isFar) places.push_back(groom.strand(suspect.strand)[suspect.stop.first]);
+  if (places.empty()) return std::vector<bool>(groom.points.size(), false);
+  std::ranges::sort(places, {}, keyOf);
+  return sharedPlacesWhere(groom, duplicatesIn(groom), [&](Vec3f place) {
+    return std::ranges::binary_search(places, keyOf(place), {}, keyOf);
+  });
+}
 
 }  // namespace
 
@@ -125,41 +124,22 @@ double upperEdge(std::span<const Vec3f> strand) {
 }
 
 std::vector<bool> sharedPlaces(const Groom& groom, const std::vector<bool>& isDuplicate) {
-  RINGLET_ASSERT(isDuplicate.size() == groom.strandCount(), "a word for every strand");
-  struct Place {
-    Vec3f at;
-    std::uint32_t strand, particle;
-    auto key() const { return std::tuple(at.x, at.y, at.z, strand); }
-  };
-  std::vector<Place> places;
-  places.reserve(groom.points.size());
-  for (std::size_t s = 0; s < groom.strandCount(); ++s) {
-    for (std::uint32_t i = groom.firstPoint[s]; !isDuplicate[s] && i < groom.firstPoint[s + 1]; ++i)
-      places.push_back({groom.points[i], static_cast<std::uint32_t>(s), i});
-  }
-  std::ranges::sort(places, {}, &Place::key);
-  std::vector<bool> isShared(groom.points.size(), false);
-  for (std::size_t first = 0, end = 0; first < places.size(); first = end) {
-    while (end < places.size() && places[end].at == places[first].at) ++end;
-    if (places[first].strand == places[end - 1].strand) continue;
-    for (std::size_t i = first; i < end; ++i) isShared[places[i].particle] = true;
-  }
-  return isShared;
+  return sharedPlacesWhere(groom, isDuplicate, [](Vec3f) { return true; });
 }
 
 std::vector<bool> strayPoints(const Groom& groom) {
   std::vector<bool> isStray(groom.points.size(), false);
   const std::vector<Suspect> suspects = suspectsIn(groom);
-  const SharedAmong shared(groom, suspects);
+  const std::vector<bool> isShared = sharedAmong(groom, suspects);
   std::size_t left = 0;
   for (std::size_t k = 0; k < suspects.size(); ++k) {
     const auto& [strand, stop, isFar, isFarOff] = suspects[k];
     if (k == 0 || suspects[k - 1].strand != strand) left = groom.strand(strand).size();
-    const Vec3f place = groom.strand(strand)[stop.first];
-    const bool isNoPlace = isFar && (place == Vec3f{0, 0, 0} || shared.contains(place, strand));
+    const std::size_t first = groom.firstPoint[strand] + stop.first;
+    const bool isNoPlace = isFar && (groom.points[first] == Vec3f{0, 0, 0} || isShared[first]);
     if (left < stop.count + 2 || !(isNoPlace || isFarOff)) continue;
     left -= stop.count;
-    for (std::size_t i = 0; i < stop.count; ++i) isStray[groom.firstPoint[strand] + stop.first + i] = true;
+    for (std::size_t i = 0; i < stop.count; ++i) isStray[first + i] = true;
   }
   return isStray;
 }
