@@ -67,6 +67,7 @@ void addMotions(py::module_& module);
 void addBodies(py::module_& module);
 void addFields(py::module_& module);
 void addDevices(py::module_& module);
+void addAssets(py::module_& module);
 void addHair(py::module_& module);
 void addFollowers(py::module_& module);
 void addScenes(py::module_& module);

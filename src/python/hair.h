@@ -1,47 +1,17 @@
-// Devices, assets and hair as Python holds them.
+// Hair as Python holds it.
 #pragma once
 
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "python/binding.h"
-#include "python/grooms.h"
-#include "python/materials.h"
+#include "python/assets.h"
 #include "python/poses.h"
-#include "ringlet/solver/compute_device.h"
-#include "ringlet/solver/hair_asset.h"
 #include "ringlet/solver/simulation.h"
 
 namespace ringlet::python {
-
-struct DeviceObject {
-  ComputeDevice device;
-};
-using DeviceHandle = std::shared_ptr<DeviceObject>;
-
-struct AssetChoice {
-  bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false, hasFields = false;
-  int heads = 1;
-  std::string kernel = "auto";  // or lanes, memory, serial
-};
-
-struct AssetObject {
-  DeviceHandle device;
-  GroomHandle groom;
-  Material material;  // its dials worked in
-  Settings settings;
-  HairAsset asset;
-  AssetChoice choice{};
-  std::vector<std::string> warnings{};
-};
-using AssetHandle = std::shared_ptr<AssetObject>;
-
-AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
-                       Settings settings, const AssetChoice& choice);
 
 /// The solver takes hair from one thread at a time, and rules that the caller keeps; this keeps them. What
 /// works, works without the GIL. Throws Failure, and py::value_error for poses that do not fit.

@@ -106,6 +106,7 @@ PYBIND11_MODULE(ringlet, module) {
   addBodies(module);
   addFields(module);
   addDevices(module);
+  addAssets(module);
   addHair(module);
   addFollowers(module);
   addScenes(module);

@@ -1,0 +1,118 @@
+// Assets: all of some hair that does not change.
+#include "python/assets.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <utility>
+
+#include "python/settings.h"
+
+namespace ringlet::python {
+namespace {
+
+KernelChoice kernelOf(const AssetChoice& choice) {
+  KernelChoice kernel;
+  if (choice.kernel == "lanes") {
+    kernel.form = KernelChoice::Form::lanes;
+  } else if (choice.kernel == "memory") {
+    kernel.form = KernelChoice::Form::memory;
+  } else if (choice.kernel == "serial") {
+    kernel.form = KernelChoice::Form::serial;
+  } else if (choice.kernel != "auto") {
+    throw py::value_error(unknownName("kernel", choice.kernel, {"auto", "lanes", "memory", "serial"}));
+  }
+  if (choice.heads < 1) throw py::value_error(fmt::format("heads must be 1 or more, got {}", choice.heads));
+  kernel.movingRoots = choice.movesRoots;
+  kernel.heads = choice.heads;
+  kernel.forces = choice.hasForces;
+  kernel.goals = choice.hasGoals;
+  kernel.fields = choice.hasFields;
+  return kernel;
+}
+
+std::string assetRepr(const AssetObject& a) {
+  const std::pair<bool, const char*> options[] = {{a.choice.hasBodies, "bodies"},
+                                                  {a.choice.movesRoots, "moving_roots"},
+                                                  {a.choice.hasForces, "forces"},
+                                                  {a.choice.hasGoals, "goals"},
+                                                  {a.choice.hasFields, "fields"}};
+  std::string built;
+  for (const auto& [is, name] : options)
+    if (is) built += (built.empty() ? ", built for " : ", ") + std::string(name);
+  return fmt::format("<ringlet.Asset: {} strands, {} particles on {}{}>", a.asset.strandCount(),
+                     a.asset.particleCount(), a.device->device.name(), built);
+}
+
+}  // namespace
+
+AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
+                       Settings settings, const AssetChoice& choice) {
+  const KernelChoice kernel = kernelOf(choice);
+  std::vector<std::string> warnings;
+  const Material made = dialled(material, warnings);
+  HairAsset built = withoutGil([&] {
+    return valueOf(HairAsset::build(device->device, groom->groom(), made, settings, kernel,
+                                    choice.hasBodies ? BodyUse::some : BodyUse::none));
+  });
+  warnings.insert(warnings.end(), built.warnings().begin(), built.warnings().end());
+  return std::make_shared<AssetObject>(AssetObject{.device = std::move(device),
+                                                   .groom = std::move(groom),
+                                                   .material = made,
+                                                   .settings = settings,
+                                                   .asset = std::move(built),
+                                                   .choice = choice,
+                                                   .warnings = std::move(warnings)});
+}
+
+void addAssets(py::module_& module) {
+  py::class_<AssetObject, AssetHandle>(
+      module, "Asset",
+      "All of some hair that does not change, for one device; any number of Hair share it. Constant.")
+      .def(py::init([](const DeviceHandle& device, const GroomHandle& groom,
+                       const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
+                       bool bodies, bool movingRoots, bool forces, bool goals, bool fields, int heads,
+                       const std::string& kernel) {
+             return buildAsset(device, groom, material.value_or(MaterialObject{}),
+                               settings.value_or(Settings{}),
+                               {bodies, movingRoots, forces, goals, fields, heads, kernel});
+           }),
+           py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
+           py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
+           py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("goals") = false,
+           py::arg("fields") = false, py::arg("heads") = 1, py::arg("kernel") = "auto",
+           "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
+           "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
+           "act on them from outside; goals: whether it will be pulled to places (set_goals); fields: "
+           "whether it will be in some (set_fields); heads: about "
+           "how "
+           "many will "
+           "have this hair; kernel: \"auto\", \"lanes\", \"memory\" or \"serial\". ringlet.Error, with what "
+           "to do, for "
+           "settings that do not go together or a device without enough memory.")
+      .def_property_readonly(
+          "device", [](const AssetObject& a) { return a.device; }, "The Device.")
+      .def_property_readonly(
+          "groom", [](const AssetObject& a) { return a.groom; }, "The Groom.")
+      .def_property_readonly(
+          "material",
+          [](const AssetObject& a) {
+            return MaterialObject{a.material, {}};
+          },
+          "A copy of the Material, its dials worked in.")
+      .def_property_readonly(
+          "settings", [](const AssetObject& a) { return a.settings; }, "A copy of the Settings.")
+      .def_property_readonly(
+          "strand_count", [](const AssetObject& a) { return a.asset.strandCount(); }, "Strands of the groom.")
+      .def_property_readonly(
+          "particle_count", [](const AssetObject& a) { return a.asset.particleCount(); },
+          "Particles of the groom.")
+      .def_property_readonly(
+          "rigid_strand_count", [](const AssetObject& a) { return a.asset.rigidStrandCount(); },
+          "Strands that are carried rigidly, since they cannot be simulated.")
+      .def_readonly("warnings", &AssetObject::warnings, "What one should know of it: a list of sentences.")
+      .def("__repr__", &assetRepr, "What it is, in a line.");
+}
+
+}  // namespace ringlet::python

@@ -1,0 +1,35 @@
+// Assets as Python holds them: what heads of the same hair share.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "python/devices.h"
+#include "python/grooms.h"
+#include "python/materials.h"
+#include "ringlet/solver/hair_asset.h"
+
+namespace ringlet::python {
+
+struct AssetChoice {
+  bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false, hasFields = false;
+  int heads = 1;
+  std::string kernel = "auto";  // or lanes, memory, serial
+};
+
+struct AssetObject {
+  DeviceHandle device;
+  GroomHandle groom;
+  Material material;  // its dials worked in
+  Settings settings;
+  HairAsset asset;
+  AssetChoice choice{};
+  std::vector<std::string> warnings{};
+};
+using AssetHandle = std::shared_ptr<AssetObject>;
+
+AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
+                       Settings settings, const AssetChoice& choice);
+
+}  // namespace ringlet::python
