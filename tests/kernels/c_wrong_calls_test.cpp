@@ -513,6 +513,21 @@ TEST_F(CWrongCalls, CheckpointsOfOtherHair) {
   ASSERT_EQ(ringlet_hair_set_bodies(c.hairs[0], &sphere, 1), RINGLET_OK);
   EXPECT_EQ(ringlet_restore(c.hairs[0], checkpoint.data(), checkpoint.size()), RINGLET_ERROR)
       << "other bodies";
+  // Other cuts, none where there were some and some where there were none.
+  Built uncut, cut;
+  open(uncut), open(cut);
+  uncut.build(1), cut.build(1);
+  const ringlet_cut half{0, 5};
+  ASSERT_EQ(ringlet_hair_cut(cut.hairs[0], &half, 1), RINGLET_OK) << ringlet_error_message();
+  const std::vector<std::byte> ofCut = checkpointOf(cut.hairs[0]);
+  for (const auto& [hair, bytes] : {std::pair{cut.hairs[0], &checkpoint}, {uncut.hairs[0], &ofCut}}) {
+    EXPECT_EQ(ringlet_restore(hair, bytes->data(), bytes->size()), RINGLET_ERROR);
+    EXPECT_NE(std::string(ringlet_error_message()).find("cut otherwise"), std::string::npos)
+        << ringlet_error_message();
+  }
+  ASSERT_EQ(ringlet_hair_cut(uncut.hairs[0], &half, 1), RINGLET_OK) << ringlet_error_message();
+  EXPECT_EQ(ringlet_restore(uncut.hairs[0], ofCut.data(), ofCut.size()), RINGLET_OK)
+      << ringlet_error_message();
 }
 
 }  // namespace

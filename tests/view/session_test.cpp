@@ -185,6 +185,21 @@ TEST_F(SessionTest, BBeginsWhereAIs) {
   EXPECT_EQ(session.hairs().size(), 1u);
 }
 
+// With the same numbers B goes as A does, on a head that is fast.
+TEST_F(SessionTest, BOfTheSameNumbersHasTheBitsOfA) {
+  const Scene scene = sceneOf("shake", "[simulation]\nsteps_per_frame = 6\n");
+  Session session = make(scene);
+  (void)run(session, 3);
+  Edits edits = editsOf(scene.file);
+  edits.compares = true;
+  ASSERT_TRUE(session.setEdits(edits));
+  ASSERT_EQ(session.hairs().size(), 2u);
+  for (int frame = 0; frame < 3; ++frame) {
+    const auto a = run(session, 1);
+    EXPECT_EQ(*session.hairs()[1].simulation().positions(), a) << frame;
+  }
+}
+
 TEST_F(SessionTest, TheMouseTakesTheHeadAndBodiesAlong) {
   const Scene scene = sceneOf("still");
   Session session = make(scene);
