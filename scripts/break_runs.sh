@@ -93,6 +93,7 @@ break_job() { # JOB KILLS
     if kill -s "$signal" "$(one_of $pid)" 2> /dev/null; then k=$((k + 1)); fi
     status=0
     wait $pid 2> /dev/null || status=$?
+    while pgrep -f -- "^$ringlet " > /dev/null; do sleep 0.1; done # ranks outlive an mpirun that is killed, and keep the folder
     case $status in
       0) check "$1" "a run to its end" && ended=$((ended + 1)) ;;
       13[07] | 12[89] | 143 | 255 | 12) ;; # of a signal; mpirun of a rank that was killed
