@@ -59,7 +59,7 @@ program_runs() {
   "$ringlet" measure head.obj gpu > measure.txt
 }
 killed_run() {
-  "$ringlet" simulate scene.toml --frames 400 --checkpoint 2 --resume --overwrite --quiet -o killed & local pid=$!
+  "$ringlet" simulate scene.toml --frames 4000 --checkpoint 2 --resume --overwrite --quiet -o killed & local pid=$!
   sleep 20
   kill -TERM $pid
   wait $pid || [ $? = 130 ]
