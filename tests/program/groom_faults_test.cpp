@@ -381,12 +381,29 @@ TEST_F(GroomFaults, WhatAFileCannotHoldIsSaidWhenItIsWritten) {
   }
 }
 
+// Nothing is said of a file that is not there in the end.
 TEST_F(GroomFaults, WhatIsNotWrittenLosesNothing) {
   write("groom.obj", hairOfAHead(4));
-  const ProgramResult refused = runProgram(folder_, {"convert", "groom.obj", "--unit", "1", "out.usda"});
-  EXPECT_NE(refused.exitCode, 0);
-  EXPECT_TRUE(contains(refused.err, "cannot write a groom")) << refused.err;
-  EXPECT_FALSE(contains(refused.err, "does not hold")) << refused.err;
+  ASSERT_EQ(
+      runProgram(folder_, {"simulate", "groom.obj", "--unit", "0.0254", "--up", "Z", "--backend", "reference",
+                           "--frames", "1", "--cache", "float32", "--no-sheet", "-o", "out"})
+          .exitCode,
+      0);
+  for (const char* taken : {"taken.obj", "taken.ply", "taken.hair"})
+    std::filesystem::create_directories(folder_ / taken / "by a folder");
+  std::ofstream(folder_ / "file") << "no folder";
+  for (const std::string name : {"taken.obj", "taken.ply", "taken.hair", "file/out.obj", "out.usda"}) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"convert", "groom.obj", "--unit", "0.0254", "--up", "Z", name},
+          {"info", "groom.obj", "--unit", "0.0254", "--up", "Z", "--fix", name},
+          {"convert", "out/hair.rgc", "--frame", "1", name}}) {
+      // Of an animation the one is written, and the other is a folder for frames.
+      if (command[1] == "out/hair.rgc" && (name == "out.usda" || name == "taken.hair")) continue;
+      const ProgramResult refused = runProgram(folder_, command);
+      EXPECT_NE(refused.exitCode, 0) << command[0] << " " << name;
+      EXPECT_FALSE(contains(refused.err, "does not hold")) << command[0] << " " << refused.err;
+    }
+  }
 }
 
 TEST_F(GroomFaults, FramesOfAnAnimationLoseItsUnitToo) {

@@ -112,6 +112,36 @@ TEST_F(Folders, NoFileIsReplacedUnasked) {
   EXPECT_EQ(files()["notes.txt"], kSecret);
 }
 
+// However it is named: as the groom, as what a scene names, through a link, through a folder on the way.
+TEST_F(Folders, ARunReplacesNothingThatItReads) {
+  ASSERT_EQ(simulate({}).exitCode, 0);
+  const auto before = files();
+  fs::create_directory(folder_ / "in");
+  fs::create_hard_link(folder_ / "out/last.obj", folder_ / "in/hard.obj");
+  fs::create_symlink("../out/last.obj", folder_ / "in/soft.obj");
+  const auto scene = [&](const char* name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return std::string(name);
+  };
+  const std::string groom = "[groom]\nfile = \"groom.obj\"\n";
+  for (const std::string& input :
+       {std::string("out/last.obj"), (folder_ / "out/last.obj").string(), std::string("in/../out/last.obj"),
+        std::string("in/hard.obj"), std::string("in/soft.obj"), std::string("out/hair.usda"),
+        std::string("out/hair.usdc"), scene("groom.toml", "[groom]\nfile = \"out/last.obj\"\n"),
+        scene("body.toml", groom + "[[body]]\nname = \"b\"\nshape = \"mesh\"\nfile = \"out/last.obj\"\n"),
+        scene("goal.toml", groom + "[goal]\nfile = \"out/hair.rgc\"\n"),
+        scene("hairs.toml", groom + "[output]\nhairs = 9\nhair_scalp_file = \"out/last.obj\"\n")}) {
+    std::vector<std::string> all{"simulate", input,     "--backend", "reference",  "--frames",
+                                 "2",        "--quiet", "-o",        "out",        "--cache",
+                                 "float32",  "--also",  "hair.usdc", "--overwrite"};
+    const auto refused = runProgram(folder_, all);
+    EXPECT_EQ(refused.exitCode, 5) << input;
+    EXPECT_NE(refused.err.find("is read by this run and would be overwritten"), std::string::npos)
+        << input << ": " << refused.err;
+    EXPECT_TRUE(files() == before) << input;
+  }
+}
+
 TEST_F(Folders, NothingIsWrittenThroughALink) {
   std::vector<std::string> names = animations();
   for (std::string& name : names) name += ".partial";
