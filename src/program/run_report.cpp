@@ -70,13 +70,6 @@ std::string contactText(const SimulateOutcome& outcome, const ContactSettings& s
 
 }  // namespace
 
-std::vector<std::string> integratorNames() { return {"jacobi", "point_jacobi", "paper"}; }
-
-Integrator integratorByName(const std::string& name) {
-  if (name == "paper") return Integrator::paper;
-  return name == "point_jacobi" ? Integrator::pointJacobi : Integrator::jacobi;
-}
-
 nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
                                const SimulateOutcome& outcome) {
   nlohmann::ordered_json json;

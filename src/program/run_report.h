@@ -16,11 +16,6 @@ struct RunNames {
   std::string integrator = "jacobi", backend = "gpu", material = "default";
 };
 
-/// jacobi, point_jacobi, paper.
-std::vector<std::string> integratorNames();
-/// One of integratorNames().
-Integrator integratorByName(const std::string& name);
-
 /// What the keys about contacts mean, for --help.
 inline constexpr const char* kContactKeysHelp =
     "Keys about contacts, null without them: volume_strands (that meet as a volume) contact_particles (by "

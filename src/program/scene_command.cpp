@@ -338,7 +338,7 @@ void resolve(Typed& typed) {
   if (typed.name.empty()) throw CLI::RequiredError("NAME (or --list)");
   typed.scene.core = typed.core == "on";
   typed.scene.smoothedFrames = typed.framesOn == "smoothed";
-  typed.scene.integrator = integratorByName(typed.names.integrator);
+  typed.scene.integrator = integratorNamed(typed.names.integrator);
   if (typed.scene.integrator == Integrator::paper) checkPaper(typed);
   checkDialOptions(typed.dials, typed.scene.integrator);
   typed.scene.dials = turned(typed.dials, {});
@@ -425,7 +425,7 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
   const char* solver = "Solver";
   command
       ->add_option("--integrator", typed->names.integrator, "jacobi, point_jacobi or paper (default jacobi)")
-      ->check(oneOf(integratorNames()))
+      ->check(oneOf({std::begin(kIntegratorNames), std::end(kIntegratorNames)}))
       ->type_name("NAME")
       ->group(solver);
   command

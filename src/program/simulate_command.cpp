@@ -214,7 +214,7 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
                                "only --integrator point_jacobi has iterations");
   }
   checkOutputs(scene.output);
-  checkDialOptions(typed.material.dials, integratorByName(scene.simulation.integrator));
+  checkDialOptions(typed.material.dials, integratorNamed(scene.simulation.integrator));
   checkContactOptions(typed.contacts);
   if (!scene.contacts.on && !typed.measuresContacts)
     refuseContactOptions(typed.contacts, "only with --contacts on or --measure-contacts");
@@ -464,7 +464,7 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   // How it is stepped.
   const char* solver = "Solver";
   command->add_option("--integrator", typed->integrator, "jacobi, point_jacobi or paper (default jacobi)")
-      ->check(oneOf(integratorNames()))
+      ->check(oneOf({std::begin(kIntegratorNames), std::end(kIntegratorNames)}))
       ->type_name("NAME")
       ->group(solver);
   command

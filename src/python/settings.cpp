@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::string_view kContacts = "contacts.", kAir = "air.", kGoal = "goal.",
                            kIntegrator = "integrator";
-constexpr const char* kIntegrators[] = {"jacobi", "point_jacobi", "paper"};
 
 template <class Owner>
 constexpr std::string_view kTable = "";
@@ -147,7 +146,7 @@ bool setField(Owner& owner, std::string_view key, const std::string& name, const
 }
 
 std::optional<py::object> getKey(const Settings& self, std::string_view key) {
-  if (key == kIntegrator) return py::str(kIntegrators[static_cast<int>(self.integrator)]);
+  if (key == kIntegrator) return py::str(kIntegratorNames[static_cast<int>(self.integrator)]);
   if (key.starts_with(kContacts)) return getField(self.contacts, key.substr(kContacts.size()));
   if (key.starts_with(kAir)) return getField(self.air, key.substr(kAir.size()));
   if (key.starts_with(kGoal)) return getField(self.goal, key.substr(kGoal.size()));
@@ -156,7 +155,7 @@ std::optional<py::object> getKey(const Settings& self, std::string_view key) {
 bool setKey(Settings& self, const std::string& key, const py::object& value) {
   const std::string_view name = key;
   if (name == kIntegrator) {
-    const std::vector<std::string> words(std::begin(kIntegrators), std::end(kIntegrators));
+    const std::vector<std::string> words(std::begin(kIntegratorNames), std::end(kIntegratorNames));
     self.integrator = static_cast<Integrator>(wordIn(value, words, key));
     return true;
   }
@@ -207,8 +206,9 @@ py::list listFields() {
   integrator["key"] = kIntegrator, integrator["unit"] = "", integrator["live"] = false;
   integrator["type"] = "str";
   integrator["effect"] = "How a step finds the new velocities.";
-  integrator["default"] = kIntegrators[0], integrator["low"] = py::none(), integrator["high"] = py::none();
-  integrator["choices"] = std::vector<std::string>(std::begin(kIntegrators), std::end(kIntegrators));
+  integrator["default"] = kIntegratorNames[0], integrator["low"] = py::none(),
+  integrator["high"] = py::none();
+  integrator["choices"] = std::vector<std::string>(std::begin(kIntegratorNames), std::end(kIntegratorNames));
   integrator["only_with"] = std::vector<std::string>{}, integrator["standard"] = "";
   list.append(integrator);
   for (const auto& field : settingsFields()) list.append(describeField(field));
@@ -343,7 +343,8 @@ void addSettingsClass(py::module_& module) {
            "air={\"on\": True}). TypeError for a name that there is not, ValueError for a number out of its "
            "range.")
       .def_property(
-          "integrator", [](const Settings& self) { return kIntegrators[static_cast<int>(self.integrator)]; },
+          "integrator",
+          [](const Settings& self) { return kIntegratorNames[static_cast<int>(self.integrator)]; },
           [](Settings& self, const py::object& word) { setKey(self, std::string(kIntegrator), word); },
           "How a step finds the new velocities: \"jacobi\", \"point_jacobi\" or \"paper\".")
       .def_property(

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::string_view kContacts = "contacts.", kAir = "air.", kGoal = "goal.", kVariation = "variation.",
                            kIntegrator = "integrator";
-constexpr const char* kIntegrators[] = {"jacobi", "point_jacobi", "paper"};
 
 Outcome unknown(std::string_view what, std::string_view name, const std::vector<std::string>& names) {
   const std::size_t nearest = nearestName(name, names);
@@ -105,9 +104,9 @@ Outcome setWord(Settings& settings, std::string_view name, std::string_view word
     return static_cast<int>(std::ranges::find(names, word) - std::ranges::begin(names));
   };
   if (name == kIntegrator) {
-    const auto index = static_cast<std::size_t>(indexIn(kIntegrators));
-    if (index == std::size(kIntegrators))
-      return unknown("integrator", word, {std::begin(kIntegrators), std::end(kIntegrators)});
+    const auto index = static_cast<std::size_t>(indexIn(kIntegratorNames));
+    if (index == std::size(kIntegratorNames))
+      return unknown("integrator", word, {std::begin(kIntegratorNames), std::end(kIntegratorNames)});
     settings.integrator = static_cast<Integrator>(index);
     return {};
   }

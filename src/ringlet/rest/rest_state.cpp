@@ -454,7 +454,7 @@ Status checkSettings(const Settings& s, const Material& material) {
   if (s.contacts.on && s.integrator != Integrator::jacobi) {
     return Error{fmt::format(
         "contacts are on with the integrator {}; contacts need jacobi: choose it, or turn contacts off",
-        s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
+        nameOf(s.integrator))};
   }
   if (s.contacts.on && s.contacts.method == ContactMethod::volume && s.contacts.taper == ContactTaper::time) {
     return Error{
@@ -464,12 +464,12 @@ Status checkSettings(const Settings& s, const Material& material) {
   if (s.air.on && s.integrator != Integrator::jacobi) {
     return Error{
         fmt::format("the air is on with the integrator {}; air needs jacobi: choose it, or turn the air off",
-                    s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
+                    nameOf(s.integrator))};
   }
   if (s.goal.on && s.integrator != Integrator::jacobi) {
     return Error{fmt::format(
         "the goal is on with the integrator {}; a goal needs jacobi: choose it, or turn the goal off",
-        s.integrator == Integrator::paper ? "paper" : "point_jacobi")};
+        nameOf(s.integrator))};
   }
   return checkMaterial(material);
 }

@@ -2,6 +2,10 @@
 // rest/material.h.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
 #include "ringlet/base/vec3.h"
 #include "ringlet/scene/air.h"
 #include "ringlet/scene/contact_settings.h"
@@ -17,6 +21,15 @@ enum class Integrator {
 };
 
 /// The kernels' limits.
+inline constexpr const char* kIntegratorNames[] = {"jacobi", "point_jacobi", "paper"};
+constexpr const char* nameOf(Integrator integrator) { return kIntegratorNames[static_cast<int>(integrator)]; }
+/// Of one of these names; of another jacobi.
+inline Integrator integratorNamed(std::string_view name) {
+  const auto* at = std::ranges::find(kIntegratorNames, name);
+  return at == std::end(kIntegratorNames) ? Integrator::jacobi
+                                          : static_cast<Integrator>(at - std::begin(kIntegratorNames));
+}
+
 inline constexpr int kMostStepsPerFrame = 340, kMostRoots = 3;
 
 struct Settings {

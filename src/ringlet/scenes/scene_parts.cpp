@@ -19,11 +19,6 @@ namespace {
 
 constexpr double kUsualUnit = Groom{}.metresPerUnit;
 
-Integrator integratorOf(const std::string& name) {
-  if (name == "paper") return Integrator::paper;
-  return name == "point_jacobi" ? Integrator::pointJacobi : Integrator::jacobi;
-}
-
 Keyframes keyframesOf(const SceneMotion& motion) {
   Keyframes keys;
   keys.restsAtEnds = true;
@@ -155,7 +150,7 @@ Settings settingsOf(const SceneFile& scene) {
   Settings settings;
   settings.framesPerSecond = simulation.framesPerSecond;
   settings.stepsPerFrame = simulation.stepsPerFrame.value_or(1);
-  settings.integrator = integratorOf(simulation.integrator);
+  settings.integrator = integratorNamed(simulation.integrator);
   settings.gravity = upOf(scene.groom) * -simulation.gravity;
   // The paper's own scheme knows no preload.
   settings.gravityPreload = simulation.preload.value_or(settings.integrator == Integrator::paper ? 0 : 1);
@@ -229,9 +224,7 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
   simulation.stepsPerFrame = settings.stepsPerFrame;
   simulation.gravity = -settings.gravity.y;
   simulation.preload = settings.gravityPreload;
-  simulation.integrator = settings.integrator == Integrator::paper         ? "paper"
-                          : settings.integrator == Integrator::pointJacobi ? "point_jacobi"
-                                                                           : "jacobi";
+  simulation.integrator = nameOf(settings.integrator);
   simulation.roots = settings.rootCount;
   simulation.teleportDistance = settings.teleportDistance;
   simulation.sleepSpeed = settings.sleepSpeed;
