@@ -54,7 +54,10 @@ class [[nodiscard]] Result {
   T* operator->() { return &**this; }
   const T* operator->() const { return &**this; }
 
-  const Error& error() const { return error_; }
+  const Error& error() const {
+    RINGLET_ASSERT(!value_, "a Result without an error was asked for it");
+    return error_;
+  }
 
  private:
   std::optional<T> value_;
@@ -69,7 +72,10 @@ class [[nodiscard]] Result<void> {
   Result(Error error) : error_(std::move(error)) {}
 
   explicit operator bool() const { return !error_; }
-  const Error& error() const { return *error_; }
+  const Error& error() const {
+    RINGLET_ASSERT(error_, "a Status without an error was asked for it");
+    return *error_;
+  }
 
  private:
   std::optional<Error> error_;
