@@ -65,7 +65,7 @@ Path tipPath(reference::Simulation<double> simulation, const BuiltinScene& scene
   };
   const std::vector<HeadPose> still(static_cast<std::size_t>(scene.settings.stepsPerFrame));
   Path path{tip()};
-  for (int frame = 0; frame < scene.frameCount(); ++frame) {
+  for (int frame = 0; frame < scene.frameCount; ++frame) {
     simulation.stepFrame(still);
     path.push_back(tip());
   }
@@ -78,7 +78,7 @@ Result<Path> devicePath(const ComputeDevice& device, const BuiltinScene& scene) 
   auto simulation = Simulation::create(device, scene.groom, scene.material, scene.settings);
   if (!simulation) return simulation.error();
   Path path;
-  for (int frame = 0; frame <= scene.frameCount(); ++frame) {
+  for (int frame = 0; frame <= scene.frameCount; ++frame) {
     if (frame > 0) {
       if (Status stepped = simulation->stepFrame(HeadPose{}); !stepped) return stepped.error();
     }

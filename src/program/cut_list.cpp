@@ -25,10 +25,10 @@ std::filesystem::path listOf(std::filesystem::path animation) {
 
 }  // namespace
 
-CutList::CutList(std::span<const TimedCuts> cuts, double framesPerSecond, int frameCount) {
-  for (int frame = 0; frame < frameCount; ++frame) {
-    for (const TimedCuts& now : cutsOfFrame(cuts, frame, framesPerSecond, frame == 0))
-      for (const StrandCut& cut : now.cuts) cuts_.push_back({frame + 1, cut});
+CutList::CutList(const SceneFrames& frames, int frameCount) {
+  for (int frame = frames.first(); frame < frameCount; ++frame) {
+    for (const TimedCuts& now : frames.cutsAt(frame))
+      for (const StrandCut& cut : now.cuts) cuts_.push_back({std::max(frame, 0) + 1, cut});
   }
 }
 

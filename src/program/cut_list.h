@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/scenes/scene_cuts.h"
+#include "ringlet/scenes/scene_frames.h"
 
 namespace ringlet::program {
 
@@ -22,8 +22,8 @@ struct FrameCut {
 class CutList {
  public:
   CutList() = default;
-  /// Of a run of so many frames.
-  CutList(std::span<const TimedCuts> cuts, double framesPerSecond, int frameCount);
+  /// Of a run of so many frames; what its pre-roll cuts is cut from the first on.
+  CutList(const SceneFrames& frames, int frameCount);
   explicit CutList(std::vector<FrameCut> cuts) : cuts_(std::move(cuts)) {}
 
   /// What stands beside the animation; none where there is no such file. Errors: a file that is none.

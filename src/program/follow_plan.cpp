@@ -56,14 +56,7 @@ Status FollowPlan::plant(const FollowOptions& options, const HairGround& ground)
 }
 
 std::vector<Vec3d> FollowPlan::rootsAt(double t, const HeadPose& head) const {
-  std::vector<Vec3d> roots;
-  if (!scalp_) return roots;
-  roots.reserve(roots_.size());
-  const std::vector<BodyPose> poses = scalp_->rootPosesAt(t);
-  for (std::size_t h = 0; h < roots_.size(); ++h)
-    roots.push_back(head.position +
-                    rotate(head.rotation, poses[h].position + rotate(poses[h].rotation, roots_[h])));
-  return roots;
+  return scalp_ ? scalp_->placesAt(t, head, roots_) : std::vector<Vec3d>();
 }
 
 Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, const FollowOptions& options,

@@ -21,7 +21,7 @@ namespace ringlet::program {
 
 struct ComputedFrame {
   int number = 0;                // 1 for the first
-  std::vector<Vec3f> positions;  // as a Backend gives them
+  std::vector<Vec3f> positions;  // as a SceneHair gives them
   HeadPose head;
   std::vector<BodyPose> bodies;  // at its end
 };

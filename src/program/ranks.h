@@ -1,5 +1,5 @@
 // Ranks: this process, and those that mpirun or srun started beside it for one run of hair. Rank 0 runs the
-// program; each other one has a part of the hair and does what rank 0 says (remote_backend.h). Built without
+// program; each other one has a part of the hair and does what rank 0 says (rank_hair.h). Built without
 // MPI, or started alone, a process is rank 0 of one.
 #pragma once
 

@@ -76,7 +76,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   json["frames"] = outcome.frameCount;
   json["strands"] = outcome.strandCount;
   json["particles"] = outcome.particleCount;
-  json["rigid_strands"] = outcome.rigidStrandCount;
+  json["rigid_strands"] = outcome.hair.rigidStrandCount;
   json["ms_per_frame"] = outcome.millisecondsPerFrame;
   const auto& times = outcome.frameTimes;
   json["frame_ms"] = times ? nlohmann::ordered_json{{"first", times->first},
@@ -106,15 +106,15 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
                                        : nlohmann::ordered_json();
   json["inside_bodies"] =
       outcome.bodyNumbers ? nlohmann::ordered_json(outcome.bodyNumbers->inside) : nlohmann::ordered_json();
-  json["device"] = outcome.device;
-  json["driver"] = outcome.driver;
-  json["kernel"] = outcome.kernel;
-  json["tuned"] = outcome.isTuned;
+  json["device"] = outcome.hair.device;
+  json["driver"] = outcome.hair.driver;
+  json["kernel"] = outcome.hair.kernel;
+  json["tuned"] = outcome.hair.isTuned;
   json["device_bytes"] =
-      outcome.deviceBytes ? nlohmann::ordered_json(*outcome.deviceBytes) : nlohmann::ordered_json();
+      outcome.hair.deviceBytes ? nlohmann::ordered_json(*outcome.hair.deviceBytes) : nlohmann::ordered_json();
   json["cache_error_bound_m"] =
       outcome.cacheErrorBound ? nlohmann::ordered_json(*outcome.cacheErrorBound) : nlohmann::ordered_json();
-  json["compile_ms"] = outcome.compileMilliseconds;
+  json["compile_ms"] = outcome.hair.compileMilliseconds;
   json["backend"] = names.backend;
   json["positions_hash"] = outcome.positionsHash;
   json["integrator"] = names.integrator;
@@ -136,8 +136,8 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
                                  outcome.strandCount == 1 ? "" : "s", outcome.particleCount,
                                  outcome.interrupted ? " (interrupted)" : "");
   text += fmt::format("  stepped by    {}, {} step{} a frame, on {} ({}{})\n", names.integrator,
-                      settings.stepsPerFrame, settings.stepsPerFrame == 1 ? "" : "s", outcome.device,
-                      outcome.kernel, outcome.isTuned ? ", tuned" : "");
+                      settings.stepsPerFrame, settings.stepsPerFrame == 1 ? "" : "s", outcome.hair.device,
+                      outcome.hair.kernel, outcome.hair.isTuned ? ", tuned" : "");
   text +=
       fmt::format("  a frame took  {:.2f} ms to step, {:.2f} ms to read back, {:.2f} ms to write\n",
                   outcome.millisecondsPerFrame, outcome.stages.at("readback"), outcome.stages.at("write"));

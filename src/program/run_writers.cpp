@@ -27,29 +27,29 @@ std::vector<SheetPlace> placesOf(std::span<const BodyPose> bodies) {
 
 }  // namespace
 
-Writers::Writers(const RunInput& input, const RunOptions& options, std::optional<FullHair> hairs,
+Writers::Writers(const LoadedScene& scene, const RunOptions& options, std::optional<FullHair> hairs,
                  int frameCount)
-    : input_(input),
+    : scene_(scene),
       options_(options),
-      cuts_(input.cuts, input.settings.framesPerSecond, options.frameCount),
+      frames_(scene),
+      cuts_(frames_, scene.frameCount),
       hairs_(std::move(hairs)),
       frameCount_(frameCount) {
-  if (options.writesSheet)
-    sheet_.emplace(input.groom, options.frameCount, options.up, solidsOf(input.bodies));
+  if (options.writesSheet) sheet_.emplace(scene.groom, scene.frameCount, options.up, solidsOf(scene.bodies));
 }
 
 Status Writers::open() {
-  const double metresPerUnit = input_.groom.metresPerUnit;
-  const AnimationOptions animation{.framesPerSecond = input_.settings.framesPerSecond,
+  const double metresPerUnit = scene_.groom.metresPerUnit;
+  const AnimationOptions animation{.framesPerSecond = scene_.settings.framesPerSecond,
                                    .metresPerUnit = metresPerUnit,
                                    .up = options_.up,
                                    .diameter = static_cast<float>(options_.width / metresPerUnit),
-                                   .frameCount = options_.frameCount,
+                                   .frameCount = scene_.frameCount,
                                    .precision = options_.cache.value_or(CachePrecision::float32),
                                    .usd = usdExtras()};
   for (const std::string& name : animationsOf(options_)) {
     const std::filesystem::path path = options_.folder / name;
-    auto writer = animationFormatOf(path)->resume(path, hairs_ ? hairs_->groom() : input_.groom, animation,
+    auto writer = animationFormatOf(path)->resume(path, hairs_ ? hairs_->groom() : scene_.groom, animation,
                                                   frameCount_);
     if (!writer) return writer.error();
     animations_.push_back(std::move(*writer));
@@ -69,14 +69,14 @@ UsdExtras Writers::usdExtras() const {
                    .origin = options_.origin,
                    .originValues = has("groom"),
                    .originPrims = options_.usesGroomPrims};
-  extras.widthFactors.assign(input_.widthFactors.begin(), input_.widthFactors.end());
+  extras.widthFactors.assign(scene_.widthFactors.begin(), scene_.widthFactors.end());
   if (hairs_ && !extras.widthFactors.empty()) {
     extras.widthFactors.clear();
     for (const std::uint32_t strand : hairs_->strandOf())
-      extras.widthFactors.push_back(input_.widthFactors[strand]);
+      extras.widthFactors.push_back(scene_.widthFactors[strand]);
   }
   if (options_.tipWidth)
-    extras.tipDiameter = static_cast<float>(*options_.tipWidth / input_.groom.metresPerUnit);
+    extras.tipDiameter = static_cast<float>(*options_.tipWidth / scene_.groom.metresPerUnit);
   return extras;
 }
 
@@ -85,12 +85,12 @@ Status Writers::addFrame(int frame, std::vector<Vec3f> points, const HeadPose& h
   if (!isOpen_) {
     if (Status opened = open(); !opened) return opened;
   }
-  if (sheet_) sheet_->offer(frame, points, placesOf(bodies), cuts_.cutBeyond(frame, input_.groom.firstPoint));
+  if (sheet_) sheet_->offer(frame, points, placesOf(bodies), cuts_.cutBeyond(frame, scene_.groom.firstPoint));
   lastPoints_ = std::move(points);
-  const UsdTransform place = rigidTransform(head.rotation, head.position / input_.groom.metresPerUnit);
+  const UsdTransform place = rigidTransform(head.rotation, head.position / scene_.groom.metresPerUnit);
   if (hairs_ && !animations_.empty()) {
-    const double seconds = frame / input_.settings.framesPerSecond;
-    hairs_->follow(lastPoints_, bodies, hairs_->rootsAt(seconds, input_.motion.poseAt(seconds)));
+    const double seconds = frames_.secondsAt(frame);
+    hairs_->follow(lastPoints_, bodies, hairs_->rootsAt(seconds, scene_.motion.poseAt(seconds)));
   }
   const std::vector<Vec3f>& shown = hairs_ ? hairs_->groom().points : lastPoints_;
   for (const auto& animation : animations_) {
@@ -118,7 +118,7 @@ Result<std::vector<std::filesystem::path>> Writers::finish() {
     if (Status done = animation->finish(); !done) return done.error();
   }
   if (options_.writesLast) {
-    if (Status done = writeObj(options_.folder / "last.obj", input_.groom, lastPoints_); !done)
+    if (Status done = writeObj(options_.folder / "last.obj", scene_.groom, lastPoints_); !done)
       return done.error();
   }
   if (sheet_) {

@@ -23,10 +23,10 @@ namespace ringlet::program {
 /// The files of a run, made when there is a frame to write: until then nothing in the folder is touched.
 class Writers {
  public:
-  /// The input must live as long. `hairs`: what animations have in place of the strands. `frameCount`: frames
+  /// The scene must live as long. `hairs`: what animations have in place of the strands. `frameCount`: frames
   /// that a run before left and this one goes on with; they are in the files, and archive() brings back what
   /// is not.
-  Writers(const RunInput& input, const RunOptions& options, std::optional<FullHair> hairs, int frameCount);
+  Writers(const LoadedScene& scene, const RunOptions& options, std::optional<FullHair> hairs, int frameCount);
 
   /// Frames in order, 1 is the first; points in the groom's unit and order, finite; where head and bodies
   /// are.
@@ -47,8 +47,9 @@ class Writers {
   Status open();
   UsdExtras usdExtras() const;
 
-  const RunInput& input_;
+  const LoadedScene& scene_;
   const RunOptions& options_;
+  SceneFrames frames_;
   CutList cuts_;  // of strands
   std::optional<FullHair> hairs_;
   int frameCount_;

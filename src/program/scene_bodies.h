@@ -5,20 +5,19 @@
 
 #include "ringlet/scene/body.h"
 #include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_frames.h"
 
 namespace ringlet::program {
 
 /// At the end of a frame, from 1, or a share of one before; one pose a body, in the world.
 inline std::vector<BodyPose> bodiesAtFrame(const LoadedScene& scene, double frame) {
-  const double seconds = frame / scene.settings.framesPerSecond;
-  const HeadPose head = scene.motion.poseAt(seconds);
-  return bodyPosesOf(scene.bodies, std::span(&head, 1), std::span(&seconds, 1));
+  return SceneFrames(scene).bodiesAt(frame);
 }
 
 /// Where roots of hairs (FullHair, PictureHair) are then, in the world; none where no scalp carries them.
 template <class Hair>
 std::vector<Vec3d> hairRootsAtFrame(const LoadedScene& scene, const Hair& hair, double frame) {
-  const double seconds = frame / scene.settings.framesPerSecond;
+  const double seconds = SceneFrames(scene).secondsAt(frame);
   return hair.rootsAt(seconds, scene.motion.poseAt(seconds));
 }
 

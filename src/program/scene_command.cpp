@@ -20,6 +20,8 @@
 #include "program/exit_codes.h"
 #include "program/material_command.h"
 #include "program/measure_report.h"
+#include "program/rank_hair.h"
+#include "program/ranks.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
 #include "program/standard_output.h"
@@ -189,11 +191,11 @@ Status writeGroom(const BuiltinScene& scene, const RunOptions& options, Simulate
 // The largest turn of a strand frame in one outer step: the scene once more, with every step a frame of its
 // own. The steps are the same. Nothing if Ctrl-C ended it.
 Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOptions options) {
-  Settings settings = scene.settings;
-  settings.framesPerSecond *= settings.stepsPerFrame;
-  options.frameCount *= settings.stepsPerFrame;
-  settings.stepsPerFrame = 1;
+  LoadedScene steps = scene;
+  steps.settings = stepByStep(scene.settings);
+  steps.frameCount *= scene.settings.stepsPerFrame;
   options.measuresContacts = false;
+  options.onRanks = false;  // the others have left
   options.folder.clear();
   options.kernel.residual = false;
 
@@ -203,8 +205,7 @@ Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOpt
     turn.look(points, scene.groom.metresPerUnit, head.rotation);
     return {};
   };
-  const auto outcome = runHair(
-      {scene.groom, scene.material, settings, scene.motion, scene.rootShifts, scene.bodies}, options, look);
+  const auto outcome = runHair(steps, options, look);
   if (!outcome) return outcome.error();
   return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
 }
@@ -256,8 +257,9 @@ Result<int> runScene(Typed& typed) {
   if (!typed.file.empty()) return writeScene(typed, *scene);
   RunOptions& options = typed.run;
   options.measuresContacts = scene->showsContacts || scene->settings.contacts.on;
-  options.frameCount = scene->frameCount();
   options.kernel.residual = true;
+  options.onRanks = ranks().count > 1;
+  if (ranks().own > 0) return serveRanks(*scene, options);
   const Settings& settings = scene->settings;
 
   // Measured from the groom itself on.
@@ -270,9 +272,7 @@ Result<int> runScene(Typed& typed) {
   };
   if (Status seen = look(scene->groom.points, scene->motion.poseAt(0)); !seen)
     return inScene(typed, seen.error());
-  auto outcome =
-      runHair({scene->groom, scene->material, settings, scene->motion, scene->rootShifts, scene->bodies},
-              options, look);
+  auto outcome = runHair(*scene, options, look);
   if (!outcome) return inScene(typed, outcome.error());
   outcome->warnings.insert(outcome->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
   if (Status written = writeGroom(*scene, options, *outcome); !written)
@@ -285,7 +285,7 @@ Result<int> runScene(Typed& typed) {
     numbers.frameTurn = *turn;
     outcome->interrupted = !numbers.frameTurn;
   }
-  const int exitCode = tellTroubles("scene", *outcome, options.frameCount);
+  const int exitCode = tellTroubles("scene", *outcome, scene->frameCount);
   if (typed.json) {
     printJson(asJson(typed, *scene, *outcome, numbers));
   } else if (!typed.quiet) {

@@ -24,6 +24,8 @@
 #include "program/groom_options.h"
 #include "program/material_command.h"
 #include "program/output_options.h"
+#include "program/rank_hair.h"
+#include "program/ranks.h"
 #include "program/rendered_sheet.h"
 #include "program/run_facts.h"
 #include "program/run_report.h"
@@ -303,6 +305,8 @@ int run(const Typed& typed) {
     options.facts = std::move(*facts);
   }
 
+  options.onRanks = ranks().count > 1;
+  if (ranks().own > 0) return serveRanks(*loaded, options);
   const auto outcome = runLoadedScene(*loaded, options);
   if (!outcome) return fail(outcome.error());
   if (rendersSheet && outcome->frameCount > 0 && !outcome->canResume) {

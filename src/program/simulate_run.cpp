@@ -19,14 +19,8 @@ RunOptions runOptionsOf(const SceneFile& scene) {
 
 Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions options,
                                        const FrameObserver& observer) {
-  options.frameCount = scene.frameCount;
-  options.preRollSeconds = scene.preRollSeconds;
   if (!options.facts.empty()) addMaterialFacts(scene.material, options.facts);
-  auto outcome =
-      runHair({scene.groom, scene.material, scene.settings, scene.motion, scene.rootShifts, scene.bodies,
-               scene.scalp ? &*scene.scalp : nullptr, &scene.forces, scene.keys ? &*scene.keys : nullptr,
-               scene.widthFactors, &scene.hairs, scene.cuts, scene.geometry.get()},
-              options, observer);
+  auto outcome = runHair(scene, options, observer);
   if (!outcome) return outcome.error();
   outcome->warnings.insert(outcome->warnings.begin(), scene.warnings.begin(), scene.warnings.end());
   outcome->notes = scene.notes;

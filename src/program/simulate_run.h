@@ -12,16 +12,13 @@
 #include "program/hair_look.h"
 #include "program/run_folder.h"
 #include "ringlet/base/result.h"
-#include "ringlet/groom/groom.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
-#include "ringlet/motion/head_scalp.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/cache_format.h"
 #include "ringlet/output/up_axis.h"
-#include "ringlet/scene/body.h"
-#include "ringlet/scene/motion.h"
-#include "ringlet/scene/settings.h"
+#include "ringlet/run/scene_hair.h"
+#include "ringlet/scene/head_pose.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
 #include "ringlet/solver/compute_device.h"
@@ -35,8 +32,6 @@ struct RunOptions {
   std::vector<std::string> animations{".usda"};  // endings of what is written as hair.*, but for the cache
   bool writesLast = true, writesSheet = true;    // last.obj, sheet.png
   std::optional<CachePrecision> cache;           // of hair.rgc; none: it is not written
-  int frameCount = 48;
-  double preRollSeconds = 0;  // before the first frame, not written
   UpAxis up = UpAxis::y;
   double width = 0.0005;                // diameter of strands in what is written [m]
   std::optional<double> tipWidth;       // at the tip, in USD files [m]
@@ -48,6 +43,7 @@ struct RunOptions {
   bool usesGroomPrims = false;          // hair.usdc has changes of the prims of the groom's file
   const LoadedGroom* origin = nullptr;  // that file, where it is looked at for these
   bool onReference = false;             // rather than on the GPU
+  bool onRanks = false;                 // each has a part of the hair (rank_hair.h)
   std::string device;
   std::vector<std::string> devices;     // in its place: on which the strands are divided
   std::optional<ComputeDevice> opened;  // in its place: runs on one device share its compiled kernels
@@ -82,7 +78,6 @@ struct FrameMilliseconds {
 struct SimulateOutcome {
   int frameCount = 0;  // finished
   std::size_t strandCount = 0, particleCount = 0;
-  std::size_t rigidStrandCount = 0;      // of these strands, carried rigidly (rest/rigid_strands.h)
   double millisecondsPerFrame = 0;       // stepping only, by the device's own clock where it has one
   std::map<std::string, double> stages;  // that, in parts; all others by the wall, while others go on
   RunSeconds wall;
@@ -100,11 +95,8 @@ struct SimulateOutcome {
                                            // where contacts are measured, else of the last
   std::optional<ContactNumbers> contactNumbers;  // where they are measured
   std::optional<BodyNumbers> bodyNumbers;        // where there are bodies; of every frame
-  std::string device, driver, kernel;
-  bool isTuned = false;                      // shapes were chosen by what `ringlet tune` measured
-  std::optional<std::uint64_t> deviceBytes;  // of the simulation's buffers at the end, on a device
-  double compileMilliseconds = 0;            // of the kernels, once
-  std::string positionsHash;                 // of the last frame
+  HairFacts hair;                                // at the end
+  std::string positionsHash;                     // of the last frame
   bool interrupted = false;
   bool canResume = false;  // it was interrupted, and a checkpoint is there
   int resumedFrom = 0;     // frames that a run before had done
@@ -113,37 +105,22 @@ struct SimulateOutcome {
   std::optional<double> cacheErrorBound;  // how far a point of the cache may be from its particle [m]
 };
 
-/// What moves.
-struct RunInput {
-  const Groom& groom;
-  const Material& material;
-  const Settings& settings;
-  const Motion& motion;
-  std::span<const Vec3d>
-      rootShifts{};  // of each strand's root beside the head (HeadPose::shift) [m], or none
-  std::span<const Body> bodies{};
-  const HeadScalp* scalp = nullptr;       // that roots follow; none: the head carries them
-  const SceneForces* forces = nullptr;    // fields and holds; none: there are none
-  const SceneKeys* keys = nullptr;        // of settings and material, which are then those of the start
-  std::span<const float> widthFactors{};  // of each strand, in USD files; none: all are as wide
-  const SceneHairs* hairs = nullptr;      // of hairs that follow; none: nothing is said of them
-  std::span<const TimedCuts> cuts{};      // by rising time
-  const std::vector<StrandGeometry>* geometry = nullptr;  // of the groom, where it is known
-};
-
 /// Sees every frame, in order, on a thread of its own, the last before runHair returns: points in the groom's
 /// unit, in its order, finite; and where the head is. RunOptions::observesLast: it may miss all but the last.
 using FrameObserver = std::function<Status(std::span<const Vec3f> points, const HeadPose& head)>;
 
-/// Fails with one sentence; frames finished before a failure are kept. Ctrl-C ends it early, but well: with
-/// what is finished, or, where it has checkpoints, with one.
-Result<SimulateOutcome> runHair(const RunInput& input, const RunOptions& options,
+/// Of the scene, which must live as long. Fails with one sentence; frames finished before a failure are kept.
+/// Ctrl-C ends it early, but well: with what is finished, or, where it has checkpoints, with one.
+Result<SimulateOutcome> runHair(const LoadedScene& scene, const RunOptions& options,
                                 const FrameObserver& observer = {});
+
+/// Whether the velocity solve's residual is asked for, and there is one.
+bool measuresResidual(const LoadedScene& scene, const RunOptions& options);
 
 /// What a scene says of its run and its files; all else is the default.
 RunOptions runOptionsOf(const SceneFile& scene);
 
-/// A run of a scene that is read, as long as the scene is. Its warnings come before the run's own.
+/// The same of a scene that a file says: its material is a fact, its warnings come before the run's own.
 Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions options,
                                        const FrameObserver& observer = {});
 

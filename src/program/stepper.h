@@ -9,12 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "program/backend.h"
-#include "program/frame_poses.h"
 #include "program/simulate_run.h"
 #include "program/stopwatch.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/measure/contact_watch.h"
+#include "ringlet/run/scene_hair.h"
 
 namespace ringlet::program {
 
@@ -22,21 +21,19 @@ namespace ringlet::program {
 /// each.
 class Stepper {
  public:
-  static Result<Stepper> make(Backend& backend, const RunInput& input, const RunOptions& options) {
-    Stepper stepper(backend, input);
-    if (!options.measuresContacts) return stepper;
-    auto watch = ContactWatch::make(input.groom, input.material, input.settings);
+  static Result<Stepper> make(SceneHair& hair, const LoadedScene& scene, bool measuresContacts) {
+    Stepper stepper(hair, scene);
+    if (!measuresContacts) return stepper;
+    auto watch = ContactWatch::make(scene.groom, scene.material, scene.settings);
     if (!watch) return watch.error();
     stepper.watch_.emplace(std::move(*watch));
     if (Status seen = stepper.look(); !seen) return seen.error();
     return stepper;
   }
 
-  /// As Backend::submitFrame and waitFrame.
-  Status submitFrame(const FramePoses& poses) {
-    return watch_ ? lookAtSteps(poses) : poses.submit(*backend_);
-  }
-  Status waitFrame() {
+  /// As SceneHair's.
+  Status submit(const SceneFrame& frame) { return watch_ ? lookAtSteps(frame) : hair_->submit(frame); }
+  Status wait() {
     if (!watch_) {
       const Status waited = timedWait();
       if (waited) noteTime();
@@ -51,58 +48,57 @@ class Stepper {
     if (watch_) return std::move(waited_);
     room.resize(pointCount_);
     Stopwatch stopwatch(copying_);
-    backend_->framePositions(room);
+    hair_->framePositions(room);
     return room;
   }
 
-  /// All that later frames depend on, none being in flight; and back, before the first.
-  Status archive(Archive& archive) {
-    std::vector<std::byte> hair;
-    if (!archive.isReading()) {
-      auto state = backend_->checkpoint();
-      if (!state) return state.error();
-      hair = std::move(*state);
-    }
-    archive.list(hair);
-    if (archive.isReading()) {
-      if (Status restored = backend_->restore(hair); !restored) return restored;
-    }
-    if (watch_) watch_->archive(archive);
-    archive.value(worst_);
+  /// All that later frames depend on, none being in flight; and back, before the first, which is `frame`.
+  Status save(Archive& archive) {
+    auto state = hair_->checkpoint();
+    if (!state) return state.error();
+    archive.list(*state);
+    archiveSeen(archive);
+    return {};
+  }
+  Status restore(Archive& archive, const SceneFrames& frames, int frame) {
+    std::vector<std::byte> state;
+    archive.list(state);
+    if (Status restored = hair_->restore(frames, frame, state); !restored) return restored;
+    archiveSeen(archive);
     return {};
   }
 
-  /// What was seen goes into the outcome.
-  Status tell(SimulateOutcome& outcome) const {
+  /// What was seen goes into the outcome; `contacts`: as the hair tells of them now.
+  void tell(const ContactReport& contacts, SimulateOutcome& outcome) const {
     outcome.waitedForDevice = waiting_;
     outcome.copied = copying_;
     outcome.frameTimes = timesOf(times_);
-    if (hasContacts_) {
-      auto report = backend_->contactReport();
-      if (!report) return report.error();
-      if (watch_) report->contacts = worst_.contacts, report->momentumError = worst_.momentumError;
-      outcome.contacts = *report;
-    }
-    if (watch_) {
-      outcome.contactNumbers = watch_->numbers();
-      outcome.stages["measure"] = measuring_;
-    }
-    return {};
+    if (hasContacts_) outcome.contacts = contacts;
+    if (!watch_) return;
+    if (hasContacts_)
+      outcome.contacts->contacts = worst_.contacts, outcome.contacts->momentumError = worst_.momentumError;
+    outcome.contactNumbers = watch_->numbers();
+    outcome.stages["measure"] = measuring_;
   }
 
   /// Steps that are frames of their own would be called wrong numbers of steps a frame.
-  std::vector<std::string> warnings() const { return watch_ ? watch_->warnings() : backend_->warnings(); }
+  std::vector<std::string> warnings() const { return watch_ ? watch_->warnings() : hair_->facts().warnings; }
 
  private:
-  Stepper(Backend& backend, const RunInput& input)
-      : backend_(&backend),
-        pointCount_(input.groom.points.size()),
-        hasContacts_(input.settings.contacts.on),
-        before_(sumOf(backend.stageMilliseconds())) {}
+  Stepper(SceneHair& hair, const LoadedScene& scene)
+      : hair_(&hair),
+        pointCount_(scene.groom.points.size()),
+        hasContacts_(scene.settings.contacts.on),
+        before_(sumOf(hair.times().stages)) {}
+
+  void archiveSeen(Archive& archive) {
+    if (watch_) watch_->archive(archive);
+    archive.value(worst_);
+  }
 
   Status timedWait() {
     Stopwatch stopwatch(waiting_);
-    return backend_->waitFrame();
+    return hair_->wait();
   }
 
   // Stages of stepping.
@@ -122,16 +118,17 @@ class Stepper {
   }
   // Of the frame that is over now.
   void noteTime() {
-    if (!backend_->tellsTimesOfFrames()) return;
-    const double now = sumOf(backend_->stageMilliseconds());
+    if (!hair_->tellsTimesOfFrames()) return;
+    const double now = sumOf(hair_->times().stages);
     times_.push_back(now - std::exchange(before_, now));
   }
 
-  Status lookAtSteps(const FramePoses& poses) {
-    for (std::size_t step = 0; step < poses.heads.size(); ++step) {
+  Status lookAtSteps(const SceneFrame& frame) {
+    for (std::size_t step = 0; step < frame.stepCount(); ++step) {
       {
         Stopwatch stopwatch(waiting_);
-        if (Status stepped = poses.step(*backend_, step, 1); !stepped) return stepped;
+        if (Status handed = hair_->submit(frame.step(step)); !handed) return handed;
+        if (Status waited = hair_->wait(); !waited) return waited;
       }
       if (Status seen = look(); !seen) return seen;
     }
@@ -139,22 +136,22 @@ class Stepper {
     noteTime();
     Stopwatch stopwatch(measuring_);
     if (!watch_->endFrame() || !hasContacts_) return {};
-    auto report = backend_->contactReport();
-    if (!report) return report.error();
-    worst_ = *report;
+    const auto reports = hair_->reports();
+    if (!reports) return reports.error();
+    worst_ = reports->contacts;
     return {};
   }
 
   Status look() {
     Stopwatch stopwatch(measuring_);
-    auto positions = backend_->positions();
+    auto positions = hair_->positions();
     if (!positions) return positions.error();
     watch_->addStep(*positions);
     now_ = std::move(*positions);
     return {};
   }
 
-  Backend* backend_;
+  SceneHair* hair_;
   std::size_t pointCount_;  // of the groom
   bool hasContacts_;
   std::optional<ContactWatch> watch_;

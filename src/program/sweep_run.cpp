@@ -16,8 +16,8 @@
 #include <set>
 #include <utility>
 
-#include "program/backend.h"
 #include "program/exit_codes.h"
+#include "program/hair_maker.h"
 #include "program/interruption.h"
 #include "program/measure_report.h"
 #include "program/output_options.h"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,6 +13,7 @@
 #include "program/cache_folder.h"
 #include "program/command_line.h"
 #include "program/confined_option.h"
+#include "program/cut_list.h"
 #include "program/exit_codes.h"
 #include "program/follow_plan.h"
 #include "program/groom_options.h"
@@ -26,6 +28,7 @@
 #include "ringlet/render/look.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_frames.h"
 #include "ringlet/scenes/scene_parts.h"
 #include "view/viewer.h"
 
@@ -130,8 +133,10 @@ Status addHairs(const LoadedScene& scene, int hairs, const HairLook& look, view:
   // The head carries hairs' roots here, also where a scalp carries those of strands.
   const auto ground = hairGroundOf(scene.hairs, nullptr, look, scene.groom.metresPerUnit);
   if (!ground) return ground.error();
-  auto follow =
-      FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}), *ground);
+  const double lastCut = scene.cuts.empty() ? 0 : scene.cuts.back().seconds;
+  const int frames = static_cast<int>(std::ceil(lastCut * scene.settings.framesPerSecond)) + 1;
+  auto follow = FollowPlan::make(scene.groom, scene.groom.metresPerUnit, look.of({.hairCount = hairs}),
+                                 *ground, CutList(SceneFrames(scene), frames));
   if (!follow) return follow.error();
   plan.look.guides = follow->guides();
   plan.look.bodies = scene.bodies;
@@ -203,7 +208,8 @@ int run(Typed typed) {
   if (!scene) return fail(scene.error());
   for (const std::string& warning : scene->warnings) say("ringlet view: warning: {}\n", warning);
   if (!scene->cuts.empty())
-    say("ringlet view: warning: in the window hair is not cut ([[cut]]); `ringlet simulate` cuts it\n");
+    say("ringlet view: warning: the window draws the edge at a cut ([[cut]]), as a line from one part to the "
+        "other\n");
   if (typed.save.empty()) typed.save = typed.input.stem().string() + ".view.toml";
   const auto outcome = runScene(typed, *file, *scene);
   if (!outcome) return fail(outcome.error());

@@ -63,28 +63,16 @@ SceneObject parseText(const std::string& text, const std::filesystem::path& fold
 SceneObject builtin(const std::string& name, const SceneOptions& options) {
   return withoutGil([&] {
     BuiltinScene made = valueOf(makeScene(name, options));
-    LoadedScene loaded;
-    loaded.frameCount = made.frameCount();
-    loaded.groom = std::move(made.groom);
-    loaded.material = std::move(made.material);
-    loaded.settings = made.settings;
-    loaded.motion = std::move(made.motion);
-    loaded.rootShifts = std::move(made.rootShifts);
-    loaded.bodies = std::move(made.bodies);
-    loaded.warnings = std::move(made.warnings);
-    return sceneOf(std::move(made.name), std::move(made.summary), std::move(loaded));
+    return sceneOf(std::move(made.name), std::move(made.summary), std::move(made));
   });
 }
 
-// As hair takes it.
-HairObject::Frame hairFrameOf(const LoadedScene& scene, int frame) {
-  SceneFrame poses = ringlet::frameOf(scene, frame);
-  return {std::move(poses.heads), std::move(poses.bodies), std::move(poses.roots)};
+SceneFrame frameOf(const LoadedScene& scene, int frame) {
+  return withoutGil([&] { return valueOf(SceneFrames(scene).at(frame)); });
 }
 
-HeadPose headAtEnd(const HairObject::Frame& frame) {
-  return std::get<std::vector<HeadPose>>(frame.head).back();
-}
+// As hair takes it.
+HairObject::Frame posesOf(const SceneFrame& frame) { return {frame.heads, frame.bodies, frame.roots}; }
 
 void demandFrame(int frame) {
   if (frame < -kMostFrame || frame > kMostFrame)
@@ -92,18 +80,18 @@ void demandFrame(int frame) {
 }
 
 // All that the scene says of a frame but where things are; none is in flight.
-void prepare(const LoadedScene& scene, HairObject& hair, int frame) {
-  hair.ask([&](Simulation& simulation) { demand(prepareFrame(scene, simulation, frame)); });
+void prepareFrame(const SceneFrame& frame, HairObject& hair) {
+  hair.ask([&](Simulation& simulation) { demand(prepare(frame, simulation)); });
 }
 
 void stepFrame(const SceneObject& self, HairObject& hair, int frame) {
   demandFrame(frame);
-  const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
+  const SceneFrame now = frameOf(self.loaded, frame);
   hair.demandNoneInFlight("Scene.step");
   if (hair.asset()->groom != self.groom)
     throw py::value_error("hair is of another scene; expected what start() of this one gave");
-  prepare(self.loaded, hair, frame);
-  hair.step(poses);
+  prepareFrame(now, hair);
+  hair.step(posesOf(now));
 }
 
 // The hair as it begins the first frame.
@@ -121,11 +109,13 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
                   .hasFields = needs.fields,
                   .heads = 1,
                   .kernel = kernel});
-  const SceneStart start(scene);
-  HairHandle hair = makeHair(asset, start.state(scene));
-  for (int frame = -preRollFrames(scene); frame < 0; ++frame) {
-    prepare(scene, *hair, frame);
-    hair->step(hairFrameOf(scene, frame));
+  const SceneFrames frames(scene);
+  const ScenePlaces start = frames.placesAt(frames.first());
+  HairHandle hair = makeHair(asset, stateOf(start, scene));
+  for (int frame = frames.first(); frame < 0; ++frame) {
+    const SceneFrame now = frameOf(scene, frame);
+    prepareFrame(now, *hair);
+    hair->step(posesOf(now));
   }
   return hair;
 }
@@ -168,15 +158,15 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
   std::optional<HeadPose> underWay;
   bool goesOn = true;
   for (int frame = 0; frame < count && goesOn; ++frame) {
-    const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
-    if ((self.loaded.keys || !self.loaded.cuts.empty()) && underWay) {
+    const SceneFrame now = frameOf(self.loaded, frame);
+    if (!now.change.isNone() && underWay) {
       goesOn = show(self, *hair, frame, *std::exchange(underWay, std::nullopt), callback);
       if (!goesOn) return hair;
     }
-    prepare(self.loaded, *hair, frame);
-    hair->submit(poses);
+    prepareFrame(now, *hair);
+    hair->submit(posesOf(now));
     if (underWay) goesOn = show(self, *hair, frame, *underWay, callback);
-    underWay = headAtEnd(poses);
+    underWay = now.heads.back();
     if (!goesOn) {
       hair->wait();
       return hair;
@@ -186,14 +176,13 @@ HairHandle run(const SceneObject& self, const py::object& callback, const std::o
   return hair;
 }
 
-py::tuple posesOf(const SceneObject& self, int frame) {
+py::tuple framePoses(const SceneObject& self, int frame) {
   demandFrame(frame);
-  const HairObject::Frame poses = withoutGil([&] { return hairFrameOf(self.loaded, frame); });
-  const auto& heads = std::get<std::vector<HeadPose>>(poses.head);
+  const SceneFrame now = frameOf(self.loaded, frame);
   const auto given = [&](const std::vector<BodyPose>& each) {
-    return each.empty() ? py::object(py::none()) : arrayOf(each, heads.size());
+    return each.empty() ? py::object(py::none()) : arrayOf(each, now.stepCount());
   };
-  return py::make_tuple(arrayOf(heads), given(poses.bodies), given(poses.roots));
+  return py::make_tuple(arrayOf(now.heads), given(now.bodies), given(now.roots));
 }
 
 void addFrame(py::module_& module) {
@@ -290,7 +279,7 @@ void addScenes(py::module_& module) {
       .def_property_readonly(
           "warnings", [](const SceneObject& s) { return s.loaded.warnings; },
           "What one should know of it: a list of sentences.")
-      .def("frame_poses", &posesOf, py::arg("frame"),
+      .def("frame_poses", &framePoses, py::arg("frame"),
            "Where everything is at the end of each step of a frame, 0 the first: (head, body_poses, "
            "root_poses), as Hair.step takes them; None where there are none.")
       .def(

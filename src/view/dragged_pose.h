@@ -5,40 +5,31 @@
 #include <cmath>
 
 #include "ringlet/base/vec3.h"
+#include "ringlet/scenes/scene_frames.h"
 
 namespace ringlet::view {
-
-struct Drag {
-  Vec3d move{};  // [m]
-  Quatd turn{};  // about its own origin, before it is moved
-  bool operator==(const Drag&) const = default;
-};
 
 class DraggedPose {
  public:
   void move(Vec3d by) { target_.move += by; }
   void turn(Quatd by) { target_.turn = normalized(by * target_.turn); }
-  void reset() { target_ = now_ = before_ = {}; }
+  void reset() { target_ = {}, way_ = {}; }
 
-  /// Goes on by so much time [s]; shares of the way are then those of this frame.
+  /// Goes on by so much time [s]: a frame's.
   void advance(double seconds) {
     const double share = 1 - std::exp(-seconds / kLag);
-    before_ = now_;
-    now_ = between(now_, target_, share);
+    way_ = {way_.to, between(way_.to, target_, share)};
   }
-  /// At a share of the last frame, 1 at its end.
-  Drag at(double share) const { return between(before_, now_, share); }
-  const Drag& now() const { return now_; }
+  /// Through the last frame.
+  const DragWay& way() const { return way_; }
+  const Drag& now() const { return way_.to; }
   const Drag& target() const { return target_; }
 
  private:
   static constexpr double kLag = 0.06;  // [s]: four fifths of a jerk in a tenth of a second
 
-  static Drag between(const Drag& a, const Drag& b, double share) {
-    return {a.move + (b.move - a.move) * share, slerp(a.turn, b.turn, share)};
-  }
-
-  Drag target_, now_, before_;
+  Drag target_;
+  DragWay way_;
 };
 
 }  // namespace ringlet::view

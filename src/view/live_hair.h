@@ -3,12 +3,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/scene/body.h"
-#include "ringlet/scene/head_pose.h"
 #include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_frames.h"
 #include "ringlet/solver/compute_device.h"
 #include "ringlet/solver/hair_asset.h"
 #include "ringlet/solver/simulation.h"
@@ -16,24 +14,25 @@
 
 namespace ringlet::view {
 
-/// Where everything that moves by itself is at a moment, and was one step before.
-struct Standing {
-  HeadPose head, headEarlier;
-  std::vector<BodyPose> bodies;
-  std::vector<BodyPose> roots, rootsEarlier;  // of a scene with a scalp
+/// Between two frames of a scene.
+struct SceneMoment {
+  const SceneFrames& frames;
+  int frame = 0;             // that comes next
+  SceneDrags dragsBefore{};  // of the frame before
 };
 
 class LiveHair {
  public:
-  /// At rest. `scene` and `device` must live as long. Errors: HairAsset::build's and Simulation::create's.
+  /// At rest, cut as it is by now. `scene` and `device` must live as long. Errors: HairAsset::build's and
+  /// Simulation::create's.
   static Result<LiveHair> create(const ComputeDevice& device, const LoadedScene& scene,
-                                 const HairNumbers& numbers, const Standing& standing);
+                                 const HairNumbers& numbers, const SceneMoment& now);
 
   enum class Change { none, live, rebuilt };
   /// Fails without a change where the solver refuses the numbers.
-  Result<Change> setNumbers(const HairNumbers& numbers, const Standing& standing);
+  Result<Change> setNumbers(const HairNumbers& numbers, const SceneMoment& now);
   /// At rest again.
-  Status reset(const Standing& standing);
+  Status reset(const SceneMoment& now);
 
   const HairNumbers& numbers() const { return numbers_; }
   Simulation& simulation() { return *hair_; }
@@ -43,8 +42,8 @@ class LiveHair {
   LiveHair(const ComputeDevice& device, const LoadedScene& scene, const HairNumbers& numbers)
       : device_(&device), scene_(&scene), numbers_(numbers), built_(numbers) {}
   bool canTake(const HairNumbers& numbers) const;
-  Status build(const Standing& standing);
-  Status place(const Standing& standing);
+  Status build(const SceneMoment& now);
+  Status place(const SceneMoment& now);
 
   const ComputeDevice* device_;
   const LoadedScene* scene_;

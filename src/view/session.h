@@ -2,16 +2,15 @@
 // its head and bodies are dragged; its numbers change; with one material, or with two side by side.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "ringlet/base/result.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
+#include "ringlet/scenes/scene_frames.h"
 #include "ringlet/solver/compute_device.h"
 #include "view/dragged_pose.h"
 #include "view/edits.h"
@@ -32,18 +31,18 @@ class Session {
 
   /// Takes the numbers over. Says whether device buffers of hair are others now.
   Result<bool> setEdits(const Edits& edits);
-  /// At rest at the beginning, nothing dragged. Buffers are others then.
+  /// Nothing is dragged, and hair begins again, with the scene's pre-roll. Buffers are others then.
   Status reset();
 
   /// Hands a frame to the device; and waits for it.
   Status submitFrame();
   Status waitFrame();
 
-  std::size_t frame() const { return frame_; }  // number of frames since the beginning
-  double seconds() const { return seconds_; }
+  std::size_t frame() const { return static_cast<std::size_t>(std::max(frame_, 0)); }  // since the start
+  double seconds() const { return frames_.front().secondsAt(frame_); }
   double framesPerSecond() const { return hairs_.front().numbers().settings.framesPerSecond; }
-  const HeadPose& head() const { return standing_.head; }
-  const std::vector<BodyPose>& bodies() const { return standing_.bodies; }
+  const HeadPose& head() const { return head_; }
+  const std::vector<BodyPose>& bodies() const { return bodies_; }
   const LoadedScene& scene() const { return *scene_; }
 
   DraggedPose headDrag;
@@ -53,24 +52,17 @@ class Session {
   Session(const ComputeDevice& device, const SceneFile& file, const LoadedScene& scene)
       : device_(&device), file_(&file), scene_(&scene) {}
   Result<HairNumbers> numbersNow(const SceneFile& edited, std::optional<SceneKeys>& keys) const;
-  Status takeKeys(std::size_t hair, double end);
-  HeadPose headAt(double seconds, const Drag& drag) const;
-  Standing beginning(const Settings& settings) const;
-
-  struct Poses {
-    std::vector<HeadPose> heads;
-    std::vector<BodyPose> bodies, roots;
-  };
-  Poses posesOfNext(const Settings& settings) const;
+  SceneDrags drags() const;
+  Status preRoll();
 
   const ComputeDevice* device_;
   const SceneFile* file_;
   const LoadedScene* scene_;
   std::vector<LiveHair> hairs_;
-  std::array<std::optional<SceneKeys>, 2> keys_;  // of A's and B's scene, where it has some
-  Standing standing_;
-  std::size_t frame_ = 0;
-  double seconds_ = 0;
+  std::vector<SceneFrames> frames_;  // of each hair
+  int frame_ = 0;                    // that comes next; those of the pre-roll are before 0
+  HeadPose head_;
+  std::vector<BodyPose> bodies_;
 };
 
 }  // namespace ringlet::view

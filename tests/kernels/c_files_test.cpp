@@ -211,10 +211,11 @@ TEST_F(CFiles, AScenesHairHasTheBitsOfTheLibrary) {
   const LoadedScene expected = *loadScene(*parseScene(kScene, "scene"));
   const auto asset = buildAsset(device(), expected);
   ASSERT_TRUE(asset) << asset.error().message;
-  const SceneStart start(expected);
-  auto hair = Simulation::create(*asset, start.state(expected));
+  const SceneFrames frames(expected);
+  const ScenePlaces start = frames.placesAt(frames.first());
+  auto hair = Simulation::create(*asset, stateOf(start, expected));
   ASSERT_TRUE(hair) << hair.error().message;
-  for (int frame = -2; frame < 0; ++frame) ASSERT_TRUE(stepScene(expected, *hair, frame));
+  for (int frame = -2; frame < 0; ++frame) ASSERT_TRUE(stepScene(frames, *hair, frame));
 
   Handles c;
   open(c);
@@ -226,7 +227,7 @@ TEST_F(CFiles, AScenesHairHasTheBitsOfTheLibrary) {
   EXPECT_EQ(positionsOf(c.hairs[0], count), *hair->positions()) << "as the run begins";
   for (int frame = 0; frame < 3; ++frame) {
     ASSERT_EQ(ringlet_scene_step(scene.handle, c.hairs[0], frame), RINGLET_OK) << ringlet_error_message();
-    ASSERT_TRUE(stepScene(expected, *hair, frame));
+    ASSERT_TRUE(stepScene(frames, *hair, frame));
     EXPECT_EQ(positionsOf(c.hairs[0], count), *hair->positions()) << frame;
   }
 }
@@ -251,7 +252,7 @@ TEST_F(CFiles, AScenesPartsAreForHostsThatStepThemselves) {
   // Bodies go with the head of a scene whose bodies have no motion of their own.
   ringlet_pose heads[4], bodies[4];
   ASSERT_EQ(ringlet_scene_frame_poses(scene.handle, 1, heads, bodies, nullptr), RINGLET_OK);
-  const SceneFrame poses = frameOf(expected, 1);
+  const SceneFrame poses = *SceneFrames(expected).at(1);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(heads[k].position[0], poses.heads[k].position.x) << k;
   ASSERT_EQ(poses.bodies.empty(), false);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(bodies[k].position[1], poses.bodies[k].position.y) << k;

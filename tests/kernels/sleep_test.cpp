@@ -140,6 +140,18 @@ TEST_F(Sleep, WhateverChangesWakesIt) {
   }
 }
 
+TEST_F(Sleep, NumbersThatAreNoOthersLetItSleep) {
+  for (const Hair& hair : sleepyHairs()) {
+    SCOPED_TRACE(hair.name);
+    Simulation simulation = simulationOf(device(), hair);
+    ASSERT_TRUE(fallsAsleep(simulation));
+    ASSERT_TRUE(simulation.setSettings(simulation.settings()) &&
+                simulation.setMaterial(simulation.material()));
+    ASSERT_TRUE(simulation.stepFrame(stillPoses(hair.settings)));
+    EXPECT_TRUE(sleeps(simulation));
+  }
+}
+
 TEST_F(Sleep, HeadBodiesAndRootsWakeIt) {
   for (const Hair& hair : sleepyHairs()) {
     SCOPED_TRACE(hair.name);

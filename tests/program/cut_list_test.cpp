@@ -37,8 +37,10 @@ class CutListTest : public test::GpuTest {
 };
 
 TEST(CutLists, SayWhichEdgesAreNoMore) {
-  const std::vector<TimedCuts> cuts{{-1, {{1, 4}}}, {0.1, {{0, 3}, {1, 2}}}, {9, {{0, 2}}}};
-  const CutList list(cuts, 24, 6);
+  LoadedScene scene;
+  scene.cuts = {{-1, {{1, 4}}}, {0.1, {{0, 3}, {1, 2}}}, {9, {{0, 2}}}};
+  scene.preRollSeconds = 0.2;  // what is cut in it is cut from the first frame on
+  const CutList list(SceneFrames(scene), 6);
   ASSERT_EQ(list.all().size(), 3u);  // the last is not of this run
   const std::vector<std::uint32_t> first{0, 5, 10};
   EXPECT_EQ(list.cutBeyond(1, first), (std::vector<std::uint32_t>{8}));

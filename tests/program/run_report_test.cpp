@@ -25,7 +25,7 @@ SimulateOutcome outcome() {
   outcome.frameCount = 7;
   outcome.strandCount = 11;
   outcome.particleCount = 88;
-  outcome.rigidStrandCount = 2;
+  outcome.hair.rigidStrandCount = 2;
   outcome.millisecondsPerFrame = 2.5;
   outcome.stages = {{"strand_step", 2.25}, {"readback", 0.5}, {"write", 0.75}};
   outcome.wall = {.start = 3.5, .frames = 4.5, .finish = 5.5};
@@ -52,15 +52,15 @@ SimulateOutcome outcome() {
       .worst = {.overlapping = 109, .rawRecall = 0.875, .overlapBeyondRestSum = 12.5, .deepestOverlap = 0.25},
       .deepestOverlap = 0.375};
   outcome.bodyNumbers = BodyNumbers{.deepest = 0.0625, .strand = 4, .particle = 5, .frame = 6, .inside = 9};
-  outcome.device = "a device";
-  outcome.driver = "a driver";
+  outcome.hair.device = "a device";
+  outcome.hair.driver = "a driver";
   outcome.frameTimes = {.first = 8.5, .median = 2.125, .least = 2};
   outcome.host = {.submit = 0.0625, .fence = 1.125};
   outcome.copied = 0.375;
-  outcome.kernel = "a kernel";
-  outcome.isTuned = true;
-  outcome.deviceBytes = 123456;
-  outcome.compileMilliseconds = 1500;
+  outcome.hair.kernel = "a kernel";
+  outcome.hair.isTuned = true;
+  outcome.hair.deviceBytes = 123456;
+  outcome.hair.compileMilliseconds = 1500;
   outcome.positionsHash = "0123456789abcdef";
   outcome.resumedFrom = 3;
   outcome.interrupted = true;
@@ -141,7 +141,7 @@ TEST(RunReport, WhatIsNotKnownIsNull) {
   unknown.contacts.reset();
   unknown.contactNumbers.reset();
   unknown.bodyNumbers.reset();
-  unknown.deviceBytes.reset();
+  unknown.hair.deviceBytes.reset();
   unknown.cacheErrorBound.reset();
   const json found = printed(runJson(kNames, settings(), unknown));
   const json whole = printed(runJson(kNames, settings(), outcome()));

@@ -175,7 +175,7 @@ TEST(BuiltinScene, TakesItsOptions) {
   EXPECT_EQ(scene->settings.stepsPerFrame, 16);
   EXPECT_EQ(scene->material.coreStiffness, 0);
   EXPECT_EQ(scene->material.bendSmoothingLength, 0);
-  EXPECT_EQ(scene->frameCount(), 48);
+  EXPECT_EQ(scene->frameCount, 48);
 
   const auto swatches = makeScene("pile", {.particles = 32, .strands = 13});
   ASSERT_TRUE(swatches) << swatches.error().message;

@@ -49,7 +49,7 @@ class ContactSceneTest : public SceneTest {
     std::vector<Vec3f> positions = *simulation->positions();
     watch->addStep(positions);
     EXPECT_TRUE(measure->addFrame(positions, 1));
-    for (int step = 1; step <= scene.frameCount() * scene.settings.stepsPerFrame; ++step) {
+    for (int step = 1; step <= scene.frameCount * scene.settings.stepsPerFrame; ++step) {
       const HeadPose head = scene.motion.poseAt(step * T);
       const Status stepped = simulation->stepFrame(std::span(&head, 1));
       EXPECT_TRUE(stepped) << stepped.error().message;

@@ -89,7 +89,7 @@ class DenseMotion : public SceneTest {
                             .rootShifts = scene.rootShifts});
     EXPECT_TRUE(simulation) << simulation.error().message;
     const bool isVolume = simulation->contactReport()->volumeStrands > 0;
-    for (int frame = 0; isVolume && frame < scene.frameCount(); ++frame)
+    for (int frame = 0; isVolume && frame < scene.frameCount; ++frame)
       EXPECT_TRUE(simulation->stepFrame(posesOfFrame(scene, frame)));
     return *simulation->contactReport();
   }

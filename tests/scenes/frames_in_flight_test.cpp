@@ -178,7 +178,7 @@ TEST_F(FramesInFlight, HairThatMeetsHair) {
   ASSERT_TRUE(scene) << scene.error().message;
   Cast cast{scene->groom, scene->material, scene->settings, {}, scene->rootShifts};
   cast.start = scene->motion.poseAt(0);
-  for (int frame = 0; frame < scene->frameCount(); ++frame)
+  for (int frame = 0; frame < scene->frameCount; ++frame)
     cast.frames.push_back({headsOf(scene->motion, cast.settings, frame)});
   const Seen seen = expectSameBits(cast);
   expectReference(cast, seen, 6, kMeetingMetres);

@@ -49,18 +49,29 @@ TEST(SceneCuts, ParticlesBeyondTheirPlaceFall) {
 }
 
 TEST(SceneCuts, AreMadeAsAFrameBegins) {
-  const std::vector<TimedCuts> cuts{{-1, {}}, {0, {}}, {0.04, {}}, {0.25, {}}};
-  const auto of = [&](int frame, bool isFirst = false) {
+  LoadedScene scene;
+  scene.cuts = {{-1, {}}, {0, {}}, {0.04, {}}, {0.25, {}}};
+  const auto timesOf = [](std::span<const TimedCuts> cuts) {
     std::vector<double> times;
-    for (const TimedCuts& now : cutsOfFrame(cuts, frame, 24, isFirst)) times.push_back(now.seconds);
+    for (const TimedCuts& now : cuts) times.push_back(now.seconds);
     return times;
   };
-  EXPECT_EQ(of(0, true), (std::vector<double>{-1, 0}));
-  EXPECT_EQ(of(0), (std::vector<double>{0}));
-  EXPECT_EQ(of(1), (std::vector<double>{0.04}));  // 1/24 s
-  EXPECT_EQ(of(5), (std::vector<double>{}));
-  EXPECT_EQ(of(6), (std::vector<double>{0.25}));
-  EXPECT_EQ(of(7), (std::vector<double>{}));
+  using Times = std::vector<double>;
+  for (const double preRoll : {0.0, 0.5}) {
+    scene.preRollSeconds = preRoll;
+    const SceneFrames frames(scene);
+    EXPECT_EQ(timesOf(frames.cutsAt(frames.first())), preRoll > 0 ? Times{-1} : (Times{-1, 0}));
+    if (preRoll > 0) {
+      EXPECT_EQ(timesOf(frames.cutsAt(0)), Times{0});
+    }
+    EXPECT_EQ(timesOf(frames.cutsAt(1)), Times{0.04});  // 1/24 s
+    EXPECT_EQ(timesOf(frames.cutsAt(5)), Times{});
+    EXPECT_EQ(timesOf(frames.cutsAt(6)), Times{0.25});
+    EXPECT_EQ(timesOf(frames.cutsAt(7)), Times{});
+    EXPECT_EQ(timesOf(frames.cutsBefore(frames.first())), Times{});
+    EXPECT_EQ(timesOf(frames.cutsBefore(6)), (Times{-1, 0, 0.04}));
+    EXPECT_EQ(timesOf(frames.cutsBefore(7)), (Times{-1, 0, 0.04, 0.25}));
+  }
 }
 
 TEST(SceneCuts, AreWrittenBack) {
@@ -91,14 +102,14 @@ class SceneCutsRun : public test::GpuTest {
     if (cuts) scene.cuts.clear();
     const auto asset = buildAsset(device(), scene);
     EXPECT_TRUE(asset) << asset.error().message;
-    const SceneStart start(scene);
-    auto hair = Simulation::create(*asset, start.state(scene));
+    const SceneFrames all(scene);
+    const ScenePlaces start = all.placesAt(all.first());
+    auto hair = Simulation::create(*asset, stateOf(start, scene));
     EXPECT_TRUE(hair) << hair.error().message;
     if (cuts) {
       EXPECT_TRUE(hair->cut(*cuts));
     }
-    for (int frame = -preRollFrames(scene); frame < frames; ++frame)
-      EXPECT_TRUE(stepScene(scene, *hair, frame));
+    for (int frame = all.first(); frame < frames; ++frame) EXPECT_TRUE(stepScene(all, *hair, frame));
     const auto positions = hair->positions();
     EXPECT_TRUE(positions);
     return *positions;

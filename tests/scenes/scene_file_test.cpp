@@ -710,7 +710,7 @@ TEST(SceneParts, BuiltinScenesBecomeFiles) {
     ASSERT_TRUE(scene) << scene.error().message;
     const SceneFile file = parsed(sceneText(sceneFileOf(*scene, "hair.obj")));
     EXPECT_EQ(file.material.material, scene->material) << name;
-    EXPECT_EQ(file.simulation.frames, scene->frameCount()) << name;
+    EXPECT_EQ(file.simulation.frames, scene->frameCount) << name;
     const Motion motion = motionOf(file.motion, {0, 1, 0});
     for (double t = -0.5; t < 4; t += 0.013) {
       const HeadPose found = motion.poseAt(t), expected = scene->motion.poseAt(t);

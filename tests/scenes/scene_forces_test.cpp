@@ -118,7 +118,8 @@ TEST(SceneForces, KeysChangeThem) {
   EXPECT_EQ(fieldsOf(scene, 2)[1].drag, 6);
   EXPECT_EQ(goalsOf(scene, 0.5).strengths[2], 0);
   EXPECT_NEAR(goalsOf(scene, 2).strengths[2], 5, 1e-6);
-  EXPECT_TRUE(scene.keys->areEqual(0, 5)) << "neither settings nor material have keys";
+  const SceneNumbers start = *scene.keys->at(0, 8), later = *scene.keys->at(5, 8);
+  EXPECT_TRUE(start.settings == later.settings && start.material == later.material) << "neither have keys";
 }
 
 // Particles within the range, of the strands that are named, at their places in the groom.
@@ -217,7 +218,9 @@ TEST(SceneForces, FramesComeInParts) {
       "[1, 0, 0]\n"
       "[[hold]]\nbind = \"world\"\n[[key]]\ntime = 0\nfield.1.strength = 0\n[[key]]\ntime = "
       "1\nfield.1.strength = 8\n");
-  const FrameForces whole = *scene.forces.inFrame(0.25, 0.75, scene.motion, scene.settings, &*scene.keys);
+  const FrameForces whole =
+      *scene.forces.inFrame({0.25, scene.motion.poseAt(0.25)}, {0.75, scene.motion.poseAt(0.75)},
+                            scene.settings.goal, &*scene.keys);
   const FrameForces first = whole.part(0, 0.5), second = whole.part(0.5, 1);
   const auto areNear = [](const ForceField& a, const ForceField& b) {
     return apart(a.place.position, b.place.position) + apart(worldAxis(a), worldAxis(b)) < 1e-12 &&

@@ -87,7 +87,7 @@ class SceneTest : public GpuTest {
       ASSERT_TRUE(added) << added.error().message;
     };
     look(start);
-    for (int frame = 0; frame < scene.frameCount() && !::testing::Test::HasFatalFailure(); ++frame) {
+    for (int frame = 0; frame < scene.frameCount && !::testing::Test::HasFatalFailure(); ++frame) {
       const std::vector<HeadPose> poses = posesOfFrame(scene, frame);
       const Status stepped = simulation->stepFrame(poses);
       EXPECT_TRUE(stepped) << stepped.error().message;
@@ -114,7 +114,7 @@ inline std::vector<std::vector<Vec3d>> referenceTips(const BuiltinScene& scene) 
     }
   };
   look();
-  for (int frame = 0; frame < scene.frameCount(); ++frame) {
+  for (int frame = 0; frame < scene.frameCount; ++frame) {
     simulation.stepFrame(posesOfFrame(scene, frame));
     look();
   }

@@ -30,7 +30,7 @@ class TwistJump : public SceneTest {
     double smallestCosine = 1;
     std::vector<std::array<float, 4>> before;
     FrameTurn measured(scene.groom, scene.material);
-    for (int step = 0; step < scene.frameCount(); ++step) {
+    for (int step = 0; step < scene.frameCount; ++step) {
       measured.look(*simulation->positions(), 1);  // a step's frames are those of its start
       EXPECT_TRUE(simulation->stepFrame(posesOfFrame(scene, step)));
       const auto frames = *simulation->tap(layout::kTapFrame);

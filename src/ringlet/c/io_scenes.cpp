@@ -118,7 +118,7 @@ ringlet_result ringlet_scene_get(const ringlet_scene* scene, ringlet_scene_facts
     give(facts, {.struct_size = 0,
                  .frames_per_second = of.settings.framesPerSecond,
                  .frame_count = of.frameCount,
-                 .pre_roll_frames = preRollFrames(of),
+                 .pre_roll_frames = -SceneFrames(of).first(),
                  .steps_per_frame = static_cast<uint32_t>(of.settings.stepsPerFrame),
                  .body_count = static_cast<uint32_t>(of.bodies.size()),
                  .strand_count = static_cast<uint32_t>(of.groom.strandCount()),
@@ -169,10 +169,11 @@ ringlet_result ringlet_scene_frame_poses(const ringlet_scene* scene, int32_t fra
         !wrong.isFine())
       return wrong;
     if (Outcome wrong = checkFrame(frame); !wrong.isFine()) return wrong;
-    const SceneFrame poses = frameOf(*scene->loaded, frame);
-    show(poses.heads, step_poses);
-    if (body_poses) show(poses.bodies, body_poses);
-    if (root_poses) show(poses.roots, root_poses);
+    const auto poses = SceneFrames(*scene->loaded).at(frame);
+    if (!poses) return poses.error();
+    show(poses->heads, step_poses);
+    if (body_poses) show(poses->bodies, body_poses);
+    if (root_poses) show(poses->roots, root_poses);
     return {};
   });
 }
@@ -209,12 +210,13 @@ ringlet_result ringlet_scene_hair(const ringlet_scene* scene, ringlet_asset* ass
       return Outcome::invalid(
           "the asset is of another scene; expected what ringlet_scene_build of this one made");
     const LoadedScene& of = *scene->loaded;
-    const SceneStart start(of);
+    const SceneFrames frames(of);
+    const ScenePlaces start = frames.placesAt(frames.first());
     ringlet_hair* made = nullptr;
-    if (Outcome wrong = createHair(*asset, start.state(of), &made); !wrong.isFine()) return wrong;
+    if (Outcome wrong = createHair(*asset, stateOf(start, of), &made); !wrong.isFine()) return wrong;
     std::unique_ptr<ringlet_hair> kept(made);
-    for (int frame = -preRollFrames(of); frame < 0; ++frame) {
-      if (Status stepped = stepScene(of, kept->simulation, frame); !stepped) return stepped;
+    for (int frame = frames.first(); frame < 0; ++frame) {
+      if (Status stepped = stepScene(frames, kept->simulation, frame); !stepped) return stepped;
     }
     *hair = kept.release();
     return {};
@@ -230,6 +232,6 @@ ringlet_result ringlet_scene_step(const ringlet_scene* scene, ringlet_hair* hair
     if (Outcome wrong = checkFrame(frame); !wrong.isFine()) return wrong;
     if (Outcome outcome = checkFree(*hair); !outcome.isFine()) return outcome;
     if (Outcome outcome = checkHair(*scene, *hair); !outcome.isFine()) return outcome;
-    return stepScene(*scene->loaded, hair->simulation, frame);
+    return stepScene(SceneFrames(*scene->loaded), hair->simulation, frame);
   });
 }

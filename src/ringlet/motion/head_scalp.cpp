@@ -66,4 +66,14 @@ std::vector<BodyPose> HeadScalp::rootPosesAt(double t) const {
   return poses;
 }
 
+std::vector<Vec3d> HeadScalp::placesAt(double t, const HeadPose& head, std::span<const Vec3d> roots) const {
+  const std::vector<BodyPose> poses = rootPosesAt(t);
+  std::vector<Vec3d> places;
+  places.reserve(roots.size());
+  for (std::size_t r = 0; r < roots.size(); ++r)
+    places.push_back(head.position +
+                     rotate(head.rotation, poses[r].position + rotate(poses[r].rotation, roots[r])));
+  return places;
+}
+
 }  // namespace ringlet

@@ -39,6 +39,9 @@ class HeadScalp {
   /// before. Cost: that of Scalp::posesAt.
   std::vector<BodyPose> rootPosesAt(double t) const;
 
+  /// Roots of the groom [m], one of each that are bound, in the world with the head there [m].
+  std::vector<Vec3d> placesAt(double t, const HeadPose& head, std::span<const Vec3d> roots) const;
+
   /// The mesh as it was when roots were bound to it, in the groom's axes [m].
   TriangleMesh meshAtBinding() const;
   /// Other roots of the same groom, bound to the same mesh in the same way.

@@ -23,6 +23,7 @@ struct AirSettings {
   double turbulence = 0;   // root mean square of each component of the turbulent wind [m/s], 0 to 1000
   double eddySize = 0.2;   // size of the largest eddies [m], 0.001 to 1000
   std::uint32_t seed = 1;  // of gusts and turbulence
+  bool operator==(const AirSettings&) const = default;
 };
 
 }  // namespace ringlet

@@ -117,6 +117,14 @@ struct ContactSettings {
   double dampingReleaseSeconds = 0.02;    // after that, until damping has faded [s], 0 to 10
   double breakFactor = 1.2;               // a contact ends at this multiple of its rest length, 1 to 10
 
+  /// What numbers alone do not say: the lists of strands.
+  void takeLists(const ContactSettings& from) {
+    radiusFactors = from.radiusFactors;
+    bundles = from.bundles;
+  }
+  /// Lists are the same where they are one in memory.
+  bool operator==(const ContactSettings&) const = default;
+
   /// Of a strand, by its place in the groom.
   double radiusFactor(std::size_t strand) const {
     return radiusFactors && strand < radiusFactors->size() ? double{(*radiusFactors)[strand]} : 1.0;

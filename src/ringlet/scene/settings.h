@@ -53,6 +53,7 @@ struct Settings {
   AirSettings air;              // jacobi only
   GoalSettings goal;            // jacobi only
 
+  bool operator==(const Settings&) const = default;
   /// Whether a head that moves by this distance [m] in one frame jumps.
   bool jumps(double distance) const { return teleportDistance > 0 && distance > teleportDistance; }
   double stepSeconds() const { return 1 / (framesPerSecond * stepsPerFrame); }

@@ -220,10 +220,6 @@ Status checkOptions(std::string_view name, const SceneOptions& options) {
 
 }  // namespace
 
-int BuiltinScene::frameCount() const {
-  return static_cast<int>(std::max(1L, std::lround(seconds * settings.framesPerSecond)));
-}
-
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
   for (const Recipe& recipe : recipes()) names.push_back(recipe.name);
@@ -250,17 +246,18 @@ Result<BuiltinScene> makeScene(std::string_view name, const SceneOptions& option
   if (!groom) return groom.error();
 
   const std::size_t strandCount = groom->strandCount();
-  BuiltinScene scene{.name = recipe->name,
-                     .summary = recipe->summary,
-                     .groom = std::move(*groom),
-                     .material = recipe->material(),
-                     .settings = {},
-                     .motion = recipe->motion,
-                     .rootShifts = rootShiftsOf(recipe->rootShift, strandCount),
-                     .seconds = options.seconds.value_or(recipe->seconds),
-                     .showsContacts = recipe->showsContacts,
-                     .showsFrames = recipe->showsFrames,
-                     .warnings = {}};
+  BuiltinScene scene{{.groom = std::move(*groom),
+                      .material = recipe->material(),
+                      .settings = {},
+                      .motion = recipe->motion,
+                      .rootShifts = rootShiftsOf(recipe->rootShift, strandCount)}};
+  scene.name = recipe->name;
+  scene.summary = recipe->summary;
+  scene.seconds = options.seconds.value_or(recipe->seconds);
+  scene.frameCount =
+      static_cast<int>(std::max(1L, std::lround(scene.seconds * scene.settings.framesPerSecond)));
+  scene.showsContacts = recipe->showsContacts;
+  scene.showsFrames = recipe->showsFrames;
   const auto coarse = coarseCurlWarning(sceneCurl(options));
   if (coarse && recipe->groom != foldedStrand) scene.warnings.push_back(*coarse);
   if (!options.core) scene.material.coreStiffness = 0;

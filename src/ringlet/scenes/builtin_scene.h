@@ -8,11 +8,9 @@
 #include <vector>
 
 #include "ringlet/base/result.h"
-#include "ringlet/groom/groom.h"
 #include "ringlet/rest/material_dials.h"
-#include "ringlet/scene/body.h"
-#include "ringlet/scene/motion.h"
 #include "ringlet/scene/settings.h"
+#include "ringlet/scenes/load_scene.h"
 
 namespace ringlet {
 
@@ -32,22 +30,13 @@ struct SceneOptions {
   Integrator integrator = Integrator::jacobi;  // `paper` has its own constants and no preload
 };
 
-/// Everything a simulation starts from. The head rests at t = 0 and eases into its motion. Y is up.
-struct BuiltinScene {
-  std::string name, summary;
-  Groom groom;
-  Material material;
-  Settings settings;
-  Motion motion;
-  std::vector<Vec3d> rootShifts{};  // of each strand's root beside the head (InitialState::rootShifts) [m],
-                                    // or none
-  std::vector<Body> bodies{};       // in walk_head the generated head (bodies/head_mesh.h)
-  double seconds = 0;
-  bool showsContacts = false;         // it shows contacts between hairs (measure/contact_watch.h)
-  bool showsFrames = false;           // it shows the turn of strand frames (measure/frame_turn.h)
-  std::vector<std::string> warnings;  // for the user: effects that the options prevent, a sentence each
-
-  int frameCount() const;  // whole frames, at least one
+/// The head rests at t = 0 and eases into its motion. Y is up. In walk_head the body is the generated head
+/// (bodies/head_mesh.h). Warnings: effects that the options prevent.
+struct BuiltinScene : LoadedScene {
+  std::string name{}, summary{};
+  double seconds = 0;          // frameCount is whole frames of it, at least one
+  bool showsContacts = false;  // it shows contacts between hairs (measure/contact_watch.h)
+  bool showsFrames = false;    // it shows the turn of strand frames (measure/frame_turn.h)
 };
 
 /// hanging_curl, walk_cycle, head_shake, bounce, twist_jump, release, and those of hair that meets hair:

@@ -298,6 +298,7 @@ Status takeStart(const SceneFile& scene, LoadedScene& loaded) {
   const bool isLive = loaded.settings.integrator == Integrator::jacobi;
   if (!isLive && !(start->material == loaded.material))
     return Error{"keys of a material need the integrator jacobi"};
+  start->settings.contacts.takeLists(loaded.settings.contacts);
   loaded.settings = start->settings;
   loaded.material = std::move(start->material);
   return {};

@@ -62,16 +62,4 @@ Result<std::vector<TimedCuts>> cutsOf(const SceneFile& scene, const Groom& groom
   return all;
 }
 
-std::span<const TimedCuts> cutsOfFrame(std::span<const TimedCuts> cuts, int frame, double framesPerSecond,
-                                       bool isFirst) {
-  // Those whose time has come. A frame begins at a quotient, and a time is typed in decimals.
-  const auto madeAt = [&](int begun) {
-    return static_cast<std::size_t>(
-        std::ranges::upper_bound(cuts, begun / framesPerSecond + 1e-9, {}, &TimedCuts::seconds) -
-        cuts.begin());
-  };
-  const std::size_t before = isFirst ? 0 : madeAt(frame - 1);
-  return cuts.subspan(before, madeAt(frame) - before);
-}
-
 }  // namespace ringlet

@@ -1,7 +1,6 @@
 // Strands that are cut while hair moves: [[cut]] of a scene file.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "ringlet/base/result.h"
@@ -20,10 +19,5 @@ struct TimedCuts {
 /// By rising time, those of one time together; of several that cut a strand, all that leave it shorter than
 /// those before. Errors, with the cut's name: strands that the groom does not have.
 Result<std::vector<TimedCuts>> cutsOf(const SceneFile& scene, const Groom& groom, int rootCount);
-
-/// Of cuts by rising time, those that a frame begins with, 0 being the run's first; `isFirst`: it has no
-/// frame before it.
-std::span<const TimedCuts> cutsOfFrame(std::span<const TimedCuts> cuts, int frame, double framesPerSecond,
-                                       bool isFirst);
 
 }  // namespace ringlet

@@ -71,11 +71,6 @@ class SceneForces {
   /// Between two. `goal`: [goal] without keys. Errors: those of goalsAt.
   Result<FrameForces> inFrame(const Moment& begin, const Moment& end, const GoalSettings& goal,
                               const SceneKeys* keys) const;
-  /// In a frame of a motion between two times [s].
-  Result<FrameForces> inFrame(double begin, double end, const Motion& head, const Settings& settings,
-                              const SceneKeys* keys) const {
-    return inFrame({begin, head.poseAt(begin)}, {end, head.poseAt(end)}, settings.goal, keys);
-  }
 
  private:
   // Where something is carried from its own frame.

@@ -225,13 +225,6 @@ GoalSettings SceneKeys::goalAt(double seconds) const {
   return scene.goal;
 }
 
-bool SceneKeys::areEqual(double a, double b) const {
-  return std::ranges::all_of(tracks_, [&](const Track& track) {
-    return track.number.key.starts_with("field.") || track.number.key.starts_with("hold.") ||
-           track.at(a) == track.at(b);
-  });
-}
-
 bool SceneKeys::changeContacts() const {
   return std::ranges::any_of(tracks_,
                              [](const Track& track) { return track.number.key.starts_with("contacts."); });

@@ -60,8 +60,6 @@ class SceneKeys {
   std::vector<SceneForceField> fieldsAt(double seconds) const;
   std::vector<SceneHold> holdsAt(double seconds) const;
   GoalSettings goalAt(double seconds) const;
-  /// Whether all numbers of settings and material are at both times the same.
-  bool areEqual(double a, double b) const;
   bool changeContacts() const;
 
  private:

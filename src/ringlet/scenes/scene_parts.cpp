@@ -220,7 +220,7 @@ SceneFile sceneFileOf(const BuiltinScene& scene, const std::filesystem::path& gr
   const Settings& settings = scene.settings;
   SceneSimulation& simulation = file.simulation;
   simulation.framesPerSecond = settings.framesPerSecond;
-  simulation.frames = scene.frameCount();
+  simulation.frames = scene.frameCount;
   simulation.stepsPerFrame = settings.stepsPerFrame;
   simulation.gravity = -settings.gravity.y;
   simulation.preload = settings.gravityPreload;

@@ -247,10 +247,10 @@ class Simulation {
   /// Changes settings from the next frame on. These may change: gravity (the rest pose stays balanced against
   /// the gravity of the asset), maxStretch, teleportDistance, loops and iterations; the number of steps a
   /// frame, up to the asset's, and frames a second, with steps no longer than the asset's; and the settings
-  /// of contacts and air that scene/settings_fields.h marks as live. Fails, without a change, where another
-  /// setting differs or a value is out of range. Cost: frames are recorded again, some microseconds a
-  /// dispatch. With contacts it waits for frames in flight; a change of stiffness or damping rebuilds their
-  /// lists.
+  /// of contacts and air that scene/settings_fields.h marks as live. Equal ones are no change. Fails, without
+  /// a change, where another setting differs or a value is out of range. Cost: frames are recorded again,
+  /// some microseconds a dispatch. With contacts it waits for frames in flight; a change of stiffness or
+  /// damping rebuilds their lists.
   Status setSettings(const Settings& settings);
   /// Changes the material from the next frame on: stiffnesses, dampings, blend of the core, variation. Needs
   /// the integrator jacobi. Fails, without a change, where another number differs or a value is out of range.

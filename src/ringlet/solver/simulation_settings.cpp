@@ -101,9 +101,9 @@ Status Simulation::setBodies(std::span<const Body> bodies, std::span<const BodyP
 
 Status Simulation::setMaterial(const Material& material) {
   const Implementation& self = *self_;
+  if (material == self.material) return {};
   if (self.settings.integrator != Integrator::jacobi)
     return Error{"a material changes while hair moves with the integrator jacobi only"};
-  if (material == self.material) return {};
   if (Status status = checkMaterial(material); !status) return status;
   if (const std::string fixed = fixedDifference(self.asset->material, material); !fixed.empty()) {
     return Error{fmt::format(
@@ -115,6 +115,7 @@ Status Simulation::setMaterial(const Material& material) {
 }
 
 Status Simulation::setSettings(const Settings& settings) {
+  if (settings == self_->settings) return {};
   if (Status status = self_->checkChange(settings); !status) return status;
   return self_->change(settings);
 }

@@ -55,10 +55,11 @@ void loadsAMaterial() {
 Result<Simulation> runsAScene(const Result<ComputeDevice>& device) {
   auto scene = loadScene(*readScene("scene.toml"));
   check(scene);
-  SceneStart start(*scene);
-  auto hair = Simulation::create(*buildAsset(*device, *scene), start.state(*scene));
+  SceneFrames frames(*scene);
+  auto start = frames.placesAt(frames.first());
+  auto hair = Simulation::create(*buildAsset(*device, *scene), stateOf(start, *scene));
   check(hair);
-  for (int f = -preRollFrames(*scene); f < scene->frameCount; ++f) check(stepScene(*scene, *hair, f));
+  for (int f = frames.first(); f < scene->frameCount; ++f) check(stepScene(frames, *hair, f));
   const SceneChange changes[] = {{"material.preset", "coil"}};
   check(readScene("scene.toml", changes));
   check(readScene("scene.toml", {}, SceneReach::ownFolder));

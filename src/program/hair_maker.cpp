@@ -1,0 +1,93 @@
+// Implements hair_maker.h.
+#include "program/hair_maker.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "parts/strand_parts.h"
+#include "program/open_device.h"
+#include "program/rank_hair.h"
+#include "program/standard_error.h"
+#include "ringlet/run/split_hair.h"
+#include "ringlet/solver/shape_plan.h"
+
+namespace ringlet::program {
+namespace {
+
+// Where what was measured is true, and there is a choice.
+bool mayBeTuned(const SceneHairInput& input, const KernelChoice& kernel) {
+  const Settings settings = input.settings();
+  const ContactKinds kinds{.pairs = settings.contacts.on};
+  return strandWork(settings, input.scene.material, kinds, !input.scene.bodies.empty()) ==
+             StrandWork::hairAlone &&
+         (kernel.form == KernelChoice::Form::automatic || kernel.form == KernelChoice::Form::lanes) &&
+         (kernel.lanes == 0 || kernel.particlesPerLane == 0);
+}
+
+Result<std::unique_ptr<SceneHair>> makeOnDevices(const SceneHairInput& input, const RunOptions& options) {
+  const std::size_t count = options.devices.size(), strands = input.scene.groom.strandCount();
+  if (count > strands)
+    return Error{fmt::format("{} devices are more than the groom's {} strands", count, strands)};
+  const auto parts = divideStrands(input.scene.groom, input.scene.material, input.settings(), count);
+  if (!parts) return parts.error();
+  std::vector<std::unique_ptr<GpuChoice>> kept;
+  std::vector<DeviceHairChoice> choices;
+  for (const std::string& device : options.devices) {
+    auto made = GpuChoice::make(input, options, device);
+    if (!made) return made.error();
+    choices.push_back((*made)->choice());
+    kept.push_back(std::move(*made));
+  }
+  return makeSplitHair(input, *parts, std::move(choices));
+}
+
+}  // namespace
+
+Result<ComputeDevice> openGpu(const std::string& device) {
+  auto opened = openDevice(device);
+  if (!opened)
+    return Error{opened.error().message + " (`--backend reference` runs without Vulkan, slowly)",
+                 opened.error().fault};
+  return opened;
+}
+
+Result<std::unique_ptr<GpuChoice>> GpuChoice::make(const SceneHairInput& input, const RunOptions& options,
+                                                   const std::string& device) {
+  std::unique_ptr<GpuChoice> made(new GpuChoice);
+  auto opened = options.opened ? Result<ComputeDevice>(*options.opened) : openGpu(device);
+  if (!opened) return opened.error();
+  TunedShapes& tuned = made->tuned_;
+  if (options.usesTuned && mayBeTuned(input, options.kernel)) tuned = recallShapes(*opened);
+  const bool tells = options.showProgress;
+  if (tuned.isOutdated && tells)
+    say("ringlet: {} was tuned with another driver or ringlet; `ringlet tune` does it anew\n",
+        opened->name());
+  KernelChoice kernel = options.kernel;
+  const auto groupSize = groupSizeAsked();
+  if (!groupSize) return groupSize.error();
+  kernel.groupSize = *groupSize;
+  kernel.residual = measuresResidual(input.scene, options);
+  // Costs are true only of the width they were measured at.
+  if (kernel.subgroupSize == 0) kernel.subgroupSize = static_cast<int>(tuned.subgroupSize);
+  if (kernel.subgroupSize != static_cast<int>(tuned.subgroupSize)) tuned.costs.clear();
+  kernel.measured = tuned.costs;
+  made->note_ = std::make_unique<CompileNote>(opened->name());
+  if (tells) kernel.observer = made->note_.get();
+  made->choice_ = DeviceHairChoice{std::move(*opened), kernel};
+  if (!tuned.warning.empty()) made->choice_->messages.push_back(tuned.warning);
+  if (std::string left = whatIsLeftOut(); !left.empty()) made->choice_->messages.push_back(std::move(left));
+  return made;
+}
+
+Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const RunOptions& options) {
+  if (options.onReference) return makeReferenceHair(input);
+  if (options.onRanks) return makeRankHair(input, options);
+  if (!options.devices.empty()) return makeOnDevices(input, options);
+  const auto gpu = GpuChoice::make(input, options, options.device);
+  if (!gpu) return gpu.error();
+  return makeDeviceHair(input, (*gpu)->choice());
+}
+
+}  // namespace ringlet::program

@@ -1,0 +1,97 @@
+// SceneHair: hair of a scene that is stepped frame by frame, wherever that is: on a device (device_hair.h),
+// on several (split_hair.h), by the reference or on other ranks (both of the program).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/base/vec3.h"
+#include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_frames.h"
+#include "ringlet/solver/simulation.h"
+
+namespace ringlet {
+
+/// Sums over all steps since the hair was made.
+struct HairReports {
+  SimulationReport hair;
+  ContactReport contacts;  // of the last frame; empty without contacts
+};
+
+/// Of computing, summed over all frames waited for [ms].
+struct HairTimes {
+  std::map<std::string, double> stages{};
+  std::optional<HostMilliseconds> host{};  // none without a device, or with several
+};
+
+struct HairFacts {
+  std::string device, driver, kernel;
+  std::size_t rigidStrandCount = 0;            // carried rigidly (rest/rigid_strands.h)
+  bool isTuned = false;                        // measurements of `ringlet tune` chose the shapes
+  double compileMilliseconds = 0;              // of its kernels; 0 if there are none to compile
+  std::optional<std::uint64_t> deviceBytes{};  // of its buffers now; none without a device
+  std::vector<std::string> warnings{};         // of the hair and its settings
+  std::vector<std::string> messages{};         // of the device
+};
+
+class SceneHair {
+ public:
+  virtual ~SceneHair() = default;
+
+  /// Takes the frame's change and steps it. Frames in flight: as Simulation has them (kFramesInFlight, and
+  /// until when framePositions may be asked); none while there is a change.
+  virtual Status submit(const SceneFrame& frame) = 0;
+  virtual Status wait() = 0;
+  /// Of the frame waited for last. Groom order, relative to the head's origin, along world axes [m].
+  /// Into the groom's positions; of divided hair those of its own strands.
+  virtual void framePositions(std::span<Vec3f> all) = 0;
+  /// The same of now, before the first frame too, and no frame in flight.
+  virtual Result<std::vector<Vec3f>> positions() = 0;
+  /// All that later frames depend on, no frame being in flight; and back into hair that has stepped nothing,
+  /// which then goes on with that frame. As Simulation::checkpoint and restore.
+  virtual Result<std::vector<std::byte>> checkpoint() = 0;
+  virtual Status restore(const SceneFrames& frames, int frame, std::span<const std::byte> checkpoint) = 0;
+  virtual Result<HairReports> reports() = 0;
+  virtual HairTimes times() const = 0;
+  /// Whether times() may be asked for after every frame; not where that is a message.
+  virtual bool tellsTimesOfFrames() const { return true; }
+  virtual HairFacts facts() const = 0;
+};
+
+/// What hair is made of.
+struct SceneHairInput {
+  const LoadedScene& scene;
+  const SceneFrames& frames;  // of it
+  bool isStepByStep = false;  // it is given SceneFrame::step of each step, and not whole frames
+
+  Settings settings() const { return isStepByStep ? stepByStep(frames.settings()) : frames.settings(); }
+};
+
+/// Gives hair what changes in it for good; `Hair` has cut and setNumbers.
+template <class Hair>
+Status takeChange(const HairChange& change, bool isStepByStep, Hair& hair) {
+  for (const TimedCuts& now : change.cuts) {
+    if (Status cut = hair.cut(now.cuts); !cut) return cut;
+  }
+  if (!change.numbers) return {};
+  const Settings& settings = change.numbers->settings;
+  return hair.setNumbers(isStepByStep ? stepByStep(settings) : settings, change.numbers->material);
+}
+template <class Hair>
+Status takeChangesBefore(const SceneFrames& frames, int frame, bool isStepByStep, Hair& hair) {
+  const auto changes = frames.changesBefore(frame);
+  if (!changes) return changes.error();
+  for (const HairChange& change : *changes) {
+    if (Status taken = takeChange(change, isStepByStep, hair); !taken) return taken;
+  }
+  return {};
+}
+
+}  // namespace ringlet

@@ -1,0 +1,208 @@
+// One way from a scene to frames: the program, several devices, the window's session, C, Python and a host
+// that steps a scene itself have the same bits.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "ringlet/c/ringlet_io.h"
+#include "ringlet/output/positions_hash.h"
+#include "ringlet/run/scene_run.h"
+#include "ringlet/scenes/builtin_scene.h"
+#include "ringlet/scenes/load_scene.h"
+#include "tests/program/run_program.h"
+#include "tests/support/gpu_test.h"
+#include "tests/support/test_support.h"
+#include "view/session.h"
+
+namespace ringlet {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::runProgram;
+
+constexpr int kFrames = 5;
+constexpr const char* kSwatch =
+    "[groom]\ngenerate = \"swatch\"\ncolumns = 3\nrows = 2\nparticles = 20\nturns = 3\n";
+
+// A scene with one thing that changes between frames, or before them.
+struct Case {
+  const char* name;
+  std::string text;
+  bool isDivided = true;  // devices can share it
+};
+
+std::vector<Case> cases() {
+  const std::string swatch = kSwatch, shaken = swatch + "[motion]\nkind = \"shake\"\n";
+  const std::string keys =
+      "[[key]]\ntime = 0\nair.wind = [0, 0, 0]\nmaterial.dials.weight = 1\n"
+      "[[key]]\ntime = 0.1\nair.wind = [3, 0, 1]\nmaterial.dials.weight = 2\n";
+  return {
+      {"keys", shaken + keys},
+      {"sleep",
+       swatch + "[simulation]\nsleep_speed = 0.01\n[[key]]\ntime = 0\nsimulation.gravity = 9.81\n",
+       false},
+      {"cuts", shaken + "[[cut]]\ntime = 0\nat = 0.8\nstrands = \"1\"\n[[cut]]\ntime = 0.1\nat = 0.5\n",
+       false},
+      {"pre_roll", shaken + "pre_roll = 0.2\n"},
+      {"all",
+       shaken +
+           "pre_roll = 0.15\n[[field]]\nkind = \"uniform\"\nstrength = 2\n[[hold]]\nbind = \"world\"\n"
+           "strands = \"0:1\"\n[[body]]\nshape = \"sphere\"\nradius = 0.02\nposition = [0.2, 0, 0]\n"
+           "moves = \"still\"\n[[cut]]\ntime = -0.05\nat = 0.7\n" +
+           keys,
+       false},
+      {"touching",
+       shaken + "[[group]]\nname = \"bun\"\nstrands = \"0:2\"\ntouch = false\n[contacts]\non = true\n" +
+           keys},
+      {"still_air",
+       swatch + "[simulation]\nintegrator = \"point_jacobi\"\n[[key]]\ntime = 0\nsimulation.max_stretch = "
+                "1.1\n[[key]]\ntime = 0.2\nsimulation.max_stretch = 1.3\n"},
+  };
+}
+
+class OneRun : public test::GpuTest {
+ protected:
+  void SetUp() override {
+    GpuTest::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    fs::copy(RINGLET_SOURCE_DIR "/examples", folder_, fs::copy_options::recursive);
+    ASSERT_EQ(runProgram(folder_, {"make", "head", "--strands", "40", "--particles", "24", "--turns", "6",
+                                   "--length", "0.2", "-o", "groom.obj"})
+                  .exitCode,
+              0);
+  }
+
+  std::string byProgram(const fs::path& scene, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"simulate", scene.string(), "--frames", std::to_string(kFrames),
+                                       "--json",   "--overwrite",  "-o",       "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test::ProgramResult run = runProgram(folder_, arguments);
+    EXPECT_EQ(run.exitCode, 0) << scene << run.err;
+    const json told = json::parse(run.out, nullptr, false);
+    return told.is_object() ? told["positions_hash"].get<std::string>() : run.err;
+  }
+  std::string byHost(const LoadedScene& scene) {
+    const SceneFrames frames(scene);
+    const ScenePlaces start = frames.placesAt(frames.first());
+    const auto asset = buildAsset(device(), scene);
+    if (!asset) return asset.error().message;
+    auto hair = Simulation::create(*asset, stateOf(start, scene));
+    if (!hair) return hair.error().message;
+    for (int frame = frames.first(); frame < kFrames; ++frame) {
+      if (Status stepped = stepScene(frames, *hair, frame); !stepped) return stepped.error().message;
+    }
+    return positionsHash(*hair->positions());
+  }
+  std::string byWindow(const SceneFile& file, const LoadedScene& scene) {
+    auto session = view::Session::create(device(), file, scene);
+    if (!session) return session.error().message;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      if (Status submitted = session->submitFrame(); !submitted) return submitted.error().message;
+      if (Status waited = session->waitFrame(); !waited) return waited.error().message;
+    }
+    return positionsHash(*session->hairs()[0].simulation().positions());
+  }
+  std::string byC(const fs::path& path) {
+    ringlet_device* device = nullptr;
+    ringlet_scene* scene = nullptr;
+    ringlet_asset* asset = nullptr;
+    ringlet_hair* hair = nullptr;
+    std::string hash;
+    const auto run = [&] {
+      if (ringlet_device_open(nullptr, &device) != RINGLET_OK ||
+          ringlet_scene_read(path.c_str(), nullptr, &scene) != RINGLET_OK ||
+          ringlet_scene_build(device, scene, nullptr, &asset) != RINGLET_OK ||
+          ringlet_scene_hair(scene, asset, &hair) != RINGLET_OK)
+        return false;
+      for (int frame = 0; frame < kFrames; ++frame) {
+        if (ringlet_scene_step(scene, hair, frame) != RINGLET_OK) return false;
+      }
+      std::vector<Vec3f> points(ringlet_asset_particle_count(asset));
+      if (ringlet_positions(hair, &points[0].x, points.size()) != RINGLET_OK) return false;
+      hash = positionsHash(points);
+      return true;
+    };
+    if (!run()) hash = ringlet_error_message();
+    ringlet_hair_release(hair);
+    ringlet_asset_release(asset);
+    ringlet_scene_release(scene);
+    ringlet_device_release(device);
+    return hash;
+  }
+#ifdef RINGLET_PYTHON
+  std::string byPython(const fs::path& scene) {
+    std::ofstream(folder_ / "run.py")
+        << "import ringlet, sys\n"
+           "hair = ringlet.Scene.load(sys.argv[1]).run(frames=int(sys.argv[2]))\n"
+           "print(ringlet.positions_hash(hair.positions()))\n";
+    const std::string out = (folder_ / "hash.txt").string();
+    const std::string command = "PYTHONPATH=" RINGLET_BUILD_DIR
+                                "/python PYTHONDONTWRITEBYTECODE=1 " RINGLET_PYTHON " " +
+                                (folder_ / "run.py").string() + " " + scene.string() + " " +
+                                std::to_string(kFrames) + " >" + out + " 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << scene;
+    std::string text = test::readText(out);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text;
+  }
+#endif
+
+  void expectOne(const fs::path& path, bool isDivided) {
+    SCOPED_TRACE(path.filename());
+    const auto file = readScene(path);
+    ASSERT_TRUE(file) << file.error().message;
+    const auto scene = loadScene(*file);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const std::string expected = byProgram(path);
+    ASSERT_EQ(expected.size(), 16u) << expected;
+    EXPECT_EQ(byHost(*scene), expected) << "a host";
+    EXPECT_EQ(byC(path), expected) << "C";
+    EXPECT_EQ(byWindow(*file, *scene), expected) << "a window's session";
+#ifdef RINGLET_PYTHON
+    EXPECT_EQ(byPython(path), expected) << "Python";
+#endif
+    if (isDivided) {
+      EXPECT_EQ(byProgram(path, {"--devices", "0,0"}), expected) << "two devices";
+    }
+  }
+
+  const fs::path folder_ = test::scratchFolder("one_run");
+};
+
+TEST_F(OneRun, OfExamples) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    if (entry.path().extension() != ".toml" || !readScene(entry.path())) continue;
+    ++count;
+    const auto scene = loadScene(*readScene(entry.path()));
+    ASSERT_TRUE(scene) << scene.error().message;
+    expectOne(entry.path(), scene->cuts.empty() && scene->settings.sleepSpeed == 0);
+  }
+  EXPECT_GE(count, 6);
+}
+
+TEST_F(OneRun, OfBuiltInScenes) {
+  for (const std::string& name : sceneNames()) {
+    const fs::path path = folder_ / (name + ".toml");
+    ASSERT_EQ(runProgram(folder_, {"scene", name, "--write", path.string()}).exitCode, 0) << name;
+    expectOne(path, true);
+  }
+}
+
+TEST_F(OneRun, OfScenesThatChange) {
+  for (const Case& each : cases()) {
+    const fs::path path = folder_ / (std::string("case_") + each.name + ".toml");
+    std::ofstream(path) << each.text;
+    expectOne(path, each.isDivided);
+  }
+}
+
+}  // namespace
+}  // namespace ringlet
