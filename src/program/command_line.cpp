@@ -106,8 +106,8 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device) {
   return command
       .add_option(
           "--device", device,
-          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, "
-          "else the best)")
+          "Vulkan device, by index or part of its name; see `ringlet devices` (default $RINGLET_DEVICE, else "
+          "the best)")
       ->type_name("D");
 }
 

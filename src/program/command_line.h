@@ -34,8 +34,7 @@ CLI::Option* addDeviceOption(CLI::App& command, std::string& device);
 /// Of `--subgroup`, in simulate and scene.
 inline constexpr const char* kSubgroupHelp =
     "Invocations of a subgroup of the strand kernel: one of the widths `ringlet devices` shows (default: "
-    "chosen "
-    "by device, or as `ringlet tune` measured)";
+    "chosen by device, or as `ringlet tune` measured)";
 
 /// What to print for a command line that CLI11 refused: which subcommand, what is wrong, the closest name.
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error);

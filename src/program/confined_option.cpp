@@ -13,8 +13,7 @@ void addConfinedOption(CLI::App& command, SceneReach& reach) {
       "--confined",
       [&reach](std::int64_t count) { reach = count > 0 ? SceneReach::ownFolder : SceneReach::anywhere; },
       "For a scene file of a stranger: refuse it where it names a file to read, or a folder for results, "
-      "that is "
-      "not in or below its own folder, links followed");
+      "that is not in or below its own folder, links followed");
 }
 
 Status checkHoldsNoLinks(const std::filesystem::path& folder) {

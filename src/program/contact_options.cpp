@@ -53,8 +53,8 @@ void addContactOptions(CLI::App* command, ContactChoice& choice, const std::stri
   command
       ->add_option(
           "--prune", choice.prune,
-          "Overlapping spheres at rest from which on two strands may touch pair by pair, 1 to 1000000: "
-          "more misses more and is little faster; none: all may, also those apart at rest (default none)")
+          "Overlapping spheres at rest from which on two strands may touch pair by pair, 1 to 1000000: more "
+          "misses more and is little faster; none: all may, also those apart at rest (default none)")
       ->check(pruneLevel())
       ->type_name("N|none")
       ->group(kGroup);

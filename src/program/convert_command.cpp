@@ -53,8 +53,7 @@ constexpr const char* kExample =
     ".ply\n"
     "\n"
     "OUT's ending says what becomes of it. .usda, .usdc, .rgc and .png count frames from 1 again; the names "
-    "of "
-    ".obj\n"
+    "of .obj\n"
     "files keep the animation's numbers. Damaged frames are refused, whole ones beside them can be had with\n"
     "--frames. A file that was not finished is read as far as it goes, and a warning says so.\n"
     "\n"
@@ -208,10 +207,12 @@ Status checkOutput(const Typed& typed) {
   }
   const std::filesystem::path partial = typed.output.string() + ".partial";
   if (!typed.overwrite && std::filesystem::exists(partial, code)) {
-    return Error{fmt::format("{} holds frames that something left which did not end; choose another name, or "
-                             "begin anew with --overwrite",
-                             partial.string()),
-                 Fault::output};
+    return Error{
+        fmt::format(
+            "{} holds frames that something left which did not end; choose another name, or begin anew with "
+            "--overwrite",
+            partial.string()),
+        Fault::output};
   }
   return {};
 }
@@ -403,10 +404,12 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
       ->required()
       ->type_name("FILE");
   command
-      ->add_option("OUT", typed->output,
-                   fmt::format("File to write: {}, .png (six frames side by side), .obj or .ply "
-                               "(name.0001.obj and so on); or a folder for .obj files",
-                               animationList(true)))
+      ->add_option(
+          "OUT", typed->output,
+          fmt::format(
+              "File to write: {}, .png (six frames side by side), .obj or .ply (name.0001.obj and so on); or "
+              "a folder for .obj files",
+              animationList(true)))
       ->type_name("PATH");
   command->add_option("--frames", typed->frames, "First and last frame, from 1, or one (default: all)")
       ->check(isFrameRange())
@@ -442,8 +445,8 @@ void addConvertCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--hairs", typed->hairs,
-          "Hairs to write in place of the strands of IN, which they follow: about as many strands are "
-          "what one sees as locks")
+          "Hairs to write in place of the strands of IN, which they follow: about as many strands are what "
+          "one sees as locks")
       ->check(wholeBetween(1, 10'000'000))
       ->type_name("N");
   addHairLookOptions(*command, typed->look);

@@ -39,9 +39,10 @@ Result<CutList> CutList::beside(const std::filesystem::path& animation) {
   std::ifstream file(path);
   const auto failed = [&](int line) {
     return Error{
-        fmt::format("cannot read line {} of {}: expected {}, as `ringlet simulate` writes it; delete "
-                    "the file if it is not of the animation beside it",
-                    line, path.string(), line == 1 ? kHead : "three whole numbers"),
+        fmt::format(
+            "cannot read line {} of {}: expected {}, as `ringlet simulate` writes it; delete the file if it "
+            "is not of the animation beside it",
+            line, path.string(), line == 1 ? kHead : "three whole numbers"),
         Fault::input};
   };
   std::string text;

@@ -68,10 +68,10 @@ Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, con
   for (std::size_t s = 0; s < rest.strandCount(); ++s) {
     const std::vector<Vec3d> strand = plan.strandOf(rest.points, s);
     if (!(lengthOf(strand) > 0))
-      return Error{
-          fmt::format("strand {} of the groom has no length, so that no hair can follow it; "
-                      "`ringlet info --fix` drops such strands",
-                      s + 1)};
+      return Error{fmt::format(
+          "strand {} of the groom has no length, so that no hair can follow it; `ringlet info --fix` drops "
+          "such strands",
+          s + 1)};
     plan.guides_.push_back(restOfGuide(strand));
     const auto cut = pieces.find(static_cast<std::uint32_t>(s));
     if (cut == pieces.end()) continue;
@@ -94,20 +94,19 @@ Result<FollowPlan> FollowPlan::make(const Groom& rest, double metresPerUnit, con
 
 Status FollowPlan::checkPose(const Groom& groom) const {
   if (groom.firstPoint != firstPoint_)
-    return Error{
-        fmt::format("the groom has {} strands of {} particles in all, the animation {} of {}: they do "
-                    "not belong together",
-                    guides_.size(), firstPoint_.back(), groom.strandCount(), groom.firstPoint.back())};
+    return Error{fmt::format(
+        "the groom has {} strands of {} particles in all, the animation {} of {}: they do not belong "
+        "together",
+        guides_.size(), firstPoint_.back(), groom.strandCount(), groom.firstPoint.back())};
   double now = 0, atRest = 0;
   for (std::size_t s = 0; s < guides_.size(); ++s) {
     now += lengthOf(strandOf(groom.points, s));
     atRest += guides_[s].arcs.back();
   }
   if (now > kMostLonger * atRest || atRest > kMostLonger * now)
-    return Error{
-        fmt::format("the animation's strands are {:.3g} times as long as the groom's: one of them is in "
-                    "another unit",
-                    now / atRest)};
+    return Error{fmt::format(
+        "the animation's strands are {:.3g} times as long as the groom's: one of them is in another unit",
+        now / atRest)};
   return {};
 }
 

@@ -13,8 +13,8 @@ void addGroomOptions(CLI::App& command, GroomChoice& choice, const std::string& 
       command
           .add_option(
               "--root-end", choice.rootEnd,
-              "Which end of each strand of the file is its root: first (default) or last point, or of "
-              "each the one on the head, a ball on which most strands have an end")
+              "Which end of each strand of the file is its root: first (default) or last point, or of each "
+              "the one on the head, a ball on which most strands have an end")
           ->check(oneOf({"first", "last", "head"}))
           ->type_name("END");
   if (!group.empty()) end->group(group);

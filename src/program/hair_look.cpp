@@ -11,8 +11,8 @@ void addHairLookOptions(CLI::App& command, HairLook& look, const std::string& gr
   command
       .add_option(
           "--frizz", look.frizz,
-          "How far hairs differ from the strand they follow: a factor, 0 to 10; 0: each curls just as "
-          "its strand (default 1)")
+          "How far hairs differ from the strand they follow: a factor, 0 to 10; 0: each curls just as its "
+          "strand (default 1)")
       ->check(between(0, 10))
       ->type_name("X")
       ->group(group);
@@ -32,9 +32,10 @@ void addHairLookOptions(CLI::App& command, HairLook& look, const std::string& gr
       ->type_name("S")
       ->group(group);
   command
-      .add_option("--hair-scalp", look.scalp,
-                  "An OBJ file in the groom's axes and unit: hairs' roots are on this mesh, evenly spread "
-                  "where strands stand (default: the mesh of the scene's scalp, else around strands' roots)")
+      .add_option(
+          "--hair-scalp", look.scalp,
+          "An OBJ file in the groom's axes and unit: hairs' roots are on this mesh, evenly spread where "
+          "strands stand (default: the mesh of the scene's scalp, else around strands' roots)")
       ->type_name("FILE")
       ->group(group);
 }

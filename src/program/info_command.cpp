@@ -67,8 +67,7 @@ constexpr const char* kExample =
     "metres_per_unit unit_from (file, option, default) likely_units [{name metres_per_unit mean_length_mm}]\n"
     "up_from (file, or null) likely_up (Y, Z or null) faults {repeated_particles short_edges long_edges\n"
     "stray_particles shared_particles reversed_strands point_strands duplicates too_short too_long "
-    "far_away}, "
-    "each\n"
+    "far_away}, each\n"
     "{count first_strand} (null without) warnings; with --fix also fixed {strands particles merged strays\n"
     "dropped_points dropped_duplicates output}.\n"
     "\n"
@@ -235,8 +234,8 @@ Result<Fixed> fix(const Typed& typed, const LoadedGroom& loaded, const GroomInsp
   }
   if (typed.particles && *typed.particles < kParticlesPerTurn * found.turns.max) {
     fixed.warnings.push_back(fmt::format(
-        "{} particles are fewer than four a turn of the most curled strand, which has {:.1f} turns; it "
-        "will lose its shape",
+        "{} particles are fewer than four a turn of the most curled strand, which has {:.1f} turns; it will "
+        "lose its shape",
         *typed.particles, found.turns.max));
   }
   if (Status written = writeGroom(typed.output, fixed.mended.groom); !written) return written.error();

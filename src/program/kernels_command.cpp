@@ -117,8 +117,8 @@ Result<std::vector<StrandShape>> shapesOf(const Typed& typed, const DeviceLimits
     });
     if (found == offered.end())
       return Error{fmt::format(
-          "--shapes {}: no such shape with runs in registers here; it is LANESxRUN, as in 8x4, with lanes "
-          "a power of two up to {}, and a run of {} or more",
+          "--shapes {}: no such shape with runs in registers here; it is LANESxRUN, as in 8x4, with lanes a "
+          "power of two up to {}, and a run of {} or more",
           text, limits.subgroupSize, kShortestRun)};
     shapes.push_back(found->shape);
   }

@@ -159,10 +159,10 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
             head->head = *headOfStyle(name);
             head->curl = head->head.curl;
           },
-          fmt::format("Hair style, which sets length, radius, turns, locks and the cut: {}; what stands "
-                      "beside it goes "
-                      "before (default none)",
-                      kHairStyles))
+          fmt::format(
+              "Hair style, which sets length, radius, turns, locks and the cut: {}; what stands beside it "
+              "goes before (default none)",
+              kHairStyles))
       ->check(oneOf(namesIn(kHairStyles)))
       ->type_name("NAME");
   addCurlOptions(headCommand, *head);
@@ -171,9 +171,10 @@ void addMakeCommand(CLI::App& app, int& exitCode) {
             "Locks, of curls that wind alike; 0: every strand is a curl of its own", "N");
   addNumber(headCommand, "--scalp-radius", head->head.scalpRadius, "Radius of the head, metres", "METRES");
   headCommand
-      ->add_option("--scalp", head->scalp,
-                   "Mesh on which hair grows above the hairline, in place of a sphere: .obj in the unit of "
-                   "--unit, about the origin")
+      ->add_option(
+          "--scalp", head->scalp,
+          "Mesh on which hair grows above the hairline, in place of a sphere: .obj in the unit of --unit, "
+          "about the origin")
       ->type_name("FILE");
   addVariationOptions(headCommand, head->variation);
   addSettingOptions(headCommand, cutFields(), "groom.cut", head->cut, "Cut");

@@ -54,8 +54,7 @@ constexpr const char* kExample =
     "--json keys: name summary parameters dials variation profile warnings outputs; of a parameter: key unit "
     "effect\n"
     "value (null: measured on the rest curl) default low high usual_low usual_high. With --list: presets, "
-    "and "
-    "the same\n"
+    "and the same\n"
     "without values.\n"
     "\n"
     "Exit status: 0 done, 1 something failed, 2 wrong usage.";
@@ -255,8 +254,8 @@ void addMaterialCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--suggest", typed->groom,
-          "Show the preset that this groom looks most like, by how many of its strands are curled, and "
-          "how wide")
+          "Show the preset that this groom looks most like, by how many of its strands are curled, and how "
+          "wide")
       ->type_name("GROOM");
   addPointsOption(*command, typed->reading);
   command->add_option("--unit", typed->metresPerUnit, "With --suggest: metres per unit of the groom")
@@ -309,10 +308,12 @@ void addDialOptions(CLI::App* command, DialChoice& choice, const std::string& gr
 
 void addMaterialOptions(CLI::App* command, MaterialChoice& choice, const std::string& group) {
   command
-      ->add_option("--material", choice.name,
-                   fmt::format("What hair is made of: {}, or a .toml file; see `ringlet material` (default: "
-                               "that command's defaults)",
-                               fmt::join(presetNames(), ", ")))
+      ->add_option(
+          "--material", choice.name,
+          fmt::format(
+              "What hair is made of: {}, or a .toml file; see `ringlet material` (default: that command's "
+              "defaults)",
+              fmt::join(presetNames(), ", ")))
       ->check(materialName())
       ->type_name("NAME|FILE")
       ->group(group);

@@ -114,10 +114,9 @@ Result<std::filesystem::path> fileOf(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path, code)) return path;
   const std::filesystem::path file = animationIn(path);
   if (file.empty())
-    return Error{
-        fmt::format("{} holds no hair.usda, hair.usdc or hair.rgc; is it a folder that `ringlet simulate` "
-                    "wrote?",
-                    path.string())};
+    return Error{fmt::format(
+        "{} holds no hair.usda, hair.usdc or hair.rgc; is it a folder that `ringlet simulate` wrote?",
+        path.string())};
   return file;
 }
 
@@ -133,8 +132,8 @@ Result<AnimationReader> openRun(const Groom& rest, const MeasurePlan& plan, cons
   const CacheHeader& header = run->header();
   if (header.framesPerSecond != framesPerSecond || header.metresPerUnit != rest.metresPerUnit)
     return Error{fmt::format(
-        "{} has {} frames a second in units of {} m, and what is compared with it {} in "
-        "units of {} m; only runs of one rate and unit can be compared",
+        "{} has {} frames a second in units of {} m, and what is compared with it {} in units of {} m; only "
+        "runs of one rate and unit can be compared",
         file->string(), header.framesPerSecond, header.metresPerUnit, framesPerSecond, rest.metresPerUnit)};
   return run;
 }
@@ -289,10 +288,10 @@ Result<Measured> measure(const MeasurePlan& plan, const std::filesystem::path& o
   namespace fs = std::filesystem;
   std::error_code code;
   if (fs::is_directory(plan.rest, code) || (isAnimation(plan.rest) && !isGroomFile(plan.rest))) {
-    return Error{
-        fmt::format("{} is what became of a groom, which it does not hold; name the groom first, as in "
-                    "`ringlet measure groom.obj {}`",
-                    plan.rest.string(), plan.rest.string())};
+    return Error{fmt::format(
+        "{} is what became of a groom, which it does not hold; name the groom first, as in `ringlet measure "
+        "groom.obj {}`",
+        plan.rest.string(), plan.rest.string())};
   }
   const auto path = fileOf(other);
   if (!path) return path.error();
@@ -304,10 +303,11 @@ Status plot(const MeasurePlan& plan, const Measured& measured) {
   std::vector<MotionSeries> runs;
   const auto add = [&](const Measured& run, const std::filesystem::path& path) -> Status {
     if (!run.series)
-      return Error{fmt::format("--plot draws what changes over time, and {} is one pose; name a folder that "
-                               "`ringlet simulate` wrote, or its animation",
-                               path.empty() ? "a groom alone" : path.string()),
-                   Fault::input};
+      return Error{
+          fmt::format("--plot draws what changes over time, and {} is one pose; name a folder that `ringlet "
+                      "simulate` wrote, or its animation",
+                      path.empty() ? "a groom alone" : path.string()),
+          Fault::input};
     runs.push_back(*run.series);
     runs.back().name = path.string();
     return {};

@@ -39,10 +39,10 @@ Result<gpu::DeviceOptions> optionsWithout(const std::string& words) {
     const std::string_view word = rest.substr(0, rest.find(','));
     rest.remove_prefix(std::min(word.size() + 1, rest.size()));
     if (leaveOut(word, options)) continue;
-    return Error{
-        fmt::format("RINGLET_WITHOUT: there is no {}; it may have texels, timestamps, mapping, "
-                    "full_subgroups, atomic_int64, cpu_forms, with commas between",
-                    word)};
+    return Error{fmt::format(
+        "RINGLET_WITHOUT: there is no {}; it may have texels, timestamps, mapping, full_subgroups, "
+        "atomic_int64, cpu_forms, with commas between",
+        word)};
   }
   return options;
 }

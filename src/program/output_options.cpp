@@ -141,8 +141,8 @@ void checkOutputs(const SceneOutput& output) {
   if (output.hairs && needsOrigin(output))
     throw CLI::ValidationError(
         "--hairs",
-        "hairs have no prims and no values in the groom's file; leave --usd-prims groom and "
-        "--usd-values groom out");
+        "hairs have no prims and no values in the groom's file; leave --usd-prims groom and --usd-values "
+        "groom out");
   if (output.prims != "groom") return;
   if (!holds(output.files, "hair.usdc") || holds(output.files, "hair.usda"))
     throw CLI::ValidationError("--usd-prims",

@@ -78,8 +78,8 @@ Result<std::filesystem::path> animationIn(const std::filesystem::path& input) {
     }
   return Error{
       fmt::format(
-          "{} holds no hair.rgc, hair.usdc or hair.usda; name a folder that `ringlet simulate` wrote, or "
-          "an animation, a scene or a groom",
+          "{} holds no hair.rgc, hair.usdc or hair.usda; name a folder that `ringlet simulate` wrote, or an "
+          "animation, a scene or a groom",
           input.string()),
       Fault::input};
 }
@@ -102,8 +102,8 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOpt
     if (!std::filesystem::exists(typed.output / name, code)) continue;
     return Error{
         fmt::format(
-            "{} holds a run's {}, beside which the pictures' own run would be written; choose another "
-            "folder with -o",
+            "{} holds a run's {}, beside which the pictures' own run would be written; choose another folder "
+            "with -o",
             typed.output.string(), name),
         Fault::output};
   }

@@ -47,9 +47,10 @@ void checkOutput(const RenderOptions& options) {
   if (isFine || !(isForeign || isOurs) || std::filesystem::is_directory(options.output, code)) return;
   throw CLI::ValidationError(
       "--output",
-      fmt::format("'{}' must end in .png or .exr (one picture) or in .mp4, .webp or .gif (a film); "
-                  "for a folder of that name make it first",
-                  options.output.string()));
+      fmt::format(
+          "'{}' must end in .png or .exr (one picture) or in .mp4, .webp or .gif (a film); for a folder of "
+          "that name make it first",
+          options.output.string()));
 }
 
 void checkFrames(const RenderOptions& options) {
@@ -70,8 +71,8 @@ void checkInput(const RenderOptions& options) {
   if (isSceneFile(options.input) && (isFile || !options.scene.empty() || !options.groom.empty()))
     throw CLI::ValidationError(
         "IN",
-        "is a scene, which is simulated into the folder of its pictures: name a folder "
-        "with -o, and neither --scene nor --groom");
+        "is a scene, which is simulated into the folder of its pictures: name a folder with -o, and neither "
+        "--scene nor --groom");
   if (!isGroom && options.up != "Y")
     throw CLI::ValidationError("--up", "is of a groom; animations and scenes say it themselves");
   if (!isGroom && options.metresPerUnit)

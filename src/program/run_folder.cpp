@@ -40,9 +40,9 @@ bool isOfARun(const std::string& name) {
 
 Error isFinished(const fs::path& folder, const std::vector<std::string>& finished) {
   return {
-      fmt::format("{} holds a run's files: {}. --overwrite replaces them; choose another folder with -o to "
-                  "keep them",
-                  folder.string(), fmt::join(finished, ", ")),
+      fmt::format(
+          "{} holds a run's files: {}. --overwrite replaces them; choose another folder with -o to keep them",
+          folder.string(), fmt::join(finished, ", ")),
       Fault::output};
 }
 
@@ -58,9 +58,10 @@ std::vector<std::string> finishedOf(const std::vector<fs::path>& outputs) {
 Error isLeft(const fs::path& folder, const std::vector<std::string>& left) {
   const bool hasCheckpoint = std::ranges::find(left, kCheckpoint) != left.end();
   return {
-      fmt::format("{} holds what a run left that did not end: {}. {}--overwrite begins anew; `ringlet "
-                  "convert` takes frames out of a .partial",
-                  folder.string(), fmt::join(left, ", "), hasCheckpoint ? "--resume goes on with it; " : ""),
+      fmt::format(
+          "{} holds what a run left that did not end: {}. {}--overwrite begins anew; `ringlet convert` takes "
+          "frames out of a .partial",
+          folder.string(), fmt::join(left, ", "), hasCheckpoint ? "--resume goes on with it; " : ""),
       Fault::output};
 }
 

@@ -181,8 +181,8 @@ int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameC
       first = fmt::format(", first strand {} particle {}", report.firstNonfiniteStrand,
                           report.firstNonfiniteParticle);
     }
-    say("ringlet {}: {} particles have no finite position{}; in the files their strands end before "
-        "them. Try more --steps-per-frame.\n",
+    say("ringlet {}: {} particles have no finite position{}; in the files their strands end before them. Try "
+        "more --steps-per-frame.\n",
         command, report.nonfinite, first);
   }
   if (outcome.interrupted) {

@@ -61,20 +61,16 @@ constexpr const char* kExample =
     "--json prints the keys of `simulate` and of `measure` together; max_edge_stretch is that of every step. "
     "Beside\n"
     "them: scene seconds preload core frames_on frame_turn_deg (twist_jump: the largest turn of a strand "
-    "frame "
-    "in one\n"
+    "frame in one\n"
     "step, for which the scene runs twice; null elsewhere). With --list: scenes, of each name summary "
     "seconds preload.\nWith --keys: keys, of each table key type unit range default only_with effect. With "
     "--write: scene outputs.\n";
 constexpr const char* kExitHelp =
     "\n"
     "Scenes of hair that meets hair (two_curls, curtain, pile, fall, flip, head, walk_head) measure contacts "
-    "also where "
-    "these are\n"
-    "off; others where they are on. Steps "
-    "are then\n"
-    "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, which has "
-    "the defaults\n"
+    "also where these are\n"
+    "off; others where they are on. Steps are then\n"
+    "measured one by one. Their radius is 5.5 mm and gaps are filled, but on head, which has the defaults\n"
     "of simulate.\n"
     "\n"
     "Exit status: as for simulate.";
@@ -234,8 +230,7 @@ Result<int> writeScene(const Typed& typed, const BuiltinScene& scene) {
                               groom = folder / (typed.file.stem().string() + "-groom.obj");
   const std::string heading = fmt::format(
       "# The built-in scene {}. {}\n# ringlet simulate {} -o out\n# What is left out keeps its default; "
-      "`ringlet "
-      "scene --keys` prints every key.\n",
+      "`ringlet scene --keys` prints every key.\n",
       scene.name, scene.summary, typed.file.filename().string());
   const std::string text = sceneText(sceneFileOf(scene, groom), folder, heading);
   if (Status written = writeObj(groom, scene.groom); !written) return written.error();
@@ -328,8 +323,8 @@ void checkPaper(const Typed& typed) {
   if (option) {
     throw CLI::ValidationError(
         option,
-        "--integrator paper takes its springs as printed: their stiffness, a core, smoothed "
-        "frames and no preload; leave this out");
+        "--integrator paper takes its springs as printed: their stiffness, a core, smoothed frames and no "
+        "preload; leave this out");
   }
 }
 
@@ -389,9 +384,10 @@ void addSceneCommand(CLI::App& app, int& exitCode) {
       ->type_name("N")
       ->group(hair);
   command
-      ->add_option("--strands", typed->scene.strands,
-                   "Strands side by side (default 1; release 32; flip 100, head 1500); of each swatch "
-                   "(curtain 50, pile and fall 12), in whole rows")
+      ->add_option(
+          "--strands", typed->scene.strands,
+          "Strands side by side (default 1; release 32; flip 100, head 1500); of each swatch (curtain 50, "
+          "pile and fall 12), in whole rows")
       ->check(wholeBetween(1, 100'000))
       ->type_name("N")
       ->group(hair);

@@ -61,22 +61,15 @@ constexpr const char* kExample =
     "--json keys: frames strands particles rigid_strands (of strands, carried rigidly: too fine for float32, "
     "or short and\n"
     "in need of far more steps than the others) ms_per_frame (stepping alone, by the device's clock where it "
-    "has "
-    "one)\n"
+    "has one)\n"
     "frame_ms (of that the first, the median and the least frame; null where ranks step the hair) stages_ms "
-    "(per "
-    "frame,\n"
+    "(per frame,\n"
     "by stage; copy_out, of positions to the host, is not in ms_per_frame; readback and write go on while "
-    "the next "
-    "frame is\n"
-    "stepped) wall_s "
-    "(start, "
-    "frames,\n"
-    "finish) compute_share (stepping, of wall_s.frames) waits_ms (per frame, for device and "
-    "writer;\n"
+    "the next frame is\n"
+    "stepped) wall_s (start, frames,\n"
+    "finish) compute_share (stepping, of wall_s.frames) waits_ms (per frame, for device and writer;\n"
     "the host's time for submit, fence and, of positions out of the frame, copy)\n"
-    "max_edge_stretch limited_share nonfinite velocity_residual (of the "
-    "velocity solve,\n"
+    "max_edge_stretch limited_share nonfinite velocity_residual (of the velocity solve,\n"
     "worst strand and step; measuring it takes a few per cent of the step's time; null for paper, with "
     "contacts,\n"
     "bodies or air and for reference) deepest_penetration_mm (of any particle in a body once it was outside, "
@@ -90,8 +83,7 @@ constexpr const char* kExample =
     "material steps_per_frame fps\n"
     "resumed_from (frames that a run before had done) interrupted warnings notes (a preset that fits "
     "better)\n"
-    "outputs. Times are of this run's "
-    "frames.\n";
+    "outputs. Times are of this run's frames.\n";
 constexpr const char* kExitHelp =
     "\n"
     "Exit status: 0 done, 2 wrong usage, 3 done but some particles have no position, 130 Ctrl-C; of "
@@ -332,11 +324,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command->footer(std::string(kExample) + kContactKeysHelp + kExitHelp);
 
   command
-      ->add_option("GROOM", typed->input,
-                   "Strands to simulate: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file; or a scene "
-                   "file, .toml, whose keys "
-                   "`ringlet scene "
-                   "--keys` prints and the options here override")
+      ->add_option(
+          "GROOM", typed->input,
+          "Strands to simulate: a .hair, .obj, .usd, .tfx, .ply, .data or .bin file; or a scene file, .toml, "
+          "whose keys `ringlet scene --keys` prints and the options here override")
       ->required()
       ->type_name("FILE");
   command
@@ -355,8 +346,8 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--pre-roll", typed->preRoll,
-          "Seconds the hair moves before the first frame, so that it begins settled; before its file "
-          "begins, the head glides into its first pose (default 0)")
+          "Seconds the hair moves before the first frame, so that it begins settled; before its file begins, "
+          "the head glides into its first pose (default 0)")
       ->check(between(0, 3600))
       ->type_name("S")
       ->group(scene);
@@ -379,17 +370,20 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
           "--joint", typed->joint,
           "Joint of the .bvh file, node of the .gltf, .glb or .vrm, that is the head (default Head)"),
       "NAME");
-  ofMotionFile(command
-                   ->add_option("--motion-unit", typed->motionUnit,
-                                "Metres per unit of the motion's file (default: a .bvh person is 1.7 m "
-                                "tall, glTF is in metres)")
-                   ->check(between(1e-6, 1000)),
-               "METRES");
   ofMotionFile(
       command
-          ->add_option("--motion-up", typed->motionUp,
-                       "Up axis of the motion's file, which is turned to --up: Y, Z, X, or "
-                       "--motion-up=-Y, -Z, -X (default: along which a .bvh person stands; of glTF Y)")
+          ->add_option(
+              "--motion-unit", typed->motionUnit,
+              "Metres per unit of the motion's file (default: a .bvh person is 1.7 m tall, glTF is in "
+              "metres)")
+          ->check(between(1e-6, 1000)),
+      "METRES");
+  ofMotionFile(
+      command
+          ->add_option(
+              "--motion-up", typed->motionUp,
+              "Up axis of the motion's file, which is turned to --up: Y, Z, X, or --motion-up=-Y, -Z, -X "
+              "(default: along which a .bvh person stands; of glTF Y)")
           ->check(oneOf(namesIn(kFileAxisNames))),
       "AXIS");
   ofMotionFile(
@@ -404,10 +398,10 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
           "Animation of the .gltf, .glb or .vrm file, by name or number from 0 (default: the first)"),
       "NAME");
   command
-      ->add_option("--amplitude", typed->amplitude,
-                   "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), "
-                   "glide metres/s (1), walk metres (0.025), turn radians, once (pi), jump metres (0.2), "
-                   "whip radians (1)")
+      ->add_option(
+          "--amplitude", typed->amplitude,
+          "Size of the motion: shake metres (default 0.1), nod radians (0.4), spin radians/s (pi), glide "
+          "metres/s (1), walk metres (0.025), turn radians, once (pi), jump metres (0.2), whip radians (1)")
       ->check(between(-1000, 1000))
       ->type_name("A")
       ->group(scene);
@@ -418,9 +412,9 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("HZ")
       ->group(scene);
   command
-      ->add_option("--unit", typed->unit,
-                   "Metres per unit of the groom's file (default: what a USD file states, else 0.01: "
-                   "centimetres)")
+      ->add_option(
+          "--unit", typed->unit,
+          "Metres per unit of the groom's file (default: what a USD file states, else 0.01: centimetres)")
       ->check(between(1e-6, 1000))
       ->type_name("METRES")
       ->group(scene);
@@ -432,15 +426,16 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option(
           "--bind", typed->bind,
-          "What the groom is bound to: head, it is in the frame of the head's joint; world, it stands "
-          "where it was modelled, whatever axes the joint has (default head)")
+          "What the groom is bound to: head, it is in the frame of the head's joint; world, it stands where "
+          "it was modelled, whatever axes the joint has (default head)")
       ->check(oneOf({"head", "world"}))
       ->type_name("NAME")
       ->group(scene);
   command
-      ->add_option("--bind-frame", typed->bindFrame,
-                   "Frame of the motion at which what is bound to the world stands so; 1 is its first pose "
-                   "(default 1)")
+      ->add_option(
+          "--bind-frame", typed->bindFrame,
+          "Frame of the motion at which what is bound to the world stands so; 1 is its first pose (default "
+          "1)")
       ->check(wholeBetween(1, kMostFrames))
       ->type_name("N")
       ->group(scene);
@@ -503,25 +498,26 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("D,D")
       ->group(machine);
   command
-      ->add_option("--kernel", typed->kernel,
-                   "Form of the strand kernel: lanes, whose runs are in registers; memory, whose runs are in "
-                   "memory, slower and for long strands; serial, in memory and one lane a strand; or "
-                   "auto (default auto)")
+      ->add_option(
+          "--kernel", typed->kernel,
+          "Form of the strand kernel: lanes, whose runs are in registers; memory, whose runs are in memory, "
+          "slower and for long strands; serial, in memory and one lane a strand; or auto (default auto)")
       ->check(oneOf({"auto", "lanes", "memory", "serial"}))
       ->type_name("FORM")
       ->group(machine);
   command
-      ->add_option("--lanes", typed->lanes,
-                   "Lanes a strand is spread over: a power of two, the device's subgroup at most (default: "
-                   "chosen by device and length)")
+      ->add_option(
+          "--lanes", typed->lanes,
+          "Lanes a strand is spread over: a power of two, the device's subgroup at most (default: chosen by "
+          "device and length)")
       ->check(wholeBetween(1, 128))
       ->type_name("L")
       ->group(machine);
   command
-      ->add_option("--run", typed->run,
-                   "Particles a lane holds, 4 to 16, on a CPU device to 24, and to 64 in one, two or the "
-                   "most lanes; in memory to 1024 (default: "
-                   "chosen by device and length)")
+      ->add_option(
+          "--run", typed->run,
+          "Particles a lane holds, 4 to 16, on a CPU device to 24, and to 64 in one, two or the most lanes; "
+          "in memory to 1024 (default: chosen by device and length)")
       ->check(wholeBetween(kShortestRun, kLongestRunInMemory))
       ->type_name("K")
       ->group(machine);
@@ -547,14 +543,16 @@ void addSimulateCommand(CLI::App& app, int& exitCode) {
       ->type_name("N")
       ->group(output);
   command
-      ->add_flag("--resume", typed->resume,
-                 "Go on with the run in DIR from its last checkpoint, to the same bits as without a break; "
-                 "begin where there is nothing to go on with. Everything else must be asked for as it was")
+      ->add_flag(
+          "--resume", typed->resume,
+          "Go on with the run in DIR from its last checkpoint, to the same bits as without a break; begin "
+          "where there is nothing to go on with. Everything else must be asked for as it was")
       ->group(output);
   command
-      ->add_flag("--overwrite", typed->overwrite,
-                 "Begin anew where DIR holds files of another run, finished or not; with --resume only where "
-                 "there is no checkpoint")
+      ->add_flag(
+          "--overwrite", typed->overwrite,
+          "Begin anew where DIR holds files of another run, finished or not; with --resume only where there "
+          "is no checkpoint")
       ->group(output);
   command
       ->add_flag("--json-progress", typed->jsonProgress,

@@ -61,11 +61,11 @@ Result<Source> distances(const std::filesystem::path& against, const Groom& stra
   auto opened = AnimationReader::open(against);
   if (!opened) return opened.error();
   if (opened->groom().firstPoint != strands.firstPoint)
-    return Error{
-        fmt::format("{} is of {} strands with {} particles in all, the run of {} with {}; only the same "
-                    "strands can be compared",
-                    against.string(), opened->groom().strandCount(), opened->groom().firstPoint.back(),
-                    strands.strandCount(), strands.firstPoint.back())};
+    return Error{fmt::format(
+        "{} is of {} strands with {} particles in all, the run of {} with {}; only the same strands can be "
+        "compared",
+        against.string(), opened->groom().strandCount(), opened->groom().firstPoint.back(),
+        strands.strandCount(), strands.firstPoint.back())};
   const auto other = std::make_shared<AnimationReader>(std::move(*opened));
   return Source([other, against, metresPerUnit](int frame, std::span<const Vec3f> points) -> Numbers {
     if (frame > other->frameCount())

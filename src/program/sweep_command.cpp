@@ -42,19 +42,15 @@ constexpr const char* kFooter =
     "machines\n"
     "\n"
     "KEY is any key of a scene file with its table (`ringlet scene --keys`, `ringlet material --list`), "
-    "whether "
-    "or not the\n"
+    "whether or not the\n"
     "scene has it; of tables that may stand several times the number comes after the name: body.1.radius. A "
-    "key "
-    "with one\n"
+    "key with one\n"
     "value is the same in all runs.\n"
     "\n"
     "Writes into DIR: run-0001, run-0002, ... with what `ringlet simulate` writes, scene.toml, which that "
-    "command "
-    "runs\n"
+    "command runs\n"
     "again, and run.json; sweep.csv and sweep.json, the table; sheet.png, the last frame of each run. The "
-    "same "
-    "command\n"
+    "same command\n"
     "again runs what is not finished, and refuses a folder with runs of something else.\n"
     "\n"
     "--json prints runs, of each: run folder state (finished, kept from before, failed, interrupted, to do) "
@@ -189,9 +185,10 @@ void addSweepCommand(CLI::App& app, int& exitCode) {
       ->check(endsIn({".toml"}))
       ->type_name("FILE");
   command
-      ->add_option("--vary", typed->vary,
-                   "A key and its values: KEY=a:b:n, n of them evenly from a to b, or KEY=v1,v2,v3; several "
-                   "--vary: every combination, the last changing fastest")
+      ->add_option(
+          "--vary", typed->vary,
+          "A key and its values: KEY=a:b:n, n of them evenly from a to b, or KEY=v1,v2,v3; several --vary: "
+          "every combination, the last changing fastest")
       ->required()
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -214,9 +211,10 @@ void addSweepCommand(CLI::App& app, int& exitCode) {
       ->group(machine);
 
   command
-      ->add_option("--jobs", options.jobs,
-                   "Runs at a time: one is read, prepared and written while another is stepped (default 2; 1 "
-                   "where ms_per_frame is to be of a run by itself)")
+      ->add_option(
+          "--jobs", options.jobs,
+          "Runs at a time: one is read, prepared and written while another is stepped (default 2; 1 where "
+          "ms_per_frame is to be of a run by itself)")
       ->check(wholeBetween(1, 64))
       ->type_name("N")
       ->group(machine);

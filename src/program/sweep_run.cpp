@@ -377,9 +377,10 @@ Result<std::vector<SweepEntry>> lookAtRuns(std::span<const SweepRun> runs, const
     if (!facts) continue;  // a file is missing: its run will say so
     if (const std::string differences = differencesOf(*facts, (*record)->facts); !differences.empty()) {
       return Error{
-          fmt::format("{} holds a finished run of something else: {}. Choose another folder with -o; "
-                      "--overwrite runs all anew",
-                      folder.string(), differences),
+          fmt::format(
+              "{} holds a finished run of something else: {}. Choose another folder with -o; --overwrite "
+              "runs all anew",
+              folder.string(), differences),
           Fault::input};
     }
     entry.state = RunState::kept;

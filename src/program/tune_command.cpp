@@ -63,9 +63,7 @@ constexpr const char* kHelp =
     "interrupted. difference: the farthest particle from where `against` has it after a frame, as a share "
     "of\n"
     "the strands' length. troubles: of each work particles shape lanes run subgroup message: a shape that "
-    "cannot "
-    "be had, "
-    "or\n"
+    "cannot be had, or\n"
     "that is not where another is after a frame; the others are timed, and nothing is remembered\n"
     "where hair alone has troubles.\n"
     "--report: the file is whole after each shape and round, a second apart at least; of a shape that is not "
@@ -218,12 +216,13 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
   CLI::App* command =
       app.add_subcommand("tune", "Measures which strand shapes are fastest on a device, and remembers it");
   command->footer(kHelp);
-  CLI::Option* groom = command
-                           ->add_option("GROOM", typed->groom,
-                                        "A groom (.hair, .obj, .usd, .tfx, .ply, .data, .bin) whose strands' "
-                                        "lengths to tune for: four at "
-                                        "most that stand for all")
-                           ->type_name("FILE");
+  CLI::Option* groom =
+      command
+          ->add_option(
+              "GROOM", typed->groom,
+              "A groom (.hair, .obj, .usd, .tfx, .ply, .data, .bin) whose strands' lengths to tune for: four "
+              "at most that stand for all")
+          ->type_name("FILE");
   addPointsOption(*command, typed->reading);
   command
       ->add_option(
@@ -234,9 +233,10 @@ void addTuneCommand(CLI::App& app, int& exitCode) {
       ->type_name("N")
       ->excludes(groom);
   command
-      ->add_option("--strands", typed->options.strandCount,
-                   "Strands of each length, 1 to 100,000 (default: as many as have 65,536 particles on a CPU "
-                   "device, 1,048,576 on others)")
+      ->add_option(
+          "--strands", typed->options.strandCount,
+          "Strands of each length, 1 to 100,000 (default: as many as have 65,536 particles on a CPU device, "
+          "1,048,576 on others)")
       ->check(wholeBetween(1, 100'000))
       ->type_name("N");
   command

@@ -57,8 +57,8 @@ Result<std::filesystem::path> rememberShapes(const ComputeDevice& device, const 
   const auto file = shapesFile();
   if (file.empty())
     return Error{
-        "there is no folder to remember this in: RINGLET_CACHE_DIR, XDG_CACHE_HOME and HOME are "
-        "not set, or not absolute paths"};
+        "there is no folder to remember this in: RINGLET_CACHE_DIR, XDG_CACHE_HOME and HOME are not set, or "
+        "not absolute paths"};
   auto known = readShapesFile();
   std::vector<DeviceCosts> devices = known ? std::move(*known) : std::vector<DeviceCosts>{};
   const DeviceCosts here{device.name(), device.driver(), strandKernelHash(), costs, subgroupSize};

@@ -59,8 +59,7 @@ constexpr const char* kExample =
     "outputs.\n"
     "\n"
     "Exit status: 0 done, 1 something failed (as where there is no display), 2 wrong usage, 4 input that "
-    "cannot "
-    "be\n"
+    "cannot be\n"
     "read, 130 interrupted.";
 
 struct Typed {

@@ -202,8 +202,8 @@ void addWriter(py::module_& module) {
       module, "AnimationWriter",
       "An animation on its way into a file, frame by frame; the ending of its name says the format "
       "(AnimationWriter.formats()). Until it is finished the file is PATH.partial, whole at every moment. As "
-      "a context manager it finishes at the end; after an exception "
-      "the .partial stays, with the frames so far:\n\n"
+      "a context manager it finishes at the end; after an exception the .partial stays, with the frames so "
+      "far:\n\n"
       "    with ringlet.AnimationWriter(\"hair.usda\", groom, frames=48) as animation:\n"
       "        scene.run(lambda frame: animation.write(frame.positions, frame.head), frames=48)")
       .def(
@@ -244,8 +244,7 @@ void addWriter(py::module_& module) {
       .def("finish", &WriterObject::finish, "Closes the file, of one frame at least, and gives it its name.")
       .def("close", &WriterObject::close,
            "Closes the file without its name: the frames so far stay as PATH.partial. Nothing where it is "
-           "closed "
-           "or finished. A writer that is dropped open does so with a ResourceWarning.")
+           "closed or finished. A writer that is dropped open does so with a ResourceWarning.")
       .def(
           "__repr__",
           [](const WriterObject& self) {
@@ -312,10 +311,11 @@ class FramesObject {
 void addReader(py::module_& module) {
   py::class_<FramesObject>(
       module, "AnimationReader",
-      fmt::format("The frames of a {} file that Ringlet wrote, one after the other: "
-                  "`for points in ringlet.AnimationReader(path)` gives (particles, 3) float32 in the "
-                  "file's unit. Of a .partial those that are whole. Goes through once.",
-                  animationEndings(&AnimationFormat::isRead, "or"))
+      fmt::format(
+          "The frames of a {} file that Ringlet wrote, one after the other: `for points in "
+          "ringlet.AnimationReader(path)` gives (particles, 3) float32 in the file's unit. Of a .partial "
+          "those that are whole. Goes through once.",
+          animationEndings(&AnimationFormat::isRead, "or"))
           .c_str())
       .def(py::init([](const std::filesystem::path& path) { return std::make_unique<FramesObject>(path); }),
            py::arg("path"),

@@ -70,27 +70,25 @@ void addAssets(py::module_& module) {
   py::class_<AssetObject, AssetHandle>(
       module, "Asset",
       "All of some hair that does not change, for one device; any number of Hair share it. Constant.")
-      .def(py::init([](const DeviceHandle& device, const GroomHandle& groom,
-                       const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
-                       bool bodies, bool movingRoots, bool forces, bool goals, bool fields, int heads,
-                       const std::string& kernel) {
-             return buildAsset(device, groom, material.value_or(MaterialObject{}),
-                               settings.value_or(Settings{}),
-                               {bodies, movingRoots, forces, goals, fields, heads, kernel});
-           }),
-           py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
-           py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
-           py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("goals") = false,
-           py::arg("fields") = false, py::arg("heads") = 1, py::arg("kernel") = "auto",
-           "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
-           "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
-           "act on them from outside; goals: whether it will be pulled to places (set_goals); fields: "
-           "whether it will be in some (set_fields); heads: about "
-           "how "
-           "many will "
-           "have this hair; kernel: \"auto\", \"lanes\", \"memory\" or \"serial\". ringlet.Error, with what "
-           "to do, for "
-           "settings that do not go together or a device without enough memory.")
+      .def(
+          py::init([](const DeviceHandle& device, const GroomHandle& groom,
+                      const std::optional<MaterialObject>& material, const std::optional<Settings>& settings,
+                      bool bodies, bool movingRoots, bool forces, bool goals, bool fields, int heads,
+                      const std::string& kernel) {
+            return buildAsset(device, groom, material.value_or(MaterialObject{}),
+                              settings.value_or(Settings{}),
+                              {bodies, movingRoots, forces, goals, fields, heads, kernel});
+          }),
+          py::arg("device").none(false), py::arg("groom").none(false), py::arg("material") = py::none(),
+          py::arg("settings") = py::none(), py::kw_only(), py::arg("bodies") = false,
+          py::arg("moving_roots") = false, py::arg("forces") = false, py::arg("goals") = false,
+          py::arg("fields") = false, py::arg("heads") = 1, py::arg("kernel") = "auto",
+          "material, settings: None: the default. bodies: whether hair will have some to stay out of, which "
+          "is slower; moving_roots: whether strands will have poses of their own; forces: whether some will "
+          "act on them from outside; goals: whether it will be pulled to places (set_goals); fields: whether "
+          "it will be in some (set_fields); heads: about how many will have this hair; kernel: \"auto\", "
+          "\"lanes\", \"memory\" or \"serial\". ringlet.Error, with what to do, for settings that do not go "
+          "together or a device without enough memory.")
       .def_property_readonly(
           "device", [](const AssetObject& a) { return a.device; }, "The Device.")
       .def_property_readonly(

@@ -128,8 +128,7 @@ void addBody(py::module_& module) {
       module, "Body",
       "What hair stays out of; solid. Constant. All shapes take: name, for messages; thickness: hair keeps "
       "this much further away [m]; friction: Coulomb's coefficient; position [m] and rotation in the frame "
-      "of "
-      "what carries it: the head's, or that of a motion of its own. ringlet.Error for a number out of its "
+      "of what carries it: the head's, or that of a motion of its own. ringlet.Error for a number out of its "
       "range.")
       .def_static(
           "sphere",
@@ -170,11 +169,12 @@ void addBody(py::module_& module) {
           },
           py::arg("half_extents"), py::kw_only(), RINGLET_COMMON_ARGUMENTS,
           "So far to either side of its origin along X, Y and Z [m].")
-      .def_static("mesh", &meshBody, py::arg("points"), py::arg("triangles"), py::kw_only(),
-                  py::arg("cells") = 64, RINGLET_COMMON_ARGUMENTS,
-                  "A closed surface: points (points, 3) [m], triangles (triangles, 3) indices, "
-                  "counterclockwise seen from outside, as read_mesh and make_head_mesh give them. cells: of "
-                  "its distance grid, along its longest side, 8 to 256. Takes about a second.")
+      .def_static(
+          "mesh", &meshBody, py::arg("points"), py::arg("triangles"), py::kw_only(), py::arg("cells") = 64,
+          RINGLET_COMMON_ARGUMENTS,
+          "A closed surface: points (points, 3) [m], triangles (triangles, 3) indices, counterclockwise seen "
+          "from outside, as read_mesh and make_head_mesh give them. cells: of its distance grid, along its "
+          "longest side, 8 to 256. Takes about a second.")
       .def("distances", &distances, py::arg("points"), py::arg("pose") = py::none(),
            "(points,) float64: how far points, (points, 3) float32 [m] in the world, are from its surface, "
            "negative inside, with the body at a Pose; None: where its position and rotation say.")

@@ -265,8 +265,7 @@ void addGroomClass(py::module_& module) {
           },
           py::arg("path"),
           "Writes a .hair, .obj or .ply file; reading it gives the same bits. ringlet.Error for another "
-          "extension, "
-          "a full disk.")
+          "extension, a full disk.")
       .def("info", &infoOf,
            "What the groom is like, in metres: a dict of strands, particles, particles_per_strand, length "
            "(along the strand), curled (strands that are not straight), of these turns and radius, "
@@ -331,10 +330,8 @@ void addGrooms(py::module_& module) {
       py::arg("particles") = c.particleCount, py::arg("handedness") = c.handedness,
       py::arg("phase") = c.phase, py::arg("metres_per_unit") = c.metresPerUnit,
       "One curl that hangs from the origin: a helix of this radius about its core [m], with so many turns "
-      "over "
-      "the core's length [m]. handedness: 1 or -1; phase: where about the core it begins [rad]. "
-      "ringlet.Error "
-      "for a number out of its range.");
+      "over the core's length [m]. handedness: 1 or -1; phase: where about the core it begins [rad]. "
+      "ringlet.Error for a number out of its range.");
   module.def(
       "make_swatch",
       [](int columns, int rows, double spacing, double radius, double turns, double length, int particles,
@@ -395,10 +392,9 @@ void addGrooms(py::module_& module) {
       py::arg("metres_per_unit") = c.metresPerUnit,
       "A head of curls: a sphere of scalp_radius [m] about the origin whose hair grows above a hairline, "
       "brow_elevation high in front and nape_elevation behind [rad]. A strand turns from the scalp's normal "
-      "to "
-      "hanging within bend_length [m]; its curl grows to its radius over ramp_share of its length. locks: of "
-      "curls that wind alike; 0: each for itself. Y is up, "
-      "the face looks along +Z. Everything else as in make_swatch.");
+      "to hanging within bend_length [m]; its curl grows to its radius over ramp_share of its length. locks: "
+      "of curls that wind alike; 0: each for itself. Y is up, the face looks along +Z. Everything else as in "
+      "make_swatch.");
   module.def(
       "make_styled_head",
       [](const std::string& style, int strands, int particles, std::uint64_t seed, double metresPerUnit) {

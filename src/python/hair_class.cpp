@@ -173,9 +173,8 @@ void addHairClass(py::module_& module) {
           py::arg("root_poses") = py::none(),
           "A frame, until it is done. head: a Pose, to which it goes by a smooth way; or a pose at the end "
           "of each step, a list or an array (steps, 7); None: it stays. body_poses: (steps, bodies, 7) in "
-          "the "
-          "world; None: bodies go with the head. root_poses: (steps, strands, 7) in the head's frame; None: "
-          "roots stay where they are on it.")
+          "the world; None: bodies go with the head. root_poses: (steps, strands, 7) in the head's frame; "
+          "None: roots stay where they are on it.")
       .def(
           "submit",
           [](HairObject& self, const py::object& head, const py::object& bodyPoses,
@@ -195,8 +194,7 @@ void addHairClass(py::module_& module) {
           py::arg("out") = py::none(),
           "(particles, 3) float32 [m] in the groom's order, seen from the head's position, along the world's "
           "axes: world = hair.head.position + positions. Of the last frame that was waited for. out: an "
-          "array "
-          "to fill, which is returned.")
+          "array to fill, which is returned.")
       .def("points", &pointsOf, py::arg("out") = py::none(),
            "The same as points in the world, in the groom's unit, as files hold them; with no frame under "
            "way.")
@@ -244,9 +242,9 @@ void addHairClass(py::module_& module) {
           "Other settings from the next frame on: all, or those that are named: set_settings(gravity=(0, 0, "
           "0)). ringlet.Error for one that is not live (Settings.fields()), and nothing changes.")
       .def("set_material", &changeMaterial, py::arg("material") = py::none(),
-           "Another material from the next frame on: all, or the numbers that are named: set_material("
-           "bend_stiffness=8). How far hair may lengthen is a setting, max_stretch. ringlet.Error for a "
-           "number that cannot change while hair moves, and nothing changes.")
+           "Another material from the next frame on: all, or the numbers that are named: "
+           "set_material(bend_stiffness=8). How far hair may lengthen is a setting, max_stretch. "
+           "ringlet.Error for a number that cannot change while hair moves, and nothing changes.")
       .def(
           "set_bodies",
           [](HairObject& self, const std::vector<BodyObject>& bodies, const py::object& places) {
@@ -266,9 +264,8 @@ void addHairClass(py::module_& module) {
           },
           py::arg("forces"),
           "Forces from outside from the next frame on, on each kilogram of every particle [m/s^2]: "
-          "(particles, "
-          "3) float32. They add to gravity and hold until others are set. ringlet.Error for hair whose asset "
-          "was built without forces=True.")
+          "(particles, 3) float32. They add to gravity and hold until others are set. ringlet.Error for hair "
+          "whose asset was built without forces=True.")
       .def(
           "set_goals",
           [](HairObject& self, const py::object& places, const py::object& strengths, double damping) {
@@ -285,12 +282,10 @@ void addHairClass(py::module_& module) {
           },
           py::arg("places"), py::arg("strengths"), py::arg("damping") = 1.0,
           "Places that particles are pulled to: (particles, 3) float32, in metres in the groom's axes, "
-          "carried "
-          "by the head; groom.points times metres_per_unit is the rest pose. They are reached at the end of "
-          "the next frame and hold until others are set. strengths: of all particles, or one of each, "
+          "carried by the head; groom.points times metres_per_unit is the rest pose. They are reached at the "
+          "end of the next frame and hold until others are set. strengths: of all particles, or one of each, "
           "(particles,): weights of the hair a centimetre from its place, 0 or more. damping: ratio about "
-          "the "
-          "place, 1 is critical. ringlet.Error for hair whose asset was built without goals=True.")
+          "the place, 1 is critical. ringlet.Error for hair whose asset was built without goals=True.")
       .def(
           "cut",
           [](HairObject& self, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts) {
@@ -304,9 +299,8 @@ void addHairClass(py::module_& module) {
           py::arg("cuts"),
           "Cuts strands from the next frame on: pairs (strand, keep); the particles from keep on fall, with "
           "bodies, air, fields and hair that meets pair by pair; strands that are carried rigidly stay "
-          "whole. "
-          "With no frame in flight. ringlet.Error where nothing would fall or fewer than two particles would "
-          "stay.")
+          "whole. With no frame in flight. ringlet.Error where nothing would fall or fewer than two "
+          "particles would stay.")
       .def(
           "set_fields",
           [](HairObject& self, const std::vector<ForceField>& fields, const std::vector<ForceField>& from) {
@@ -319,8 +313,7 @@ void addHairClass(py::module_& module) {
           py::arg("fields"), py::arg("come_from") = py::list(),
           "Fields as they are at the end of the next frame, any number up to 64; they hold until others are "
           "set. come_from: the same ones at its start, from where they change evenly; without, they are "
-          "there "
-          "at once. ringlet.Error for hair whose asset was built without fields=True.")
+          "there at once. ringlet.Error for hair whose asset was built without fields=True.")
       .def(
           "checkpoint",
           [](HairObject& self) {
@@ -338,10 +331,11 @@ void addHairClass(py::module_& module) {
           py::arg("checkpoint"),
           "Goes on from a checkpoint of hair of such an asset: the same bits as if it had stepped all frames "
           "itself. ringlet.Error for bytes that are damaged or of other hair.")
-      .def("report", &reportOf,
-           "What happened to the numbers since it was made: a dict of max_edge_stretch (longest edge over "
-           "the groom's), limited_share (of edges that the stretch limit touched), nonfinite (particles "
-           "without a finite place now), first_nonfinite_strand, first_nonfinite_particle, degenerate_edges.")
+      .def(
+          "report", &reportOf,
+          "What happened to the numbers since it was made: a dict of max_edge_stretch (longest edge over the "
+          "groom's), limited_share (of edges that the stretch limit touched), nonfinite (particles without a "
+          "finite place now), first_nonfinite_strand, first_nonfinite_particle, degenerate_edges.")
       .def("contact_report", &contactReportOf,
            "What contacts did: a dict of contact_particles, pairs_unpruned, pairs, volume_strands, listed, "
            "contacts, pair_tests, rebuilds, momentum_error, volume_cut (how often hair as a volume was held "
@@ -386,8 +380,7 @@ void stepAll(const py::iterable& frames) {
   std::vector<std::pair<HairObject*, HairObject::Frame>> all;
   for (const py::handle entry : frames) {
     const char* expected =
-        "a frame is a tuple (hair, head), (hair, head, body_poses) or (hair, head, body_poses, "
-        "root_poses)";
+        "a frame is a tuple (hair, head), (hair, head, body_poses) or (hair, head, body_poses, root_poses)";
     if (!py::isinstance<py::tuple>(entry))
       throw py::type_error(fmt::format("{}, got {}", expected, describe(entry)));
     const auto frame = py::reinterpret_borrow<py::tuple>(entry);
@@ -406,8 +399,8 @@ void addHair(py::module_& module) {
   addHairClass(module);
   module.def(
       "step_frames", &stepAll, py::arg("frames"),
-      "A frame of each of several heads, in one submission, which fills a device better than one after "
-      "the other; the same bits. frames: tuples (hair, head), (hair, head, body_poses) or (hair, head, "
+      "A frame of each of several heads, in one submission, which fills a device better than one after the "
+      "other; the same bits. frames: tuples (hair, head), (hair, head, body_poses) or (hair, head, "
       "body_poses, root_poses), as step takes them; all on one device, each hair once.");
   module.def(
       "positions_hash",

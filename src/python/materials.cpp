@@ -220,11 +220,9 @@ void addMaterials(py::module_& module) {
   py::class_<MaterialObject> material(
       module, "Material",
       "What hair is made of: numbers by name, as `material[\"bend_stiffness\"]` or "
-      "`material.bend_stiffness`. "
-      "Names with a table in front, \"dials.hold\", \"variation.bend_stiffness\", "
-      "\"profile.bend_stiffness\", "
-      "have brackets only. Material.parameters() lists all with units and ranges. Numbers of unit w are "
-      "multiples of a strand's own weight.\n\n"
+      "`material.bend_stiffness`. Names with a table in front, \"dials.hold\", \"variation.bend_stiffness\", "
+      "\"profile.bend_stiffness\", have brackets only. Material.parameters() lists all with units and "
+      "ranges. Numbers of unit w are multiples of a strand's own weight.\n\n"
       "Dials are worked in where the material is used.");
   material
       .def(py::init([](const py::kwargs& numbers) {

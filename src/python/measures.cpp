@@ -317,19 +317,21 @@ void addBodyWatch(py::module_& module) {
 }  // namespace
 
 void addMeasures(py::module_& module) {
-  module.def("measure_shape", &measureShape, py::arg("groom"), py::arg("points"), py::kw_only(),
-             py::arg("up") = py::make_tuple(0, 1, 0), py::arg("head_rotation") = py::none(),
-             py::arg("metres_per_unit") = py::none(),
-             "How strands look beside their rest shape: a dict of arrays, one number a strand: droop (of the "
-             "tip [m]), relative_droop, chord, chord_elongation, core_length, core_elongation, arc_drift, "
-             "max_edge_stretch, turns, winding, mean_radius, handedness, handedness_kept, tip_rotation_deg. "
-             "points: (particles, 3) float32 in the groom's unit, or in metres_per_unit: 1 for positions(). "
-             "head_rotation: a Pose or quaternion; None: fitted to the roots.");
-  module.def("shape_distance", &distanceBetween, py::arg("groom"), py::arg("points"), py::arg("other"),
-             py::kw_only(), py::arg("metres_per_unit") = py::none(),
-             "How far one pose of the strands is from another, without a scale: a dict of arrays, one number "
-             "a strand: particles, tip and core as shares of the length, direction_deg, turns and radius as "
-             "shares. points, other: (particles, 3) float32 in one unit.");
+  module.def(
+      "measure_shape", &measureShape, py::arg("groom"), py::arg("points"), py::kw_only(),
+      py::arg("up") = py::make_tuple(0, 1, 0), py::arg("head_rotation") = py::none(),
+      py::arg("metres_per_unit") = py::none(),
+      "How strands look beside their rest shape: a dict of arrays, one number a strand: droop (of the tip "
+      "[m]), relative_droop, chord, chord_elongation, core_length, core_elongation, arc_drift, "
+      "max_edge_stretch, turns, winding, mean_radius, handedness, handedness_kept, tip_rotation_deg. points: "
+      "(particles, 3) float32 in the groom's unit, or in metres_per_unit: 1 for positions(). head_rotation: "
+      "a Pose or quaternion; None: fitted to the roots.");
+  module.def(
+      "shape_distance", &distanceBetween, py::arg("groom"), py::arg("points"), py::arg("other"),
+      py::kw_only(), py::arg("metres_per_unit") = py::none(),
+      "How far one pose of the strands is from another, without a scale: a dict of arrays, one number a "
+      "strand: particles, tip and core as shares of the length, direction_deg, turns and radius as shares. "
+      "points, other: (particles, 3) float32 in one unit.");
   module.def(
       "count_crossings",
       [](const GroomObject& groom, const py::object& before, const py::object& after) {
@@ -337,8 +339,8 @@ void addMeasures(py::module_& module) {
         return withoutGil([&] { return countCrossings(groom.groom().firstPoint, a.points(), b.points()); });
       },
       py::arg("groom"), py::arg("before"), py::arg("after"),
-      "How often an edge of one strand went through an edge of another while all particles went "
-      "straight from before to after, (particles, 3) float32 each.");
+      "How often an edge of one strand went through an edge of another while all particles went straight "
+      "from before to after, (particles, 3) float32 each.");
   module.def(
       "check_placement",
       [](const GroomObject& groom, const std::vector<BodyObject>& bodies, const py::object& head) {
@@ -350,9 +352,8 @@ void addMeasures(py::module_& module) {
       },
       py::arg("groom"), py::arg("bodies") = py::tuple(), py::arg("head") = py::none(),
       "Whether the groom and the bodies that the head carries have the sizes and places of hair and a head, "
-      "and strands begin on it: "
-      "a "
-      "list of sentences, each with the likely cause; empty where nothing is odd. Scene.load does this.");
+      "and strands begin on it: a list of sentences, each with the likely cause; empty where nothing is odd. "
+      "Scene.load does this.");
   addMotionMeasure(module);
   addContactWatch(module);
   addBodyWatch(module);

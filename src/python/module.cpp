@@ -18,14 +18,11 @@ constexpr const char* kModuleDoc =
     "    hair.step(ringlet.Pose((0.02, 0, 0)))\n"
     "    hair.positions()                        # (particles, 3) float32 [m]\n\n"
     "Lengths are in metres, times in seconds, rotations are quaternions x, y, z, w. Points are NumPy arrays "
-    "of "
-    "float32 with shape (particles, 3), in the groom's order: strand after strand, root first.\n\n"
+    "of float32 with shape (particles, 3), in the groom's order: strand after strand, root first.\n\n"
     "Errors: ringlet.Error where files, settings, memory or the device are at fault; ValueError and "
-    "TypeError "
-    "where an argument is; KeyError and AttributeError for a name that there is not.\n\n"
+    "TypeError where an argument is; KeyError and AttributeError for a name that there is not.\n\n"
     "Threads: while the device works, other threads of Python run. Two that use one object at a time wait "
-    "for "
-    "each other; several hairs on one device may each have a thread.";
+    "for each other; several hairs on one device may each have a thread.";
 
 const char* nameOf(Fault fault) {
   switch (fault) {

@@ -70,8 +70,8 @@ std::string reprOf(const HeadPose& pose) {
 void addPose(py::module_& module) {
   py::class_<HeadPose>(
       module, "Pose",
-      "Where something is and how it is turned: world from groom, x_world = position + rotate("
-      "rotation, x_groom). Constant.")
+      "Where something is and how it is turned: world from groom, x_world = position + rotate(rotation, "
+      "x_groom). Constant.")
       .def(
           py::init([](const py::object& position, const py::object& rotation, double shift) {
             return HeadPose{vectorOf(position, "position"), rotationOf(rotation, "rotation"), shiftIn(shift)};
@@ -226,20 +226,19 @@ void addMotion(py::module_& module) {
           "keyframes", &keyframeMotion, py::arg("poses"), py::arg("times") = py::none(), py::kw_only(),
           py::arg("seconds_per_key") = 1.0 / 24, py::arg("interpolation") = "cubic",
           py::arg("rests_at_ends") = false,
-          "Through poses: a list of Poses or an array (keys, 7) of positions and rotations. times: of "
-          "each [s], rising; None: seconds_per_key apart, from 0 on. interpolation: \"cubic\" or "
-          "\"linear\". rests_at_ends: the head stands still before the first key.")
+          "Through poses: a list of Poses or an array (keys, 7) of positions and rotations. times: of each "
+          "[s], rising; None: seconds_per_key apart, from 0 on. interpolation: \"cubic\" or \"linear\". "
+          "rests_at_ends: the head stands still before the first key.")
       .def_static(
           "load", &loadMotion, py::arg("path"), py::kw_only(), py::arg("joint") = "Head",
           py::arg("metres_per_unit") = py::none(), py::arg("skip_frames") = 0, py::arg("animation") = "",
           py::arg("up") = "Y", py::arg("file_up") = "",
           "The way of a joint of a .bvh file or of a node of a .gltf, .glb or .vrm file. metres_per_unit: "
-          "None: of a .bvh so that its person is 1.7 m tall, of glTF 1. file_up: the file's up axis, one "
-          "of Y, Z, X, -Y, -Z, -X; \"\": of a .bvh the axis along which its person stands, of glTF Y. "
-          "skip_frames: of a .bvh, at "
-          "the start; animation: of glTF, a name or number, else the first; up: of the head's world, \"Y\" "
-          "or \"Z\". "
-          "ringlet.Error names the joints where there is none of that name.")
+          "None: of a .bvh so that its person is 1.7 m tall, of glTF 1. file_up: the file's up axis, one of "
+          "Y, Z, X, -Y, -Z, -X; \"\": of a .bvh the axis along which its person stands, of glTF Y. "
+          "skip_frames: of a .bvh, at the start; animation: of glTF, a name or number, else the first; up: "
+          "of the head's world, \"Y\" or \"Z\". ringlet.Error names the joints where there is none of that "
+          "name.")
       .def("pose_at", &poseAt, py::arg("seconds"), "The Pose at a time [s], before 0 too.")
       .def(
           "frame_poses", &framePoses, py::arg("frame"), py::arg("settings"),

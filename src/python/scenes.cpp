@@ -289,8 +289,7 @@ void addScenes(py::module_& module) {
           },
           py::arg("device") = py::none(), py::kw_only(), py::arg("kernel") = "auto",
           "The scene's Hair as it begins the first frame, to be stepped with step, or with frame_poses. "
-          "device: "
-          "None: Device().")
+          "device: None: Device().")
       .def("step", &stepFrame, py::arg("hair"), py::arg("frame"),
            "Steps hair of start() through a frame, 0 the first, as a run does: with what keys, fields, holds "
            "and cuts give it then, where frame_poses has the motion only. Each cut is made by its own frame.")
@@ -298,8 +297,7 @@ void addScenes(py::module_& module) {
            py::arg("device") = py::none(), py::arg("kernel") = "auto",
            "Steps frame after frame; returns the Hair after the last. callback: is given a Frame after each, "
            "while the device computes the next; where it returns False, the run ends with the one under way, "
-           "and what "
-           "it raises ends it too. frames: None: frame_count. device: None: Device().")
+           "and what it raises ends it too. frames: None: frame_count. device: None: Device().")
       .def(
           "__repr__",
           [](const SceneObject& s) {

@@ -339,9 +339,8 @@ void addSettingsClass(py::module_& module) {
              return made;
            }),
            "The default, but for these by name; contacts, air and goal take a dict: "
-           "Settings(steps_per_frame=4, "
-           "air={\"on\": True}). TypeError for a name that there is not, ValueError for a number out of its "
-           "range.")
+           "Settings(steps_per_frame=4, air={\"on\": True}). TypeError for a name that there is not, "
+           "ValueError for a number out of its range.")
       .def_property(
           "integrator",
           [](const Settings& self) { return kIntegratorNames[static_cast<int>(self.integrator)]; },
@@ -364,11 +363,11 @@ void addSettingsClass(py::module_& module) {
           "Whether and how hair is pulled to the groom: GoalSettings, part of these settings. Takes others, "
           "or a dict.")
       .def_property_readonly("step_seconds", &Settings::stepSeconds, "How long a step is [s].")
-      .def_static("fields", &listFields,
-                  "Every setting: a list of dicts of key, unit, effect, type, default, low and high (None: "
-                  "no range), "
-                  "choices (words), only_with (the integrators or tapers that have it), standard (what holds "
-                  "where it is None, in words), live (may change while hair moves).")
+      .def_static(
+          "fields", &listFields,
+          "Every setting: a list of dicts of key, unit, effect, type, default, low and high (None: no "
+          "range), choices (words), only_with (the integrators or tapers that have it), standard (what holds "
+          "where it is None, in words), live (may change while hair moves).")
       .def(
           "keys", [](const py::object&) { return allKeys(); }, "The names of all settings: a list.")
       .def(

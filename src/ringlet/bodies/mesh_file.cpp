@@ -118,11 +118,10 @@ Result<TriangleMesh> readObjMesh(std::span<const std::byte> bytes, const std::fi
     if (hasArea(mesh, content.mesh.triangles[t])) mesh.triangles.push_back(content.mesh.triangles[t]);
   }
   if (mesh.triangles.empty()) {
-    return Error{
-        fmt::format("{}: found {} points ('v'), {} polylines ('l'), {} triangles of no size and no others; "
-                    "expected lines "
-                    "like 'f 1 2 3', the faces of a body",
-                    name, mesh.points.size(), content.polylines, content.mesh.triangles.size())};
+    return Error{fmt::format(
+        "{}: found {} points ('v'), {} polylines ('l'), {} triangles of no size and no others; expected "
+        "lines like 'f 1 2 3', the faces of a body",
+        name, mesh.points.size(), content.polylines, content.mesh.triangles.size())};
   }
   return mesh;
 }

@@ -97,10 +97,8 @@ Result<MeshGrid> makeDistanceGrid(const TriangleMesh& mesh, const MeshGridSettin
   const double reach = length(bounds.high - bounds.low);
   // Beyond these squares and cubes of lengths are not what they should be.
   if (!(reach > 1e-9 && reach < 1e9)) {
-    return Error{
-        fmt::format("the mesh is {} m from corner to corner; expected a body of a size (is its unit "
-                    "right?)",
-                    reach)};
+    return Error{fmt::format(
+        "the mesh is {} m from corner to corner; expected a body of a size (is its unit right?)", reach)};
   }
 
   MeshGrid made;
@@ -117,10 +115,10 @@ Result<MeshGrid> makeDistanceGrid(const TriangleMesh& mesh, const MeshGridSettin
   }
   const bool isInsideOut = turned > inside;
   if (inside == 0 && turned == 0) {
-    return Error{
-        fmt::format("the mesh has no inside that a grid of cells of {:.3g} m can see ({} triangles, {} open "
-                    "edges); close it, make it thicker or take more than {} cells",
-                    made.grid.cell, mesh.triangles.size(), made.openEdges, settings.cells)};
+    return Error{fmt::format(
+        "the mesh has no inside that a grid of cells of {:.3g} m can see ({} triangles, {} open edges); "
+        "close it, make it thicker or take more than {} cells",
+        made.grid.cell, mesh.triangles.size(), made.openEdges, settings.cells)};
   }
   if (isInsideOut) {
     for (float& winding : samples.windings) winding = -winding;
@@ -133,10 +131,10 @@ Result<MeshGrid> makeDistanceGrid(const TriangleMesh& mesh, const MeshGridSettin
   }
   if (made.openEdges > 0) {
     closeHoles(made.grid, samples.windings, samples.magnitudes);
-    made.warnings.push_back(
-        fmt::format("the mesh is not watertight: {} edges do not have two triangles that agree on what is "
-                    "outside; its holes are closed by a film where its winding number is 1/2",
-                    made.openEdges));
+    made.warnings.push_back(fmt::format(
+        "the mesh is not watertight: {} edges do not have two triangles that agree on what is outside; its "
+        "holes are closed by a film where its winding number is 1/2",
+        made.openEdges));
   }
 
   made.grid.distances = std::move(samples.magnitudes);

@@ -83,10 +83,10 @@ ringlet_result ringlet_hair_set_goals(ringlet_hair* hair, const ringlet_goals* g
   return guarded([&]() -> Outcome {
     const ringlet_goals from = hasSize(goals) ? taken(goals) : ringlet_goals{};
     if (!hair || !from.places || !from.strengths || from.particle_count != hair->particleCount)
-      return Outcome::invalid(
-          fmt::format("ringlet_hair_set_goals takes hair, and places and strengths for its {} particles in a "
-                      "struct that says its size",
-                      hair ? hair->particleCount : 0));
+      return Outcome::invalid(fmt::format(
+          "ringlet_hair_set_goals takes hair, and places and strengths for its {} particles in a struct that "
+          "says its size",
+          hair ? hair->particleCount : 0));
     if (Outcome outcome = checkProcess(*hair); !outcome.isFine()) return outcome;
     if (Outcome outcome = checkBuiltFor(hair->builtFor.goals, "goals", "has_goals"); !outcome.isFine())
       return outcome;

@@ -200,10 +200,11 @@ ringlet_result ringlet_asset_build(ringlet_device* device, const ringlet_groom* 
                                    const ringlet_settings* settings, const ringlet_material* material,
                                    const ringlet_asset_options* options, ringlet_asset** asset) {
   return guarded([&]() -> Outcome {
-    if (Outcome wrong = checkArguments("ringlet_asset_build takes a device, a groom and options that say "
-                                       "their size, and a place for the asset",
-                                       {given("device", device), sized("groom", groom),
-                                        sizedOrNull("options", options), given("asset", asset)});
+    if (Outcome wrong = checkArguments(
+            "ringlet_asset_build takes a device, a groom and options that say their size, and a place for "
+            "the asset",
+            {given("device", device), sized("groom", groom), sizedOrNull("options", options),
+             given("asset", asset)});
         !wrong.isFine())
       return wrong;
     Groom made;

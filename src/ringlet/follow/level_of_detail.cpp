@@ -56,10 +56,10 @@ Status checkStrands(const Groom& groom) {
   for (std::size_t s = 0; s < groom.strandCount(); ++s) {
     const auto strand = groom.strand(s);
     if (std::ranges::any_of(strand, [&](const Vec3f& p) { return !(p == strand.front()); })) continue;
-    return Error{
-        fmt::format("strand {} of the groom has no length, so that it can neither lead nor follow; "
-                    "`ringlet info --fix` drops such strands",
-                    s + 1)};
+    return Error{fmt::format(
+        "strand {} of the groom has no length, so that it can neither lead nor follow; `ringlet info --fix` "
+        "drops such strands",
+        s + 1)};
   }
   return {};
 }

@@ -120,8 +120,8 @@ Result<ScalpRoots> scatterRoots(const TriangleMesh& scalp, std::span<const Guide
   const HairyScalp ground(scalp, guides);
   if (!(ground.farthestGuide() <= kFarthest && ground.area() > 0))
     return Error{fmt::format(
-        "a strand's root is {:.4g} m from the mesh that hairs grow on; expected at most {} m. Are "
-        "unit, up axis and place those the groom was made for?",
+        "a strand's root is {:.4g} m from the mesh that hairs grow on; expected at most {} m. Are unit, up "
+        "axis and place those the groom was made for?",
         ground.farthestGuide(), kFarthest)};
   const auto wanted = kTries * static_cast<std::size_t>(count);
   std::vector<Vec3d> tried;

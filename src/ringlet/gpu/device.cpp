@@ -313,8 +313,8 @@ Result<const Candidate*> pick(const std::vector<Candidate>& candidates, const st
   const Candidate* found = best(matches);
   if (!found) {
     return Error{fmt::format(
-        "no Vulkan device matches {}: it is neither an index (0 to {}) nor part of a device's name."
-        " Found:{}\nChoose one of these, or leave the choice out to take the best",
+        "no Vulkan device matches {}: it is neither an index (0 to {}) nor part of a device's name. "
+        "Found:{}\nChoose one of these, or leave the choice out to take the best",
         wantedText, candidates.size() - 1, describe(candidates))};
   }
   if (!found->listing.usable) {
@@ -430,10 +430,9 @@ Result<std::shared_ptr<Device>> Device::adopt(const HostDevice& host,
   DeviceProperties& p = candidate.listing.properties;
   const std::vector<VkQueueFamilyProperties> families = queueFamilies(host.physical);
   if (host.queueFamily >= families.size() || !(families[host.queueFamily].queueFlags & VK_QUEUE_COMPUTE_BIT))
-    return Error{
-        fmt::format("the queue that a host hands over is of family {}, which does not compute; {} "
-                    "computes in family {}",
-                    host.queueFamily, p.name, candidate.queueFamily)};
+    return Error{fmt::format(
+        "the queue that a host hands over is of family {}, which does not compute; {} computes in family {}",
+        host.queueFamily, p.name, candidate.queueFamily)};
   if (!candidate.listing.usable)
     return Error{fmt::format("the Vulkan device {} cannot run Ringlet: {}", p.name, candidate.listing.why)};
   p.timestampBits = families[host.queueFamily].timestampValidBits;
@@ -525,8 +524,8 @@ bool Device::isOfThisProcess() const { return process_ == getpid(); }
 Status Device::checkProcess() const {
   if (isOfThisProcess()) return {};
   return Error{fmt::format(
-      "{} was opened by process {}, and this is process {}, after fork(): a device and all that was "
-      "made with it are of use in their own process only. Open a device in this one",
+      "{} was opened by process {}, and this is process {}, after fork(): a device and all that was made "
+      "with it are of use in their own process only. Open a device in this one",
       properties_.name, process_, getpid())};
 }
 

@@ -125,10 +125,10 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation, std::span<co
   // A loader of Vulkan 1.0 refuses applications that ask for more.
   const std::uint32_t loaderVersion = volkGetInstanceVersion();
   if (loaderVersion < VK_API_VERSION_1_1) {
-    return Error{
-        fmt::format("the Vulkan loader of this machine is of version {}.{}; 1.1 or newer is needed: update it"
-                    " (on Debian the package libvulkan1)",
-                    VK_API_VERSION_MAJOR(loaderVersion), VK_API_VERSION_MINOR(loaderVersion))};
+    return Error{fmt::format(
+        "the Vulkan loader of this machine is of version {}.{}; 1.1 or newer is needed: update it (on Debian "
+        "the package libvulkan1)",
+        VK_API_VERSION_MAJOR(loaderVersion), VK_API_VERSION_MINOR(loaderVersion))};
   }
 
   auto extensions = instanceExtensions(nullptr);
@@ -158,10 +158,10 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation, std::span<co
     auto hasLayer = hasValidationLayer();
     if (!hasLayer) return hasLayer.error();
     if (!*hasLayer) {
-      return Error{
-          fmt::format("RINGLET_VALIDATION=1 asks for the Vulkan layer {}, which is not installed: on Debian"
-                      " install the package vulkan-validationlayers, or unset RINGLET_VALIDATION",
-                      kValidationLayer)};
+      return Error{fmt::format(
+          "RINGLET_VALIDATION=1 asks for the Vulkan layer {}, which is not installed: on Debian install the "
+          "package vulkan-validationlayers, or unset RINGLET_VALIDATION",
+          kValidationLayer)};
     }
     layerNames.push_back(kValidationLayer);
     extensionNames.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

@@ -233,10 +233,10 @@ Result<Bindings> Bindings::create(const Kernel& kernel, const BufferTable& buffe
     if (kind == BindingKind::uniform) {
       const std::uint64_t limit = device.properties().maxUniformBufferRange;
       if (buffer.capacity() > limit) {
-        return Error{
-            fmt::format("could not {}: the buffer '{}' of {} bytes is too large for a uniform, of which this"
-                        " device allows {} (maxUniformBufferRange)",
-                        attempt(), buffer.name(), buffer.bytes(), limit)};
+        return Error{fmt::format(
+            "could not {}: the buffer '{}' of {} bytes is too large for a uniform, of which this device "
+            "allows {} (maxUniformBufferRange)",
+            attempt(), buffer.name(), buffer.bytes(), limit)};
       }
     }
     if (kind == BindingKind::texels) {

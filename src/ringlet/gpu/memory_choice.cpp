@@ -66,9 +66,9 @@ Result<std::uint32_t> allocateInFirst(const VkPhysicalDeviceMemoryProperties& me
   }
   if (!fitsSome)
     return Error{
-        fmt::format("could not {}: it is larger than the whole memory for it ({}). Use less data, or "
-                    "another device",
-                    attempt, tried),
+        fmt::format(
+            "could not {}: it is larger than the whole memory for it ({}). Use less data, or another device",
+            attempt, tried),
         Fault::deviceMemory};
   return vulkanError("vkAllocateMemory", last, fmt::format("{} (tried {})", attempt, tried));
 }

@@ -292,8 +292,7 @@ Result<Groom> makeHead(const HeadParameters& parameters) {
   if (std::ssize(roots) < parameters.strandCount)
     return Error{
         "no hair grows there: expected a scalp about the origin, Y up and looking along +Z, that reaches "
-        "above "
-        "the hairline"};
+        "above the hairline"};
   const VariedCurls curls(parameters, scalp);
   Groom groom;
   groom.metresPerUnit = parameters.curl.metresPerUnit;

@@ -90,8 +90,8 @@ void applyRootEnd(RootEnd end, const std::filesystem::path& path, LoadedGroom& l
     RootEnds found = findRootEnds(loaded.groom);
     if (!found.head) {
       loaded.warnings.push_back(fmt::format(
-          "{}: its strands have no ends on a ball, by which a head could tell roots from tips; all "
-          "begin at the first point",
+          "{}: its strands have no ends on a ball, by which a head could tell roots from tips; all begin at "
+          "the first point",
           path.string()));
     }
     which = std::move(found.isReversed);

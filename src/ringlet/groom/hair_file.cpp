@@ -81,8 +81,8 @@ Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& n
   }
   if (header.fileSize() > bytes.size()) {
     return Error{fmt::format(
-        "{}: at byte {}: found {} strands, {} points and flags {:#x}, which need {} bytes; the file ends "
-        "at byte {}",
+        "{}: at byte {}: found {} strands, {} points and flags {:#x}, which need {} bytes; the file ends at "
+        "byte {}",
         name, kStrandCountOffset, header.strandCount, header.pointCount, header.flags, header.fileSize(),
         bytes.size())};
   }

@@ -182,10 +182,9 @@ Result<FoundStrands> strandsOf(const ObjContent& content, const std::string& nam
     if (indices.size() == 2) {
       edges.push_back({indices.front(), indices.back(), polyline.line});
     } else if (indices.front() == indices.back()) {
-      found.leftOut.add(
-          fmt::format("line {}: found a closed loop: point {} at both ends; expected a strand with a root "
-                      "and a tip",
-                      polyline.line, indices.front() + 1));
+      found.leftOut.add(fmt::format(
+          "line {}: found a closed loop: point {} at both ends; expected a strand with a root and a tip",
+          polyline.line, indices.front() + 1));
     } else {
       found.good.push_back({indices, polyline.line});
     }
@@ -223,8 +222,8 @@ Result<LoadedGroom> withoutPolylines(const ObjContent& content, const std::strin
                     name, content.points.size(), content.onePointLines)};
   }
   const std::string found = fmt::format(
-      "{}: found {} points ('v'), {} faces ('f') and no polylines; expected lines like 'l 1 2 3', "
-      "one per strand",
+      "{}: found {} points ('v'), {} faces ('f') and no polylines; expected lines like 'l 1 2 3', one per "
+      "strand",
       name, content.points.size(), content.faces);
   if (content.faces > 0 || content.points.empty()) return Error{found};
   if (reading.pointsPerStrand == 0) return Error{fmt::format("{}; {}", found, kSayPointsPerStrand)};
@@ -265,8 +264,8 @@ Result<LoadedGroom> readObj(std::span<const std::byte> bytes, const std::filesys
   }
   if (strands->mixedCount > 0) {
     loaded.warnings.push_back(fmt::format(
-        "{}: {} strands are joined from edges of both directions; their root is taken to be where "
-        "most edges begin",
+        "{}: {} strands are joined from edges of both directions; their root is taken to be where most edges "
+        "begin",
         name, strands->mixedCount));
   }
   if (content->unknownLines > 0) {

@@ -127,8 +127,8 @@ class PlyReader {
       return strandsOfPoints(points_, reading_.pointsPerStrand, name_);
     }
     const std::string found = fmt::format(
-        "{}: found {} points and neither an element `strand` nor `edge`; expected one of them, which "
-        "says where strands end",
+        "{}: found {} points and neither an element `strand` nor `edge`; expected one of them, which says "
+        "where strands end",
         name_, points_.size());
     if (faceCount_ > 0) return Error{fmt::format("{}; its {} faces make it a mesh", found, faceCount_)};
     return Error{fmt::format("{}; {}", found, kSayPointsPerStrand)};

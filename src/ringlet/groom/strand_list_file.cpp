@@ -57,9 +57,8 @@ Result<LoadedGroom> readList(std::span<const std::byte> bytes, std::size_t strid
   if (leftOut.count > 0) loaded.warnings.push_back(leftOut.warning(name, strandCount));
   if (none > 0) {
     loaded.warnings.push_back(
-        fmt::format("{}: left out {} of {} strands, which have no or one point: they stand for "
-                    "none",
-                    name, none, strandCount));
+        fmt::format("{}: left out {} of {} strands, which have no or one point: they stand for none", name,
+                    none, strandCount));
   }
   if (at < bytes.size()) {
     loaded.warnings.push_back(fmt::format("{}: {} bytes after the last strand, from byte {} on; ignored",

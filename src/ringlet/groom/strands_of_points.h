@@ -13,8 +13,8 @@ namespace ringlet {
 
 /// What to do with such a file, as the end of a sentence.
 inline constexpr const char* kSayPointsPerStrand =
-    "where all strands have as many points, say how many: "
-    "--points-per-strand N (points_per_strand of [groom])";
+    "where all strands have as many points, say how many: --points-per-strand N (points_per_strand of "
+    "[groom])";
 
 /// An error where so many points are no whole number of strands of as many each, two at least.
 Status checkWholeStrands(std::size_t pointCount, std::uint32_t pointsPerStrand);

@@ -116,18 +116,16 @@ Result<LoadedGroom> readTfx(std::span<const std::byte> bytes, const std::filesys
   }
   if (groom.strandCount() == 0 && leftOut.count > 0) return Error{fmt::format("{}: {}", name, leftOut.first)};
   if (groom.strandCount() == 0) {
-    return Error{
-        fmt::format("{}: each of the {} strands has all its points in one place; expected strands "
-                    "with a length",
-                    name, header->strandCount)};
+    return Error{fmt::format(
+        "{}: each of the {} strands has all its points in one place; expected strands with a length", name,
+        header->strandCount)};
   }
 
   if (leftOut.count > 0) loaded.warnings.push_back(leftOut.warning(name, header->strandCount));
   if (const std::size_t left = header->strandCount - leftOut.count - groom.strandCount(); left > 0) {
-    loaded.warnings.push_back(
-        fmt::format("{}: left out the last {} of {} strands, whose points are all in one place: they fill up "
-                    "the count",
-                    name, left, header->strandCount));
+    loaded.warnings.push_back(fmt::format(
+        "{}: left out the last {} of {} strands, whose points are all in one place: they fill up the count",
+        name, left, header->strandCount));
   }
   if (header->version != kVersion) {
     loaded.warnings.push_back(

@@ -526,8 +526,7 @@ class UsdGroomMaker {
     }
     if (valueless_.count > 0) {
       warn(fmt::format(
-          "left aside {} without a value, which `xformOpOrder` names, as USD does; the first "
-          "is {} of {}",
+          "left aside {} without a value, which `xformOpOrder` names, as USD does; the first is {} of {}",
           counted(valueless_.count, "transform"), valueless_.sentence, pathOf(valueless_.firstPrim)));
     }
     if (moves_) warn(fmt::format("it moves; read as it is at its first sample, at time {}", firstTime_));

@@ -107,10 +107,10 @@ Result<std::optional<UsdTransform>> opOf(const UsdPrim& prim, std::string_view e
   kind = kind.substr(0, kind.find(':'));
   const std::size_t width = name.starts_with(kPrefix) ? widthOf(kind) : 0;
   if (width == 0) {
-    return Error{
-        fmt::format("{} is not known; expected translate, scale, rotateX, rotateXYZ and the like, orient "
-                    "or transform after 'xformOp:'",
-                    shown)};
+    return Error{fmt::format(
+        "{} is not known; expected translate, scale, rotateX, rotateXYZ and the like, orient or transform "
+        "after 'xformOp:'",
+        shown)};
   }
   if (!found->drivenBy.empty()) {
     return Error{

@@ -86,14 +86,14 @@ std::vector<std::string> doubtsOfPlaces(const Groom& groom) {
   if (strays.count > 0) {
     doubts.push_back(fmt::format(
         "{} particle{} far off where no hair is (at the origin, in a place that several strands share, or a "
-        "hundred edges away), as exporters write what they cannot place (the first in strand {}); "
-        "`ringlet info FILE --fix OUT` takes such particles out",
+        "hundred edges away), as exporters write what they cannot place (the first in strand {}); `ringlet "
+        "info FILE --fix OUT` takes such particles out",
         strays.count, strays.count == 1 ? " stands" : "s stand", strays.firstStrand));
   }
   if (longEdges.count > 0) {
     doubts.push_back(fmt::format(
-        "{} edge{} more than {} times as long as the median of their strand (the first in strand "
-        "{}), as where a particle is out of its place; `ringlet info FILE` counts them",
+        "{} edge{} more than {} times as long as the median of their strand (the first in strand {}), as "
+        "where a particle is out of its place; `ringlet info FILE` counts them",
         longEdges.count, longEdges.count == 1 ? " is" : "s are", kLongEdge, longEdges.firstStrand));
   }
   return doubts;
@@ -107,10 +107,8 @@ std::optional<std::string> doubtOfRootEnds(const Groom& groom) {
   const char* end = count == groom.strandCount() ? "last" : "head";
   return fmt::format(
       "{0} of {1} strands end on the ball that is the head, and begin away from it (the first is strand "
-      "{2}): "
-      "they seem to run from tip to root; root_end = \"{3}\" of [groom] (--root-end {3}) turns them round, "
-      "and "
-      "so does `ringlet info --fix` with it",
+      "{2}): they seem to run from tip to root; root_end = \"{3}\" of [groom] (--root-end {3}) turns them "
+      "round, and so does `ringlet info --fix` with it",
       count, groom.strandCount(), first, end);
 }
 
@@ -125,8 +123,7 @@ std::optional<std::string> doubtOfUp(const Groom& groom, bool upIsZ) {
   }
   return fmt::format(
       "the strands hang along -{0}, and {1} is up: a groom that lies on its side takes up = \"{0}\" of "
-      "[groom] "
-      "(--up {0})",
+      "[groom] (--up {0})",
       likely, up);
 }
 
@@ -157,16 +154,17 @@ std::optional<std::string> doubtOfPivot(const Groom& groom, const Motion& motion
                   lengthText(nearestRoot(groom)), motion.keyframes ? "the keys" : motionName(motion.kind),
                   motion.keyframes ? "" : "s");
   if (motion.keyframes) {
-    return far + fmt::format(
-                     "where the groom stands as it was modelled, start = [{}] of [motion], which keys "
-                     "are added to, and bind = \"world\" of [groom] make it turn about its own middle",
-                     place);
+    return far +
+           fmt::format(
+               "where the groom stands as it was modelled, start = [{}] of [motion], which keys are added "
+               "to, and bind = \"world\" of [groom] make it turn about its own middle",
+               place);
   }
-  return far + fmt::format(
-                   "bind = \"world\" of [groom] (--bind world) makes a groom that stands as it was "
-                   "modelled turn about its own middle, ({}) m, and bind = \"world\" of a [[body]] takes "
-                   "that along",
-                   place);
+  return far +
+         fmt::format(
+             "bind = \"world\" of [groom] (--bind world) makes a groom that stands as it was modelled turn "
+             "about its own middle, ({}) m, and bind = \"world\" of a [[body]] takes that along",
+             place);
 }
 
 }  // namespace ringlet

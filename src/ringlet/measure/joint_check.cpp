@@ -64,8 +64,8 @@ std::optional<std::string> checkJointDistance(const Groom& groom, const HeadPose
                   joint, lengthText(nearest), lengthText(size));
   if (!isWorld) {
     return far +
-           "a groom that was modelled where it stands in the world takes bind = \"world\" of [groom] "
-           "(--bind world)";
+           "a groom that was modelled where it stands in the world takes bind = \"world\" of [groom] (--bind "
+           "world)";
   }
   const Vec3d at = head.position;
   return far + fmt::format(

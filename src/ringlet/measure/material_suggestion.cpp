@@ -24,9 +24,9 @@ MaterialSuggestion suggestMaterial(const GroomShape& groom, double metresPerUnit
   if (2 * groom.curledCount < groom.strandCount) {
     return {
         arcOverChord > kWavyArcOverChord ? "wavy" : "straight",
-        fmt::format("{} of {} strands are curled, and strands are {:.2f} times as long as the way from root "
-                    "to tip",
-                    groom.curledCount, groom.strandCount, arcOverChord),
+        fmt::format(
+            "{} of {} strands are curled, and strands are {:.2f} times as long as the way from root to tip",
+            groom.curledCount, groom.strandCount, arcOverChord),
         shareOf(groom.strandCount - groom.curledCount) >= kClearShare &&
             isAwayFrom(arcOverChord - 1, kWavyArcOverChord - 1)};
   }
@@ -34,12 +34,14 @@ MaterialSuggestion suggestMaterial(const GroomShape& groom, double metresPerUnit
   const char* preset = width < kCoilWidth || arcOverChord > kCoilArcOverChord ? "coil"
                        : width < kLooseCurlWidth                              ? "ringlet"
                                                                               : "loose_curl";
-  return {preset,
-          fmt::format("{} of {} strands are curled, with {:.1f} turns {:.1f} mm wide, and are {:.1f} "
-                      "times as long as the way from root to tip",
-                      groom.curledCount, groom.strandCount, groom.turns.median, 1000 * width, arcOverChord),
-          shareOf(groom.curledCount) >= kClearShare && isAwayFrom(width, kCoilWidth) &&
-              isAwayFrom(width, kLooseCurlWidth) && isAwayFrom(arcOverChord, kCoilArcOverChord)};
+  return {
+      preset,
+      fmt::format(
+          "{} of {} strands are curled, with {:.1f} turns {:.1f} mm wide, and are {:.1f} times as long as "
+          "the way from root to tip",
+          groom.curledCount, groom.strandCount, groom.turns.median, 1000 * width, arcOverChord),
+      shareOf(groom.curledCount) >= kClearShare && isAwayFrom(width, kCoilWidth) &&
+          isAwayFrom(width, kLooseCurlWidth) && isAwayFrom(arcOverChord, kCoilArcOverChord)};
 }
 
 }  // namespace ringlet

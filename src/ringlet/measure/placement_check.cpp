@@ -74,8 +74,7 @@ std::optional<std::string> doubtOfBody(const Body& body, const Stand& stand, con
   if (nearest > stand.size) {
     return fmt::format(
         "no root is nearer to the body {} than {}, further than the groom's own size of {}; do the two stand "
-        "in "
-        "one place, and in one unit?",
+        "in one place, and in one unit?",
         body.name, lengthText(nearest), lengthText(stand.size));
   }
   if (*middle < -kDeepRoots * size) {
@@ -96,8 +95,8 @@ std::string turnsRound(const RootEnds& byHead, std::size_t count) {
            "were made";
   const char* end = headTells ? "head" : "last";
   return fmt::format(
-      "root_end = \"{0}\" of [groom] (--root-end {0}) turns {1} round, and so does `ringlet info "
-      "--fix` with it",
+      "root_end = \"{0}\" of [groom] (--root-end {0}) turns {1} round, and so does `ringlet info --fix` with "
+      "it",
       end, headTells ? "those that end on the head" : "all");
 }
 

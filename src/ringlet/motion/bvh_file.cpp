@@ -178,10 +178,10 @@ Status readMotion(Words& words, BvhFile& file) {
   auto frames = words.number("the number of frames");
   if (!frames) return frames.error();
   if (!(*frames >= 1 && *frames <= 1e8 && *frames == std::floor(*frames)))
-    return Error{
-        fmt::format("line {}: a motion has 1 to 1e8 frames, not {}; the number there is that of the lines "
-                    "of numbers which follow",
-                    words.line(), *frames)};
+    return Error{fmt::format(
+        "line {}: a motion has 1 to 1e8 frames, not {}; the number there is that of the lines of numbers "
+        "which follow",
+        words.line(), *frames)};
   for (const char* word : {"Frame", "Time", ":"}) {
     if (Status status = words.expect(word); !status) return status;
   }

@@ -82,10 +82,10 @@ Result<std::vector<GltfBuffer>> gltfBuffersOf(std::string_view text, const std::
     if (uri.empty() || uri.starts_with("data:")) continue;
     const std::string name = decodedUri(uri);
     if (const std::string refusal = refusalOf(name, folder); !refusal.empty()) {
-      return Error{
-          fmt::format("buffer {}: the file {} {}; buffers are read from the folder of the glTF file "
-                      "and below it, and from nowhere else",
-                      b, name, refusal)};
+      return Error{fmt::format(
+          "buffer {}: the file {} {}; buffers are read from the folder of the glTF file and below it, and "
+          "from nowhere else",
+          b, name, refusal)};
     }
     const json& size = found[b].contains("byteLength") ? found[b]["byteLength"] : json();
     buffers.push_back({folder / name, size.is_number_unsigned() ? size.get<std::uint64_t>() : 0});

@@ -213,10 +213,9 @@ Result<Keyframes> GltfFile::motionOf(std::size_t node, const GltfAnimation* anim
     // Turned, the groom stands upright too: its axes are turned by the same.
     const auto rotation = nearestRotation(world);
     if (!rotation) {
-      return Error{
-          fmt::format("at {:.4g} s node {} is flat or beyond all numbers (a scale of 0?); it has no "
-                      "rotation there",
-                      t, nodes[node].name)};
+      return Error{fmt::format(
+          "at {:.4g} s node {} is flat or beyond all numbers (a scale of 0?); it has no rotation there", t,
+          nodes[node].name)};
     }
     motion.poses.push_back({world.position, normalized(*rotation * lift.conjugate())});
   }

@@ -39,8 +39,7 @@ void doubtUnit(const BvhStance& stance, const std::string& name, std::vector<std
   if (!(stance.height > 0) || unit != kTall / stance.height) {
     doubts.push_back(fmt::format(
         "{} names no unit, and its skeleton is {}: its unit is taken to be a centimetre; --motion-unit (unit "
-        "of "
-        "[motion]) says another",
+        "of [motion]) says another",
         name,
         stance.height > 0 ? fmt::format("{:.4g} units tall, which no person is in any unit", stance.height)
                           : "one point, which has no height"));
@@ -63,11 +62,10 @@ void doubtStatedUnit(const BvhStance& stance, double unit, const std::string& na
   const double tall = stance.height * unit;
   const bool isWhole = stance.hasLegs && stance.everStands;
   if (tall <= kMostPerson && !(isWhole && tall < kLeastPerson)) return;
-  doubts.push_back(
-      fmt::format("{}: its skeleton of {:.4g} units is {:.4g} m tall with units of {:.4g} m, which no person "
-                  "is; it is {} m "
-                  "tall with --motion-unit {:.4g}",
-                  name, stance.height, tall, unit, kTall, unitOf(stance)));
+  doubts.push_back(fmt::format(
+      "{}: its skeleton of {:.4g} units is {:.4g} m tall with units of {:.4g} m, which no person is; it is "
+      "{} m tall with --motion-unit {:.4g}",
+      name, stance.height, tall, unit, kTall, unitOf(stance)));
 }
 
 void doubtUp(const BvhStance& stance, const std::string& name, bool upIsZ, std::vector<std::string>& doubts) {
@@ -77,8 +75,7 @@ void doubtUp(const BvhStance& stance, const std::string& name, bool upIsZ, std::
   if (stance.sight == Sight::lying) {
     doubts.push_back(fmt::format(
         "{}: the person lies along {} in all its frames, or {} is the file's up axis; {} is taken for it, "
-        "and "
-        "the person to lie; where it stands, {} says so",
+        "and the person to lie; where it stands, {} says so",
         name, nameOf(stance.along), nameOf(stance.along), nameOf(stance.up), upOption(stance.along)));
     return;
   }
@@ -247,11 +244,10 @@ std::vector<std::string> doubtsOf(const GltfFile& file, std::size_t node, const 
                                  unitsFor(height, unit)));
   }
   if (along != FileAxis::plusY) {
-    doubts.push_back(
-        fmt::format("{}: the node {} is along {} from {}, where glTF has Y up: the person lies, or the file "
-                    "has another axis "
-                    "up, which {} says",
-                    name, head, nameOf(along), file.nodes[figure.hips].name, upOption(along)));
+    doubts.push_back(fmt::format(
+        "{}: the node {} is along {} from {}, where glTF has Y up: the person lies, or the file has another "
+        "axis up, which {} says",
+        name, head, nameOf(along), file.nodes[figure.hips].name, upOption(along)));
   }
   return doubts;
 }

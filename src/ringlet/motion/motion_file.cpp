@@ -49,10 +49,12 @@ Result<Keyframes> readBvhMotion(const MotionFileChoice& choice, bool upIsZ,
 
   Keyframes keys = file->motionOf(*joint, choice.metresPerUnit.value_or(unitOf(stance)), skipped);
   if (const auto fastest = keys.fastestTurn(); fastest.speed > kFastestHead) {
-    addOnce(fmt::format("{}: from frame {} to the next {} turns at {:.0f} rad/s; where the first frame is a "
-                        "pose apart from the motion, skip it",
-                        name, fastest.key + skipped + 1, choice.joint, fastest.speed),
-            warnings);
+    addOnce(
+        fmt::format(
+            "{}: from frame {} to the next {} turns at {:.0f} rad/s; where the first frame is a pose apart "
+            "from the motion, skip it",
+            name, fastest.key + skipped + 1, choice.joint, fastest.speed),
+        warnings);
   }
   const FileAxis jointUp =
       jointUpOf(!head || head == joint ? keys.poses : file->motionOf(*head, 1, skipped).poses, stance.up);

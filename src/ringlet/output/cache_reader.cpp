@@ -47,8 +47,7 @@ Status CacheReader::readHeader() {
   const cache::ParsedHeader parsed = cache::parseHeader(bytes);
   if (!parsed.header)
     return Error{
-        fmt::format("{}: {}; expected a cache that `ringlet simulate --cache` or `ringlet convert` "
-                    "wrote",
+        fmt::format("{}: {}; expected a cache that `ringlet simulate --cache` or `ringlet convert` wrote",
                     path_.string(), parsed.fault)};
   header_ = *parsed.header;
   return {};

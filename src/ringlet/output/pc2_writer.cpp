@@ -58,9 +58,9 @@ Result<Pc2Writer> Pc2Writer::resume(const std::filesystem::path& path, const Gro
       header->size() == kHeaderBytes && header->substr(0, kCountAt) == textOf(expected).substr(0, kCountAt);
   if (!isOurs || last->empty()) {
     return Error{
-        fmt::format("cannot go on with {}: expected {} whole frames of this animation, found another "
-                    "file or fewer",
-                    writer.file_.path().string(), frameCount),
+        fmt::format(
+            "cannot go on with {}: expected {} whole frames of this animation, found another file or fewer",
+            writer.file_.path().string(), frameCount),
         Fault::input};
   }
   if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();

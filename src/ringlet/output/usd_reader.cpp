@@ -356,10 +356,9 @@ Error UsdReader::wanted(std::string_view what) {
   skipSpace();
   const std::string found =
       at_ < buffer_.size() ? quoted(std::string_view(buffer_).substr(at_, 33)) : "the end of the file";
-  return Error{
-      fmt::format("{}: byte {}: expected {}, found {}; only animations that `ringlet simulate` wrote can "
-                  "be read",
-                  path_.string(), bufferStart_ + at_, what, found)};
+  return Error{fmt::format(
+      "{}: byte {}: expected {}, found {}; only animations that `ringlet simulate` wrote can be read",
+      path_.string(), bufferStart_ + at_, what, found)};
 }
 
 }  // namespace ringlet

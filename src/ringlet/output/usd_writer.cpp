@@ -176,9 +176,9 @@ Result<UsdWriter> UsdWriter::resume(const std::filesystem::path& path, const Gro
   }
   if (!isWhole) {
     return Error{
-        fmt::format("cannot go on with {}: expected {} whole frames of this animation, found another file or "
-                    "fewer",
-                    writer.file_.path().string(), frameCount),
+        fmt::format(
+            "cannot go on with {}: expected {} whole frames of this animation, found another file or fewer",
+            writer.file_.path().string(), frameCount),
         Fault::input};
   }
   if (Status renamed = writer.file_.rename(path.string() + ".partial"); !renamed) return renamed.error();

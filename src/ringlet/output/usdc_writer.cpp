@@ -92,9 +92,9 @@ Result<UsdcWriter> UsdcWriter::resume(const std::filesystem::path& path, const G
   if (!isOurs) return isOurs.error();
   if (!*isOurs) {
     return Error{
-        fmt::format("cannot go on with {}: expected {} whole frames of this animation, found another file or "
-                    "fewer",
-                    writer.file_.path().string(), frameCount),
+        fmt::format(
+            "cannot go on with {}: expected {} whole frames of this animation, found another file or fewer",
+            writer.file_.path().string(), frameCount),
         Fault::input};
   }
   if (options.usd.velocities) {

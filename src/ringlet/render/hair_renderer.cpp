@@ -34,8 +34,8 @@ Status checkSize(const PictureSize& size) {
       size.side <= 4)
     return {};
   return Error{fmt::format(
-      "a picture of {} x {} pixels with {} samples along a pixel's side; at most 16384 pixels and 4 "
-      "samples, at least 1 of each",
+      "a picture of {} x {} pixels with {} samples along a pixel's side; at most 16384 pixels and 4 samples, "
+      "at least 1 of each",
       size.width, size.height, size.side)};
 }
 

@@ -96,8 +96,8 @@ ContactGraph pruneStrandPairs(std::span<const StrandOverlap> overlaps, const Res
   connect(graph, left, rest.strands.size());
   if (graph.pairs == 0 && rest.strands.size() > 1) {
     graph.warnings.push_back(fmt::format(
-        "no two of {} strands may touch: of {} pairs that overlap at rest none is left after pruning; "
-        "prune less, or not at all where strands that are apart at rest shall meet",
+        "no two of {} strands may touch: of {} pairs that overlap at rest none is left after pruning; prune "
+        "less, or not at all where strands that are apart at rest shall meet",
         rest.strands.size(), graph.pairsUnpruned));
   }
   return graph;

@@ -113,17 +113,16 @@ ContactParticles chooseContactParticles(const RestState& rest, const ContactSett
     contacts.masses.push_back(static_cast<float>(massOf(rest, s) / static_cast<double>(pruned.kept.size())));
   }
   if (gappyCount > 0 && !settings.fillGaps) {
-    contacts.warnings.push_back(
-        fmt::format("the particles of {} of {} strands stand further apart (to {:.3g} mm) than twice the "
-                    "contact radius of "
-                    "{:.3g} mm: hair may slip through between them; cut it finer, set a larger radius, or "
-                    "have gaps filled",
-                    gappyCount, rest.strands.size(), 1000 * widestGap, 1000 * contacts.baseRadius));
+    contacts.warnings.push_back(fmt::format(
+        "the particles of {} of {} strands stand further apart (to {:.3g} mm) than twice the contact radius "
+        "of {:.3g} mm: hair may slip through between them; cut it finer, set a larger radius, or have gaps "
+        "filled",
+        gappyCount, rest.strands.size(), 1000 * widestGap, 1000 * contacts.baseRadius));
   } else if (gappyCount > 0) {
     contacts.warnings.push_back(fmt::format(
         "the contact radius of {} of {} strands is raised from {:.3g} mm, to {:.3g} mm at most (strand {}), "
-        "because their particles stand further apart than twice the radius; cut them finer, or set a "
-        "larger radius",
+        "because their particles stand further apart than twice the radius; cut them finer, or set a larger "
+        "radius",
         gappyCount, rest.strands.size(), 1000 * contacts.baseRadius, 1000 * contacts.radii[coarsest],
         rest.strandInGroom[coarsest]));
   }

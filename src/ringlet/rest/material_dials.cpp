@@ -44,8 +44,7 @@ std::optional<std::string> applyDials(const MaterialDials& dials, Material& mate
   if (asked >= least) return std::nullopt;
   return fmt::format(
       "the dials ask for a bend damping ratio of {:.3g}, below {}, where bending can feed on itself: {:.3g} "
-      "is "
-      "used",
+      "is used",
       asked, kLeastBendDampingRatio, material.bendDampingRatio);
 }
 

@@ -34,16 +34,15 @@ std::vector<std::string> MaterialExtremes::warnings(std::size_t strandCount, con
   std::vector<std::string> sentences;
   const int needed = stepsOf(longestCalmStep, settings);
   if (cappedStrands > 0) {
-    sentences.push_back(
-        fmt::format("the core spring of {} of {} strands is weakened (to {:.0f} % at least) to stay stable "
-                    "at {} steps per frame; "
-                    "{} steps per frame give it in full",
-                    cappedStrands, strandCount, 100 * smallestCoreShare, settings.stepsPerFrame, needed));
+    sentences.push_back(fmt::format(
+        "the core spring of {} of {} strands is weakened (to {:.0f} % at least) to stay stable at {} steps "
+        "per frame; {} steps per frame give it in full",
+        cappedStrands, strandCount, 100 * smallestCoreShare, settings.stepsPerFrame, needed));
   }
   if (unstableStrands > 0) {
     sentences.push_back(fmt::format(
-        "{} steps per frame are too few for the bending of {} of {} strands, which may not come to rest; "
-        "{} steps per frame are enough, or a softer or more smoothed material",
+        "{} steps per frame are too few for the bending of {} of {} strands, which may not come to rest; {} "
+        "steps per frame are enough, or a softer or more smoothed material",
         settings.stepsPerFrame, unstableStrands, strandCount, needed));
   }
   const double leastRatio = material.bendDampingRatio * material.bendDampingRatioProfile.least();

@@ -135,8 +135,7 @@ std::span<const Parameter<Material>> materialParameters() {
       {{"inertia_factor",
         "1",
         "Factor on the inertial force that hair feels where its head travels, not where it turns. More "
-        "swings "
-        "and bounces farther.",
+        "swings and bounces farther.",
         {0, 100},
         {0.2, 5}},
        &M::inertiaFactor},
@@ -162,8 +161,7 @@ std::span<const Parameter<MaterialDials>> dialParameters() {
       {{"hold",
         "1",
         "Firmness: factor on bend_stiffness; bend_damping_ratio is divided by its root, so that hair settles "
-        "as "
-        "before.",
+        "as before.",
         {0.001, 1000},
         {0.1, 10}},
        &D::hold},
@@ -301,10 +299,9 @@ Status checkProfile(const ProfileParameter& parameter, const Profile& profile) {
 Status checkMaterial(const Material& material) {
   if (Status status = checkNumbers(materialParameters(), material, ""); !status) return status;
   if (!(material.coreElongationHigh >= material.coreElongationLow + kLeastElongationGap)) {
-    return Error{
-        fmt::format("core_elongation_high is {}; it must be above core_elongation_low, which is {}, by {} or "
-                    "more",
-                    material.coreElongationHigh, material.coreElongationLow, kLeastElongationGap)};
+    return Error{fmt::format(
+        "core_elongation_high is {}; it must be above core_elongation_low, which is {}, by {} or more",
+        material.coreElongationHigh, material.coreElongationLow, kLeastElongationGap)};
   }
   for (const ProfileParameter& parameter : profileParameters()) {
     if (Status status = checkProfile(parameter, material.*parameter.member); !status) return status;

@@ -28,8 +28,8 @@ std::span<const Preset> presets() {
        "Big soft curls that open and close with every move and swing on for a while, at a little below 4 Hz.",
        {.bendStiffness = 2, .bendDampingRatio = 0.15, .coreStiffness = 10}},
       {"ringlet",
-       "Springy, well drawn corkscrews: they lengthen under a jolt and come back with a lively bounce of "
-       "4 to 5 Hz.",
+       "Springy, well drawn corkscrews: they lengthen under a jolt and come back with a lively bounce of 4 "
+       "to 5 Hz.",
        {.bendStiffness = 5, .bendDampingRatio = 0.15, .coreStiffness = 10}},
       {"coil",
        "Tight firm coils that keep their shape and move as a body, with a short quick bounce of about 5 Hz.",

@@ -113,9 +113,8 @@ std::vector<std::string> tooFineWarnings(std::span<const StrandSize> sizes,
       *std::ranges::min_element(tooFine, [&](auto a, auto b) { return share(a) < share(b); });
   return {fmt::format(
       "{} carried rigidly by the root, as float32 numbers are too coarse for the edges: {}. Strand {} has "
-      "the "
-      "finest: {:.2g} m on average, at {:.3g} m from the head's origin, where rounding changes an edge by up "
-      "to {:.2g} m. Nearer to the head's origin finer strands move",
+      "the finest: {:.2g} m on average, at {:.3g} m from the head's origin, where rounding changes an edge "
+      "by up to {:.2g} m. Nearer to the head's origin finer strands move",
       counted(tooFine.size(), sizes.size()), named(tooFine), worst, sizes[worst].meanEdge,
       sizes[worst].distance, edgeRounding(sizes[worst].distance))};
 }
@@ -142,10 +141,9 @@ std::vector<std::string> repeatWarnings(std::span<const StrandSize> sizes) {
     if (sizes[s].length > 0) count += sizes[s].repeatedCount;
   }
   if (count == 0) return {};
-  return {
-      fmt::format("{} repeated particle{}, the first in strand {}: `ringlet info FILE --fix OUT` leaves "
-                  "them out",
-                  count, count == 1 ? "" : "s", first)};
+  return {fmt::format(
+      "{} repeated particle{}, the first in strand {}: `ringlet info FILE --fix OUT` leaves them out", count,
+      count == 1 ? "" : "s", first)};
 }
 
 std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,
@@ -170,8 +168,7 @@ std::vector<std::string> roundingWarnings(std::span<const StrandSize> sizes,
   if (count == 0) return {};
   return {fmt::format(
       "{} so finely cut that rounding to float32 may pass the stretch limit, strand {} by {:.2g} % of an "
-      "edge: "
-      "{:.2g} m at {:.3g} m from the head's origin; cut edges longer, or move the groom to the origin",
+      "edge: {:.2g} m at {:.3g} m from the head's origin; cut edges longer, or move the groom to the origin",
       counted(count, sizes.size()), worst, 100 * most, sizes[worst].shortestEdge, sizes[worst].distance)};
 }
 

@@ -177,8 +177,7 @@ std::span<const SettingField<GoalSettings>> goalFields() {
           .live(),
       F{"shape", "", "false",
         "Whether the goal is how hair lies and not where it is: the direction of every edge. A strength is "
-        "then in the "
-        "strand's weight, as bend_stiffness is.",
+        "then in the strand's weight, as bend_stiffness is.",
         &G::shape},
   };
   return all;

@@ -203,10 +203,10 @@ Status checkOptions(std::string_view name, const SceneOptions& options) {
   }
   if (options.integrator != Integrator::paper) return {};
   if (!options.core || !options.smoothedFrames) {
-    return Error{
-        fmt::format("{} by the paper's loops, which take their springs as printed, has a core and "
-                    "smoothed frames; leave the switch out",
-                    name)};
+    return Error{fmt::format(
+        "{} by the paper's loops, which take their springs as printed, has a core and smoothed frames; leave "
+        "the switch out",
+        name)};
   }
   if (options.preload.value_or(0) != 0) {
     return Error{fmt::format("{} by the paper's loops, which have no preload: leave it out or 0", name)};

@@ -21,8 +21,8 @@ Result<std::shared_ptr<GoalAnimation>> GoalAnimation::open(const std::filesystem
   const Groom& found = self->reader_->groom();
   if (found.firstPoint != groom.firstPoint)
     return Error{fmt::format(
-        "{} has {} strands of {} particles in all, the groom {} of {}; expected the same "
-        "strands, particle for particle",
+        "{} has {} strands of {} particles in all, the groom {} of {}; expected the same strands, particle "
+        "for particle",
         path.string(), found.strandCount(), found.points.size(), groom.strandCount(), groom.points.size())};
   if ((self->reader_->header().up == UpAxis::z) != upIsZ)
     return Error{fmt::format("{} has another up axis than the scene", path.string())};

@@ -28,16 +28,14 @@ std::vector<std::string> idleDials(const MaterialDials& dials, const Material& m
   if (dials.bounce != 1 && !travels(motion, settings, seconds)) {
     sentences.emplace_back(
         "the dial bounce changes nothing: the head does not travel in this run (turning alone does not "
-        "count); "
-        "spring_back and hold act in any motion");
+        "count); spring_back and hold act in any motion");
   }
   if (dials.weight != 1 && length(settings.gravity) == 0)
     sentences.emplace_back("the dial weight changes nothing: there is no gravity");
   if (dials.curlKeep != 1) {
     if (material.coreStiffness == 0) {
       sentences.emplace_back(
-          "the dial curl_keep changes nothing: the material has no core spring "
-          "(core_stiffness is 0)");
+          "the dial curl_keep changes nothing: the material has no core spring (core_stiffness is 0)");
     } else if (inspectShape(groom).curledCount == 0) {
       sentences.emplace_back("the dial curl_keep changes next to nothing: no strand of the groom is curled");
     }

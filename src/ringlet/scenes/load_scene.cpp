@@ -224,10 +224,10 @@ void notePreset(const SceneFile& scene, LoadedScene& loaded) {
       suggestMaterial(inspectShape(loaded.groom), loaded.groom.metresPerUnit);
   const auto preset = materialPreset(suggestion.preset);
   if (!suggestion.isClear || !preset || *preset == material) return;
-  loaded.notes.push_back(
-      fmt::format("this groom looks like {0}, and has the default material; preset = \"{0}\" of [material] "
-                  "(--material {0}) suits it better: {1}",
-                  suggestion.preset, suggestion.reason));
+  loaded.notes.push_back(fmt::format(
+      "this groom looks like {0}, and has the default material; preset = \"{0}\" of [material] (--material "
+      "{0}) suits it better: {1}",
+      suggestion.preset, suggestion.reason));
 }
 
 // A groom that is bound to the world and turned by a built-in motion turns about its own head.
@@ -319,10 +319,10 @@ Status addBundles(const SceneFile& scene, std::size_t strandCount, ContactSettin
                                  group.name, run.last, strandCount)};
       for (std::uint32_t s = run.first; s <= run.last; ++s) {
         if (bundleOf[s])
-          return Error{
-              fmt::format("strand {} is in the groups {} and {}, and strands of neither touch each "
-                          "other; expected it in one of them, or both as one group",
-                          s, bundleOf[s]->name, group.name)};
+          return Error{fmt::format(
+              "strand {} is in the groups {} and {}, and strands of neither touch each other; expected it in "
+              "one of them, or both as one group",
+              s, bundleOf[s]->name, group.name)};
         bundleOf[s] = &group;
         bundle.push_back(s);
       }

@@ -23,8 +23,7 @@ std::optional<std::string> endsEarly(const SceneMotion& stated, const Motion& mo
   const int frames = static_cast<int>(reached);
   return fmt::format(
       "{}: its motion ends after {:.3g} s, at frame {} of the {} of this run; in the other {} {} keeps its "
-      "last "
-      "pose",
+      "last pose",
       stated.file.string(), seconds, frames, frameCount, frameCount - frames, what);
 }
 
@@ -58,9 +57,8 @@ std::optional<std::string> onlyJumps(const SceneMotion& stated, const Motion& he
   if (jumps == 0 || isCut || jumps * kFewFrames < moves) return std::nullopt;
   return fmt::format(
       "in {} of {} frames the head moves farther than {} m, which counts as a teleport: hair is carried "
-      "along and "
-      "not simulated there; {} Where the head is so fast, a larger teleport_distance of [simulation], or 0, "
-      "simulates it",
+      "along and not simulated there; {} Where the head is so fast, a larger teleport_distance of "
+      "[simulation], or 0, simulates it",
       jumps, frameCount, settings.teleportDistance, sizeOf(stated));
 }
 

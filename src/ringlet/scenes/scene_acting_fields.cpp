@@ -23,10 +23,8 @@ std::span<const SceneField<SceneForceField>> forceFieldFields() {
        "",
        "required",
        "What it does: uniform pulls along its axis; point and line pull towards themselves; vortex goes "
-       "round "
-       "its axis, right-handed; blast pushes away where its front passes; drag only brakes; grid has "
-       "velocities "
-       "of air from a file.",
+       "round its axis, right-handed; blast pushes away where its front passes; drag only brakes; grid has "
+       "velocities of air from a file.",
        &F::kind,
        {},
        "uniform, point, line, vortex, blast, drag, grid"},
@@ -34,8 +32,8 @@ std::span<const SceneField<SceneForceField>> forceFieldFields() {
           "strength",
           "",
           "",
-          "Acceleration, m/s^2; with drag the velocity of the air, m/s; of a grid a factor. Below 0 "
-          "it goes the other way.",
+          "Acceleration, m/s^2; with drag the velocity of the air, m/s; of a grid a factor. Below 0 it goes "
+          "the other way.",
           &F::strength,
           {-1e6, 1e6},
           "",
@@ -101,8 +99,8 @@ std::span<const SceneField<SceneHold>> holdFields() {
       {"end", "1", "", "Where it ends.", &H::end, kShare},
       SceneField<H>{
           "gather", "1", "",
-          "How wide the held part is, as a share of its width in the groom: 1 holds hair where it is, "
-          "0.2 ties it together, 0 pulls all to one line.",
+          "How wide the held part is, as a share of its width in the groom: 1 holds hair where it is, 0.2 "
+          "ties it together, 0 pulls all to one line.",
           &H::gather, kShare}
           .live(),
       {"position", "m", "where it is in the groom",

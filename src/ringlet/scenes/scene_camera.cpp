@@ -43,10 +43,9 @@ Result<LoadedCamera> cameraOfGltf(const SceneFile& scene, const std::filesystem:
   if (!which) return noSuchJoint(path.string(), "camera", name, names);
   const auto angle = file->cameras[*file->nodes[nodes[*which]].camera].heightAngle;
   if (!angle)
-    return Error{
-        fmt::format("the camera {} of {} is orthographic, or its yfov is not between 0 and pi; pictures "
-                    "are perspective",
-                    name, path.string())};
+    return Error{fmt::format(
+        "the camera {} of {} is orthographic, or its yfov is not between 0 and pi; pictures are perspective",
+        name, path.string())};
   std::error_code code;  // files that are not there are no error of this
   const bool isHeads =
       !scene.motion.file.empty() && std::filesystem::equivalent(scene.motion.file, path, code);

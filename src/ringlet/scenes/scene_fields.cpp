@@ -74,8 +74,7 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        "",
        "",
        "Which end of each strand of the file is its root: its first point, its last, or of each the one on "
-       "the "
-       "head, a ball on which most strands have an end.",
+       "the head, a ball on which most strands have an end.",
        &G::rootEnd,
        {},
        "first, last, head",
@@ -97,8 +96,7 @@ std::span<const SceneField<SceneGroom>> groomFields() {
        "",
        "",
        "head: the groom is in the frame of the head's joint. world: it stands where it was modelled at the "
-       "bind "
-       "frame, whatever axes the joint has.",
+       "bind frame, whatever axes the joint has.",
        &G::bind,
        {},
        "head, world"},
@@ -429,8 +427,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        "",
        "none",
        "File of the mesh: an .obj file of closed surfaces, or a .gltf, .glb or .vrm file with one mesh, "
-       "which is "
-       "taken at its first key.",
+       "which is taken at its first key.",
        &B::file,
        {},
        "",
@@ -463,8 +460,7 @@ std::span<const SceneField<SceneBody>> bodyFields() {
        "",
        "",
        "carrier: the body is in the frame that carries it. world: it stands where it is placed in the world "
-       "at "
-       "the bind frame, whatever axes its carrier has.",
+       "at the bind frame, whatever axes its carrier has.",
        &B::bind,
        {},
        "carrier, world"},
@@ -663,9 +659,8 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "",
        "none",
        "What USD files have beside points and widths: a number of each strand, its rest positions, "
-       "velocities "
-       "(hair.usdc and clips only), what a USD groom says of its curves (widths, ids, colours and other "
-       "primvars).",
+       "velocities (hair.usdc and clips only), what a USD groom says of its curves (widths, ids, colours and "
+       "other primvars).",
        &O::values,
        {},
        "id, rest, velocities, groom"},
@@ -673,8 +668,7 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "",
        "",
        "Where USD files have the head's motion: in the points; in a transform beside points that are seen "
-       "from "
-       "the head; nowhere, where something else carries these.",
+       "from the head; nowhere, where something else carries these.",
        &O::head,
        {},
        "baked, transform, none"},
@@ -682,8 +676,7 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "",
        "none; the strands themselves",
        "Hairs that animations have in place of the strands, which they follow; last.obj and sheet.png show "
-       "the "
-       "strands.",
+       "the strands.",
        &O::hairs,
        {1, 1e7}},
       {"hair_scalp", "", "none; the mesh of [scalp], else around the strands' roots",
@@ -707,8 +700,7 @@ std::span<const SceneField<SceneOutput>> outputFields() {
        "",
        "",
        "Share of what the nearest strands beside a hair's own have in its course; its curl stays that of its "
-       "own. "
-       "1 for straight and wavy hair.",
+       "own. 1 for straight and wavy hair.",
        &O::blend,
        {0, 1}},
       {"clip_frames",

@@ -405,18 +405,18 @@ class SceneReader {
         key.time = *number;
         if (!scene.timeKeys.empty() && !(key.time > scene.timeKeys.back().time))
           problems_.add(lineOf(*time),
-                        fmt::format("found the time {} of {}; expected one after that of the key "
-                                    "before, {}",
+                        fmt::format("found the time {} of {}; expected one after that of the key before, {}",
                                     key.time, which, scene.timeKeys.back().time));
       } else {
         problems_.addFound(*time, "key.time", "a number from -3600 to 36000 s");
       }
       readKeyedValues(table, "", scene, key);
       if (key.values.empty() && problems_.empty())
-        missing_.add(lineOf(table),
-                     fmt::format("found nothing that {} changes; expected keys with their tables, "
-                                 "as air.wind = [1, 0, 0]",
-                                 which));
+        missing_.add(
+            lineOf(table),
+            fmt::format(
+                "found nothing that {} changes; expected keys with their tables, as air.wind = [1, 0, 0]",
+                which));
       scene.timeKeys.push_back(std::move(key));
     }
   }
@@ -563,9 +563,9 @@ class SceneReader {
     if (!time) {
       missing_.add(lineOf(table), fmt::format("found no time of {}; expected one, in seconds", which));
     } else if (!motion.keys.empty() && !(key.time > motion.keys.back().time)) {
-      problems_.add(lineOf(*time), fmt::format("found the time {} of {}; expected one after that of the key "
-                                               "before, {}",
-                                               key.time, which, motion.keys.back().time));
+      problems_.add(lineOf(*time),
+                    fmt::format("found the time {} of {}; expected one after that of the key before, {}",
+                                key.time, which, motion.keys.back().time));
     }
     if (const toml::node* quaternion = table.get("quaternion")) {
       const Quatd q = key.quaternion.value_or(Quatd{});
@@ -657,9 +657,8 @@ class SceneReader {
   void checkJoint(const toml::table& table, const std::string& what, const SceneFile& scene) {
     const toml::node *joint = table.get("joint"), *bind = table.get("bind");
     if (joint && scene.motion.file.empty())
-      problems_.add(lineOf(*joint), fmt::format("found {}.joint, but the head follows no file; expected "
-                                                "motion.file",
-                                                what));
+      problems_.add(lineOf(*joint),
+                    fmt::format("found {}.joint, but the head follows no file; expected motion.file", what));
     if (joint && bind)
       problems_.add(std::max(lineOf(*joint), lineOf(*bind)),
                     fmt::format("found {0}.joint and {0}.bind; expected one of the two", what));
@@ -750,10 +749,10 @@ Result<SceneFile> parseScene(std::string_view text, const std::string& name,
       return Error{fmt::format("{}: {}", name, changed.error().message)};
   }
   if (isMaterialsTable(*file)) {
-    return Error{
-        fmt::format("{0}: is a material file and no scene: it goes with a groom or a scene, as "
-                    "file = \"{0}\" of [material] (--material {0})",
-                    name)};
+    return Error{fmt::format(
+        "{0}: is a material file and no scene: it goes with a groom or a scene, as file = \"{0}\" of "
+        "[material] (--material {0})",
+        name)};
   }
   return SceneReader(name, folder, reach).read(*file);
 }

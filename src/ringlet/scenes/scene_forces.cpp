@@ -123,8 +123,7 @@ Result<SceneForces::Hold> SceneForces::holdOf(const SceneFile& scene, const Scen
   }
   if (hold.held.empty())
     return Error{
-        fmt::format("no particle stands between {} and {} of its strand's length; expected a wider "
-                    "range",
+        fmt::format("no particle stands between {} and {} of its strand's length; expected a wider range",
                     stated.begin, stated.end)};
   const Vec3d middle = sum / static_cast<double>(hold.held.size());
   const HeadPose start = head.poseAt(0);
@@ -143,8 +142,7 @@ Result<SceneForces> SceneForces::load(const SceneFile& scene, const Groom& groom
   if (scene.goal.shape && !scene.holds.empty())
     return Error{
         "goal.shape = true cannot stand with [[hold]]: a hold pulls hair to places, and goals are of one "
-        "kind; leave "
-        "out one of them"};
+        "kind; leave out one of them"};
   SceneForces self;
   self.scene_.fields = scene.fields;
   self.scene_.holds = scene.holds;
@@ -195,8 +193,7 @@ Status SceneForces::loadGoal(const SceneFile& scene, const Groom& groom) {
   if (!pose) return pose.error();
   if (pose->groom.firstPoint != groom.firstPoint)
     return Error{
-        fmt::format("{} has other strands than the groom; expected the same ones, particle for "
-                    "particle",
+        fmt::format("{} has other strands than the groom; expected the same ones, particle for particle",
                     scene.goalFile.string())};
   groom_.places = goalOf(pose->groom).places;
   return {};

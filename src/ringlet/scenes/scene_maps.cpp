@@ -180,11 +180,9 @@ Result<std::vector<StrandRun>> parseStrandFactors(std::string_view text) {
     const auto strand = strandOf(name);
     const auto factor = numberOf<double>(value);
     if (!strand || !factor || !(*factor >= kLeastStrandFactor && *factor <= kMostStrandFactor))
-      return Error{
-          fmt::format("line {}: found {}; expected a strand from 0 to {} and a factor from {} to {}, as "
-                      "12,0.5",
-                      line, ringlet::quoted(std::string(words)), kMostMappedStrand, kLeastStrandFactor,
-                      kMostStrandFactor)};
+      return Error{fmt::format(
+          "line {}: found {}; expected a strand from 0 to {} and a factor from {} to {}, as 12,0.5", line,
+          ringlet::quoted(std::string(words)), kMostMappedStrand, kLeastStrandFactor, kMostStrandFactor)};
     runs.push_back({*strand, *strand, static_cast<float>(*factor)});
   }
   return sorted(std::move(runs));

@@ -173,8 +173,8 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "motion", headMotionFields());
   keys.push_back(
       {"motion", "key", "list of tables", "", "", "none", "",
-       "In place of a kind: poses at times, each headed by [[motion.key]]; the head rests before the "
-       "first and after the last."});
+       "In place of a kind: poses at times, each headed by [[motion.key]]; the head rests before the first "
+       "and after the last."});
   addKeys(keys, "motion.key", keyframeFields());
   addKeys(keys, "motion.roots", rootsFields());
   addKeys(keys, "scalp", scalpFields());
@@ -184,26 +184,27 @@ std::vector<SceneKey> sceneKeys() {
   addKeys(keys, "goal", goalFields());
   keys.push_back(
       {"goal", "file", "path", "", "", "none: the groom itself", "",
-       "What hair is pulled to: an animation that Ringlet wrote (.usda, .usdc, .rgc), whose points are "
-       "in the world, or a groom in another pose, placed as the groom is. Its strands are the "
-       "groom's."});
+       "What hair is pulled to: an animation that Ringlet wrote (.usda, .usdc, .rgc), whose points are in "
+       "the world, or a groom in another pose, placed as the groom is. Its strands are the groom's."});
   addKeys(keys, "body", bodyFields());
-  keys.push_back({"body", "moves", "head, still or a table", "", "", "head", "",
-                  "What carries it: the head, nothing, or a motion of its own in the world, with the keys of "
-                  "[motion], as in { kind = \"spin\" }."});
+  keys.push_back(
+      {"body", "moves", "head, still or a table", "", "", "head", "",
+       "What carries it: the head, nothing, or a motion of its own in the world, with the keys of [motion], "
+       "as in { kind = \"spin\" }."});
   addKeys(keys, "camera", cameraFields());
   addKeys(keys, "field", forceFieldFields());
   addKeys(keys, "hold", holdFields());
   addKeys(keys, "cut", sceneCutFields());
   addKeys(keys, "group", groupFields());
   addKeys(keys, "map", mapFields());
-  keys.push_back({"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
-                  "Time of a key, each headed by [[key]]: numbers that change while hair moves. 0 is the "
-                  "beginning of the first frame, and a frame has the numbers of its end."});
+  keys.push_back(
+      {"key", "time", "number", "s", "from -3600 to 36000 s", "none", "",
+       "Time of a key, each headed by [[key]]: numbers that change while hair moves. 0 is the beginning of "
+       "the first frame, and a frame has the numbers of its end."});
   keys.push_back(
       {"key", "TABLE.KEY", "number or [x, y, z]", "", "", "none", "",
-       "What a number of another table is at that time, as air.wind = [1, 0, 0]. Between keys it goes "
-       "on a cubic; before its first key and after its last it stays. These change: " +
+       "What a number of another table is at that time, as air.wind = [1, 0, 0]. Between keys it goes on a "
+       "cubic; before its first key and after its last it stays. These change: " +
            keyedList() +
            "; and of a field or hold that has a name, field.NAME.strength, position, reach, drag, "
            "hold.NAME.strength, gather."});

@@ -87,10 +87,10 @@ double sampled(const GreyImage& image, double u, double v) {
 Result<std::vector<double>> primvarOfStrands(const LoadedGroom& groom, const std::string& name,
                                              std::size_t& width) {
   if (groom.prims.empty())
-    return Error{
-        fmt::format("the groom's file has no primvar {}; primvars are of USD grooms, and displayColor of "
-                    ".hair files with colours",
-                    ringlet::quoted(name))};
+    return Error{fmt::format(
+        "the groom's file has no primvar {}; primvars are of USD grooms, and displayColor of .hair files "
+        "with colours",
+        ringlet::quoted(name))};
   std::vector<double> numbers;
   width = 0;
   for (const GroomPrim& prim : groom.prims) {

@@ -115,10 +115,12 @@ Result<std::span<const std::byte>> stateOfCheckpoint(std::span<const std::byte> 
                        std::memcmp(checkpoint.data(), kMagic.data(), kMagic.size()) == 0 &&
                        wordAt(checkpoint, 8) == checksum64(checkpoint.subspan(kHashed));
   if (!isWhole)
-    return Error{fmt::format("these {} bytes are no checkpoint of hair, or a damaged one: hand over what was "
-                             "given as a checkpoint, whole",
-                             checkpoint.size()),
-                 Fault::input};
+    return Error{
+        fmt::format(
+            "these {} bytes are no checkpoint of hair, or a damaged one: hand over what was given as a "
+            "checkpoint, whole",
+            checkpoint.size()),
+        Fault::input};
   if (wordAt(checkpoint, 16) != owner.hair)
     return refused(
         "the checkpoint is of other hair: it takes the groom, material, settings, device and version of "

@@ -106,8 +106,7 @@ Result<ContactStage> ContactStage::create(gpu::Device& device, const RestState& 
   self.mostSampled_ = samples.most;
   if (self.contactGroups() > device.properties().maxGroupCount) {
     return Error{fmt::format(
-        "{} contact particles are more than the {} this device takes at once; use a larger radius "
-        "or spacing",
+        "{} contact particles are more than the {} this device takes at once; use a larger radius or spacing",
         count, std::uint64_t{device.properties().maxGroupCount} * kGroupSize)};
   }
   self.bucketCount_ =

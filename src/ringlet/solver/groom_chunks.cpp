@@ -103,9 +103,10 @@ std::vector<StrandRange> cutRanges(std::span<const StrandRange> ranges, std::spa
 Status checkMemory(const std::string& what, std::uint64_t neededBytes, std::uint64_t availableBytes) {
   if (neededBytes <= availableBytes) return {};
   return Error{
-      fmt::format("{} needs {} of the device's memory, which has {} left; use fewer or coarser strands, or "
-                  "another device",
-                  what, mebibytes(neededBytes), mebibytes(availableBytes)),
+      fmt::format(
+          "{} needs {} of the device's memory, which has {} left; use fewer or coarser strands, or another "
+          "device",
+          what, mebibytes(neededBytes), mebibytes(availableBytes)),
       Fault::deviceMemory};
 }
 

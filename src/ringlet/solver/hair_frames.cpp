@@ -87,10 +87,12 @@ Status Simulation::Implementation::checkFree(const HairFrame& frame) const {
   const std::uint64_t open = submitted - finished;
   const bool isAlone = contacts || isJump(frame.stepPoses);
   if (open == 0 || (!isAlone && open < kFramesInFlight)) return {};
-  return Error{isAlone ? "hair with contacts, or of a head that jumps, is recorded when its frame before is "
-                         "over: wait for that, and say that the frame is over"
-                       : "as many frames of this hair are under way as there may be: wait for the oldest, "
-                         "and say that the frame is over"};
+  return Error{
+      isAlone
+          ? "hair with contacts, or of a head that jumps, is recorded when its frame before is over: wait "
+            "for that, and say that the frame is over"
+          : "as many frames of this hair are under way as there may be: wait for the oldest, and say that "
+            "the frame is over"};
 }
 
 std::size_t Simulation::Implementation::mostHeadsOfDispatch() const {

@@ -263,8 +263,7 @@ Error doesNotFit(std::uint32_t particleCount, const DeviceLimits& limits, const 
                                               : static_cast<int>(longestRun(limits, lanes, work));
   return Error{fmt::format(
       "the lanes form was asked for, but a strand of {} particles does not fit: {}. Leave the choice to "
-      "ringlet "
-      "or ask for runs in memory",
+      "ringlet or ask for runs in memory",
       particleCount,
       limits.hasSubgroupShuffle
           ? fmt::format("{} lanes of {} hold {}", lanes, run, lanes * static_cast<std::uint32_t>(run))

@@ -400,8 +400,7 @@ std::vector<std::string> ContactReport::warnings() const {
     sentences.push_back(fmt::format(
         "hair that meets as a volume extended over more cells than there is room for, so that cells became "
         "{:.3g} times as large and hair was coupled over as much more. Use a larger contacts.volume_cell, or "
-        "look "
-        "for hair that is far away",
+        "look for hair that is far away",
         volumeCoarsest));
   }
   return sentences;

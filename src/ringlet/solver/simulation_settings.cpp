@@ -24,11 +24,10 @@ Status Simulation::Implementation::checkChange(const Settings& wanted) const {
   }
   const Settings& built = asset->settings;
   if (const std::string fixed = fixedDifference(built, wanted); !fixed.empty()) {
-    return Error{
-        fmt::format("{} is not as the hair's asset was built with it, and does not change while hair moves: "
-                    "build another "
-                    "asset",
-                    fixed)};
+    return Error{fmt::format(
+        "{} is not as the hair's asset was built with it, and does not change while hair moves: build "
+        "another asset",
+        fixed)};
   }
   if (wanted.stepsPerFrame > built.stepsPerFrame || wanted.stepSeconds() > built.stepSeconds() * kRounding) {
     return Error{fmt::format(

@@ -84,10 +84,10 @@ Result<VolumeStage> VolumeStage::create(gpu::Device& device, const RestState& re
   self.parameters_.warmth = static_cast<float>(kVolumeWarmth);
   self.setSettings(settings);
   if (groupsOf(count) > device.properties().maxGroupCount) {
-    return Error{
-        fmt::format("{} particles that meet as a volume are more than the {} this device takes at once; "
-                    "switch contacts off, or take a smaller groom",
-                    count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
+    return Error{fmt::format(
+        "{} particles that meet as a volume are more than the {} this device takes at once; switch contacts "
+        "off, or take a smaller groom",
+        count, std::uint64_t{device.properties().maxGroupCount} * kVolumeGroupSize)};
   }
   const std::uint64_t cellWords = 2 * std::uint64_t{capacity} + capacity / layout::kBucketBlock + 2 * count;
   const std::uint64_t sumBytes =
