@@ -114,23 +114,9 @@ class RemoteHair : public SceneHair {
     archive.value(both.hair), archive.value(both.contacts);
     return both;
   }
-  HairTimes times() const override {
-    HairTimes times;
-    std::vector<std::byte> bytes;
-    if (!ask(begin(Call::times), &bytes)) return times;
-    Archive archive = givenIn(bytes);
-    archiveTimes(archive, times);
-    return times;
-  }
+  HairTimes times() const override { return told<HairTimes>(Call::times, archiveTimes); }
   bool tellsTimesOfFrames() const override { return false; }
-  HairFacts facts() const override {
-    HairFacts facts;
-    std::vector<std::byte> bytes;
-    if (!ask(begin(Call::facts), &bytes)) return facts;
-    Archive archive = givenIn(bytes);
-    archiveFacts(archive, facts);
-    return facts;
-  }
+  HairFacts facts() const override { return told<HairFacts>(Call::facts, archiveFacts); }
 
   /// Its next answer.
   Status answer(std::vector<std::byte>& bytes) const {
@@ -173,6 +159,16 @@ class RemoteHair : public SceneHair {
     std::vector<T> values;
     archive.list(values);
     return values;
+  }
+  // Empty where the rank cannot tell.
+  template <class T>
+  T told(Call call, void (*archiveIt)(Archive&, T&)) const {
+    T value;
+    std::vector<std::byte> bytes;
+    if (!ask(begin(call), &bytes)) return value;
+    Archive archive = givenIn(bytes);
+    archiveIt(archive, value);
+    return value;
   }
 
   int rank_;
@@ -246,9 +242,12 @@ class Server {
   Status submit(Archive& call) {
     FrameNumber number;
     call.value(number);
-    const auto frame = frames_.at(number.frame);
-    if (!frame) return frame.error();
-    return hair_.submit(number.step < 0 ? *frame : frame->step(static_cast<std::size_t>(number.step)));
+    if (!frame_ || frame_->number != number.frame) {
+      auto frame = frames_.at(number.frame);
+      if (!frame) return frame.error();
+      frame_ = std::move(*frame);
+    }
+    return hair_.submit(number.step < 0 ? *frame_ : frame_->step(static_cast<std::size_t>(number.step)));
   }
   void giveOwn(std::span<const Vec3f> all, Archive& given) {
     for (std::size_t k = 0; k < own_.size(); ++k) own_[k] = all[points_[k]];
@@ -257,6 +256,7 @@ class Server {
 
   SceneHair& hair_;
   const SceneFrames& frames_;
+  std::optional<SceneFrame> frame_;    // whose steps come one after the other
   std::vector<std::uint32_t> points_;  // of the part, in the groom
   std::vector<Vec3f> whole_, own_;     // positions of the groom, of which some are known, and of the part
 };

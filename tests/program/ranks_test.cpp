@@ -94,6 +94,8 @@ TEST_F(Ranks, HaveTheBitsOfOne) {
       for (const char* name : {"positions_hash", "max_edge_stretch", "nonfinite", "warnings", "rigid_strands",
                                "contacts", "pair_tests", "rebuilds", "crossings"})
         EXPECT_EQ(alone[name], together[name]) << name;
+      EXPECT_FALSE(alone["frame_ms"].is_null());
+      EXPECT_TRUE(together["frame_ms"].is_null()) << "what would be a message a frame";
       EXPECT_EQ(std::ranges::count(together["device"].get<std::string>(), '+'), ranks - 1);
     }
   }

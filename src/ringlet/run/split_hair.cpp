@@ -114,6 +114,9 @@ class SplitHair : public SceneHair {
         longest.stages[stage] = std::max(longest.stages[stage], ms);
     return longest;
   }
+  bool tellsTimesOfFrames() const override {
+    return std::ranges::all_of(parts_, [](const HairPart& part) { return part.hair->tellsTimesOfFrames(); });
+  }
   // Warnings and rigid strands are of the whole groom.
   HairFacts facts() const override {
     HairFacts all = parts_[0].hair->facts();

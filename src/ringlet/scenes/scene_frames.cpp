@@ -145,12 +145,12 @@ Result<std::optional<SceneNumbers>> SceneFrames::numbersOf(int frame) const {
 // is one too.
 Result<std::vector<HairChange>> SceneFrames::changesBefore(int frame) const {
   std::vector<HairChange> changes;
-  for (int before = first_; before < frame; ++before) {
+  for (int before = first_; keys() && before < frame; ++before) {
     auto numbers = numbersOf(before);
     if (!numbers) return numbers.error();
-    if (!*numbers) break;
-    const bool isFirst = changes.empty() && !((*numbers)->material == scene_->material);
-    if (isFirst || before == frame - 1) changes.push_back({{}, std::move(*numbers)});
+    if (before < frame - 1 && (*numbers)->material == scene_->material) continue;
+    changes.push_back({{}, std::move(*numbers)});
+    before = std::max(before, frame - 2);  // goes on with the last
   }
   if (const auto cuts = cutsBefore(frame); !cuts.empty()) changes.push_back({cuts, {}});
   return changes;
