@@ -206,9 +206,6 @@ int run(Typed typed) {
   auto scene = loadScene(*file);
   if (!scene) return fail(scene.error());
   for (const std::string& warning : scene->warnings) say("ringlet view: warning: {}\n", warning);
-  if (!scene->cuts.empty())
-    say("ringlet view: warning: the window draws the edge at a cut ([[cut]]), as a line from one part to the "
-        "other\n");
   if (typed.save.empty()) typed.save = typed.input.stem().string() + ".view.toml";
   const auto outcome = runScene(typed, *file, *scene);
   if (!outcome) return fail(outcome.error());

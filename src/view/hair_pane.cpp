@@ -55,13 +55,14 @@ Result<HairPane> HairPane::create(gpu::Device& device, const Groom& groom, const
   return self;
 }
 
-Status HairPane::attach(gpu::Device& device, const Simulation& hair) {
+Status HairPane::attach(gpu::Device& device, const Simulation& hair,
+                        std::span<const std::uint32_t> cutBeyond) {
   const std::vector<DevicePositions> parts = hair.devicePositions();
   std::vector<PoseSource> sources;
   for (const DevicePositions& part : parts) sources.push_back({*part.own, part.particles});
   auto pose =
       DevicePose::create(device, sources, rest_, firstPoint_, follow_ ? follow_->pose() : strands_->points(),
-                         follow_ ? PoseTag::none : PoseTag::strand);
+                         follow_ ? PoseTag::none : PoseTag::strand, cutBeyond);
   if (!pose) return pose.error();
   pose_.emplace(std::move(*pose));
   return {};

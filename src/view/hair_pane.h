@@ -42,8 +42,9 @@ class HairPane {
   static Result<HairPane> create(gpu::Device& device, const Groom& groom, const PaneLook& look);
   HairPane(HairPane&&) = default;
 
-  /// Draws this hair from now on. Again after its buffers are others.
-  Status attach(gpu::Device& device, const Simulation& hair);
+  /// Draws this hair from now on. Again after its buffers are others, or strands were cut beyond other
+  /// points.
+  Status attach(gpu::Device& device, const Simulation& hair, std::span<const std::uint32_t> cutBeyond = {});
 
   /// The next picture. Places of solids, one pose a body, and the camera are the world's.
   Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,

@@ -41,8 +41,10 @@ Status PaneRow::prepare(gpu::Device& device, const Session& session, const PaneL
 }
 
 Status PaneRow::attach(gpu::Device& device, const Session& session) {
+  cutCount_ = session.cutCount();
+  const std::vector<std::uint32_t> cutBeyond = session.cutBeyond();
   for (std::size_t k = 0; k < panes_.size() && k < session.hairs().size(); ++k) {
-    Status attached = panes_[k]->attach(device, session.hairs()[k].simulation());
+    Status attached = panes_[k]->attach(device, session.hairs()[k].simulation(), cutBeyond);
     if (!attached) return attached;
   }
   return {};

@@ -23,6 +23,10 @@ class PaneRow {
                  const Shown& shown);
   /// Takes the session's hair again, whose buffers are others.
   Status attach(gpu::Device& device, const Session& session);
+  /// The same where hair was cut since then.
+  Status takeCuts(gpu::Device& device, const Session& session) {
+    return session.cutCount() == cutCount_ ? Status{} : attach(device, session);
+  }
 
   Status setFrame(const Camera& camera, const HeadPose& head, std::span<const SolidPlace> solids,
                   std::span<const BodyPose> bodies);
@@ -32,7 +36,8 @@ class PaneRow {
 
  private:
   std::vector<std::unique_ptr<HairPane>> panes_;
-  PixelSize size_;  // of all
+  PixelSize size_;            // of all
+  std::size_t cutCount_ = 0;  // that are drawn
   Shown shown_;
 };
 

@@ -41,6 +41,14 @@ SceneDrags Session::drags() const {
   return drags;
 }
 
+std::vector<std::uint32_t> Session::cutBeyond() const {
+  std::vector<std::uint32_t> points;
+  for (const TimedCuts& now : frames_.front().cutsBefore(frame_))
+    for (const StrandCut& cut : now.cuts)
+      points.push_back(scene_->groom.firstPoint[cut.strand] + cut.keep - 1);
+  return points;
+}
+
 Status Session::preRoll() {
   for (frame_ = frames_.front().first(); frame_ < 0;) {
     if (Status submitted = submitFrame(); !submitted) return submitted;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -44,6 +45,9 @@ class Session {
   const HeadPose& head() const { return head_; }
   const std::vector<BodyPose>& bodies() const { return bodies_; }
   const LoadedScene& scene() const { return *scene_; }
+  /// How often hair was cut so far; and the particles, groom order, from which no edge goes on.
+  std::size_t cutCount() const { return frames_.front().cutsBefore(frame_).size(); }
+  std::vector<std::uint32_t> cutBeyond() const;
 
   DraggedPose headDrag;
   std::vector<DraggedPose> bodyDrags;  // one a body

@@ -237,7 +237,8 @@ Status Viewer::applyEdits() {
 
 Status Viewer::step() {
   if (!session_->isPlaying && !asked_.step) return {};
-  return session_->submitFrame();
+  const Status submitted = session_->submitFrame();
+  return submitted ? panes_.takeCuts(device_->gpu(), *session_) : submitted;
 }
 
 Status Viewer::drawPanes() {

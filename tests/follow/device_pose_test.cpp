@@ -85,13 +85,14 @@ TEST_F(DevicePoseTest, GuidesAreThoseThatTheHostHandsOver) {
   auto stage = FollowStage::create(gpu(), guides, hairs);
   ASSERT_TRUE(stage) << stage.error().message;
   const std::vector<Vec3d> asDoubles(moved.positions.begin(), moved.positions.end());
-  ASSERT_TRUE(stage->setPose(asDoubles));
+  const std::vector<std::uint32_t> cutBeyond{2, moved.groom.firstPoint[1] + 4};
+  ASSERT_TRUE(stage->setPose(asDoubles, {}, cutBeyond));
   const auto expected = *downloadAll<layout::uvec4>(stage->pose(), moved.rest.size());
   ASSERT_TRUE(stage->setPose(std::vector<Vec3d>(moved.rest.size())));
 
   const auto parts = moved.hair->devicePositions();
   auto pose = DevicePose::create(gpu(), moved.sources(parts), moved.rest, moved.groom.firstPoint,
-                                 stage->pose(), PoseTag::none);
+                                 stage->pose(), PoseTag::none, cutBeyond);
   ASSERT_TRUE(pose) << pose.error().message;
   const auto found = run(gpu(), *pose, moved.hair->head().rotation, stage->pose());
   const std::size_t simulated = moved.groom.firstPoint[moved.groom.strandCount() - 1];
@@ -110,11 +111,12 @@ TEST_F(DevicePoseTest, StrandsAreThoseThatTheHostHandsOverInChunksToo) {
     EXPECT_EQ(parts.size() > 1, mostBytes > 0);
     auto strands = StrandPoints::create(gpu(), moved.groom.firstPoint);
     ASSERT_TRUE(strands);
-    ASSERT_TRUE(strands->setPose(moved.positions, 1));
+    const std::vector<std::uint32_t> cutBeyond{2, moved.groom.firstPoint[1] + 4};
+    ASSERT_TRUE(strands->setPose(moved.positions, 1, cutBeyond));
     const auto expected = *downloadAll<layout::uvec4>(strands->points(), moved.rest.size());
     ASSERT_TRUE(strands->setPose(std::vector<Vec3f>(moved.rest.size()), 1));
     auto pose = DevicePose::create(gpu(), moved.sources(parts), moved.rest, moved.groom.firstPoint,
-                                   strands->points(), PoseTag::strand);
+                                   strands->points(), PoseTag::strand, cutBeyond);
     ASSERT_TRUE(pose) << pose.error().message;
     const auto found = run(gpu(), *pose, moved.hair->head().rotation, strands->points());
     const std::size_t simulated = moved.groom.firstPoint[moved.groom.strandCount() - 1];

@@ -217,6 +217,9 @@ TEST_F(SessionTest, CutsAreMadeAndStay) {
   EXPECT_LT(gap(run(session, 3)), 1.2) << "not yet";
   const auto apart = gap(run(session, 6));
   EXPECT_GT(apart, 2) << "it falls";
+  EXPECT_EQ(session.cutCount(), 1u);
+  ASSERT_EQ(session.cutBeyond().size(), groom.strandCount());
+  EXPECT_EQ(session.cutBeyond()[0], next - 1);
   Edits edits = editsOf(scene.file);
   edits.air.on = true;
   edits.compares = true;

@@ -19,13 +19,18 @@ namespace {
 constexpr std::uint32_t kMostInGroup = 256;
 constexpr std::uint32_t kPointsEach = 64;  // that an invocation looks at for the box
 
-std::vector<std::uint32_t> tagsOf(std::span<const std::uint32_t> firstPoint, PoseTag tag) {
+std::vector<std::uint32_t> tagsOf(std::span<const std::uint32_t> firstPoint, PoseTag tag,
+                                  std::span<const std::uint32_t> cutBeyond) {
   std::vector<std::uint32_t> tags(firstPoint.back(), 0);
-  if (tag == PoseTag::none) return tags;
+  if (tag == PoseTag::none) {
+    for (const std::uint32_t point : cutBeyond) tags[point] = std::bit_cast<std::uint32_t>(-1.f);
+    return tags;
+  }
   for (std::uint32_t strand = 0; strand + 1 < firstPoint.size(); ++strand) {
     std::fill(tags.begin() + firstPoint[strand], tags.begin() + firstPoint[strand + 1], strand);
     tags[firstPoint[strand + 1] - 1] |= layout::kHairEnd;
   }
+  for (const std::uint32_t point : cutBeyond) tags[point] |= layout::kHairEnd;
   return tags;
 }
 
@@ -69,7 +74,8 @@ Status DevicePose::addPart(gpu::Device& device, const gpu::Buffer& positions,
 
 Result<DevicePose> DevicePose::create(gpu::Device& device, std::span<const PoseSource> sources,
                                       std::span<const Vec3d> rest, std::span<const std::uint32_t> firstPoint,
-                                      const gpu::Buffer& target, PoseTag tag) {
+                                      const gpu::Buffer& target, PoseTag tag,
+                                      std::span<const std::uint32_t> cutBeyond) {
   auto bounds = createZero(device, sizeof(layout::PoseBounds), "box about the hair");
   if (!bounds) return bounds.error();
   auto seen = gpu::Buffer::create(device, sizeof(layout::PoseBounds), gpu::BufferKind::stream,
@@ -78,7 +84,7 @@ Result<DevicePose> DevicePose::create(gpu::Device& device, std::span<const PoseS
   DevicePose self(std::move(*bounds), std::move(*seen));
   self.pointCount_ = firstPoint.back();
   self.target_ = &target;
-  self.tags_ = tagsOf(firstPoint, tag);
+  self.tags_ = tagsOf(firstPoint, tag, cutBeyond);
 
   std::vector<bool> isSimulated(self.pointCount_, false);
   for (const PoseSource& source : sources)

@@ -23,18 +23,19 @@ struct PoseSource {
 
 /// What stands behind the three coordinates of a point.
 enum class PoseTag {
-  none,    // 0, as FollowStage::pose has it
-  strand,  // the strand and whether it ends there, as DrawnHairs::points has it
+  none,    // 0, or -1 before a cut, as FollowStage::pose has it
+  strand,  // the strand and whether it ends there or is cut, as DrawnHairs::points has it
 };
 
 class DevicePose {
  public:
   /// `rest`: all points of the groom [m]; those of strands that no source has are carried by the head.
   /// `firstPoint`: of each strand, and one more. `target`: 16 bytes a point, groom order; it lives as long.
-  /// Errors: the device lacks memory.
+  /// `cutBeyond`: points beyond which strands are cut. Errors: the device lacks memory.
   static Result<DevicePose> create(gpu::Device& device, std::span<const PoseSource> sources,
                                    std::span<const Vec3d> rest, std::span<const std::uint32_t> firstPoint,
-                                   const gpu::Buffer& target, PoseTag tag);
+                                   const gpu::Buffer& target, PoseTag tag,
+                                   std::span<const std::uint32_t> cutBeyond = {});
   DevicePose(DevicePose&&) = default;
   DevicePose& operator=(DevicePose&&) = default;
 
