@@ -50,6 +50,7 @@ BuiltinScene sceneOf(const Contender& contender, int strands, double seconds) {
                                           .seconds = seconds,
                                           .integrator = contender.integrator});
   scene->settings.framesPerSecond = kFramesPerSecond;
+  scene->frameCount = static_cast<int>(std::max(1L, std::lround(seconds * kFramesPerSecond)));
   scene->settings.pointIterations = contender.iterations;
   if (contender.bendStiffness > 0) scene->material.bendStiffness = contender.bendStiffness;
   return std::move(*scene);

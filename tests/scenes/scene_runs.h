@@ -59,6 +59,7 @@ inline BuiltinScene atAllResolutions(const char* name, SceneOptions options) {
 
 /// The same steps as frames of their own, so that every step is seen.
 inline BuiltinScene frameByStep(BuiltinScene scene) {
+  scene.frameCount *= scene.settings.stepsPerFrame;
   scene.settings.framesPerSecond *= scene.settings.stepsPerFrame;
   scene.settings.stepsPerFrame = 1;
   return scene;
