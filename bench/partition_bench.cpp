@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "bench/clocks.h"
-#include "parts/strand_graph.h"
-#include "parts/strand_parts.h"
 #include "ringlet/groom/generate.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/strand_order.h"
+#include "ringlet/run/strand_graph.h"
+#include "ringlet/run/strand_parts.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "parity/sample_bodies.h"
 #include "parity/tolerances.h"
 #include "program/planned_shapes.h"
-#include "program/stopwatch.h"
+#include "ringlet/base/stopwatch.h"
 
 namespace ringlet::program {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "program/stopwatch.h"
+#include "ringlet/base/stopwatch.h"
 #include "ringlet/gpu/buffer.h"
 #include "ringlet/gpu/kernel.h"
 #include "ringlet/gpu/recorder.h"

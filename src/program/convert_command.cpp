@@ -20,14 +20,15 @@
 #include "program/exit_codes.h"
 #include "program/frame_range.h"
 #include "program/groom_options.h"
-#include "program/hair_look.h"
-#include "program/precision_names.h"
+#include "program/hair_look_options.h"
+#include "program/reference_mover.h"
 #include "program/run_report.h"
 #include "program/standard_output.h"
 #include "program/written_groom.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/precision_names.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_file.h"
 
@@ -125,7 +126,7 @@ Result<std::optional<FullHair>> fullHairOf(const Typed& typed, const Groom& rest
   const auto ground = scene ? hairGroundOf(*scene, typed.look) : hairGroundOf(typed.look, metresPerUnit);
   if (!ground) return ground.error();
   auto hair = FullHair::make(rest, metresPerUnit, typed.look.of({.hairCount = *typed.hairs}),
-                             scene ? scene->bodies : std::vector<Body>(), *ground, cuts);
+                             followByReference(), scene ? scene->bodies : std::vector<Body>(), *ground, cuts);
   if (!hair) return hair.error();
   return std::optional(std::move(*hair));
 }

@@ -35,12 +35,11 @@ Status forEachFrame(AnimationReader& source, const ConvertPlan& plan,
     if (plan.hair) {
       Status checked = frame == plan.firstFrame ? plan.hair->checkPose(source.groom()) : Status();
       if (!checked) return checked;
-      if (plan.scene) {
-        plan.hair->follow(source.groom().points, bodiesAtFrame(*plan.scene, frame),
-                          hairRootsAtFrame(*plan.scene, *plan.hair, frame));
-      } else {
-        plan.hair->follow(source.groom().points);
-      }
+      const Status moved = plan.scene
+                               ? plan.hair->follow({source.groom().points, bodiesAtFrame(*plan.scene, frame),
+                                                    hairRootsAtFrame(*plan.scene, *plan.hair, frame)})
+                               : plan.hair->follow({source.groom().points});
+      if (!moved) return moved;
     }
     if (Status visited = visit(frame); !visited) return visited;
   }

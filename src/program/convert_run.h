@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "program/full_hair.h"
 #include "ringlet/base/result.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/pictures/full_hair.h"
 #include "ringlet/scenes/load_scene.h"
 
 namespace ringlet::program {

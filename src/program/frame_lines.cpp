@@ -9,7 +9,6 @@
 namespace ringlet::program {
 
 void FrameLines::tell(int frame) const {
-  if (!areWanted_) return;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const std::string line =
       fmt::format("{{{}\"frame\": {}, \"frames\": {}, \"seconds\": {:.3f}, \"seconds_left\": {:.3f}}}\n",

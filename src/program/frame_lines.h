@@ -9,15 +9,13 @@ namespace ringlet::program {
 class FrameLines {
  public:
   /// `first`: frames done before; of `count`. `run`: of a sweep, its number; 0: of none.
-  FrameLines(int first, int count, bool areWanted, int run)
-      : first_(first), count_(count), run_(run), areWanted_(areWanted) {}
+  FrameLines(int first, int count, int run) : first_(first), count_(count), run_(run) {}
 
   /// {"frame": 12, "frames": 48, "seconds": 3.1, "seconds_left": 9.3}; "run": 3 first, of a sweep.
   void tell(int frame) const;
 
  private:
   int first_, count_, run_;
-  bool areWanted_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -6,11 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "parts/strand_parts.h"
 #include "program/open_device.h"
 #include "program/rank_hair.h"
 #include "program/standard_error.h"
-#include "ringlet/run/split_hair.h"
+#include "ringlet/run/divided_hair.h"
 #include "ringlet/solver/shape_plan.h"
 
 namespace ringlet::program {
@@ -26,23 +25,6 @@ bool mayBeTuned(const SceneHairInput& input, const KernelChoice& kernel) {
          (kernel.lanes == 0 || kernel.particlesPerLane == 0);
 }
 
-Result<std::unique_ptr<SceneHair>> makeOnDevices(const SceneHairInput& input, const RunOptions& options) {
-  const std::size_t count = options.devices.size(), strands = input.scene.groom.strandCount();
-  if (count > strands)
-    return Error{fmt::format("{} devices are more than the groom's {} strands", count, strands)};
-  const auto parts = divideStrands(input.scene.groom, input.scene.material, input.settings(), count);
-  if (!parts) return parts.error();
-  std::vector<std::unique_ptr<GpuChoice>> kept;
-  std::vector<DeviceHairChoice> choices;
-  for (const std::string& device : options.devices) {
-    auto made = GpuChoice::make(input, options, device);
-    if (!made) return made.error();
-    choices.push_back((*made)->choice());
-    kept.push_back(std::move(*made));
-  }
-  return makeSplitHair(input, *parts, std::move(choices));
-}
-
 }  // namespace
 
 Result<ComputeDevice> openGpu(const std::string& device) {
@@ -53,7 +35,8 @@ Result<ComputeDevice> openGpu(const std::string& device) {
   return opened;
 }
 
-Result<std::unique_ptr<GpuChoice>> GpuChoice::make(const SceneHairInput& input, const RunOptions& options,
+Result<std::unique_ptr<GpuChoice>> GpuChoice::make(const SceneHairInput& input,
+                                                   const SimulateOptions& options,
                                                    const std::string& device) {
   std::unique_ptr<GpuChoice> made(new GpuChoice);
   auto opened = options.opened ? Result<ComputeDevice>(*options.opened) : openGpu(device);
@@ -68,7 +51,6 @@ Result<std::unique_ptr<GpuChoice>> GpuChoice::make(const SceneHairInput& input, 
   const auto groupSize = groupSizeAsked();
   if (!groupSize) return groupSize.error();
   kernel.groupSize = *groupSize;
-  kernel.residual = measuresResidual(input.scene, options);
   // Costs are true only of the width they were measured at.
   if (kernel.subgroupSize == 0) kernel.subgroupSize = static_cast<int>(tuned.subgroupSize);
   if (kernel.subgroupSize != static_cast<int>(tuned.subgroupSize)) tuned.costs.clear();
@@ -81,13 +63,20 @@ Result<std::unique_ptr<GpuChoice>> GpuChoice::make(const SceneHairInput& input, 
   return made;
 }
 
-Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const RunOptions& options) {
+Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const SimulateOptions& options) {
   if (options.onReference) return makeReferenceHair(input);
   if (options.onRanks) return makeRankHair(input, options);
-  if (!options.devices.empty()) return makeOnDevices(input, options);
-  const auto gpu = GpuChoice::make(input, options, options.device);
-  if (!gpu) return gpu.error();
-  return makeDeviceHair(input, (*gpu)->choice());
+  const std::vector<std::string> devices =
+      options.devices.empty() ? std::vector{options.device} : options.devices;
+  std::vector<std::unique_ptr<GpuChoice>> kept;
+  std::vector<DeviceHairChoice> choices;
+  for (const std::string& device : devices) {
+    auto made = GpuChoice::make(input, options, device);
+    if (!made) return made.error();
+    choices.push_back((*made)->choice());
+    kept.push_back(std::move(*made));
+  }
+  return makeDividedHair(input, std::move(choices));
 }
 
 }  // namespace ringlet::program

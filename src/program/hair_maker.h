@@ -20,13 +20,13 @@ namespace ringlet::program {
 Result<ComputeDevice> openGpu(const std::string& device);
 
 /// Errors: those of the device and of the hair; more devices than strands.
-Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const RunOptions& options);
+Result<std::unique_ptr<SceneHair>> makeHair(const SceneHairInput& input, const SimulateOptions& options);
 
 /// What a run's hair is made of on one device, with what `ringlet tune` remembered, for hair alone. Tells on
 /// standard error where kernels take long to compile, or want tuning again, unless the options are quiet.
 class GpuChoice {
  public:
-  static Result<std::unique_ptr<GpuChoice>> make(const SceneHairInput& input, const RunOptions& options,
+  static Result<std::unique_ptr<GpuChoice>> make(const SceneHairInput& input, const SimulateOptions& options,
                                                  const std::string& device);
   /// Refers to this.
   const DeviceHairChoice& choice() const { return *choice_; }

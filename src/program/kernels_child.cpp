@@ -13,7 +13,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "program/stopwatch.h"
+#include "ringlet/base/stopwatch.h"
 
 namespace ringlet::program {
 namespace {

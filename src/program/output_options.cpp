@@ -8,8 +8,9 @@
 #include <string_view>
 
 #include "program/command_line.h"
-#include "program/precision_names.h"
+#include "program/hair_look_options.h"
 #include "ringlet/output/animation_writer.h"
+#include "ringlet/output/precision_names.h"
 #include "ringlet/scene/setting_field.h"
 #include "ringlet/scenes/scene_fields.h"
 
@@ -99,10 +100,6 @@ void addOutputOptions(CLI::App* command, OutputChoice& choice) {
       ->group(group);
 }
 
-bool needsOrigin(const SceneOutput& output) {
-  return output.prims == "groom" || holds(output.values, "groom");
-}
-
 void applyOutputOptions(const OutputChoice& choice, SceneOutput& output) {
   const auto leaveOut = [&](bool isLeftOut, const char* file) {
     if (isLeftOut) std::erase(output.files, file);
@@ -150,33 +147,6 @@ void checkOutputs(const SceneOutput& output) {
   if (output.head == "transform")
     throw CLI::ValidationError("--head",
                                "the groom's own prims have their own transforms; choose baked or none");
-}
-
-Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {
-  if (options.usesGroomPrims && (groom.prims.empty() || groom.prims.front().path.empty()))
-    return Error{"only a USD groom has prims of its own, which --usd-prims groom would change; leave it out"};
-  options.origin = &groom;
-  return {};
-}
-
-void chooseOutputs(const SceneOutput& output, RunOptions& options) {
-  options.width = output.width;
-  options.tipWidth = output.tipWidth;
-  options.animations.clear();
-  for (const std::string& file : output.files)
-    if (animationFormatOf(file))
-      options.animations.push_back(std::filesystem::path(file).extension().string());
-  options.writesLast = holds(output.files, "last.obj");
-  options.writesSheet = holds(output.files, "sheet.png");
-  if (!output.cache.empty()) options.cache = precisionByName(output.cache);
-  options.values = output.values;
-  options.usdHead = output.head == "transform" ? UsdHead::transform
-                    : output.head == "none"    ? UsdHead::none
-                                               : UsdHead::baked;
-  options.usesGroomPrims = output.prims == "groom";
-  options.hairs = output.hairs.value_or(0);
-  options.look = {output.frizz, output.clump, output.blend, output.hairScalpFile};
-  options.clipFrames = output.clipFrames.value_or(0);
 }
 
 }  // namespace ringlet::program

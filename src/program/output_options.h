@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "program/cli_fwd.h"
-#include "program/hair_look.h"
-#include "program/simulate_run.h"
+#include "ringlet/pictures/hair_look.h"
+#include "ringlet/run/run_options.h"
 #include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::program {
@@ -33,15 +33,5 @@ void applyOutputOptions(const OutputChoice& choice, SceneOutput& output);
 
 /// Throws CLI11's error for what makes no sense together.
 void checkOutputs(const SceneOutput& output);
-
-/// Whether what is written needs more of the groom's file than its strands.
-bool needsOrigin(const SceneOutput& output);
-
-/// Takes the groom's file as what values and prims come from; it must live as long as the run. Fails where
-/// the groom has no prims and their changes are asked for.
-Status chooseOrigin(const LoadedGroom& groom, RunOptions& options);
-
-/// Which files a run writes, and what is in them.
-void chooseOutputs(const SceneOutput& output, RunOptions& options);
 
 }  // namespace ringlet::program

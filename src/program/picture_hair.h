@@ -7,13 +7,13 @@
 #include <span>
 #include <vector>
 
-#include "program/follow_plan.h"
-#include "program/hair_look.h"
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/follow/follow_stage.h"
 #include "ringlet/gpu/command_list.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/pictures/follow_plan.h"
+#include "ringlet/pictures/hair_look.h"
 #include "ringlet/render/strand_points.h"
 #include "ringlet/solver/compute_device.h"
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "parts/strand_parts.h"
 #include "program/exit_codes.h"
 #include "program/hair_maker.h"
 #include "program/interruption.h"
@@ -16,6 +15,7 @@
 #include "program/remote_hair.h"
 #include "ringlet/base/archive.h"
 #include "ringlet/run/split_hair.h"
+#include "ringlet/run/strand_parts.h"
 
 namespace ringlet::program {
 namespace {
@@ -54,7 +54,7 @@ struct OwnPart {
   Result<std::unique_ptr<SceneHair>> hair;
 };
 
-Result<OwnPart> makeOwnPart(const SceneHairInput& input, const RunOptions& options) {
+Result<OwnPart> makeOwnPart(const SceneHairInput& input, const SimulateOptions& options) {
   const auto [own, count] = ranks();
   const auto rank = static_cast<std::size_t>(own), rankCount = static_cast<std::size_t>(count);
   const std::size_t strandCount = input.scene.groom.strandCount();
@@ -75,7 +75,7 @@ Result<OwnPart> makeOwnPart(const SceneHairInput& input, const RunOptions& optio
 
 }  // namespace
 
-Result<std::unique_ptr<SceneHair>> makeRankHair(const SceneHairInput& input, const RunOptions& options) {
+Result<std::unique_ptr<SceneHair>> makeRankHair(const SceneHairInput& input, const SimulateOptions& options) {
   auto own = makeOwnPart(input, options);
   if (!own) return own.error();
   auto hair = std::move(own->hair);
@@ -91,10 +91,10 @@ Result<std::unique_ptr<SceneHair>> makeRankHair(const SceneHairInput& input, con
   return joinParts(std::move(own->links), std::move(parts), input.scene.groom);
 }
 
-int serveRanks(const LoadedScene& scene, const RunOptions& options) {
+int serveRanks(const LoadedScene& scene, const SimulateOptions& options) {
   catchInterruption();  // rank 0 says when this one ends
   const SceneFrames frames(scene);
-  auto own = makeOwnPart({scene, frames, options.measuresContacts}, options);
+  auto own = makeOwnPart(hairInputOf(scene, frames, options), options);
   if (own) {
     const auto& strands = own->all[static_cast<std::size_t>(ranks().own)];
     serve(std::move(own->hair), frames, scene.groom, strands);

@@ -10,10 +10,10 @@
 namespace ringlet::program {
 
 /// Of rank 0: all of the hair. Errors: as makeHair; of any rank.
-Result<std::unique_ptr<SceneHair>> makeRankHair(const SceneHairInput& input, const RunOptions& options);
+Result<std::unique_ptr<SceneHair>> makeRankHair(const SceneHairInput& input, const SimulateOptions& options);
 
 /// Of another rank: does with its part what rank 0 tells it to, until that tells it to leave. What goes wrong
 /// is said by rank 0. Returns an exit status.
-int serveRanks(const LoadedScene& scene, const RunOptions& options);
+int serveRanks(const LoadedScene& scene, const SimulateOptions& options);
 
 }  // namespace ringlet::program

@@ -5,9 +5,9 @@
 #include <iterator>
 
 #include "program/hair_maker.h"
-#include "program/stopwatch.h"
 #include "reference/step.h"
 #include "ringlet/base/archive.h"
+#include "ringlet/base/stopwatch.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 

@@ -107,7 +107,7 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOpt
             typed.output.string(), name),
         Fault::output};
   }
-  RunOptions options;
+  SimulateOptions options;
   options.folder = typed.output;
   options.up = file.groom.up == "Z" ? UpAxis::z : UpAxis::y;
   options.animations.clear();
@@ -116,7 +116,7 @@ Status simulate(const LoadedScene& scene, const SceneFile& file, const RenderOpt
   options.opened = device;
   options.leftovers = Leftovers::overwrite;
   options.showProgress = !typed.quiet && !typed.json;
-  const auto outcome = runLoadedScene(scene, options);
+  const auto outcome = simulate(scene, options);
   if (!outcome) return outcome.error();
   for (const std::string& warning : outcome->warnings) say("ringlet render: warning: {}\n", warning);
   return {};

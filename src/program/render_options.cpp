@@ -13,6 +13,7 @@
 #include "program/command_line.h"
 #include "program/confined_option.h"
 #include "program/frame_range.h"
+#include "program/hair_look_options.h"
 #include "program/picture_options.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_reader.h"

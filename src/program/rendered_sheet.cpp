@@ -3,7 +3,6 @@
 
 #include "program/open_device.h"
 #include "program/render_run.h"
-#include "program/run_writers.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/sheet.h"
 
@@ -28,7 +27,7 @@ Status checkRenderedSheet(const RunOptions& options) {
       "leave out --no-usd, --head and --clips"};
 }
 
-Status writeRenderedSheet(const LoadedScene& scene, const RunOptions& options) {
+Status writeRenderedSheet(const LoadedScene& scene, const SimulateOptions& options) {
   const auto device = openDevice(options.device);
   if (!device) return device.error();
   RenderPlan plan;

@@ -12,6 +12,6 @@ Status checkRenderedSheet(const RunOptions& options);
 
 /// After a run of the scene with at least one frame: in place of the sheet that it has drawn, which stays
 /// where this fails. Cost: six pictures, a second each on lavapipe, and its kernels.
-Status writeRenderedSheet(const LoadedScene& scene, const RunOptions& options);
+Status writeRenderedSheet(const LoadedScene& scene, const SimulateOptions& options);
 
 }  // namespace ringlet::program

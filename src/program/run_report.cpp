@@ -16,7 +16,7 @@ namespace {
 constexpr double kFar = 0.05;  // hair that stays further from all bodies never met them [m]
 
 // Null where there are no contacts, or they were not measured.
-void addContactKeys(nlohmann::ordered_json& json, const SimulateOutcome& outcome) {
+void addContactKeys(nlohmann::ordered_json& json, const RunOutcome& outcome) {
   const auto& known = outcome.contacts;
   const auto& measured = outcome.contactNumbers;
   const auto orNull = [](bool has, auto value) {
@@ -40,7 +40,7 @@ void addContactKeys(nlohmann::ordered_json& json, const SimulateOutcome& outcome
   json["crossings"] = orNull(measured.has_value(), numbers.crossings);
 }
 
-std::string contactText(const SimulateOutcome& outcome, const ContactSettings& settings) {
+std::string contactText(const RunOutcome& outcome, const ContactSettings& settings) {
   std::string text;
   if (outcome.contacts) {
     const ContactReport& report = *outcome.contacts;
@@ -70,8 +70,7 @@ std::string contactText(const SimulateOutcome& outcome, const ContactSettings& s
 
 }  // namespace
 
-nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
-                               const SimulateOutcome& outcome) {
+nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings, const RunOutcome& outcome) {
   nlohmann::ordered_json json;
   json["frames"] = outcome.frameCount;
   json["strands"] = outcome.strandCount;
@@ -130,7 +129,7 @@ nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
   return json;
 }
 
-std::string runText(const RunNames& names, const Settings& settings, const SimulateOutcome& outcome) {
+std::string runText(const RunNames& names, const Settings& settings, const RunOutcome& outcome) {
   std::string text = fmt::format("{} frame{} of {} strand{}, {} particles{}\n", outcome.frameCount,
                                  outcome.frameCount == 1 ? "" : "s", outcome.strandCount,
                                  outcome.strandCount == 1 ? "" : "s", outcome.particleCount,
@@ -170,7 +169,7 @@ std::string runText(const RunNames& names, const Settings& settings, const Simul
   return text;
 }
 
-int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameCount) {
+int tellTroubles(const char* command, const RunOutcome& outcome, int frameCount) {
   for (const std::string& warning : outcome.warnings) say("ringlet {}: warning: {}\n", command, warning);
 
   // Particles without a position: say which was the first, so that it can be looked at.

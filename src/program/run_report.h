@@ -39,12 +39,11 @@ inline constexpr const char* kContactKeysHelp =
     "raw_recall\n"
     "are of the same frame (of the last, where contacts are not measured).\n";
 
-nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings,
-                               const SimulateOutcome& outcome);
-std::string runText(const RunNames& names, const Settings& settings, const SimulateOutcome& outcome);
+nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
+std::string runText(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 
 /// Prints warnings, lost particles and an interruption to standard error, as `ringlet COMMAND`, and returns
 /// what the program is to return. frameCount: planned.
-int tellTroubles(const char* command, const SimulateOutcome& outcome, int frameCount);
+int tellTroubles(const char* command, const RunOutcome& outcome, int frameCount);
 
 }  // namespace ringlet::program

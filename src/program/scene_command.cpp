@@ -81,7 +81,7 @@ struct Typed {
   SceneOptions scene;
   DialChoice dials;
   ContactChoice contacts;
-  RunOptions run;
+  SimulateOptions run;
   RunNames names{.material = "scene"};
   std::string core = "on", framesOn = "smoothed";
   std::filesystem::path file;  // to write the scene to
@@ -176,7 +176,7 @@ Error inScene(const Typed& typed, const Error& cause) {
 }
 
 // The groom at rest beside the animation, so that `ringlet measure DIR/groom.obj DIR` works.
-Status writeGroom(const BuiltinScene& scene, const RunOptions& options, SimulateOutcome& outcome) {
+Status writeGroom(const BuiltinScene& scene, const SimulateOptions& options, RunOutcome& outcome) {
   if (outcome.outputs.empty()) return {};
   const std::filesystem::path path = options.folder / "groom.obj";
   if (Status written = writeObj(path, scene.groom, scene.groom.points); !written) return written;
@@ -186,14 +186,14 @@ Status writeGroom(const BuiltinScene& scene, const RunOptions& options, Simulate
 
 // The largest turn of a strand frame in one outer step: the scene once more, with every step a frame of its
 // own. The steps are the same. Nothing if Ctrl-C ended it.
-Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOptions options) {
+Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, SimulateOptions options) {
   LoadedScene steps = scene;
   steps.settings = stepByStep(scene.settings);
   steps.frameCount *= scene.settings.stepsPerFrame;
   options.measuresContacts = false;
   options.onRanks = false;  // the others have left
   options.folder.clear();
-  options.kernel.residual = false;
+  options.measuresResidual = false;
 
   FrameTurn turn(scene.groom, scene.material);
   turn.look(scene.groom.points, scene.groom.metresPerUnit);
@@ -201,12 +201,12 @@ Result<std::optional<double>> measureFrameTurn(const BuiltinScene& scene, RunOpt
     turn.look(points, scene.groom.metresPerUnit, head.rotation);
     return {};
   };
-  const auto outcome = runHair(steps, options, look);
+  const auto outcome = simulate(steps, options, look);
   if (!outcome) return outcome.error();
   return outcome->interrupted ? std::nullopt : std::optional(turn.largest());
 }
 
-nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, const SimulateOutcome& outcome,
+nlohmann::ordered_json asJson(const Typed& typed, const BuiltinScene& scene, const RunOutcome& outcome,
                               const SceneNumbers& numbers) {
   nlohmann::ordered_json json{{"scene", scene.name},
                               {"seconds", outcome.frameCount / scene.settings.framesPerSecond},
@@ -250,9 +250,9 @@ Result<int> runScene(Typed& typed) {
   if (!scene) return scene.error();
   applyContactOptions(typed.contacts, scene->settings.contacts);
   if (!typed.file.empty()) return writeScene(typed, *scene);
-  RunOptions& options = typed.run;
+  SimulateOptions& options = typed.run;
   options.measuresContacts = scene->showsContacts || scene->settings.contacts.on;
-  options.kernel.residual = true;
+  options.measuresResidual = !options.onReference;
   options.onRanks = ranks().count > 1;
   if (ranks().own > 0) return serveRanks(*scene, options);
   const Settings& settings = scene->settings;
@@ -267,9 +267,8 @@ Result<int> runScene(Typed& typed) {
   };
   if (Status seen = look(scene->groom.points, scene->motion.poseAt(0)); !seen)
     return inScene(typed, seen.error());
-  auto outcome = runHair(*scene, options, look);
+  auto outcome = simulate(*scene, options, look);
   if (!outcome) return inScene(typed, outcome.error());
-  outcome->warnings.insert(outcome->warnings.begin(), scene->warnings.begin(), scene->warnings.end());
   if (Status written = writeGroom(*scene, options, *outcome); !written)
     return inScene(typed, written.error());
 

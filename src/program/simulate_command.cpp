@@ -27,12 +27,13 @@
 #include "program/rank_hair.h"
 #include "program/ranks.h"
 #include "program/rendered_sheet.h"
-#include "program/run_facts.h"
 #include "program/run_report.h"
-#include "program/run_writers.h"
 #include "program/simulate_run.h"
 #include "program/standard_output.h"
 #include "ringlet/motion/motion_file.h"
+#include "ringlet/run/run_facts.h"
+#include "ringlet/run/run_folder.h"
+#include "ringlet/run/run_writers.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_fields.h"
 
@@ -232,14 +233,14 @@ void checkOptions(const Typed& typed, const SceneFile& scene) {
 }
 
 // How the scene is run.
-RunOptions optionsOf(const Typed& typed, const SceneFile& scene) {
-  RunOptions options = runOptionsOf(scene);
+SimulateOptions optionsOf(const Typed& typed, const SceneFile& scene) {
+  SimulateOptions options(runOptionsOf(scene));
   options.measuresContacts = typed.measuresContacts;
   options.onReference = typed.backend == "reference";
   options.device = typed.devices.empty() ? typed.device : typed.devices[0];
   if (typed.devices.size() > 1) options.devices = typed.devices;
   using Form = KernelChoice::Form;
-  options.kernel.residual = typed.json;
+  options.measuresResidual = typed.json && !options.onReference;
   options.kernel.form = typed.kernel == "lanes"    ? Form::lanes
                         : typed.kernel == "memory" ? Form::memory
                         : typed.kernel == "serial" ? Form::serial
@@ -269,7 +270,7 @@ int run(const Typed& typed) {
   applyOptions(typed, *scene);
   checkOptions(typed, *scene);
   if (Status applied = applyMaterialOptions(typed.material, *scene); !applied) return fail(applied.error());
-  RunOptions options = optionsOf(typed, *scene);
+  SimulateOptions options = optionsOf(typed, *scene);
   if (typed.reach == SceneReach::ownFolder && typed.folder.empty()) {
     if (Status linkless = checkHoldsNoLinks(options.folder); !linkless) return fail(linkless.error());
   }
@@ -281,7 +282,8 @@ int run(const Typed& typed) {
     say("ringlet simulate: warning: every file is left out, so that nothing will be written into {}\n",
         options.folder.string());
   const std::vector<std::filesystem::path> inputs = inputFilesOf(typed.input, *scene);
-  if (Status stays = checkInputsStay(inputs, outputsOf(options)); !stays) return fail(stays.error());
+  if (Status stays = checkInputsStay(inputs, outputsOf(options), options.words); !stays)
+    return fail(stays.error());
   std::optional<LoadedGroom> origin;
   if (needsOrigin(scene->output)) {
     auto read = loadGroom(scene->groom, true);
@@ -299,7 +301,7 @@ int run(const Typed& typed) {
 
   options.onRanks = ranks().count > 1;
   if (ranks().own > 0) return serveRanks(*loaded, options);
-  const auto outcome = runLoadedScene(*loaded, options);
+  const auto outcome = simulate(*loaded, options);
   if (!outcome) return fail(outcome.error());
   if (rendersSheet && outcome->frameCount > 0 && !outcome->canResume) {
     if (Status drawn = writeRenderedSheet(*loaded, options); !drawn) return fail(drawn.error());

@@ -1,30 +1,54 @@
-// Implements simulate_run.h: a run of a scene. The run itself is hair_run.cpp.
+// Implements simulate_run.h.
 #include "program/simulate_run.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "program/output_options.h"
-#include "program/run_facts.h"
+#include "program/frame_lines.h"
+#include "program/hair_maker.h"
+#include "program/interruption.h"
+#include "program/progress_bar.h"
+#include "program/reference_mover.h"
 
 namespace ringlet::program {
 
-RunOptions runOptionsOf(const SceneFile& scene) {
-  RunOptions options;
-  options.folder = scene.output.folder;
-  options.up = scene.groom.up == "Z" ? UpAxis::z : UpAxis::y;
-  chooseOutputs(scene.output, options);
-  return options;
+RunWords programWords() {
+  return {.overwrite = "--overwrite",
+          .resume = "--resume",
+          .elsewhere = "another folder with -o",
+          .who = "ringlet simulate"};
 }
 
-Result<SimulateOutcome> runLoadedScene(const LoadedScene& scene, RunOptions options,
-                                       const FrameObserver& observer) {
-  if (!options.facts.empty()) addMaterialFacts(scene.material, options.facts);
-  auto outcome = runHair(scene, options, observer);
-  if (!outcome) return outcome.error();
-  outcome->warnings.insert(outcome->warnings.begin(), scene.warnings.begin(), scene.warnings.end());
-  outcome->notes = scene.notes;
-  return outcome;
+SimulateOptions::SimulateOptions(RunOptions run) : RunOptions(std::move(run)) {
+  words = programWords();
+  mover = followByReference();
+}
+
+Result<RunOutcome> simulate(const LoadedScene& scene, const SimulateOptions& options,
+                            const FrameObserver& observer) {
+  catchInterruption();
+  std::optional<EndsUnheard> unheard;
+  std::optional<ProgressBar> bar;
+  std::optional<FrameLines> lines;
+  RunEvents events{.isStopped = wasInterrupted,
+                   .progress = [&](int written) { bar->show(written); },
+                   .firstFrame = [&] { unheard.reset(); },
+                   .observe = observer};
+  if (options.tellsFrames) events.written = [&](int frame) { lines->tell(frame); };
+  const auto makeIt = [&](const SceneHairInput& input) {
+    // Until the first frame is there, in which drivers compile too. In a sweep others write, and ranks end
+    // together.
+    if (options.runNumber == 0 && !options.onRanks) unheard.emplace();
+    return makeHair(input, options);
+  };
+  auto run = Run::open(scene, options, makeIt, std::move(events));
+  if (!run) return run.error();
+  bar.emplace(run->resumedFrom(), scene.frameCount, options.showProgress);
+  lines.emplace(run->resumedFrom(), scene.frameCount, options.runNumber);
+  for (;;) {
+    const auto more = run->next();
+    if (!more) return more.error();
+    if (!*more) return run->finish();
+  }
 }
 
 }  // namespace ringlet::program

@@ -22,9 +22,7 @@
 #include "program/measure_report.h"
 #include "program/output_options.h"
 #include "program/progress_bar.h"
-#include "program/run_facts.h"
 #include "program/run_report.h"
-#include "program/run_writers.h"
 #include "program/simulate_run.h"
 #include "program/standard_error.h"
 #include "program/sweep_record.h"
@@ -34,6 +32,9 @@
 #include "ringlet/measure/motion_measure.h"
 #include "ringlet/measure/pose_numbers.h"
 #include "ringlet/rest/rest_state.h"
+#include "ringlet/run/run_facts.h"
+#include "ringlet/run/run_folder.h"
+#include "ringlet/run/run_writers.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/version.h"
 
@@ -47,8 +48,8 @@ constexpr const char* kRecord = "run.json";
 constexpr const char* kScene = "scene.toml";
 
 // What a run writes, and where.
-RunOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
-  RunOptions options = runOptionsOf(run.scene);
+SimulateOptions optionsOf(const SweepRun& run, const SweepOptions& sweep) {
+  SimulateOptions options(runOptionsOf(run.scene));
   options.folder = folderOf(run, sweep);
   options.writesLast = true;  // the sheet is drawn of it
   if (sweep.lastOnly) {
@@ -235,7 +236,8 @@ class Sweep {
                    Fault::output};
     const std::string text = sceneTextOf(run);
     if (!options_.overwrites && !holdsText(folder / kScene, text)) {
-      if (Status isFree = checkFolderIsFree(folder, outputsOf(options)); !isFree) return isFree;
+      if (Status isFree = checkFolderIsFree(folder, outputsOf(options), options.words); !isFree)
+        return isFree;
     }
     fs::remove(folder / kRecord, code);
     return writeWholeFile(folder / kScene, std::as_bytes(std::span<const char>(text)));
@@ -243,7 +245,7 @@ class Sweep {
 
   Status runAndRecord(SweepEntry& entry) {
     const SweepRun& run = *entry.run;
-    RunOptions options = optionsOf(run, options_);
+    SimulateOptions options = optionsOf(run, options_);
     auto opened = device();
     if (!opened) return opened.error();
     options.opened = std::move(*opened);
@@ -261,9 +263,9 @@ class Sweep {
     if (options_.measures) {
       if (Status measured = watch.measureFrames(); !measured) return measured;
     }
-    const auto outcome = runLoadedScene(
-        *scene, options,
-        [&](std::span<const Vec3f> points, const HeadPose& head) { return watch.look(points, head); });
+    const auto outcome = simulate(*scene, options, [&](std::span<const Vec3f> points, const HeadPose& head) {
+      return watch.look(points, head);
+    });
     if (!outcome) return outcome.error();
     noteWarnings(outcome->warnings, run.number);
     if (outcome->interrupted) {

@@ -16,9 +16,9 @@ namespace ringlet::program {
 
 struct SweepOptions {
   std::filesystem::path folder;  // each run has run-0001, run-0002, ... in it
-  std::string device;            // as RunOptions::device
+  std::string device;            // as SimulateOptions::device
   bool onReference = false;      // rather than on the GPU
-  bool usesTuned = true;         // as RunOptions::usesTuned
+  bool usesTuned = true;         // as SimulateOptions::usesTuned
   bool lastOnly = false;         // of each run last.obj, and nothing else
   bool measures = false;         // every frame, as `ringlet measure` does
   bool overwrites = false;       // finished runs too

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "program/cut_list.h"
 #include "ringlet/groom/groom_file.h"
+#include "ringlet/scenes/cut_list.h"
 #include "tests/program/run_program.h"
 #include "tests/support/gpu_test.h"
 #include "tests/support/test_support.h"
@@ -14,8 +14,6 @@ namespace ringlet {
 namespace {
 
 namespace fs = std::filesystem;
-using program::CutList;
-using program::FrameCut;
 using test::readText;
 
 // Two strands of five particles.

@@ -1,5 +1,5 @@
 // Folders of runs: nothing in one is replaced without being asked to, written through a link, or left behind.
-#include "program/run_folder.h"
+#include "ringlet/run/run_folder.h"
 
 #include <gtest/gtest.h>
 

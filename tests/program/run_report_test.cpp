@@ -20,8 +20,8 @@ using nlohmann::json;
 json printed(const nlohmann::ordered_json& object) { return json::parse(object.dump()); }
 
 // Every number is another, in the unit its declaration says: metres, milliseconds, seconds, shares.
-SimulateOutcome outcome() {
-  SimulateOutcome outcome;
+RunOutcome outcome() {
+  RunOutcome outcome;
   outcome.frameCount = 7;
   outcome.strandCount = 11;
   outcome.particleCount = 88;
@@ -136,7 +136,7 @@ TEST(RunReport, EveryNumberIsInItsUnit) {
 }
 
 TEST(RunReport, WhatIsNotKnownIsNull) {
-  SimulateOutcome unknown = outcome();
+  RunOutcome unknown = outcome();
   unknown.velocityResidual.reset();
   unknown.contacts.reset();
   unknown.contactNumbers.reset();
@@ -177,7 +177,7 @@ TEST(RunReport, TheTextHasTheSameNumbers) {
 }
 
 TEST(RunReport, BodiesThatHairDidNotMeetAreNoSuccess) {
-  SimulateOutcome far = outcome();
+  RunOutcome far = outcome();
   far.bodyNumbers = BodyNumbers{.nearest = 0.4};
   const std::string text = runText(kNames, settings(), far);
   EXPECT_NE(text.find("hair did not meet them"), std::string::npos) << text;

@@ -288,4 +288,18 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
   return hairs;
 }
 
+// Point i of a shorter hair lags behind particle i of its guide, but for the root
+// (reference/equations/follow.h).
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points) {
+  const auto along = [&](std::size_t i) {
+    const double share = static_cast<double>(i) / static_cast<double>(points - 1);
+    const double rise = std::min(share / 0.2, 1.0);
+    return static_cast<double>(i) *
+           (1 + (static_cast<double>(hair.length) - 1) * rise * rise * (3 - 2 * rise));
+  };
+  std::size_t i = 0;
+  while (i < points && along(i) < static_cast<double>(begin) - 0.5) ++i;
+  return i;
+}
+
 }  // namespace ringlet

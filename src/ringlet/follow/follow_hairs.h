@@ -67,4 +67,8 @@ Result<std::vector<FollowHair>> planHairs(std::span<const GuideRest> guides, con
                                           const FollowOptions& options, const FollowMaps& maps = {},
                                           std::vector<std::uint32_t>* rootOf = nullptr);
 
+/// How many points of a hair, of as many as its guide has, are before the piece of the guide that begins with
+/// particle `begin`.
+std::size_t pointsBefore(std::size_t begin, const FollowHair& hair, std::size_t points);
+
 }  // namespace ringlet

@@ -71,6 +71,7 @@ class DeviceHair : public SceneHair {
 Result<std::unique_ptr<SceneHair>> makeDeviceHair(const SceneHairInput& input, DeviceHairChoice choice) {
   const ScenePlaces start = input.frames.placesAt(input.frames.first());
   choice.kernel.geometry = input.scene.geometry.get();
+  choice.kernel.residual = input.measuresResidual;
   auto simulation =
       Simulation::create(choice.device, input.scene.groom, input.scene.material, input.settings(),
                          stateOf(start, input.scene), kernelOf(input.scene, choice.kernel));

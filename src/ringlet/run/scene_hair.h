@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -68,11 +69,15 @@ class SceneHair {
 /// What hair is made of.
 struct SceneHairInput {
   const LoadedScene& scene;
-  const SceneFrames& frames;  // of it
-  bool isStepByStep = false;  // it is given SceneFrame::step of each step, and not whole frames
+  const SceneFrames& frames;      // of it
+  bool isStepByStep = false;      // it is given SceneFrame::step of each step, and not whole frames
+  bool measuresResidual = false;  // of the velocity solve
 
   Settings settings() const { return isStepByStep ? stepByStep(frames.settings()) : frames.settings(); }
 };
+
+/// Makes the hair of a run: hairOn (divided_hair.h) has it on devices.
+using HairMaker = std::function<Result<std::unique_ptr<SceneHair>>(const SceneHairInput&)>;
 
 /// Gives hair what changes in it for good; `Hair` has cut and setNumbers.
 template <class Hair>

@@ -1,0 +1,36 @@
+// The parts that strands are divided into among devices (solver/part_link.h). Strands that may touch go
+// together, so that little is sent between parts (rest/rest_halo.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "ringlet/base/result.h"
+#include "ringlet/groom/groom.h"
+#include "ringlet/rest/material.h"
+#include "ringlet/run/strand_graph.h"
+#include "ringlet/scene/settings.h"
+
+namespace ringlet {
+
+/// Whether METIS was there when this was built (Debian: libmetis-dev).
+bool hasMetis();
+
+/// The part of each strand, device order. Ranges of device order, of about equal weight.
+std::vector<std::int32_t> partsAlongCurve(const StrandGraph& graph, int count);
+/// By METIS, with a fixed seed: recursive bisection, or k-way. Needs hasMetis(), and two parts or more.
+std::vector<std::int32_t> partsByMetis(const StrandGraph& graph, int count, bool byWays);
+
+/// The weight of the heaviest part over the mean.
+double imbalance(const StrandGraph& graph, std::span<const std::int32_t> parts, int count);
+
+/// Strands of each of `count` parts, groom order, each in one part. Where strands meet pair by pair: by
+/// METIS, k-way if bisection leaves an imbalance above 1.05; without METIS along the curve. Else they are
+/// dealt out by length. Errors: as buildRestState; fewer strands than parts. Cost: where strands may meet,
+/// that of buildRestState and buildRestContacts, and of METIS: 10 ms for 1,500 strands, 0.3 s for 20,000.
+Result<std::vector<std::vector<std::uint32_t>>> divideStrands(const Groom& groom, const Material& material,
+                                                              const Settings& settings, std::size_t count);
+
+}  // namespace ringlet
