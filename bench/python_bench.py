@@ -45,8 +45,8 @@ def by_module(device, folder):
         float(frame.positions[:, 1].min())
         times.append(time.perf_counter())
 
-    hair = scene.run(callback, device=device)
-    return 1000 * (times[-1] - times[0]) / (len(times) - 1), ringlet.positions_hash(hair.positions())
+    run = scene.run(callback, device=device)
+    return 1000 * (times[-1] - times[0]) / (len(times) - 1), run.positions_hash
 
 
 def main():

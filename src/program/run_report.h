@@ -6,15 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "program/simulate_run.h"
+#include "ringlet/run/run_report.h"
 #include "ringlet/scene/settings.h"
 
 namespace ringlet::program {
-
-/// What the user chose, by the names it was typed with.
-struct RunNames {
-  std::string integrator = "jacobi", backend = "gpu", material = "default";
-};
 
 /// What the keys about contacts mean, for --help.
 inline constexpr const char* kContactKeysHelp =
@@ -39,6 +34,7 @@ inline constexpr const char* kContactKeysHelp =
     "raw_recall\n"
     "are of the same frame (of the last, where contacts are not measured).\n";
 
+/// runReport, to be added to.
 nlohmann::ordered_json runJson(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 std::string runText(const RunNames& names, const Settings& settings, const RunOutcome& outcome);
 

@@ -281,24 +281,11 @@ int run(const Typed& typed) {
   if (outputsOf(options).empty() && !typed.json && !typed.jsonProgress)
     say("ringlet simulate: warning: every file is left out, so that nothing will be written into {}\n",
         options.folder.string());
-  const std::vector<std::filesystem::path> inputs = inputFilesOf(typed.input, *scene);
-  if (Status stays = checkInputsStay(inputs, outputsOf(options), options.words); !stays)
-    return fail(stays.error());
   std::optional<LoadedGroom> origin;
-  if (needsOrigin(scene->output)) {
-    auto read = loadGroom(scene->groom, true);
-    if (!read) return fail(read.error());
-    origin = std::move(*read);
-    if (Status chosen = chooseOrigin(*origin, options); !chosen) return fail(chosen.error());
-  }
+  if (Status prepared = prepareRun(*scene, typed.input, origin, options); !prepared)
+    return fail(prepared.error());
   const auto loaded = loadScene(*scene, origin ? &*origin : nullptr);
   if (!loaded) return fail(loaded.error());
-  if (typed.checkpoint || typed.resume) {
-    auto facts = factsOf(*scene, inputs);
-    if (!facts) return fail(facts.error());
-    options.facts = std::move(*facts);
-  }
-
   options.onRanks = ranks().count > 1;
   if (ranks().own > 0) return serveRanks(*loaded, options);
   const auto outcome = simulate(*loaded, options);

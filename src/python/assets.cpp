@@ -13,16 +13,7 @@ namespace ringlet::python {
 namespace {
 
 KernelChoice kernelOf(const AssetChoice& choice) {
-  KernelChoice kernel;
-  if (choice.kernel == "lanes") {
-    kernel.form = KernelChoice::Form::lanes;
-  } else if (choice.kernel == "memory") {
-    kernel.form = KernelChoice::Form::memory;
-  } else if (choice.kernel == "serial") {
-    kernel.form = KernelChoice::Form::serial;
-  } else if (choice.kernel != "auto") {
-    throw py::value_error(unknownName("kernel", choice.kernel, {"auto", "lanes", "memory", "serial"}));
-  }
+  KernelChoice kernel = kernelNamed(choice.kernel);
   if (choice.heads < 1) throw py::value_error(fmt::format("heads must be 1 or more, got {}", choice.heads));
   kernel.movingRoots = choice.movesRoots;
   kernel.heads = choice.heads;
@@ -46,6 +37,20 @@ std::string assetRepr(const AssetObject& a) {
 }
 
 }  // namespace
+
+KernelChoice kernelNamed(const std::string& name) {
+  KernelChoice kernel;
+  if (name == "lanes") {
+    kernel.form = KernelChoice::Form::lanes;
+  } else if (name == "memory") {
+    kernel.form = KernelChoice::Form::memory;
+  } else if (name == "serial") {
+    kernel.form = KernelChoice::Form::serial;
+  } else if (name != "auto") {
+    throw py::value_error(unknownName("kernel", name, {"auto", "lanes", "memory", "serial"}));
+  }
+  return kernel;
+}
 
 AssetHandle buildAsset(DeviceHandle device, GroomHandle groom, const MaterialObject& material,
                        Settings settings, const AssetChoice& choice) {

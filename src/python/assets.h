@@ -12,6 +12,9 @@
 
 namespace ringlet::python {
 
+/// "auto", "lanes", "memory" or "serial"; throws py::value_error.
+KernelChoice kernelNamed(const std::string& name);
+
 struct AssetChoice {
   bool hasBodies = false, movesRoots = false, hasForces = false, hasGoals = false, hasFields = false;
   int heads = 1;

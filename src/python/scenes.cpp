@@ -1,6 +1,5 @@
 // Whole scenes: built-in ones and files, and their runs.
 #include <fmt/format.h>
-#include <pybind11/functional.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -16,6 +15,7 @@
 #include "python/hair.h"
 #include "python/materials.h"
 #include "python/poses.h"
+#include "python/scenes.h"
 #include "python/words.h"
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/builtin_scene.h"
@@ -25,17 +25,11 @@
 namespace ringlet::python {
 namespace {
 
-struct SceneObject {
-  std::string name, summary;
-  GroomHandle groom;
-  LoadedScene loaded;  // but its groom, which is the one above
-};
-
-SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded) {
+SceneObject sceneOf(std::string name, std::string summary, LoadedScene loaded, SceneSource source) {
   loaded.warnings = sentencesBy(inSceneWords, std::move(loaded.warnings));
   auto groom = std::make_shared<GroomObject>(LoadedGroom{std::move(loaded.groom), {}});
   loaded.groom = {};
-  return {std::move(name), std::move(summary), std::move(groom), std::move(loaded)};
+  return {std::move(name), std::move(summary), std::move(groom), std::move(loaded), std::move(source)};
 }
 
 SceneReach reachOf(bool isConfined) { return isConfined ? SceneReach::ownFolder : SceneReach::anywhere; }
@@ -50,20 +44,26 @@ T sceneValueOf(Result<T> result) {
 SceneObject loadFile(const std::filesystem::path& path, bool isConfined) {
   return withoutGil([&] {
     const SceneFile file = sceneValueOf(readScene(path, {}, reachOf(isConfined)));
-    return sceneOf(path.stem().string(), "", sceneValueOf(loadScene(file)));
+    return sceneOf(path.stem().string(), "", sceneValueOf(loadScene(file)), {file, path, {}});
   });
 }
 SceneObject parseText(const std::string& text, const std::filesystem::path& folder, bool isConfined) {
   return withoutGil([&] {
     const SceneFile file = sceneValueOf(parseScene(text, "the scene", folder, {}, reachOf(isConfined)));
-    return sceneOf("text", "", sceneValueOf(loadScene(file)));
+    return sceneOf("text", "", sceneValueOf(loadScene(file)), {file, {}, {}});
   });
 }
 
 SceneObject builtin(const std::string& name, const SceneOptions& options) {
   return withoutGil([&] {
     BuiltinScene made = valueOf(makeScene(name, options));
-    return sceneOf(std::move(made.name), std::move(made.summary), std::move(made));
+    SceneSource source{.facts = {{"scene", name}}};
+    const auto add = [&](const char* option, const auto& value) {
+      if (value) source.facts.push_back({option, fmt::format("{}", *value)});
+    };
+    add("particles", options.particles), add("strands", options.strands), add("preload", options.preload);
+    add("contacts", options.contacts), add("seconds", options.seconds);
+    return sceneOf(std::move(made.name), std::move(made.summary), std::move(made), std::move(source));
   });
 }
 
@@ -120,62 +120,6 @@ HairHandle startHair(const SceneObject& self, DeviceHandle device, const std::st
   return hair;
 }
 
-// What a callback sees of a frame.
-struct FrameObject {
-  int number = 0;  // 1 for the first
-  double seconds = 0;
-  HeadPose head;
-  double metresPerUnit = 1;
-  py::object positions;
-};
-
-py::object pointsOf(const FrameObject& frame) {
-  const PointsIn in(frame.positions, "positions");
-  std::vector<Vec3f> points(in.points().begin(), in.points().end());
-  placeInWorld(points, frame.head, frame.metresPerUnit);
-  return arrayOf(std::move(points));
-}
-
-// While a frame computes, the one before it is seen. Whether to go on.
-bool show(const SceneObject& self, HairObject& hair, int number, const HeadPose& head,
-          const py::object& callback) {
-  hair.wait();
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (callback.is_none()) return true;
-  const py::object answer =
-      callback(FrameObject{number, number / self.loaded.settings.framesPerSecond, head,
-                           self.groom->groom().metresPerUnit, arrayOf(hair.positions())});
-  return !answer.is(py::bool_(false));
-}
-
-HairHandle run(const SceneObject& self, const py::object& callback, const std::optional<int>& frames,
-               const DeviceHandle& device, const std::string& kernel) {
-  const int count = frames.value_or(self.loaded.frameCount);
-  if (count < 0) throw py::value_error(fmt::format("frames must be 0 or more, got {}", count));
-  if (!callback.is_none() && !PyCallable_Check(callback.ptr()))
-    throw py::type_error("callback must be callable, got " + describe(callback));
-  HairHandle hair = startHair(self, device, kernel);
-  std::optional<HeadPose> underWay;
-  bool goesOn = true;
-  for (int frame = 0; frame < count && goesOn; ++frame) {
-    const SceneFrame now = frameOf(self.loaded, frame);
-    if (!now.change.isNone() && underWay) {
-      goesOn = show(self, *hair, frame, *std::exchange(underWay, std::nullopt), callback);
-      if (!goesOn) return hair;
-    }
-    prepareFrame(now, *hair);
-    hair->submit(posesOf(now));
-    if (underWay) goesOn = show(self, *hair, frame, *underWay, callback);
-    underWay = now.heads.back();
-    if (!goesOn) {
-      hair->wait();
-      return hair;
-    }
-  }
-  if (underWay) show(self, *hair, count, *underWay, callback);
-  return hair;
-}
-
 py::tuple framePoses(const SceneObject& self, int frame) {
   demandFrame(frame);
   const SceneFrame now = frameOf(self.loaded, frame);
@@ -185,27 +129,12 @@ py::tuple framePoses(const SceneObject& self, int frame) {
   return py::make_tuple(arrayOf(now.heads), given(now.bodies), given(now.roots));
 }
 
-void addFrame(py::module_& module) {
-  py::class_<FrameObject>(module, "Frame", "A frame of a scene's run, as its callback sees it.")
-      .def_readonly("number", &FrameObject::number, "1 for the first.")
-      .def_readonly("seconds", &FrameObject::seconds, "Its end, since the start [s].")
-      .def_readonly("head", &FrameObject::head, "Where the head is at its end: a Pose.")
-      .def_readonly(
-          "positions", &FrameObject::positions,
-          "(particles, 3) float32 [m], seen from the head, along the world's axes: the callback's own.")
-      .def("points", &pointsOf,
-           "(particles, 3) float32: the same in the world, in the groom's unit, as files hold them.")
-      .def(
-          "__repr__", [](const FrameObject& f) { return fmt::format("<ringlet.Frame {}>", f.number); },
-          "What it is, in a line.");
-}
-
 }  // namespace
 
 void addScenes(py::module_& module) {
-  addFrame(module);
-  py::class_<SceneObject>(module, "Scene",
-                          "All that a run starts from: groom, material, settings, motion, bodies. Constant.")
+  py::class_<SceneObject> scene(
+      module, "Scene", "All that a run starts from: groom, material, settings, motion, bodies. Constant.");
+  scene
       .def_static(
           "load", &loadFile, py::arg("path"), py::kw_only(), py::arg("confined").noconvert() = false,
           "Reads a scene file (TOML) and all that it names: the groom, a motion by .bvh or glTF, meshes. "
@@ -293,11 +222,6 @@ void addScenes(py::module_& module) {
       .def("step", &stepFrame, py::arg("hair"), py::arg("frame"),
            "Steps hair of start() through a frame, 0 the first, as a run does: with what keys, fields, holds "
            "and cuts give it then, where frame_poses has the motion only. Each cut is made by its own frame.")
-      .def("run", &run, py::arg("callback") = py::none(), py::kw_only(), py::arg("frames") = py::none(),
-           py::arg("device") = py::none(), py::arg("kernel") = "auto",
-           "Steps frame after frame; returns the Hair after the last. callback: is given a Frame after each, "
-           "while the device computes the next; where it returns False, the run ends with the one under way, "
-           "and what it raises ends it too. frames: None: frame_count. device: None: Device().")
       .def(
           "__repr__",
           [](const SceneObject& s) {
@@ -305,6 +229,7 @@ void addScenes(py::module_& module) {
                                s.groom->groom().strandCount(), s.loaded.frameCount);
           },
           "What it is, in a line.");
+  addRuns(module, scene);
 }
 
 }  // namespace ringlet::python

@@ -232,6 +232,43 @@ TEST_F(CFiles, AScenesHairHasTheBitsOfTheLibrary) {
   }
 }
 
+TEST_F(CFiles, ARunIsEndedGoesOnAndHasTheFilesOfOneThatIsNot) {
+  const fs::path folder = scratchFolder("c_runs");
+  CScene scene;
+  ASSERT_EQ(scene.parse(kScene), RINGLET_OK) << ringlet_error_message();
+  const auto run = [&](const char* name, ringlet_leftovers leftovers, int least, ringlet_run_result& result) {
+    const std::string out = (folder / name).string();
+    const char* files[] = {"hair.usda", "hair.rgc", "last.obj"};
+    ringlet_run_options options = RINGLET_INIT(ringlet_run_options);
+    options.frame_count = 8;
+    options.folder = out.c_str();
+    options.files = files, options.file_count = 3;
+    options.checkpoint_frames = 2;
+    options.leftovers = leftovers;
+    options.go_on = [](std::int32_t frame, void* least) { return int(frame < *static_cast<int*>(least)); };
+    options.user = &least;
+    result = RINGLET_INIT(ringlet_run_result);
+    return ringlet_scene_run(scene.handle, &options, &result, nullptr, 0);
+  };
+  ringlet_run_result whole{}, part{}, rest{};
+  ASSERT_EQ(run("whole", RINGLET_LEFTOVERS_REFUSE, 100, whole), RINGLET_OK) << ringlet_error_message();
+  EXPECT_EQ(whole.frame_count, 8);
+  EXPECT_EQ(whole.interrupted, 0);
+  ASSERT_EQ(run("part", RINGLET_LEFTOVERS_REFUSE, 4, part), RINGLET_OK) << ringlet_error_message();
+  EXPECT_EQ(part.frame_count, 5);  // the one under way is finished
+  EXPECT_EQ(part.interrupted, 1);
+  EXPECT_EQ(part.can_resume, 1);
+  EXPECT_NE(run("part", RINGLET_LEFTOVERS_REFUSE, 100, rest), RINGLET_OK);
+  EXPECT_NE(std::strstr(ringlet_error_message(), "RINGLET_LEFTOVERS_RESUME goes on with it"), nullptr)
+      << ringlet_error_message();
+  ASSERT_EQ(run("part", RINGLET_LEFTOVERS_RESUME, 100, rest), RINGLET_OK) << ringlet_error_message();
+  EXPECT_EQ(rest.resumed_from, 5);
+  EXPECT_STREQ(rest.positions_hash, whole.positions_hash);
+  for (const char* name : {"hair.usda", "hair.rgc", "last.obj"})
+    EXPECT_EQ(readText(folder / "part" / name), readText(folder / "whole" / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "part/checkpoint.rgk"));
+}
+
 TEST_F(CFiles, AScenesPartsAreForHostsThatStepThemselves) {
   const std::string plain = std::string(kScene).substr(0, std::string(kScene).find("[[field]]"));
   CScene scene;

@@ -205,6 +205,16 @@ std::vector<Call> callsOf(Good& c) {
       {"ringlet_scene_step",
        {"scene", "hair"},
        [&c](unsigned n) { return ringlet_scene_step(orNull(c.loaded, n, 0), orNull(c.hairs[0], n, 1), 0); }},
+      {"ringlet_scene_run",
+       {"scene", "[options]", "[result]", "[xyz]"},
+       [&c](unsigned n) {
+         ringlet_run_options run = RINGLET_INIT(ringlet_run_options);
+         run.frame_count = 1;
+         std::vector<float> xyz(3 * kParticles);
+         ringlet_run_result result = RINGLET_INIT(ringlet_run_result);
+         return ringlet_scene_run(orNull(c.loaded, n, 0), orNull(&run, n, 1), orNull(&result, n, 2),
+                                  orNull(xyz.data(), n, 3), kParticles);
+       }},
       {"ringlet_animation_create",
        {"path", "groom", "[options]", "animation"},
        [&c, release](unsigned n) {
@@ -338,6 +348,10 @@ TEST_F(CWrongFiles, StructsOfOtherSizes) {
   });
   each(RINGLET_INIT(ringlet_scene_facts), "scene_facts",
        [&](auto* s) { return ringlet_scene_get(c.loaded, s); });
+  each(RINGLET_INIT(ringlet_run_options), "run_options",
+       [&](auto* s) { return ringlet_scene_run(c.loaded, s, nullptr, nullptr, 0); });
+  each(RINGLET_INIT(ringlet_run_result), "run_result",
+       [&](auto* s) { return ringlet_scene_run(c.loaded, nullptr, s, nullptr, 0); });
   each(RINGLET_INIT(ringlet_groom), "groom", [&](auto* s) { return ringlet_scene_groom(c.loaded, s); });
   each(RINGLET_INIT(ringlet_groom), "groom", [&](auto* s) { return ringlet_groom_write(c.hair.c_str(), s); });
   each(RINGLET_INIT(ringlet_asset_options), "asset_options", [&](auto* s) {
@@ -553,7 +567,12 @@ TEST_F(CWrongFiles, InAProcessThatForkMade) {
       [&] { return ringlet_scene_step(c.loaded, c.hairs[0], 0); },
       [&] { return ringlet_animation_add_hair(animation, c.hairs[0]); },
       [&] { return ringlet_scene_build(c.device, c.loaded, nullptr, &c.asset); },
-      [&] { return ringlet_scene_hair(c.loaded, c.asset, &c.hairs[0]); }};
+      [&] { return ringlet_scene_hair(c.loaded, c.asset, &c.hairs[0]); },
+      [&] {
+        ringlet_run_options options = RINGLET_INIT(ringlet_run_options);
+        options.devices = &c.device, options.device_count = 1;
+        return ringlet_scene_run(c.loaded, &options, nullptr, nullptr, 0);
+      }};
   const pid_t child = fork();
   if (child == 0) {
     alarm(60);  // a wait that never ends

@@ -135,12 +135,21 @@ class OneRun : public test::GpuTest {
     ringlet_device_release(device);
     return hash;
   }
+  std::string byRunOfC(const fs::path& path) {
+    ringlet_scene* scene = nullptr;
+    ringlet_run_options options = RINGLET_INIT(ringlet_run_options);
+    options.frame_count = kFrames;
+    ringlet_run_result result = RINGLET_INIT(ringlet_run_result);
+    const bool hasRun = ringlet_scene_read(path.c_str(), nullptr, &scene) == RINGLET_OK &&
+                        ringlet_scene_run(scene, &options, &result, nullptr, 0) == RINGLET_OK;
+    ringlet_scene_release(scene);
+    return hasRun ? result.positions_hash : ringlet_error_message();
+  }
 #ifdef RINGLET_PYTHON
   std::string byPython(const fs::path& scene) {
     std::ofstream(folder_ / "run.py")
         << "import ringlet, sys\n"
-           "hair = ringlet.Scene.load(sys.argv[1]).run(frames=int(sys.argv[2]))\n"
-           "print(ringlet.positions_hash(hair.positions()))\n";
+           "print(ringlet.Scene.load(sys.argv[1]).run(frames=int(sys.argv[2])).positions_hash)\n";
     const std::string out = (folder_ / "hash.txt").string();
     const std::string command = "PYTHONPATH=" RINGLET_BUILD_DIR
                                 "/python PYTHONDONTWRITEBYTECODE=1 " RINGLET_PYTHON " " +
@@ -163,6 +172,7 @@ class OneRun : public test::GpuTest {
     ASSERT_EQ(expected.size(), 16u) << expected;
     EXPECT_EQ(byHost(*scene), expected) << "a host";
     EXPECT_EQ(byC(path), expected) << "C";
+    EXPECT_EQ(byRunOfC(path), expected) << "C's ringlet_scene_run";
     EXPECT_EQ(byWindow(*file, *scene), expected) << "a window's session";
 #ifdef RINGLET_PYTHON
     EXPECT_EQ(byPython(path), expected) << "Python";

@@ -61,11 +61,11 @@ def test_a_scene_file_has_the_bits_of_the_program(device, program, name):
     told = program("simulate", "scene.toml", "-o", "out", "--untuned", "--quiet")
     scene = ringlet.Scene.load(program.folder / "scene.toml")
     numbers = []
-    hair = scene.run(lambda frame: numbers.append((frame.number, ringlet.positions_hash(frame.positions),
+    run = scene.run(lambda frame: numbers.append((frame.number, ringlet.positions_hash(frame.positions),
                                                    frame.points())), device=device)
     assert [number for number, _, _ in numbers] == list(range(1, told["frames"] + 1))
-    assert numbers[-1][1] == told["positions_hash"] == ringlet.positions_hash(hair.positions())
-    assert hair.kernel == told["kernel"] and scene.settings.steps_per_frame == told["steps_per_frame"]
+    assert numbers[-1][1] == told["positions_hash"] == run.positions_hash
+    assert run.report["kernel"] == told["kernel"] and scene.settings.steps_per_frame == told["steps_per_frame"]
     assert set(told["warnings"]) >= set(scene.warnings)
     # Every frame, as the files have it.
     frames = list(ringlet.AnimationReader(program.folder / "out/hair.usda"))
@@ -73,7 +73,7 @@ def test_a_scene_file_has_the_bits_of_the_program(device, program, name):
     for points, (_, _, seen) in zip(frames, numbers):
         assert np.array_equal(points, seen)
     last = ringlet.read_groom(program.folder / "out/last.obj", scene.groom.metres_per_unit)
-    assert np.array_equal(last.points, hair.points())
+    assert np.array_equal(last.points, run.points())
 
 
 @pytest.mark.parametrize("name", ["hanging_curl", "two_curls", "walk_head"])

@@ -126,7 +126,7 @@ TEST_F(Frames, ComeInOrderInTheFilesUnit) {
     EXPECT_EQ(seen[static_cast<std::size_t>(number) - 1], number);
     EXPECT_EQ(written[static_cast<std::size_t>(number) - 1][1], (Vec3f{2 * (1 + float(number)), 2, 0}));
   }
-  EXPECT_EQ(sink.lastPositions(), frame(50).positions);
+  EXPECT_EQ(sink.takeLastPositions(), frame(50).positions);
 }
 
 // What nobody needs is not converted; a frame with particles that have no position is counted all the same.
@@ -154,7 +154,7 @@ TEST_F(Frames, OnlyTheLastIsShownWhereNoOtherIsNeeded) {
   ASSERT_EQ(written.size(), 2u);
   EXPECT_EQ(written[1], (std::vector<Vec3f>{{102, 0, 0}, {102, 2, 0}}));
   EXPECT_EQ(sink.mostReplaced(), 1u);
-  EXPECT_EQ(sink.lastPositions(), frame(50).positions);
+  EXPECT_EQ(sink.takeLastPositions(), frame(50).positions);
 }
 
 TEST_F(Frames, AFailureOfTheLastComesBackWhereNoOtherIsNeeded) {

@@ -13,6 +13,7 @@
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/scenes/load_scene.h"
+#include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::c {
 
@@ -38,6 +39,8 @@ struct ringlet_scene {
   std::shared_ptr<const ringlet::LoadedScene>
       loaded;  // assets and hair of it keep it, to be told from others'
   ringlet::c::ShownGroom shown;
+  ringlet::SceneFile file;
+  std::filesystem::path path{};  // of it; empty: a text
 };
 struct ringlet_animation {
   std::filesystem::path path;

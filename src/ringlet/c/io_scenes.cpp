@@ -30,14 +30,15 @@ SceneReach reachOf(const ringlet_scene_reading& reading) {
 
 Error inSceneWords(const Error& error) { return {ringlet::inSceneWords(error.message), error.fault}; }
 
-Outcome make(const Result<SceneFile>& file, const ringlet_scene_reading& reading, ringlet_scene** scene) {
+Outcome make(const Result<SceneFile>& file, const char* path, const ringlet_scene_reading& reading,
+             ringlet_scene** scene) {
   if (!file) return inSceneWords(file.error());
   auto loaded = loadScene(*file);
   if (!loaded) return inSceneWords(loaded.error());
   for (std::string& sentence : loaded->warnings) sentence = ringlet::inSceneWords(sentence);
   warnOf(loaded->warnings, reading.warn, reading.user);
   auto shared = std::make_shared<const LoadedScene>(std::move(*loaded));
-  *scene = new ringlet_scene{shared, ShownGroom(shared->groom)};
+  *scene = new ringlet_scene{shared, ShownGroom(shared->groom), *file, path};
   return {};
 }
 
@@ -87,7 +88,7 @@ ringlet_result ringlet_scene_read(const char* path, const ringlet_scene_reading*
     const ringlet_scene_reading how = taken(reading);
     const auto changes = changesOf(how);
     if (!changes) return Outcome::invalid(changes.error().message);
-    return make(readScene(path, *changes, reachOf(how)), how, scene);
+    return make(readScene(path, *changes, reachOf(how)), path, how, scene);
   });
 }
 
@@ -102,7 +103,7 @@ ringlet_result ringlet_scene_parse(const char* text, const char* folder, const r
     const ringlet_scene_reading how = taken(reading);
     const auto changes = changesOf(how);
     if (!changes) return Outcome::invalid(changes.error().message);
-    return make(parseScene(text, "the scene", folder ? folder : "", *changes, reachOf(how)), how, scene);
+    return make(parseScene(text, "the scene", folder ? folder : "", *changes, reachOf(how)), "", how, scene);
   });
 }
 

@@ -117,6 +117,46 @@ ringlet_result ringlet_scene_hair(const ringlet_scene* scene, ringlet_asset* ass
    error. */
 ringlet_result ringlet_scene_step(const ringlet_scene* scene, ringlet_hair* hair, int32_t frame);
 
+/* What becomes of what a run finds in its folder. RESUME goes on from a checkpoint; without one it begins
+   anew where nothing is left. */
+typedef enum ringlet_leftovers {
+  RINGLET_LEFTOVERS_REFUSE = 0,
+  RINGLET_LEFTOVERS_OVERWRITE = 1,
+  RINGLET_LEFTOVERS_RESUME = 2,
+  RINGLET_LEFTOVERS_RESUME_OR_OVERWRITE = 3
+} ringlet_leftovers;
+
+typedef struct ringlet_run_options {
+  size_t struct_size;
+  int32_t frame_count;            /* 0: the scene's */
+  ringlet_device* const* devices; /* the strands are divided among them; NULL: what ringlet_device_open
+                                     opens */
+  uint32_t device_count;          /* 0 with NULL */
+  const char* folder;             /* where files go; NULL: nothing is written */
+  const char* const* files;       /* which: "hair.usda", "last.obj", "sheet.png" ...; NULL: what the scene
+                                     says, as all else about them */
+  uint32_t file_count;
+  int32_t checkpoint_frames; /* from one to the next that a killed run can go on from; 0: none */
+  ringlet_leftovers leftovers;
+  int (*go_on)(int32_t frame, void* user); /* after each frame, 1 the first; 0 ends the run early, but well;
+                                              may be NULL */
+  ringlet_warn warn;                       /* may be NULL */
+  void* user;
+} ringlet_run_options;
+typedef struct ringlet_run_result {
+  size_t struct_size;
+  int32_t frame_count;     /* done, with those of a run before */
+  int32_t resumed_from;    /* that a run before had done */
+  int interrupted;         /* 1 if it ended before its last frame */
+  int can_resume;          /* 1 if there is a checkpoint to go on from; files are then not finished */
+  char positions_hash[24]; /* of the last frame, as `ringlet simulate --json` tells it */
+} ringlet_run_result;
+/* The scene's whole run, as `ringlet simulate` does it. `options` may be NULL: the positions only. `xyz`: of
+   the last frame, as ringlet_positions; may be NULL. `result` may be NULL. Frames that are finished before an
+   error are kept. */
+ringlet_result ringlet_scene_run(const ringlet_scene* scene, const ringlet_run_options* options,
+                                 ringlet_run_result* result, float* xyz, uint64_t particle_count);
+
 /* Animations. */
 
 typedef struct ringlet_animation_options {

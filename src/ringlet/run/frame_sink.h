@@ -13,18 +13,10 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/measure/body_watch.h"
+#include "ringlet/run/computed_frame.h"
 #include "ringlet/run/writer_thread.h"
-#include "ringlet/scene/body.h"
-#include "ringlet/scene/head_pose.h"
 
 namespace ringlet {
-
-struct ComputedFrame {
-  int number = 0;                // 1 for the first
-  std::vector<Vec3f> positions;  // as a SceneHair gives them
-  HeadPose head;
-  std::vector<BodyPose> bodies;  // at its end
-};
 
 /// Who gets frames, each or none; all are called on the WriterThread.
 struct FrameReaders {
@@ -60,7 +52,8 @@ class FrameSink {
   // After finish:
   /// Most particles of a frame without a finite position.
   std::size_t mostReplaced() const { return mostReplaced_; }
-  const std::vector<Vec3f>& lastPositions() const { return last_.positions; }
+  /// None: there was no frame.
+  std::vector<Vec3f> takeLastPositions() { return std::move(last_.positions); }
   double millisecondsWatching() const { return watching_; }
   double millisecondsWriting() const { return writing_; }
 

@@ -302,6 +302,7 @@ Status Run::Work::takeUnderWay() {
     Stopwatch watch(readbackTime_);
     frame.positions = stepper_->framePositions(sink_->takeRoom());
   }
+  if (events_.computed) events_.computed(frame);
   Stopwatch watch(waitedForWriter_);
   return sink_->hand(std::move(frame));
 }
@@ -357,7 +358,13 @@ Status Run::Work::tellReports() {
   outcome_.report = reports->hair;
   outcome_.report.nonfinite = std::max<std::uint64_t>(reports->hair.nonfinite, sink_->mostReplaced());
   if (measuresResidual(scene_, options_)) outcome_.velocityResidual = reports->hair.velocityResidual;
-  outcome_.positionsHash = positionsHash(sink_->lastPositions());
+  outcome_.positions = sink_->takeLastPositions();
+  if (outcome_.positions.empty()) {
+    auto positions = hair_->positions();
+    if (!positions) return positions.error();
+    outcome_.positions = std::move(*positions);
+  }
+  outcome_.positionsHash = positionsHash(outcome_.positions);
   outcome_.hair = hair_->facts();
   if (bodyWatch_) outcome_.bodyNumbers = bodyWatch_->numbers();
   stepper_->tell(reports->contacts, outcome_);

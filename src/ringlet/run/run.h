@@ -9,6 +9,7 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
+#include "ringlet/run/computed_frame.h"
 #include "ringlet/run/run_options.h"
 #include "ringlet/run/run_outcome.h"
 #include "ringlet/run/scene_hair.h"
@@ -30,6 +31,8 @@ struct RunEvents {
   std::function<void(int written)> progress{};
   /// The first frame is stepped, in which drivers compile; or it failed, or there is none.
   std::function<void()> firstFrame{};
+  /// A frame is stepped. While the device computes the next.
+  std::function<void(const ComputedFrame& frame)> computed{};
   /// On the thread that writes: this frame, 1 being the first, is handed to its files.
   std::function<void(int frame)> written{};
   FrameObserver observe{};

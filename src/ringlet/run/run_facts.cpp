@@ -18,6 +18,7 @@
 #include "ringlet/motion/motion_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
+#include "ringlet/run/run_folder.h"
 #include "ringlet/scenes/scene_paths.h"
 
 namespace ringlet {
@@ -87,6 +88,25 @@ Result<std::vector<RunFact>> factsOf(const SceneFile& scene, const std::vector<f
          fmt::format("{} bytes with CRC-32 {:08x}", bytes->size(), crc32_z(0, data, bytes->size()))});
   }
   return facts;
+}
+
+Status prepareRun(const SceneFile& scene, const fs::path& input, std::optional<LoadedGroom>& origin,
+                  RunOptions& options) {
+  const std::vector<fs::path> inputs = inputFilesOf(input, scene);
+  if (Status stays = checkInputsStay(inputs, outputsOf(options), options.words); !stays) return stays;
+  if (needsOrigin(scene.output)) {
+    auto read = loadGroom(scene.groom, true);
+    if (!read) return read.error();
+    origin = std::move(*read);
+    if (Status chosen = chooseOrigin(*origin, options); !chosen) return chosen;
+  }
+  const bool goesOn =
+      options.leftovers == Leftovers::resume || options.leftovers == Leftovers::resumeOrOverwrite;
+  if (options.checkpointFrames == 0 && !goesOn) return {};
+  auto facts = factsOf(scene, inputs);
+  if (!facts) return facts.error();
+  options.facts = std::move(*facts);
+  return {};
 }
 
 void addMaterialFacts(const Material& material, std::vector<RunFact>& facts) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "ringlet/base/result.h"
@@ -20,6 +21,12 @@ std::vector<std::filesystem::path> inputFilesOf(const std::filesystem::path& inp
 /// cannot be read.
 Result<std::vector<RunFact>> factsOf(const SceneFile& scene,
                                      const std::vector<std::filesystem::path>& inputs);
+
+/// What a run of a scene's file needs besides its scene, before it is opened: what prims and values of the
+/// groom's file come from, in `origin`, which lives as long as the run, and facts, where one may go on with
+/// it. `input`: as inputFilesOf. Errors: the run would overwrite what it reads; a file that cannot be read.
+Status prepareRun(const SceneFile& scene, const std::filesystem::path& input,
+                  std::optional<LoadedGroom>& origin, RunOptions& options);
 
 /// Every parameter that is not the default.
 void addMaterialFacts(const Material& material, std::vector<RunFact>& facts);

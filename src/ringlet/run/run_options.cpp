@@ -1,6 +1,9 @@
 // Implements run_options.h.
 #include "ringlet/run/run_options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -72,6 +75,25 @@ std::vector<std::filesystem::path> outputsOf(const RunOptions& options) {
   if (options.writesLast) outputs.push_back(options.folder / "last.obj");
   if (options.writesSheet) outputs.push_back(options.folder / "sheet.png");
   return outputs;
+}
+
+Status chooseFiles(const std::vector<std::string>& names, SceneOutput& output) {
+  std::vector<std::string> known{"last.obj", "sheet.png"};
+  for (const AnimationFormat& format : animationFormats())
+    known.push_back(std::string("hair") + format.extension);
+  output.files.clear();
+  output.cache.clear();
+  for (const std::string& name : names) {
+    if (!holds(known, name))
+      return Error{fmt::format("a run writes no file '{}'; it can write {}", name, fmt::join(known, ", ")),
+                   Fault::input};
+    if (animationFormatOf(name) && animationFormatOf(name)->hasPrecisions) {
+      output.cache = nameOf(CachePrecision::float32);
+    } else {
+      output.files.push_back(name);
+    }
+  }
+  return {};
 }
 
 // The paper's loops solve no system; contacts, air and bodies have one of other terms.

@@ -63,6 +63,10 @@ Status chooseOrigin(const LoadedGroom& groom, RunOptions& options);
 /// Whether what is written needs more of the groom's file than its strands.
 bool needsOrigin(const SceneOutput& output);
 
+/// These files in place of what the scene says, by their names: hair.usda and the like (hair.rgc with every
+/// bit), last.obj, sheet.png. Errors: another name.
+Status chooseFiles(const std::vector<std::string>& names, SceneOutput& output);
+
 /// The animations such a run writes, by their names in its folder.
 std::vector<std::string> animationsOf(const RunOptions& options);
 /// What such a run writes, finished.

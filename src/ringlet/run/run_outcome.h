@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "ringlet/base/vec3.h"
 #include "ringlet/measure/body_watch.h"
 #include "ringlet/measure/contact_watch.h"
 #include "ringlet/run/scene_hair.h"
@@ -50,10 +51,11 @@ struct RunOutcome {
   std::optional<ContactNumbers> contactNumbers;  // where they are measured
   std::optional<BodyNumbers> bodyNumbers;        // where there are bodies; of every frame
   HairFacts hair;                                // at the end
-  std::string positionsHash;                     // of the last frame
-  bool interrupted = false;                      // it was stopped before its last frame
-  bool canResume = false;                        // and a checkpoint is there
-  int resumedFrom = 0;                           // frames that a run before had done
+  std::vector<Vec3f> positions;  // of the last frame, as SceneHair::positions; of the start, if there is none
+  std::string positionsHash;     // of these
+  bool interrupted = false;      // it was stopped before its last frame
+  bool canResume = false;        // and a checkpoint is there
+  int resumedFrom = 0;           // frames that a run before had done
   std::vector<std::string> warnings, notes;
   std::vector<std::filesystem::path> outputs;
   std::optional<double> cacheErrorBound;  // how far a point of the cache may be from its particle [m]
