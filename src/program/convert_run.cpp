@@ -8,10 +8,10 @@
 #include <system_error>
 
 #include "program/progress_bar.h"
-#include "program/scene_bodies.h"
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/output/sheet.h"
+#include "ringlet/pictures/scene_bodies.h"
 
 namespace ringlet::program {
 namespace {

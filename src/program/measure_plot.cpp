@@ -8,8 +8,8 @@
 #include <system_error>
 #include <vector>
 
-#include "program/program_input.h"
 #include "ringlet/base/whole_file.h"
+#include "ringlet/pictures/program_input.h"
 
 namespace ringlet::program {
 namespace {

@@ -11,6 +11,7 @@
 
 #include "reference/follow_guide.h"
 #include "ringlet/base/in_parallel.h"
+#include "ringlet/pictures/follow_plan.h"
 
 namespace ringlet::program {
 namespace {

@@ -15,8 +15,8 @@
 #include "program/exit_codes.h"
 #include "program/interruption.h"
 #include "program/open_device.h"
+#include "program/picture_run.h"
 #include "program/render_options.h"
-#include "program/render_run.h"
 #include "program/run_report.h"
 #include "program/simulate_run.h"
 #include "program/standard_error.h"
@@ -24,6 +24,7 @@
 #include "ringlet/groom/groom_file.h"
 #include "ringlet/measure/groom_doubts.h"
 #include "ringlet/output/animation_reader.h"
+#include "ringlet/pictures/render_animation.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_camera.h"
 #include "ringlet/scenes/scene_file.h"
@@ -131,7 +132,7 @@ Result<RenderOutcome> runScene(const RenderOptions& typed, const ComputeDevice& 
   if (Status done = simulate(*scene, *file, typed, device); !done) return done.error();
   plan.rest = &scene->groom;
   plan.scene = &*scene;
-  return renderAnimation(typed.output / "hair.rgc", device, plan);
+  return drawAnimation(typed.output / "hair.rgc", device, std::move(plan), !typed.quiet && !typed.json);
 }
 
 Result<RenderOutcome> runGroom(const RenderOptions& typed, const ComputeDevice& device,
@@ -170,7 +171,7 @@ Result<RenderOutcome> runAnimation(const RenderOptions& typed, const ComputeDevi
     groom = std::move(*read);
     plan.rest = &groom->groom;
   }
-  return renderAnimation(*animation, device, plan);
+  return drawAnimation(*animation, device, std::move(plan), !typed.quiet && !typed.json);
 }
 
 // What the ends of the colours stand for.

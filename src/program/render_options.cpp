@@ -148,7 +148,6 @@ RenderPlan renderPlanOf(const RenderOptions& options) {
   plan.camera.orbit = radians(options.orbit);
   plan.moments = options.blur;
   plan.showsSolids = !options.noBodies;
-  plan.showProgress = !options.quiet && !options.json;
   return plan;
 }
 

@@ -7,8 +7,8 @@
 
 #include "program/cli_fwd.h"
 #include "program/groom_options.h"
-#include "program/render_run.h"
 #include "ringlet/pictures/hair_look.h"
+#include "ringlet/pictures/render_animation.h"
 #include "ringlet/scenes/scene_file.h"
 
 namespace ringlet::program {

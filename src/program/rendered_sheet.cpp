@@ -2,7 +2,7 @@
 #include "program/rendered_sheet.h"
 
 #include "program/open_device.h"
-#include "program/render_run.h"
+#include "program/picture_run.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/sheet.h"
 
@@ -36,8 +36,8 @@ Status writeRenderedSheet(const LoadedScene& scene, const SimulateOptions& optio
   plan.rest = options.hairs > 0 ? nullptr : &scene.groom;
   plan.scene = &scene;
   plan.size = {kPanelWidth, kPanelHeight, 2};
-  plan.showProgress = options.showProgress;
-  const auto drawn = renderAnimation(options.folder / readableOf(options).value(), *device, plan);
+  const auto drawn =
+      drawAnimation(options.folder / readableOf(options).value(), *device, plan, options.showProgress);
   return drawn ? Status{} : Status{drawn.error()};
 }
 

@@ -73,5 +73,6 @@ void addFollowers(py::module_& module);
 void addScenes(py::module_& module);
 void addMeasures(py::module_& module);
 void addAnimations(py::module_& module);
+void addPictures(py::module_& module);
 
 }  // namespace ringlet::python

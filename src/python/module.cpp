@@ -109,4 +109,5 @@ PYBIND11_MODULE(ringlet, module) {
   addScenes(module);
   addMeasures(module);
   addAnimations(module);
+  addPictures(module);
 }

@@ -57,7 +57,7 @@ SceneObject parseText(const std::string& text, const std::filesystem::path& fold
 SceneObject builtin(const std::string& name, const SceneOptions& options) {
   return withoutGil([&] {
     BuiltinScene made = valueOf(makeScene(name, options));
-    SceneSource source{.facts = {{"scene", name}}};
+    SceneSource source{{}, {}, {{"scene", name}}};
     const auto add = [&](const char* option, const auto& value) {
       if (value) source.facts.push_back({option, fmt::format("{}", *value)});
     };

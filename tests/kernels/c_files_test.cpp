@@ -245,7 +245,7 @@ TEST_F(CFiles, ARunIsEndedGoesOnAndHasTheFilesOfOneThatIsNot) {
     options.files = files, options.file_count = 3;
     options.checkpoint_frames = 2;
     options.leftovers = leftovers;
-    options.go_on = [](std::int32_t frame, void* least) { return int(frame < *static_cast<int*>(least)); };
+    options.go_on = [](std::int32_t frame, void* user) { return int(frame < *static_cast<int*>(user)); };
     options.user = &least;
     result = RINGLET_INIT(ringlet_run_result);
     return ringlet_scene_run(scene.handle, &options, &result, nullptr, 0);

@@ -1,5 +1,5 @@
 // program/picture_legend.h: the bar goes from the first colour to the last, in pictures of every size.
-#include "program/picture_legend.h"
+#include "ringlet/pictures/picture_legend.h"
 
 #include <gtest/gtest.h>
 

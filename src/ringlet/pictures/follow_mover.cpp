@@ -9,6 +9,7 @@
 #include "ringlet/follow/follow_stage.h"
 #include "ringlet/gpu/device_buffers.h"
 #include "ringlet/gpu/recorder.h"
+#include "ringlet/pictures/follow_plan.h"
 
 namespace ringlet {
 namespace {

@@ -7,11 +7,12 @@
 
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
-#include "ringlet/pictures/follow_plan.h"
 #include "ringlet/scene/body.h"
 #include "ringlet/solver/compute_device.h"
 
 namespace ringlet {
+
+class FollowPlan;
 
 /// Of strands, in their groom's unit and order; one pose a body, or none, as if there were no bodies; and
 /// FollowPlan::rootsAt.

@@ -30,7 +30,7 @@ struct RunWords {
 };
 
 struct RunOptions {
-  std::filesystem::path folder;                  // for the results; empty: nothing is written
+  std::filesystem::path folder{};                // for the results; empty: nothing is written
   std::vector<std::string> animations{".usda"};  // endings of what is written as hair.*, but for the cache
   bool writesLast = true, writesSheet = true;    // last.obj, sheet.png
   std::optional<CachePrecision> cache;           // of hair.rgc; none: it is not written

@@ -18,6 +18,8 @@ int main(void) {
   ringlet_scene* scene;
   ringlet_scene_facts facts = RINGLET_INIT(ringlet_scene_facts);
   ringlet_scene_reading reading = RINGLET_INIT(ringlet_scene_reading);
+  ringlet_run_options run = RINGLET_INIT(ringlet_run_options);
+  ringlet_run_result result = RINGLET_INIT(ringlet_run_result);
   const char* changes[] = {"material.preset=coil"};
   ringlet_device* device;
   ringlet_asset* asset;
@@ -45,6 +47,8 @@ int main(void) {
   check(ringlet_scene_build(device, scene, NULL, &asset));
   check(ringlet_scene_hair(scene, asset, &hair));
   for (int f = 0; f < facts.frame_count; ++f) check(ringlet_scene_step(scene, hair, f));
+  run.folder = "out_of_c", run.checkpoint_frames = 10;
+  check(ringlet_scene_run(scene, &run, &result, NULL, 0));
   reading.changes = changes, reading.change_count = 1;
   reading.is_confined = 1;
   check(ringlet_scene_read("scene.toml", &reading, &scene));

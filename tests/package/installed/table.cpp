@@ -15,6 +15,8 @@
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/animation_writer.h"
 #include "ringlet/rest/material_file.h"
+#include "ringlet/run/divided_hair.h"
+#include "ringlet/run/run.h"
 #include "ringlet/run/scene_run.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/solver/simulation.h"
@@ -60,6 +62,10 @@ Result<Simulation> runsAScene(const Result<ComputeDevice>& device) {
   auto hair = Simulation::create(*buildAsset(*device, *scene), stateOf(start, *scene));
   check(hair);
   for (int f = frames.first(); f < scene->frameCount; ++f) check(stepScene(frames, *hair, f));
+  RunOptions options{.folder = "out", .animations = {".usdc"}, .checkpointFrames = 10};
+  auto run = runScene(*scene, options, hairOn({*device}));
+  check(run);
+  demand(run->frameCount == scene->frameCount && run->outputs.size() == 3, "the run wrote other files");
   const SceneChange changes[] = {{"material.preset", "coil"}};
   check(readScene("scene.toml", changes));
   check(readScene("scene.toml", {}, SceneReach::ownFolder));

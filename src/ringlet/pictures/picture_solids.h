@@ -10,7 +10,7 @@
 #include "ringlet/render/hair_renderer.h"
 #include "ringlet/scenes/load_scene.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 class PictureSolids {
  public:
@@ -45,4 +45,4 @@ class PictureSolids {
   std::optional<SolidPlace> ground_;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet

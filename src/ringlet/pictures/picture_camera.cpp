@@ -1,11 +1,11 @@
 // Implements picture_camera.h.
-#include "program/picture_camera.h"
+#include "ringlet/pictures/picture_camera.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr double kTravels = 2;  // hair that needs so much more room than a frame of it: the camera goes along
@@ -44,4 +44,4 @@ Camera PictureCamera::at(double frame, double turned, const Bounds& here) const 
   return cameraAround(shown, up_, aspect_, place);
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

@@ -1,5 +1,5 @@
 // Implements film.h.
-#include "program/film.h"
+#include "ringlet/pictures/film.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 
 #include "ringlet/base/whole_file.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr OtherProgram kFfmpeg{"ffmpeg", "films are made", "ffmpeg"};
@@ -85,4 +85,4 @@ Status Film::finish() {
   return {};
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

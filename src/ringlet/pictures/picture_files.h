@@ -2,16 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
-#include "program/film.h"
-#include "program/picture_legend.h"
 #include "ringlet/base/result.h"
 #include "ringlet/output/picture.h"
+#include "ringlet/pictures/film.h"
+#include "ringlet/pictures/picture_legend.h"
 #include "ringlet/render/hair_renderer.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 /// Whether the name is one picture's: .png or .exr.
 bool isPicture(const std::filesystem::path& path);
@@ -22,6 +23,7 @@ struct PictureTarget {
   double framesPerSecond = 24;  // of a film
   std::optional<PictureLegend> legend{};  // of all but EXR files
   int panels = 0;                         // above 0: so many pictures are side by side in the one of `path`
+  std::function<Status(int frame, Picture picture)> take{};  // in place of files
 };
 
 class PictureFiles {
@@ -51,4 +53,4 @@ class PictureFiles {
   std::vector<std::filesystem::path> outputs_;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet

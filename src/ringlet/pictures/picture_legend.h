@@ -9,7 +9,7 @@
 
 #include "ringlet/output/picture.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 struct PictureLegend {
   std::string title, end;  // above the bar; what the last colour stands for
@@ -18,4 +18,4 @@ struct PictureLegend {
 /// In letters that grow with the picture's height. In one too narrow for its words parts are left out.
 void drawLegend(const PictureLegend& legend, Picture& picture);
 
-}  // namespace ringlet::program
+}  // namespace ringlet

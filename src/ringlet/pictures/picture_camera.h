@@ -11,7 +11,7 @@
 #include "ringlet/scene/motion.h"
 #include "ringlet/scenes/scene_camera.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 /// About points in units of `metresPerUnit`, at least one, and so much beyond [m].
 Bounds boundsOf(std::span<const Vec3f> points, double metresPerUnit, double margin);
@@ -51,4 +51,4 @@ class PictureCamera {
   double largest_ = 0;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet

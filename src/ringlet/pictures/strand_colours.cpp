@@ -1,5 +1,5 @@
 // Implements strand_colours.h.
-#include "program/strand_colours.h"
+#include "ringlet/pictures/strand_colours.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "ringlet/measure/contact_quality.h"
 #include "ringlet/output/animation_reader.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 using Numbers = Result<std::vector<float>>;
@@ -155,4 +155,4 @@ void StrandColours::record(gpu::CommandList& list) const {
   if (stretch_) stretch_->record(list, most_);
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

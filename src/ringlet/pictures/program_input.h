@@ -11,7 +11,7 @@
 
 #include "ringlet/base/result.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 struct OtherProgram {
   const char* name;     // as it is found on the path
@@ -47,4 +47,4 @@ class ProgramInput {
   int pipe_ = -1;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet

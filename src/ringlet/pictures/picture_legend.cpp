@@ -1,5 +1,5 @@
 // Implements picture_legend.h.
-#include "program/picture_legend.h"
+#include "ringlet/pictures/picture_legend.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "ringlet/base/vec3.h"
 #include "ringlet/render/look.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr Colour kWords{190, 190, 190};
@@ -52,4 +52,4 @@ void drawLegend(const PictureLegend& legend, Picture& picture) {
   picture.drawText(legend.title, kMargin, barBegin - line, dot, kWords);
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

@@ -1,5 +1,5 @@
 // Implements picture_solids.h.
-#include "program/picture_solids.h"
+#include "ringlet/pictures/picture_solids.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 #include <limits>
 #include <numbers>
 
-#include "program/scene_bodies.h"
 #include "ringlet/bodies/body_surface.h"
 #include "ringlet/bodies/head_mesh.h"
 #include "ringlet/groom/ball.h"
+#include "ringlet/pictures/scene_bodies.h"
 #include "ringlet/scene/body.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr double kBelowRoots = 0.985;  // skin under hair, which is not simulated to touch it
@@ -86,4 +86,4 @@ std::vector<SolidPlace> PictureSolids::bodiesAt(double frame, std::span<const Ve
   return places;
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

@@ -1,5 +1,5 @@
 // Implements picture_hair.h.
-#include "program/picture_hair.h"
+#include "ringlet/pictures/picture_hair.h"
 
 #include <algorithm>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "ringlet/measure/head_fit.h"
 #include "ringlet/render/look.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr std::size_t kFewestGuides = 100, kMostGuides = 10000;  // of a head of hair
@@ -99,4 +99,4 @@ std::vector<Vec3d> PictureHair::rootsOf(std::span<const Vec3f> points) const {
   return roots;
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

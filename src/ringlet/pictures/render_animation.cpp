@@ -1,5 +1,5 @@
-// Implements render_run.h.
-#include "program/render_run.h"
+// Implements render_animation.h.
+#include "ringlet/pictures/render_animation.h"
 
 #include <fmt/format.h>
 
@@ -10,15 +10,13 @@
 #include <limits>
 #include <utility>
 
-#include "program/interruption.h"
-#include "program/picture_solids.h"
-#include "program/progress_bar.h"
-#include "program/scene_bodies.h"
 #include "ringlet/gpu/recorder.h"
 #include "ringlet/output/animation_reader.h"
 #include "ringlet/output/sheet.h"
+#include "ringlet/pictures/picture_solids.h"
+#include "ringlet/pictures/scene_bodies.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr double kShutter = 0.5;         // share of a frame that is seen in it
@@ -276,16 +274,18 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
     before = drawn->groom().points;
   }
   const int count = static_cast<int>(frames.size());
-  ProgressBar progress(0, count, plan.showProgress, plan.isSheet ? "picture of the sheet" : "picture");
   int finished = 0;
-  for (; finished < count && !wasInterrupted(); ++finished) {
+  const auto tell = [&] {
+    if (plan.progress) plan.progress(finished, count);
+  };
+  for (; finished < count && !(plan.isStopped && plan.isStopped()); ++finished) {
+    if (finished == 0) tell();
     const int frame = frames[static_cast<std::size_t>(finished)];
     if (Status done = read(frame); !done) return done.error();
     if (Status done = rendering.drawFrame(frame, before, drawn->groom().points); !done) return done.error();
     if (plan.moments > 1) before = drawn->groom().points;
-    progress.show(finished + 1);
+    if (plan.progress) plan.progress(finished + 1, count);
   }
-  progress.clear();
   if (Status done = files->finish(); !done) return done.error();
   RenderOutcome outcome = rendering.finish();
   outcome.startSeconds = ready - start;
@@ -311,4 +311,4 @@ Result<RenderOutcome> renderGroom(const Groom& groom, UpAxis up, const ComputeDe
   return outcome;
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

@@ -7,7 +7,7 @@
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/scenes/scene_frames.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 /// At the end of a frame, from 1, or a share of one before; one pose a body, in the world.
 inline std::vector<BodyPose> bodiesAtFrame(const LoadedScene& scene, double frame) {
@@ -21,4 +21,4 @@ std::vector<Vec3d> hairRootsAtFrame(const LoadedScene& scene, const Hair& hair, 
   return hair.rootsAt(seconds, scene.motion.poseAt(seconds));
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

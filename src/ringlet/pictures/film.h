@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <span>
 
-#include "program/program_input.h"
 #include "ringlet/base/result.h"
+#include "ringlet/pictures/program_input.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 /// Whether the name is a film's: .mp4, .webp or .gif.
 bool isFilm(const std::filesystem::path& path);
@@ -35,4 +35,4 @@ class Film {
   ProgramInput ffmpeg_;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet

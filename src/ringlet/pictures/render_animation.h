@@ -2,23 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "program/picture_camera.h"
-#include "program/picture_files.h"
-#include "program/picture_hair.h"
-#include "program/strand_colours.h"
 #include "ringlet/base/result.h"
 #include "ringlet/groom/groom.h"
 #include "ringlet/output/up_axis.h"
+#include "ringlet/pictures/picture_camera.h"
+#include "ringlet/pictures/picture_files.h"
+#include "ringlet/pictures/picture_hair.h"
+#include "ringlet/pictures/strand_colours.h"
 #include "ringlet/render/hair_renderer.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/solver/compute_device.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 /// A ground under everything.
 struct Ground {
@@ -38,8 +39,9 @@ struct RenderPlan {
   Look look;
   std::optional<StrandColourChoice> colours;  // in place of the look's
   PictureCameraChoice camera;
-  int moments = 1;  // of a frame, over the half of it before its end: motion blur
-  bool showProgress = true;
+  int moments = 1;                    // of a frame, over the half of it before its end: motion blur
+  std::function<bool()> isStopped{};  // asked before each picture: whether to end early
+  std::function<void(int finished, int count)> progress{};  // before the first, and after each
 };
 
 /// Seconds are means over frames, but for the first, which compiles kernels; where there is only one, of
@@ -67,4 +69,4 @@ Result<RenderOutcome> renderAnimation(const std::filesystem::path& animation, co
 Result<RenderOutcome> renderGroom(const Groom& groom, UpAxis up, const ComputeDevice& device,
                                   const RenderPlan& plan);
 
-}  // namespace ringlet::program
+}  // namespace ringlet

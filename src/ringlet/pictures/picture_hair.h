@@ -17,7 +17,7 @@
 #include "ringlet/render/strand_points.h"
 #include "ringlet/solver/compute_device.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 /// As a person asked; what they left open is chosen by the number of strands.
 struct PictureHairChoice {
@@ -78,4 +78,4 @@ class PictureHair {
   std::optional<StrandPoints> lines_;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet

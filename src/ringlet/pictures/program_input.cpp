@@ -1,5 +1,5 @@
 // Implements program_input.h.
-#include "program/program_input.h"
+#include "ringlet/pictures/program_input.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 
 extern char** environ;
 
-namespace ringlet::program {
+namespace ringlet {
 
 Status checkInstalled(const OtherProgram& program) {
   const char* path = std::getenv("PATH");
@@ -103,4 +103,4 @@ Status ProgramInput::finish() {
   return failed();
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

@@ -1,5 +1,5 @@
 // Implements picture_files.h.
-#include "program/picture_files.h"
+#include "ringlet/pictures/picture_files.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 
 #include "ringlet/output/exr_file.h"
 
-namespace ringlet::program {
+namespace ringlet {
 namespace {
 
 constexpr Colour kLabel{150, 150, 150};
@@ -33,6 +33,7 @@ bool isPicture(const std::filesystem::path& path) {
 }
 
 Result<PictureFiles> PictureFiles::open(const PictureTarget& target, const PictureSize& size) {
+  if (target.take) return PictureFiles(target, size);
   const bool isFile = isPicture(target.path) || isFilm(target.path);
   const std::filesystem::path folder = isFile ? target.path.parent_path() : target.path;
   std::error_code code;
@@ -55,6 +56,12 @@ std::filesystem::path PictureFiles::pathOf(int frame) const {
 }
 
 Status PictureFiles::write(int frame, const HairRenderer& renderer) {
+  if (target_.take) {
+    const auto pixels = renderer.picture();
+    if (!pixels) return pixels.error();
+    ++count_;
+    return target_.take(frame, imageOf(*pixels, size_));
+  }
   const std::filesystem::path path = pathOf(frame);
   Status written;
   if (path.extension() == ".exr") {
@@ -92,4 +99,4 @@ Status PictureFiles::finish() {
   return film_ ? film_->finish() : Status{};
 }
 
-}  // namespace ringlet::program
+}  // namespace ringlet

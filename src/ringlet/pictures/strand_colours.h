@@ -16,14 +16,14 @@
 #include <string_view>
 #include <vector>
 
-#include "program/picture_hair.h"
 #include "ringlet/base/result.h"
+#include "ringlet/pictures/picture_hair.h"
 #include "ringlet/render/hair_renderer.h"
 #include "ringlet/render/stretch_colours.h"
 #include "ringlet/scenes/load_scene.h"
 #include "ringlet/solver/compute_device.h"
 
-namespace ringlet::program {
+namespace ringlet {
 
 /// What may be shown in place of a hair colour.
 struct StrandScale {
@@ -74,4 +74,4 @@ class StrandColours {
   std::function<Numbers(int frame, std::span<const Vec3f> points)> numbers_;
 };
 
-}  // namespace ringlet::program
+}  // namespace ringlet
