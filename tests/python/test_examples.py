@@ -58,3 +58,16 @@ def test_every_example_says_what_it_does():
         source = path.read_text()
         assert '"""' in source and compile(source, str(path), "exec")
     assert ringlet.__doc__
+
+
+def test_a_killed_run_goes_on(device, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text('[groom]\ngenerate = "swatch"\ncolumns = 2\nrows = 2\nparticles = 20\nturns = 3\n'
+                     '[motion]\nkind = "shake"\n[simulation]\nframes = 24\nsteps_per_frame = 4\n')
+    done = subprocess.run([sys.executable, EXAMPLES / "resume_run.py", scene], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    first, *files = done.stdout.splitlines()
+    told = re.fullmatch(r"24 frames, from (5|10|15|20) on: (\w+)", first)
+    assert told and told[2] == ringlet.Scene.load(scene).run(device=device).positions_hash, first
+    assert sorted(Path(name).name for name in files) == ["hair.usda", "last.obj", "sheet.png"]
+    assert all((tmp_path / name).stat().st_size for name in files)

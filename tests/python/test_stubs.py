@@ -12,7 +12,7 @@ STUBS = Path(ringlet.__file__).parent / "ringlet-stubs/__init__.pyi"
 TREE = ast.parse(STUBS.read_text())
 # What pybind11 and Python give every class.
 COMMON = {"__module__", "__doc__", "__hash__", "__dict__", "__weakref__", "__getattr__", "__setattr__"}
-NOT_CONSTRUCTIBLE = {"Body", "DeviceSummary", "Frame", "Scene"}
+NOT_CONSTRUCTIBLE = {"Body", "DeviceSummary", "Frame", "RunResult", "Scene"}
 
 
 def stub_classes():

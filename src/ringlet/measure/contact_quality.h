@@ -2,7 +2,6 @@
 // positions alone, over all pairs of contact particles.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,22 +9,13 @@
 #include "ringlet/base/result.h"
 #include "ringlet/base/vec3.h"
 #include "ringlet/groom/groom.h"
+#include "ringlet/measure/contact_numbers.h"
 #include "ringlet/rest/material.h"
 #include "ringlet/rest/rest_contacts.h"
 #include "ringlet/rest/rest_state.h"
 #include "ringlet/scene/settings.h"
 
 namespace ringlet {
-
-/// Over all pairs of contact particles of different strands that are nearer than R, the sum of their radii. A
-/// contact's rest length r0 is R, or their distance at rest where that is less: what overlaps at rest may.
-/// The overlap beyond rest is max(0, r0 - distance) / R.
-struct ContactQuality {
-  std::uint64_t overlapping = 0;    // how many are nearer than R
-  double rawRecall = 1;             // share of them whose strands may touch; 1 where there are none
-  double overlapBeyondRestSum = 0;  // of all of them, allowed or not
-  double deepestOverlap = 0;        // largest of all; 1: two centres in one place
-};
 
 /// positions [m]: groom order, as Simulation::positions returns them. Particles that are not finite overlap
 /// nothing. Cost: linear in contact particles and overlaps.

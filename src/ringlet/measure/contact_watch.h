@@ -17,13 +17,6 @@
 
 namespace ringlet {
 
-/// Over all steps and frames seen.
-struct ContactNumbers {
-  std::uint64_t crossings = 0;  // over all steps (measure/crossings.h)
-  ContactQuality worst;         // of the frame with the largest overlapBeyondRestSum; of equals the last
-  double deepestOverlap = 0;    // of all frames, beyond rest, as a share of R
-};
-
 /// Feed the state a run starts from and then every outer step, and say where a frame ends. Works the same
 /// with contacts off: it sees what they would have had to do. Cost of a step: some 6 us an edge in dense
 /// hair; of a frame: linear in contact particles and overlaps.

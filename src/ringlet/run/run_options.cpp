@@ -53,7 +53,8 @@ bool needsOrigin(const SceneOutput& output) {
 
 Status chooseOrigin(const LoadedGroom& groom, RunOptions& options) {
   if (options.usesGroomPrims && (groom.prims.empty() || groom.prims.front().path.empty()))
-    return Error{"only a USD groom has prims of its own, which --usd-prims groom would change; leave it out"};
+    return Error{
+        "only a USD groom has prims of its own, which prims = \"groom\" of [output] would change; leave it out"};
   options.origin = &groom;
   return {};
 }

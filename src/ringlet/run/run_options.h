@@ -33,14 +33,14 @@ struct RunOptions {
   std::filesystem::path folder{};                // for the results; empty: nothing is written
   std::vector<std::string> animations{".usda"};  // endings of what is written as hair.*, but for the cache
   bool writesLast = true, writesSheet = true;    // last.obj, sheet.png
-  std::optional<CachePrecision> cache;           // of hair.rgc; none: it is not written
+  std::optional<CachePrecision> cache{};         // of hair.rgc; none: it is not written
   UpAxis up = UpAxis::y;
   double width = 0.0005;                // diameter of strands in what is written [m]
-  std::optional<double> tipWidth;       // at the tip, in USD files [m]
-  std::vector<std::string> values;      // that these have besides, as SceneOutput says them
+  std::optional<double> tipWidth{};     // at the tip, in USD files [m]
+  std::vector<std::string> values{};    // that these have besides, as SceneOutput says them
   int hairs = 0;                        // above 0: animations have so many, which follow the strands
-  HairLook look;                        // of these
-  FollowMoverMaker mover;               // what moves them (followOn)
+  HairLook look{};                      // of these
+  FollowMoverMaker mover{};             // what moves them (followOn)
   UsdHead usdHead = UsdHead::baked;     // and where these have the head's motion
   int clipFrames = 0;                   // above 0: hair.usda has value clips of so many frames
   bool usesGroomPrims = false;          // hair.usdc has changes of the prims of the groom's file
@@ -48,10 +48,10 @@ struct RunOptions {
   bool observesLast = false;            // RunEvents::observe needs the last frame only
   int checkpointFrames = 0;             // from one to the next; 0: none, or as many as the run had
   Leftovers leftovers = Leftovers::refuse;
-  std::vector<RunFact> facts;     // what a run that goes on must have been a run of (run_facts.h)
+  std::vector<RunFact> facts{};   // what a run that goes on must have been a run of (run_facts.h)
   bool measuresContacts = false;  // every step and frame, with contacts on or off; costs CPU time
   bool measuresResidual = false;  // of the velocity solve, where the integrator has one and kernels tell it
-  RunWords words;
+  RunWords words{};
 };
 
 /// What a scene file says of its run and its files; all else is the default.

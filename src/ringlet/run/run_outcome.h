@@ -10,7 +10,7 @@
 
 #include "ringlet/base/vec3.h"
 #include "ringlet/measure/body_watch.h"
-#include "ringlet/measure/contact_watch.h"
+#include "ringlet/measure/contact_numbers.h"
 #include "ringlet/run/scene_hair.h"
 #include "ringlet/solver/simulation.h"
 
